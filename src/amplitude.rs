@@ -1,0 +1,1 @@
+//! Functions of time for loads and prescribed motions, with exact derivatives and integrals.

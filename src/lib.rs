@@ -1,0 +1,19 @@
+//! Nonlinear dynamics of structures made of rigid bodies and deformable parts.
+//!
+//! ```text
+//!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
+//!           words     meaning    machine   motion     files
+//!  below them, used by them, knowing nothing of them:
+//!  constraints  elements  integrators  │  state  sections  amplitude  linear  │  math  names  diagnostic
+//! ```
+#![allow(non_snake_case)] // matrices are capitals, as in the formulas
+
+pub mod amplitude;
+pub mod constraints;
+pub mod elements;
+pub mod integrators;
+pub mod linear;
+pub mod math;
+pub mod model;
+pub mod sections;
+pub mod state;

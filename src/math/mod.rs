@@ -1,0 +1,30 @@
+//! Vectors and matrices of fixed size, rotations, quadrature.
+
+pub mod quadrature;
+pub mod rotation;
+
+pub type Vec3 = nalgebra::Vector3<f64>;
+pub type Mat3 = nalgebra::Matrix3<f64>;
+pub type Vec6 = nalgebra::Vector6<f64>;
+pub type Mat6 = nalgebra::Matrix6<f64>;
+
+/// The matrix of the vector product: `skew(a) b = a × b` (20).
+#[inline]
+pub fn skew(a: &Vec3) -> Mat3 {
+    Mat3::new(0.0, -a.z, a.y, a.z, 0.0, -a.x, -a.y, a.x, 0.0)
+}
+
+#[inline]
+pub fn join(a: &Vec3, b: &Vec3) -> Vec6 {
+    Vec6::new(a.x, a.y, a.z, b.x, b.y, b.z)
+}
+
+#[inline]
+pub fn top(a: &Vec6) -> Vec3 {
+    Vec3::new(a[0], a[1], a[2])
+}
+
+#[inline]
+pub fn bottom(a: &Vec6) -> Vec3 {
+    Vec3::new(a[3], a[4], a[5])
+}

@@ -1,0 +1,310 @@
+//! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
+//! Built once from the deck, never changed; everything downstream borrows it.
+
+use crate::amplitude::Amplitude;
+use crate::elements::link::Law;
+use crate::integrators::Scheme;
+use crate::math::{Mat3, Vec3};
+use crate::sections::Stiffness;
+
+/// A scene, checked and ready to be planned.
+#[derive(Debug, Clone)]
+pub struct Model {
+    pub title: String,
+    /// Label of the unit system, for output only.
+    pub units: Option<String>,
+    pub analysis: Analysis,
+    pub scheme: Scheme,
+    pub iteration: Iteration,
+    pub nodes: Vec<Node>,
+    pub bodies: Vec<Body>,
+    pub masses: Vec<Mass>,
+    /// Section stiffnesses and inertias, shared by the elements that name them.
+    pub stiffnesses: Vec<Stiffness>,
+    pub beams: Vec<Beam>,
+    pub bars: Vec<Bar>,
+    pub links: Vec<Link>,
+    /// Nodes tied to other nodes, each at most once, in no particular order.
+    pub riders: Vec<Rider>,
+    /// Degrees of freedom whose motion is given, each at most once, sorted by node and direction.
+    pub held: Vec<Held>,
+    pub amplitudes: Vec<Amplitude>,
+    pub loads: Vec<Load>,
+    pub gravity: Vec3,
+    pub base_accelerations: Vec<BaseAcceleration>,
+    pub damping: Damping,
+    pub expects: Vec<Expect>,
+    pub output: Output,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Dynamic,
+    /// Load stepping: no inertia; a load without an amplitude grows linearly from 0 at t = 0 to 1 at the end time.
+    Static,
+}
+
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    pub kind: Kind,
+    pub end_time: f64,
+    pub time_step: f64,
+    /// A step is never cut below this.
+    pub least_step: f64,
+    /// Leave out-of-plane motion out of the unknowns where nothing can cause it.
+    pub plane: bool,
+}
+
+#[derive(Debug, Clone)]
+pub struct Iteration {
+    pub update: Update,
+    /// Relative, on residual and increment.
+    pub tolerance: f64,
+    /// Iterations in a step before it is cut.
+    pub limit: usize,
+}
+
+/// When the matrix is formed and factorised anew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Update {
+    Iteration,
+    Step,
+    /// When convergence has slowed so far that a factorisation costs less than the iterations it saves.
+    Auto,
+    Never,
+}
+
+/// A point that moves. Its rotation is measured from the undeformed state, so it starts at the identity.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// The deck's name, or one made from it: `portal[3]`, `bumper.from`.
+    pub label: String,
+    /// True for points named in the deck and for bodies.
+    pub named: bool,
+    pub x: Vec3,
+    /// Initial velocity and angular velocity, global components.
+    pub v: Vec3,
+    pub omega: Vec3,
+}
+
+/// A rigid body: a node at its centre of mass, with mass and inertia.
+#[derive(Debug, Clone)]
+pub struct Body {
+    pub name: String,
+    pub node: usize,
+    pub mass: f64,
+    /// About the centre, body axes = global axes at t = 0.
+    pub inertia: Mat3,
+    /// For drawing: what the deck said, or the cuboid of the same inertia.
+    pub shape: Shape,
+}
+
+/// Body-fixed shape around the centre of mass; axes of the body.
+#[derive(Debug, Clone)]
+pub enum Shape {
+    /// Full edge lengths along `axes` (columns: the shape's axes in body components).
+    Box { size: [f64; 3], axes: Mat3 },
+    Sphere { radius: f64 },
+    /// Along `axis`; `inner_radius` 0 for a solid cylinder.
+    Cylinder { radius: f64, inner_radius: f64, length: f64, axis: Vec3 },
+}
+
+/// A point mass (with optional rotary inertia, global axes at t = 0).
+#[derive(Debug, Clone)]
+pub struct Mass {
+    pub node: usize,
+    pub mass: f64,
+    pub inertia: Mat3,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MassKind {
+    /// At the nodes, by the element's Lobatto rule.
+    Lumped,
+    /// Translations by the element's shape functions; rotary inertia at the nodes.
+    Consistent,
+    /// The deformable part has no mass.
+    None,
+}
+
+#[derive(Debug, Clone)]
+pub struct Beam {
+    pub name: String,
+    /// Degree of the interpolation: an element has `order + 1` nodes.
+    pub order: usize,
+    pub mass: MassKind,
+    /// Keep the rotary inertia of the section.
+    pub rotary_inertia: bool,
+    pub elements: Vec<BeamElement>,
+}
+
+#[derive(Debug, Clone)]
+pub struct BeamElement {
+    /// From one end to the other; the first `order + 1` are used. Inner nodes lie at the Lobatto points of a straight line.
+    pub nodes: [usize; 5],
+    /// Columns: section axes x (along the beam), y, z in global components at t = 0.
+    pub frame: Mat3,
+    /// Index into [`Model::stiffnesses`].
+    pub section: usize,
+}
+
+#[derive(Debug, Clone)]
+pub struct Bar {
+    pub name: String,
+    /// E A, force per unit strain.
+    pub axial_stiffness: f64,
+    pub mass_per_length: f64,
+    pub mass: MassKind,
+    pub tension_only: bool,
+    pub elements: Vec<[usize; 2]>,
+}
+
+#[derive(Debug, Clone)]
+pub struct Link {
+    pub name: String,
+    /// Nodes at `from` and `to`: riders on a node or body, the node itself, or a held node for the ground.
+    pub ends: [usize; 2],
+    pub kind: LinkKind,
+}
+
+#[derive(Debug, Clone)]
+pub enum LinkKind {
+    /// Force along the line of the ends, or along a fixed global unit vector.
+    Line {
+        law: Law,
+        damping: f64,
+        direction: Option<Vec3>,
+        /// Length (along the line) at which the law's elongation is zero; along `direction`: the initial projection
+        /// counts as zero elongation unless a free length is given.
+        free_length: f64,
+    },
+    /// Six components in the frame of the first end; `axes` (columns, global at t = 0).
+    Bushing { stiffness: [f64; 6], damping: [f64; 6], axes: Mat3 },
+}
+
+/// A node constrained to another in some of its directions (45)-(48).
+#[derive(Debug, Clone)]
+pub struct Rider {
+    pub node: usize,
+    pub master: usize,
+    /// ux, uy, uz, rx, ry, rz: which are taken from the master.
+    pub dofs: [bool; 6],
+}
+
+/// A direction of a node whose motion is given.
+#[derive(Debug, Clone)]
+pub struct Held {
+    pub node: usize,
+    /// 0..6: ux, uy, uz, rx, ry, rz.
+    pub dof: usize,
+    /// `None`: at rest.
+    pub motion: Option<Motion>,
+}
+
+#[derive(Debug, Clone)]
+pub struct Motion {
+    pub amplitude: usize,
+    pub scale: f64,
+    pub history: History,
+}
+
+/// What the amplitude of a prescribed motion describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum History {
+    Displacement,
+    Velocity,
+    Acceleration,
+}
+
+#[derive(Debug, Clone)]
+pub struct Load {
+    pub node: usize,
+    pub force: Vec3,
+    pub moment: Vec3,
+    /// Turns with its node.
+    pub follower: bool,
+    pub amplitude: Option<usize>,
+}
+
+/// Acceleration of the ground, felt by every mass as −M a; displacements are then relative to the ground.
+#[derive(Debug, Clone)]
+pub struct BaseAcceleration {
+    pub direction: Vec3,
+    pub amplitude: usize,
+}
+
+#[derive(Debug, Clone, Default)]
+pub struct Damping {
+    /// Rayleigh: C = mass_factor M + stiffness_factor K. The stiffness part acts on strain rates of beams and bars.
+    pub mass_factor: f64,
+    pub stiffness_factor: f64,
+    pub nodal: Vec<NodalDamping>,
+}
+
+#[derive(Debug, Clone)]
+pub struct NodalDamping {
+    pub node: usize,
+    /// Force per velocity, moment per angular velocity.
+    pub translation: f64,
+    pub rotation: f64,
+}
+
+/// A value that the run must reach.
+#[derive(Debug, Clone)]
+pub struct Expect {
+    pub at: ExpectAt,
+    pub quantity: String,
+    pub when: When,
+    pub value: f64,
+    pub tolerance: Tolerance,
+    pub source: String,
+    /// As written in the deck, for the message.
+    pub label: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ExpectAt {
+    Node(usize),
+    /// Columns of energy.csv.
+    Energy,
+    /// Columns of links.csv.
+    Link(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum When {
+    Time(f64),
+    Max,
+    Min,
+    /// Greatest absolute value.
+    Abs,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tolerance {
+    Relative(f64),
+    Absolute(f64),
+}
+
+#[derive(Debug, Clone)]
+pub struct Output {
+    /// Nodes whose histories go to nodes.csv, in deck order (bodies are not among them).
+    pub nodes: Vec<usize>,
+    pub cadence: Cadence,
+    pub energy: bool,
+    pub links: bool,
+    pub reactions: bool,
+    pub sections: bool,
+    /// Steps between two field files; `None`: no fields.
+    pub fields: Option<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cadence {
+    /// Every so many accepted steps.
+    Steps(usize),
+    /// At multiples of this time; steps land on them.
+    Interval(f64),
+}
+
+pub const DIRECTIONS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
