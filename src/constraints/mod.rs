@@ -1,0 +1,3 @@
+//! Nodes that follow other nodes.
+
+pub mod attachment;
