@@ -140,17 +140,6 @@ impl<const N: usize> Beams<N> {
         Beams { shape: Shape::new(), elements, damping }
     }
 
-    /// Stress resultants (N, Q_y, Q_z, T, M_y, M_z) in section axes at Gauss point `g` of element `e`, and the point's
-    /// distance from the element's first node.
-    pub fn resultants(&self, e: usize, g: usize, frame: &Mat3, nodes: &[Node]) -> (f64, [f64; 6]) {
-        let element = &self.elements[e];
-        let point = self.point(element, g, &self.gather(element, nodes));
-        let (n, m) = element.C.stress(&point.gamma, &point.kappa);
-        let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
-        let xi = quadrature::gauss(N - 1).0[g];
-        (element.jacobian * (1.0 + xi), [n.x, n.y, n.z, m.x, m.y, m.z])
-    }
-
     /// Quaternions of the nodes, all in the half-space of the first (q and −q are the same rotation).
     #[inline(always)]
     fn gather(&self, element: &Beam<N>, nodes: &[Node]) -> ([Quat; N], [Vec3; N]) {
@@ -325,6 +314,15 @@ impl<const N: usize> Block for Beams<N> {
             }
         }
         sum
+    }
+
+    fn resultants(&self, e: usize, g: usize, frame: &Mat3, nodes: &[Node]) -> Option<(f64, [f64; 6])> {
+        let element = &self.elements[e];
+        let point = self.point(element, g, &self.gather(element, nodes));
+        let (n, m) = element.C.stress(&point.gamma, &point.kappa);
+        let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
+        let xi = quadrature::gauss(N - 1).0[g];
+        Some((element.jacobian * (1.0 + xi), [n.x, n.y, n.z, m.x, m.y, m.z]))
     }
 
     fn damping_power(&self, nodes: &[Node]) -> f64 {

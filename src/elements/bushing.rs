@@ -61,11 +61,11 @@ impl Bushing {
         (motion.B * f, motion.B * m)
     }
 
-    /// Deformation (d, φ), its first rate along the frame's x, and force and moment in the frame.
-    pub fn state(&self, nodes: &[Node]) -> (Vec3, Vec3, Vec3, Vec3) {
+    /// Displacement in the frame, its rate along the frame's first axis, force and moment in the frame.
+    pub fn state(&self, nodes: &[Node]) -> (Vec3, f64, Vec3, Vec3) {
         let motion = self.motion(nodes);
         let (F, M) = self.forces(&motion);
-        (motion.d, motion.phi, motion.B.tr_mul(&F), motion.B.tr_mul(&M))
+        (motion.d, motion.B.column(0).dot(&motion.u), motion.B.tr_mul(&F), motion.B.tr_mul(&M))
     }
 }
 

@@ -144,6 +144,10 @@ impl Block for Links {
         self.0.iter().all(|l| l.direction.is_some() && matches!(l.law, Law::Linear { .. }))
     }
 
+    fn fixed_direction(&self, e: usize) -> Option<Vec3> {
+        self.0[e].direction
+    }
+
     fn is_damped(&self) -> bool {
         self.0.iter().any(|l| l.damping > 0.0)
     }

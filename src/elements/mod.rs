@@ -6,7 +6,7 @@ pub mod beam;
 pub mod bushing;
 pub mod link;
 
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::state::Node;
 
 /// Generalised force on a node: force and moment, global components.
@@ -32,9 +32,18 @@ pub trait Block: Send + Sync {
     fn damping_power(&self, _nodes: &[Node]) -> f64 {
         0.0
     }
+    /// Stress resultants (N, Q_y, Q_z, T, M_y, M_z) in the axes of `frame` (columns, global at t = 0) at an integration
+    /// point, and its distance from the element's start.
+    fn resultants(&self, _e: usize, _point: usize, _frame: &Mat3, _nodes: &[Node]) -> Option<(f64, [f64; 6])> {
+        None
+    }
     /// True when the tangent never changes, whatever the motion.
     fn is_linear(&self) -> bool {
         false
+    }
+    /// The one direction in which an element acts, where it is fixed.
+    fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
+        None
     }
     /// True when the element resists or damps by rate.
     fn is_damped(&self) -> bool {

@@ -79,4 +79,6 @@ pub struct Work {
     pub external: f64,
     /// Taken by dampers, nodal and Rayleigh damping.
     pub damping: f64,
+    /// Power of the damping at the end of the step.
+    pub damping_power: f64,
 }
