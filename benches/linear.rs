@@ -1,4 +1,5 @@
-//! Times of plan, factor and solve: the least of many repeats, one thread.
+//! Times of plan, factor and solve: the least of many repeats, one thread. An argument keeps the structures that
+//! begin with it: `cargo bench --bench linear -- chain`.
 
 #[path = "../tests/structures/mod.rs"]
 mod structures;
@@ -20,6 +21,9 @@ fn least<T>(subject: &mut T, budget: f64, prepare: impl Fn(&mut T), call: impl F
 }
 
 fn measure(name: &str, structure: &Structure, kind: Kind, values: Values) {
+    if std::env::args().skip(1).any(|filter| !filter.starts_with('-') && !name.starts_with(&filter)) {
+        return;
+    }
     let begin = Instant::now();
     let solver = Solver::new(structure, kind, 1);
     let plan = begin.elapsed().as_secs_f64();
