@@ -187,6 +187,14 @@ fn rows_are_exchanged_within_a_block() {
 }
 
 #[test]
+fn chains_go_to_blocks_and_large_frames_to_cholesky() {
+    assert_eq!(Kind::choose(&chain(2, 6)), Kind::Block);
+    assert_eq!(Kind::choose(&chain(2000, 6)), Kind::Block);
+    assert_eq!(Kind::choose(&frame(10, 6, 6, 6)), Kind::Cholesky);
+    assert_eq!(Kind::choose(&Structure { sizes: vec![], cliques: vec![] }), Kind::Block);
+}
+
+#[test]
 fn threads_do_not_change_a_bit() {
     let structure = frame(11, 11, 11, 6);
     for values in [Values::Definite, Values::Indefinite] {

@@ -43,7 +43,7 @@ pub(super) fn product<const B: usize>(A: &Block<B>, X: &Block<B>) -> Block<B> {
 }
 
 /// Y −= A X
-#[inline(always)]
+#[inline(never)]
 pub(super) fn subtract_product<const B: usize>(Y: &mut Block<B>, A: &Block<B>, X: &Block<B>) {
     let AX = product(A, X);
     for j in 0..B {
