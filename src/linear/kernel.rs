@@ -42,7 +42,7 @@ pub(super) fn product<const B: usize>(A: &Block<B>, X: &Block<B>) -> Block<B> {
     Y
 }
 
-/// Y −= A X
+/// Y −= A X. On its own the loop is vectorised well; inlined beside others it is not.
 #[inline(never)]
 pub(super) fn subtract_product<const B: usize>(Y: &mut Block<B>, A: &Block<B>, X: &Block<B>) {
     let AX = product(A, X);
@@ -66,7 +66,7 @@ pub(super) fn row_scale<const B: usize>(A: &Block<B>) -> Column<B> {
 }
 
 /// A row is fetched from below only if the pivot at hand is ten times smaller: the search then stays off the chain of
-/// dependent operations, and a positive definite block keeps its diagonal.
+/// dependent operations, and a positive definite block mostly keeps its diagonal.
 const ACCEPTED: f64 = 0.1;
 
 /// Rows of the working copy of a block: whole vector registers, whatever B.

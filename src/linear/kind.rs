@@ -26,8 +26,8 @@ impl Kind {
     ///
     /// LU does twice the work of Cholesky, but at a rate that does not fall on small blocks, and substitutes twice as
     /// fast. Chains of any length stay with it; sheets and space frames change over near 5·10⁶ operations of the Cholesky
-    /// factorisation, that is near 1000 unknowns. The constants fit `benches/linear.rs` within a quarter from 100 to 5000
-    /// unknowns; only their ratios matter.
+    /// factorisation, that is near 1000 unknowns. The constants fit `benches/linear.rs` within a fifth where the two are
+    /// close; only their ratios matter.
     pub fn choose(structure: &Structure) -> Self {
         let elimination = Elimination::new(&Graph::new(structure));
         let plane = structure.sizes.iter().all(|&size| size <= 3);

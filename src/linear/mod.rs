@@ -1,9 +1,9 @@
 //! The linear system K x = r of an implicit step, factored thousands of times with one structure.
 //!
 //! All that depends on the structure alone (order of elimination, fill, where each number goes) is settled once in
-//! [`Solver::new`]; `factor` and `solve` then run over flat lists and allocate nothing. Two roads: an LU factorisation on
-//! small dense blocks for small systems and unsymmetric values, and a supernodal Cholesky factorisation for large
-//! symmetric ones. Iterative methods and orderings by dissection are left out.
+//! [`Solver::new`]; `factor` and `solve` then run over flat lists and, on one thread, allocate nothing. Two roads: an LU
+//! factorisation on small dense blocks for small systems and unsymmetric values, and a supernodal Cholesky factorisation
+//! for large symmetric ones. Iterative methods and orderings by dissection are left out.
 
 mod block_lu;
 mod cholesky;
