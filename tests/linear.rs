@@ -166,8 +166,9 @@ fn a_floating_chain_of_springs_is_singular() {
     }
 }
 
-/// A slender cantilever of plane beams, axial 10⁴ times stiffer than bending, oblique to the axes: stiffnesses far apart
-/// meet in each block, and its inverse is what the LU keeps. The error is measured backwards, ‖b − K x‖ / (‖K‖ ‖x‖ + ‖b‖).
+/// A slender cantilever of plane beams, axial 10⁴ times stiffer than bending, oblique to the axes: stiffnesses far
+/// apart meet in each block, and its inverse is what the LU keeps. The error is measured backwards,
+/// ‖b − K x‖ / (‖K‖ ‖x‖ + ‖b‖).
 #[test]
 fn stiff_directions_do_not_spoil_the_soft_ones() {
     let n = 50;

@@ -101,8 +101,8 @@ pub(super) fn invert<const B: usize>(A: &mut Block<B>, scale: &Column<B>) -> Res
     Ok(())
 }
 
-/// One step of Gauss–Jordan. The row of the pivot is written like the others, its old values masked out, so that no lane
-/// is treated alone; not inlined, or the compiler unrolls the step into single numbers and takes twice as long.
+/// One step of Gauss–Jordan. The row of the pivot is written like the others, its old values masked out, so that no
+/// lane is treated alone; not inlined, or the compiler unrolls the step into single numbers and takes twice as long.
 #[inline(never)]
 fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) {
     let others: [f64; LANES] = std::array::from_fn(|i| if i == k { 0.0 } else { 1.0 });
