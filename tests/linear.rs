@@ -166,6 +166,45 @@ fn a_floating_chain_of_springs_is_singular() {
     }
 }
 
+/// A slender cantilever of plane beams, axial 10⁴ times stiffer than bending, oblique to the axes: stiffnesses far
+/// apart meet in each block, and its inverse is what the LU keeps. The error is measured backwards,
+/// ‖b − K x‖ / (‖K‖ ‖x‖ + ‖b‖).
+#[test]
+fn stiff_directions_do_not_spoil_the_soft_ones() {
+    let n = 50;
+    let structure = chain(n, 3);
+    let (c, s) = (0.6_f64.cos(), 0.6_f64.sin());
+    #[rustfmt::skip]
+    let local = DMatrix::from_row_slice(6, 6, &[
+        1e4, 0., 0., -1e4, 0., 0.,   0., 12., 6., 0., -12., 6.,   0., 6., 4., 0., -6., 2.,
+        -1e4, 0., 0., 1e4, 0., 0.,   0., -12., -6., 0., 12., -6.,  0., 6., 2., 0., -6., 4.,
+    ]);
+    #[rustfmt::skip]
+    let turn = DMatrix::from_row_slice(6, 6, &[
+        c, s, 0., 0., 0., 0.,  -s, c, 0., 0., 0., 0.,  0., 0., 1., 0., 0., 0.,
+        0., 0., 0., c, s, 0.,  0., 0., 0., -s, c, 0.,  0., 0., 0., 0., 0., 1.,
+    ]);
+    let element = turn.transpose() * local * turn;
+    let beam = |first: usize| (0..36).map(move |e| (first + e / 6, first + e % 6, (e / 6, e % 6)));
+    let mut entries: Vec<_> = (1..n).flat_map(|g| beam(3 * g - 3)).map(|(i, j, at)| (i, j, element[at])).collect();
+    entries.extend((0..9).map(|e| (e / 3, e % 3, element[(3 + e / 3, 3 + e % 3)])));
+    let matrix = dense(3 * n, &entries);
+    let b = DVector::from_fn(3 * n, |i, _| if i == 3 * n - 2 { 1.0 } else { 0.0 });
+    for kind in [Kind::Block, Kind::Cholesky] {
+        let mut solver = Solver::new(&structure, kind, 1);
+        let slots = slots(&solver, &entries);
+        fill(&mut solver, &slots);
+        solver.factor().unwrap();
+        let mut x = b.clone();
+        solver.solve(x.as_mut_slice());
+        let residual = &matrix * &x - &b;
+        let error = residual.norm() / (matrix.norm() * x.norm() + b.norm());
+        let deflection = (n as f64).powi(3) / 3.0 * c * c;
+        assert!(error <= 1e-16, "{kind:?}: {error:e}");
+        assert!((x[3 * n - 2] / deflection - 1.0).abs() <= 1e-3, "{kind:?}");
+    }
+}
+
 /// A block without a diagonal needs its rows exchanged.
 #[test]
 fn rows_are_exchanged_within_a_block() {
@@ -184,6 +223,14 @@ fn rows_are_exchanged_within_a_block() {
     let mut x = b.clone();
     solver.solve(x.as_mut_slice());
     assert!((&matrix * &x - &b).norm() <= 1e-13 * b.norm());
+}
+
+#[test]
+fn chains_go_to_blocks_and_large_frames_to_cholesky() {
+    assert_eq!(Kind::choose(&chain(2, 6)), Kind::Block);
+    assert_eq!(Kind::choose(&chain(2000, 6)), Kind::Block);
+    assert_eq!(Kind::choose(&frame(10, 6, 6, 6)), Kind::Cholesky);
+    assert_eq!(Kind::choose(&Structure { sizes: vec![], cliques: vec![] }), Kind::Block);
 }
 
 #[test]

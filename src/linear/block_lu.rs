@@ -1,9 +1,9 @@
 //! LU factorisation on dense B×B blocks, one per group: pattern symmetric, values not.
 //!
 //! Blocks are eliminated in a fixed order without exchange between them; within a diagonal block rows are exchanged, so
-//! that indefinite tangents pass. A = L U with L_ik = A_ik D_k⁻¹ and U_ki = A_ki, where D_k is the diagonal block when its
-//! turn comes and its inverse is what is kept: a multiplication by 36 numbers is a third of the time of a substitution,
-//! whose operations wait for each other. A group of fewer than B unknowns is padded with rows of the identity.
+//! that indefinite tangents pass. A = L U with L_ik = A_ik D_k⁻¹ and U_ki = A_ki, where D_k is the diagonal block when
+//! its turn comes and its inverse is what is kept: to multiply by it is shorter than a substitution, whose operations wait
+//! for each other. A group of fewer than B unknowns is padded with rows of the identity.
 
 use super::elimination::Elimination;
 use super::graph::Graph;
@@ -13,8 +13,8 @@ use super::{Singular, Stats};
 pub struct BlockLu<const B: usize> {
     graph: Graph,
     elimination: Elimination,
-    /// First block of each position k in `blocks`: D_k, then L_ik and then U_ki for each i of `below(k)`. One more at the
-    /// end, which is the spare block.
+    /// First block of each position k in `blocks`: D_k, then L_ik and then U_ki for each i of `below(k)`. One more at
+    /// the end, which is the spare block.
     start: Vec<usize>,
     /// For each k and each pair i < j of `below(k)`: the place of j in `below(i)`.
     places: Vec<u32>,

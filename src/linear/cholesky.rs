@@ -91,6 +91,7 @@ impl Cholesky {
     }
 
     /// L Lᵀ first, always: an answer that depended on the matrices before could not be resumed bit for bit.
+    /// Allocates only on several threads, whose pool does.
     pub(super) fn factor(&mut self) -> Result<(), Singular> {
         let nonzeros = self.values.len() - 1;
         let K = SparseColMatRef::new(self.pattern.as_ref(), &self.values[..nonzeros]);

@@ -42,8 +42,8 @@ pub(super) fn product<const B: usize>(A: &Block<B>, X: &Block<B>) -> Block<B> {
     Y
 }
 
-/// Y −= A X
-#[inline(always)]
+/// Y −= A X. On its own the loop is vectorised well; inlined beside others it is not.
+#[inline(never)]
 pub(super) fn subtract_product<const B: usize>(Y: &mut Block<B>, A: &Block<B>, X: &Block<B>) {
     let AX = product(A, X);
     for j in 0..B {
@@ -66,7 +66,7 @@ pub(super) fn row_scale<const B: usize>(A: &Block<B>) -> Column<B> {
 }
 
 /// A row is fetched from below only if the pivot at hand is ten times smaller: the search then stays off the chain of
-/// dependent operations, and a positive definite block keeps its diagonal.
+/// dependent operations, and a positive definite block mostly keeps its diagonal.
 const ACCEPTED: f64 = 0.1;
 
 /// Rows of the working copy of a block: whole vector registers, whatever B.
@@ -101,8 +101,8 @@ pub(super) fn invert<const B: usize>(A: &mut Block<B>, scale: &Column<B>) -> Res
     Ok(())
 }
 
-/// One step of Gauss–Jordan. The row of the pivot is written like the others, its old values masked out, so that no lane
-/// is treated alone; not inlined, or the compiler unrolls the step into single numbers and takes twice as long.
+/// One step of Gauss–Jordan. The row of the pivot is written like the others, its old values masked out, so that no
+/// lane is treated alone; not inlined, or the compiler unrolls the step into single numbers and takes twice as long.
 #[inline(never)]
 fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) {
     let others: [f64; LANES] = std::array::from_fn(|i| if i == k { 0.0 } else { 1.0 });
