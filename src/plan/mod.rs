@@ -60,7 +60,9 @@ impl Plan {
         });
         let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect() };
         let kind = choose::kind(&structure);
-        let linear = system.is_linear();
+        // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
+        let turns = |node: usize| (3..6).filter(|&d| nodes[node][d] == place::Why::Unknown).count() > 1;
+        let linear = system.is_linear() && !system.inertias.iter().any(|i| turns(i.node));
         Plan {
             unknowns: directions.len(),
             refresh_cost: choose::refresh_cost(kind),

@@ -83,6 +83,7 @@ impl<'a> Run<'a> {
             assembly,
             refresh: Refresh::new(model.iteration.update, plan.linear, plan.refresh_cost),
             length: extent(&at_rest),
+            reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(extent(&at_rest)),
             trial: at_rest,
             increments: vec![Increment::ZERO; n],
             forces: Forces::new(system, n),
@@ -247,7 +248,7 @@ impl<'a> Run<'a> {
             self.energy = Some(system.energy(state, balance));
         }
         if self.wanted.links {
-            system.link_states(&self.stepper.model.links, &state.nodes, &mut self.links);
+            system.link_states(&state.nodes, &mut self.links);
         }
         if self.wanted.sections {
             system.section_points(self.stepper.model, &state.nodes, &mut self.sections);

@@ -1,7 +1,7 @@
 //! One step: predict, then residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
 
 use super::failure::{self, Failure};
-use super::refresh::Refresh;
+use super::refresh::{Advice, Refresh};
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::math::rotation::inverse_tangent;
@@ -34,6 +34,8 @@ pub struct Stepper<'a> {
     pub movers: Vec<usize>,
     /// Length on which corrections are judged where hardly anything moves.
     pub length: f64,
+    /// Largest coordinate of a node: what positions are rounded against.
+    pub reach: f64,
     pub wants_forces: bool,
     pub factorizations: usize,
     pub solves: usize,
@@ -76,7 +78,7 @@ impl<'a> Stepper<'a> {
         self.predict(state, &scheme);
         let tolerance = self.model.iteration.tolerance;
         let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
-        let mut last = f64::INFINITY;
+        let mut last = (f64::INFINITY, f64::INFINITY);
         loop {
             self.move_trial(state, &scheme);
             let scale = self.system.residual(&self.trial, &self.given[2], &mut self.forces);
@@ -95,22 +97,35 @@ impl<'a> Stepper<'a> {
             taken.iterations += 1;
             // Error left after this correction, relative to the motion of the step, from the contraction seen so far.
             let size = self.relative(correction, motion);
-            let contraction = size / last;
-            let left = if self.plan.linear { 0.0 } else { size * (contraction / (1.0 - contraction)).clamp(0.0, 1.0) };
             if !size.is_finite() {
                 return Err(self.not_finite());
             }
-            if (contraction < 1.0 && left <= tolerance) || size <= 0.01 * tolerance {
+            // The first correction shows no contraction yet; a linear scene has nothing left after it.
+            let contraction = match taken.iterations {
+                _ if self.plan.linear => 0.0,
+                _ if last.0.is_infinite() => 0.5,
+                _ => (size / last.0).max(taken.residual / last.1),
+            };
+            if std::env::var("DBG").is_ok() { eprintln!("t {to} it {} size {size:e} res {:e} corr {:e} {:e} motion {:e} {:e} refac {}", taken.iterations, taken.residual, correction.translation, correction.rotation, motion.translation, motion.rotation, taken.refactorizations); }
+            // Error and residual left after this correction, each relative. Positions cannot be told apart below rounding.
+            let left = contraction / (1.0 - contraction) * size;
+            let unbalanced = contraction * taken.residual;
+            if contraction < 1.0 && left <= tolerance && unbalanced <= tolerance || self.is_rounding(correction) {
                 break;
             }
             if taken.iterations >= self.model.iteration.limit {
                 return Err(self.not_converged(&taken));
             }
-            if taken.iterations > 1 {
-                let remaining = (tolerance / size).ln() / contraction.ln();
-                self.refresh.watch(contraction, if contraction < 1.0 { remaining } else { f64::INFINITY });
+            if last.0.is_finite() {
+                let remaining = (tolerance / left.max(unbalanced)).ln() / contraction.ln();
+                let remaining = if contraction < 1.0 { remaining } else { f64::INFINITY };
+                if self.refresh.watch(taken.refactorizations > 0, contraction, remaining) == Advice::Restart {
+                    self.predict(state, &scheme);
+                    last = (f64::INFINITY, f64::INFINITY);
+                    continue;
+                }
             }
-            last = size;
+            last = (size, taken.residual);
         }
         self.refresh.accepted(taken.iterations);
         self.accept(state, &scheme, to);
@@ -222,6 +237,12 @@ impl<'a> Stepper<'a> {
         }
         let translation = correction.translation / motion.translation.max(STILL * self.length);
         translation.max(correction.rotation / motion.rotation.max(STILL))
+    }
+
+    /// True for a correction that only stirs the last digits of the positions.
+    fn is_rounding(&self, correction: Size) -> bool {
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        correction.translation <= ROUNDING * self.reach && correction.rotation <= ROUNDING
     }
 
     /// State at the end of the step, written once.

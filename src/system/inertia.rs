@@ -1,6 +1,7 @@
 //! Mass of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: m and J₀ at a node, the
 //! Newton-Euler equations (33); what falls on one node is summed once, before the run.
 
+use super::Scale;
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, quadrature, skew};
 use crate::state::Node;
@@ -24,20 +25,27 @@ impl Inertia {
     }
 
     /// m (field − a), −(J α + ω×J ω)                                                        (33)
+    /// `scale` meets the terms one by one: in free motion they cancel.
     #[inline]
-    pub fn force(&self, node: &Node, field: &Vec3, dynamic: bool) -> Force {
+    pub fn force(&self, node: &Node, field: &Vec3, dynamic: bool, scale: &mut Scale) -> Force {
         let weight = self.mass * field;
+        scale.meet_force(&weight);
         if !dynamic {
             return [weight.x, weight.y, weight.z, 0.0, 0.0, 0.0];
         }
-        let f = weight - self.mass * node.a;
+        let inertia = self.mass * node.a;
+        scale.meet_force(&inertia);
+        let f = weight - inertia;
         if !self.rotary {
             return [f.x, f.y, f.z, 0.0, 0.0, 0.0];
         }
         // In body axes J₀ is constant: rotate the two vectors instead of the tensor.
         let R = node.R();
         let (omega, alpha) = (R.tr_mul(&node.omega), R.tr_mul(&node.alpha));
-        let m = R * (self.J0 * alpha + omega.cross(&(self.J0 * omega)));
+        let (spin, gyroscopic) = (self.J0 * alpha, omega.cross(&(self.J0 * omega)));
+        scale.meet_moment(&spin);
+        scale.meet_moment(&gyroscopic);
+        let m = R * (spin + gyroscopic);
         [f.x, f.y, f.z, -m.x, -m.y, -m.z]
     }
 

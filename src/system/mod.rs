@@ -80,6 +80,16 @@ pub struct Scale {
 
 impl Scale {
     #[inline]
+    fn meet_force(&mut self, f: &Vec3) {
+        self.force = self.force.max(f.amax());
+    }
+
+    #[inline]
+    fn meet_moment(&mut self, m: &Vec3) {
+        self.moment = self.moment.max(m.amax());
+    }
+
+    #[inline]
     fn meet(&mut self, f: &Force) {
         self.force = self.force.max(f[0].abs()).max(f[1].abs()).max(f[2].abs());
         self.moment = self.moment.max(f[3].abs()).max(f[4].abs()).max(f[5].abs());
@@ -197,8 +207,7 @@ impl System {
         }
         for inertia in &self.inertias {
             let node = &nodes[inertia.node];
-            let mut f = inertia.force(node, &loading.field, self.dynamic);
-            scale.meet(&f);
+            let mut f = inertia.force(node, &loading.field, self.dynamic, &mut scale);
             if self.mass_damping > 0.0 {
                 inertia.add_damping(node, self.mass_damping, &mut f);
             }
