@@ -1,0 +1,2 @@
+//! Stub: replaced at merge.
+pub mod link;
