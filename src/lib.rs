@@ -15,5 +15,8 @@ pub mod integrators;
 pub mod linear;
 pub mod math;
 pub mod model;
+pub mod output;
 pub mod sections;
+pub mod solve;
 pub mod state;
+pub mod system;
