@@ -16,6 +16,7 @@ pub mod linear;
 pub mod math;
 pub mod model;
 pub mod output;
+pub mod plan;
 pub mod sections;
 pub mod solve;
 pub mod state;

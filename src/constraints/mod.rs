@@ -1,1 +1,3 @@
-//! Stub: replaced at merge.
+//! Nodes that follow other nodes.
+
+pub mod attachment;

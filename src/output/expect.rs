@@ -1,6 +1,6 @@
 //! Values the deck expects, taken while the run goes and judged at its end.
 //!
-//! Peaks look at every accepted step, those of energies at the steps whose energies are formed.
+//! Peaks of motion look at every accepted step, those of energies and links at the steps where these are formed.
 
 use super::{bodies_csv, energy_csv, links_csv, nodes_csv};
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};

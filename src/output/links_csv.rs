@@ -4,7 +4,7 @@ use super::table::Table;
 use crate::solve::{Frame, LinkState};
 use std::io;
 
-/// Along the line; then force and moment on the first end, global components.
+/// Along the line (of a bushing: its first axis); then force and moment on the first end, global components.
 pub const COLUMNS: [&str; 9] = ["elongation", "rate", "force", "fx", "fy", "fz", "mx", "my", "mz"];
 
 /// The columns of one link.

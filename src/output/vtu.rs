@@ -67,7 +67,9 @@ pub fn strings<'a>(text: &mut String, name: &str, values: impl ExactSizeIterator
     let _ =
         write!(text, "<Array type=\"String\" Name=\"{name}\" NumberOfTuples=\"{}\" format=\"ascii\">", values.len());
     for value in values {
-        value.bytes().for_each(|byte| drop(write!(text, "{byte} ")));
+        for byte in value.bytes() {
+            let _ = write!(text, "{byte} ");
+        }
         text.push_str("0 ");
     }
     text.push_str("</Array>\n");
