@@ -247,7 +247,7 @@ impl<'a> Run<'a> {
             self.energy = Some(system.energy(state, balance));
         }
         if self.wanted.links {
-            system.link_states(&self.stepper.model.links, &state.nodes, &mut self.links);
+            system.link_states(&state.nodes, &mut self.links);
         }
         if self.wanted.sections {
             system.section_points(self.stepper.model, &state.nodes, &mut self.sections);
