@@ -49,7 +49,7 @@ impl Section {
             ("shear_areas[0]", y),
             ("shear_areas[1]", z),
         ])?;
-        if !(Iyz * Iyz < Iy * Iz) {
+        if Iyz.is_nan() || Iyz * Iyz >= Iy * Iz {
             return Err(format!(
                 "the product of inertia is {Iyz}, but must be smaller in size than the geometric mean of the moments, {}",
                 (Iy * Iz).sqrt()
