@@ -105,7 +105,7 @@ fn a_resumed_run_leaves_the_same_files() {
     files.finish().unwrap();
     let mut names: Vec<_> = fs::read_dir(whole.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names.len(), 7 + 1 + 5, "seven tables, the list, grids of steps 0 3 6 9 10");
+    assert_eq!(names.len(), 7 + 2 + 5, "seven tables, names, the list, grids of steps 0 3 6 9 10");
     for name in names {
         let [a, b] = [&whole, &resumed].map(|dir| fs::read(dir.path().join(&name)).unwrap());
         assert!(a == b, "{name:?}");
@@ -197,6 +197,7 @@ fn grids_hold_together() {
     assert_eq!((&connectivity[..4], &types[..4], offsets[0]), (&[0, 3, 1, 2][..], &[68, 3, 3, 3][..], 4));
     assert_eq!(points[3..6], *state.nodes[1].x.as_slice());
     assert_eq!((parts[0], parts[1], parts[3], parts[4]), (0, 1, 2, 3), "beams, bar, link");
+    assert_eq!(table(dir.path(), "fields.csv").1[1], ["1", "beam", "fore & aft"]);
     // A corner of the box moves as part of it: x = X + R S, v = v₀ + ω×RS; the bound is a few roundings of sums of size 10.
     let corner = connectivity[offsets[4]];
     assert_eq!(types[5], 12);

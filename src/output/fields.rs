@@ -1,4 +1,5 @@
-//! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step.
+//! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
+//! names the parts that the grids number.
 //!
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
 //! links are lines, bodies closed shapes. A grid is named after its step and listed only once it is whole.
@@ -46,7 +47,7 @@ impl Grid {
         self.cell(kind, part, [first, last].into_iter().chain(first + 1..last));
     }
 
-    /// All parts in the order of [`names`].
+    /// Beams, bars, links, bodies, each in deck order.
     fn of(model: &Model) -> Grid {
         let mut grid = Grid::default();
         let mut part = 0..;
@@ -84,20 +85,26 @@ impl Grid {
     }
 }
 
-fn names(model: &Model) -> Vec<&str> {
-    let beams = model.beams.iter().map(|part| &part.name);
-    let bars = model.bars.iter().map(|part| &part.name);
-    let links = model.links.iter().map(|part| &part.name);
-    let bodies = model.bodies.iter().map(|part| &part.name);
-    beams.chain(bars).chain(links).chain(bodies).map(String::as_str).collect()
+/// fields.csv, in the order of [`Grid::of`].
+fn names(model: &Model) -> csv::Result<Vec<u8>> {
+    let beams = model.beams.iter().map(|part| ("beam", &part.name));
+    let bars = model.bars.iter().map(|part| ("bar", &part.name));
+    let links = model.links.iter().map(|part| ("link", &part.name));
+    let bodies = model.bodies.iter().map(|part| ("body", &part.name));
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(["part", "kind", "name"])?;
+    for (part, (kind, name)) in beams.chain(bars).chain(links).chain(bodies).enumerate() {
+        table.write_record([&part.to_string(), kind, name])?;
+    }
+    table.into_inner().map_err(|e| e.into_error().into())
 }
 
 pub struct Fields {
     dir: PathBuf,
     every: usize,
     places: Vec<Place>,
-    /// What is the same in every grid.
-    names: String,
+    /// What is the same in every grid: the opening of its one piece, and what follows the points.
+    piece: String,
     cells: String,
     /// Lines of fields.pvd so far.
     listed: String,
@@ -109,24 +116,20 @@ impl Fields {
     /// With `keep_to`, the list goes on after the grid of that step.
     pub fn open(dir: &Path, model: &Model, every: usize, keep_to: Option<usize>) -> io::Result<Fields> {
         let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
-        let (mut names, mut cells, mut bytes) = (String::new(), String::new(), Vec::new());
-        vtu::strings(&mut names, "part_names", self::names(model).into_iter());
-        cells.push_str("<CellData>\n");
+        replace(&dir.join("fields.csv"), &names(model)?)?;
+        let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
+        let (mut cells, mut bytes) = (String::from("<CellData>\n"), Vec::new());
         vtu::array(&mut cells, &mut bytes, "part", 1, parts.into_iter());
         cells.push_str("</CellData>\n<Cells>\n");
         vtu::array(&mut cells, &mut bytes, "connectivity", 1, connectivity.into_iter());
-        vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.iter().copied());
+        vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.into_iter());
         vtu::array(&mut cells, &mut bytes, "types", 1, types.into_iter());
-        cells.push_str("</Cells>\n");
-        let _ = writeln!(cells, "</Piece>");
-        let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
-        names.push_str("</FieldData>\n");
-        names.push_str(&piece);
+        cells.push_str("</Cells>\n</Piece>\n");
         let listed = match keep_to {
             Some(step) => kept(&dir.join("fields.pvd"), step)?,
             None => String::new(),
         };
-        Ok(Fields { dir: dir.into(), every, places, names, cells, listed, text: String::new(), bytes })
+        Ok(Fields { dir: dir.into(), every, places, piece, cells, listed, text: String::new(), bytes })
     }
 
     /// Every so many steps, and the first and the last.
@@ -143,7 +146,8 @@ impl Fields {
         text.push_str(vtu::OPEN);
         text.push_str("<FieldData>\n");
         vtu::array(text, bytes, "TimeValue", 1, [time].into_iter());
-        text.push_str(&self.names);
+        text.push_str("</FieldData>\n");
+        text.push_str(&self.piece);
 
         let (places, start, now) = (&self.places, &frame.model.nodes, &frame.state.nodes);
         let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {

@@ -40,7 +40,7 @@ macro_rules! scalar {
 }
 scalar! { f64, "Float64"; i64, "Int64"; u8, "UInt8"; }
 
-/// Appends a `DataArray` to `text`; `bytes` is scratch.
+/// Appends a `DataArray` to `text`; `bytes` is scratch. (No arrays of strings: meshio refuses a file that has one.)
 pub fn array<T: Scalar>(
     text: &mut String,
     bytes: &mut Vec<u8>,
@@ -54,23 +54,12 @@ pub fn array<T: Scalar>(
     let length = bytes.len() as u64 - 8;
     bytes[..8].copy_from_slice(&length.to_le_bytes());
     let kind = T::TYPE;
+    let tuples = length as usize / (components * size_of::<T>());
     let _ = write!(
         text,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">"
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" NumberOfTuples=\"{tuples}\" \
+         format=\"binary\">"
     );
     BASE64_STANDARD.encode_string(bytes, text);
     text.push_str("</DataArray>\n");
-}
-
-/// Appends an array of strings: VTK wants the bytes of each as decimal numbers, ended by 0.
-pub fn strings<'a>(text: &mut String, name: &str, values: impl ExactSizeIterator<Item = &'a str>) {
-    let _ =
-        write!(text, "<Array type=\"String\" Name=\"{name}\" NumberOfTuples=\"{}\" format=\"ascii\">", values.len());
-    for value in values {
-        for byte in value.bytes() {
-            let _ = write!(text, "{byte} ");
-        }
-        text.push_str("0 ");
-    }
-    text.push_str("</Array>\n");
 }
