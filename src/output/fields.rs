@@ -40,7 +40,8 @@ impl Grid {
         self.parts.push(part as i64);
     }
 
-    /// A curve from the first node to the last, with points of its own. VTK lists the ends first.
+    /// A curve from the first node to the last, with points of its own. VTK lists the ends first. It spaces its parameter
+    /// evenly, Lobatto points are not even; the curve drawn passes through all of them.
     fn curve(&mut self, kind: Cell, part: usize, nodes: &[usize], axes: Mat3) {
         let (first, last) = (self.places.len(), self.places.len() + nodes.len() - 1);
         self.places.extend(nodes.iter().map(|&node| Place { node, arm: Vec3::zeros(), axes }));

@@ -9,9 +9,9 @@ impl Section {
     /// Area and moments are exact, with sharp corners. Torsion: Bredt's cell plus the walls' own, J = 4 A_m²/∮ds/t + Σ b t³/3
     /// over middle lines (EN 10210-2, annex A, with no corner radius). Shear areas: energy of the shear flow.
     pub fn box_(width: f64, height: f64, web: f64, flange: f64) -> Result<Section, String> {
-        positive(&[("width", width), ("height", height), ("web_thickness", web), ("flange_thickness", flange)])?;
-        smaller(("web_thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
-        smaller(("flange_thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;
+        positive(&[("width", width), ("height", height), ("thickness", web), ("thickness", flange)])?;
+        smaller(("thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
+        smaller(("thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;
         let (b, h) = (width - web, height - flange); // of the middle line
         let (area, _, [Iy, Iz, Iyz]) = rectangles(&[
             ([-0.5 * b, 0.0], web, height),
@@ -73,8 +73,8 @@ mod tests {
     fn nonsense_is_named() {
         assert_eq!(
             Section::box_(0.1, 0.2, 0.05, 0.01).unwrap_err(),
-            "`web_thickness` is 0.05, but two walls must leave a hollow: less than width/2 = 0.05"
+            "`thickness` is 0.05, but two walls must leave a hollow: less than width/2 = 0.05"
         );
-        assert!(Section::box_(0.1, 0.2, 0.01, -0.01).unwrap_err().starts_with("`flange_thickness` is -0.01"));
+        assert!(Section::box_(0.1, 0.2, 0.01, -0.01).unwrap_err().starts_with("`thickness` is -0.01"));
     }
 }

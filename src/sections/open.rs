@@ -2,7 +2,8 @@
 //!
 //! Areas and moments are those of the drawn rectangles, corners sharp; shear follows the middle lines; torsion is
 //! Σ b t³/3 over middle lines less 0.105 t⁴ for each free end (El Darwish & Johnston 1965, J. Struct. Div. ASCE 91(ST1),
-//! 203-227; 0.21 t⁴ is the exact loss of a narrow rectangle's two ends). The bulge where walls meet is left out.
+//! 203-227; 0.21 t⁴ is the exact loss of a narrow rectangle's two ends). The bulge where walls meet is left out, and so are
+//! fillets: the constant is up to 3 % low for sharp corners.
 
 use super::wall::{Wall, shear};
 use super::{Section, positive, rectangles, smaller};
@@ -63,18 +64,9 @@ impl Section {
 
     /// Angle: corner at −y, −z; one leg of thickness `vertical` up along z, one of thickness `horizontal` out along y.
     pub fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Section, String> {
-        positive(&[
-            ("height", height),
-            ("width", width),
-            ("web_thickness", vertical),
-            ("flange_thickness", horizontal),
-        ])?;
-        smaller(("web_thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
-        smaller(
-            ("flange_thickness", horizontal),
-            ("height", height),
-            "the flat leg must leave an upright one: less than",
-        )?;
+        positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
+        smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
+        smaller(("thickness", horizontal), ("height", height), "the flat leg must leave an upright one: less than")?;
         let (y, z) = (0.5 * vertical, 0.5 * horizontal);
         let parts =
             [([y, 0.5 * height], vertical, height), ([0.5 * (width + vertical), z], width - vertical, horizontal)];
@@ -183,6 +175,22 @@ mod tests {
         let web = 0.0056 * (0.2 - 0.0085);
         assert!(i.shear[1] < web && i.shear[1] > 0.9 * web);
         close(i.shear[0], 5.0 / 6.0 * 2.0 * 0.1 * 0.0085, 0.001);
+    }
+
+    /// Against Prandtl's problem on the sharp-cornered shapes, solved by finite differences (five points, two grids and their
+    /// extrapolation; the same program gives the square's 0.140577). The junctions' bulge is what is missing.
+    #[test]
+    fn torsion_is_slightly_low() {
+        for (section, exact) in [
+            (Section::l(100.0, 100.0, 10.0, 10.0), 61_940.0),
+            (Section::l(100.0, 100.0, 20.0, 20.0), 457_700.0),
+            (Section::c(200.0, 76.0, 8.0, 12.0), 111_170.0),
+            (Section::i(200.0, 100.0, 100.0, 6.0, 8.0, 8.0), 46_877.0),
+            (Section::i(300.0, 100.0, 100.0, 10.0, 20.0, 20.0), 571_750.0),
+        ] {
+            let torsion = section.unwrap().torsion;
+            assert!(torsion < exact && torsion > 0.97 * exact, "{torsion} for {exact}");
+        }
     }
 
     #[test]

@@ -24,10 +24,10 @@ impl Section {
     /// Shear factor: Cowper 1966 (J. Appl. Mech. 33, 335-340) for the hollow circle at ν = 0, as the section knows no
     /// material: 6/7 when solid, 1/2 when thin.
     pub fn tube(outer_radius: f64, thickness: f64) -> Result<Section, String> {
-        positive(&[("outer_radius", outer_radius), ("thickness", thickness)])?;
+        positive(&[("radius", outer_radius), ("thickness", thickness)])?;
         if thickness > outer_radius {
             return Err(format!(
-                "`thickness` is {thickness}, but a wall cannot be thicker than outer_radius = {outer_radius} (solid round)"
+                "`thickness` is {thickness}, but a wall cannot be thicker than radius = {outer_radius} (a solid round)"
             ));
         }
         let inner_radius = outer_radius - thickness;
