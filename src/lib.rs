@@ -15,6 +15,7 @@ pub mod integrators;
 pub mod linear;
 pub mod math;
 pub mod model;
+pub mod output;
 pub mod plan;
 pub mod sections;
 pub mod solve;

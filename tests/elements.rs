@@ -277,9 +277,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     for (xi, w) in points.iter().zip(weights) {
         let arm = 0.5 * length * (1.0 - xi);
         let mut to_section = nalgebra::Matrix6::identity();
-        to_section
-            .fixed_view_mut::<3, 3>(3, 0)
-            .copy_from(&rdsolve::math::skew(&Vec3::new(arm, 0.0, 0.0)));
+        to_section.fixed_view_mut::<3, 3>(3, 0).copy_from(&rdsolve::math::skew(&Vec3::new(arm, 0.0, 0.0)));
         flexibility += 0.5 * length * *w * to_section.transpose() * inverse * to_section;
     }
     let tip = nalgebra::Matrix6::from_fn(|i, j| K[(6 + i) * 12 + 6 + j]);

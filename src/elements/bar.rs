@@ -3,7 +3,6 @@
 use super::link::{Law, Link, Links};
 use crate::math::Vec3;
 
-
 /// A bar is a line spring of stiffness EA/L; `damping` is the factor of stiffness-proportional damping (time).
 pub fn links(elements: &[[usize; 2]], axial_stiffness: f64, tension_only: bool, x: &[Vec3], damping: f64) -> Links {
     let link = |&nodes: &[usize; 2]| {

@@ -343,7 +343,6 @@ impl<const N: usize> Block for Beams<N> {
     }
 }
 
-
 /// A row over z: p in 0..4, p′ in 4..8, r′ in 8..11, one place unused.
 type Row = [f64; 12];
 /// Second derivatives in a pair of nodes: rows q (4), x (3) of the first, columns q (4), x (3) of the second, one unused.
@@ -449,7 +448,8 @@ fn add_geometric(h: &mut [Row; 11], point: &Point, tangent: &Vec3, B: &[Row; 6],
         let um = right(&unit, m);
         let un = multiply(&unit, &np);
         for i in 0..4 {
-            h[i][k] -= inv2 * (rn[i] + if i == k { sigma_e } else { 0.0 } + point.p[i] * gradient[k] + point.p[k] * gradient[i]);
+            h[i][k] -= inv2
+                * (rn[i] + if i == k { sigma_e } else { 0.0 } + point.p[i] * gradient[k] + point.p[k] * gradient[i]);
             // m·Y_κ = 2 p′·(p m)
             h[4 + i][k] += inv2 * (um[i] - gradient[4 + i] * point.p[k]);
             h[k][4 + i] += inv2 * (um[i] - gradient[4 + i] * point.p[k]);
@@ -474,8 +474,7 @@ fn rate_rows(point: &Point, tangent: &Vec3, B: &[Row; 6], rate: &Rate, strain_ra
     for i in 0..3 {
         add(&mut D[i], -inv2 * along, &B[i]);
         add(&mut D[3 + i], -inv2 * along, &B[3 + i]);
-        let (a, b, c, d) =
-            (right_unit(&rp, i), right_unit(&dr_p, i), right_unit(&rate.dp, i), right_unit(&rate.p, i));
+        let (a, b, c, d) = (right_unit(&rp, i), right_unit(&dr_p, i), right_unit(&rate.dp, i), right_unit(&rate.p, i));
         for k in 0..4 {
             D[i][k] -= inv2 * (a[k] + b[k] + point.p[k] * strain_rates[i] + e[i] * rate.p[k]);
             D[3 + i][k] -= inv2 * (c[k] + point.p[k] * strain_rates[3 + i] + point.kappa[i] * rate.p[k]);

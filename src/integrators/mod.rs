@@ -5,8 +5,8 @@
 pub mod load_steps;
 pub mod wilson_theta;
 
-pub use crate::math::rotation::RotationUpdate;
 use crate::math::Vec6;
+pub use crate::math::rotation::RotationUpdate;
 use crate::state::Increment;
 pub use wilson_theta::WilsonTheta;
 

@@ -64,8 +64,12 @@ mod tests {
             };
             let columns = [step([1.0, 0.0, 0.0]), step([0.0, 1.0, 0.0]), step([0.0, 0.0, 1.0])];
             let A = nalgebra::Matrix3::from_fn(|i, j| columns[j][i]);
-            let principal =
-                A.complex_eigenvalues().iter().copied().max_by(|x, y| x.im.total_cmp(&y.im)).expect("three eigenvalues");
+            let principal = A
+                .complex_eigenvalues()
+                .iter()
+                .copied()
+                .max_by(|x, y| x.im.total_cmp(&y.im))
+                .expect("three eigenvalues");
             let phase = principal.im.atan2(principal.re);
             let period = 2.0 * std::f64::consts::PI * dt / phase;
             let log = -principal.norm().ln();

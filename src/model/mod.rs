@@ -103,10 +103,20 @@ pub struct Body {
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// Full edge lengths along `axes` (columns: the shape's axes in body components).
-    Box { size: [f64; 3], axes: Mat3 },
-    Sphere { radius: f64 },
+    Box {
+        size: [f64; 3],
+        axes: Mat3,
+    },
+    Sphere {
+        radius: f64,
+    },
     /// Along `axis`; `inner_radius` 0 for a solid cylinder.
-    Cylinder { radius: f64, inner_radius: f64, length: f64, axis: Vec3 },
+    Cylinder {
+        radius: f64,
+        inner_radius: f64,
+        length: f64,
+        axis: Vec3,
+    },
 }
 
 /// A point mass (with optional rotary inertia, global axes at t = 0).

@@ -7,8 +7,8 @@ mod place;
 
 use crate::linear::{Kind, Solver, Structure};
 use crate::model::Model;
-use crate::system::assembly::{self, Assembly, NONE};
 use crate::system::System;
+use crate::system::assembly::{self, Assembly, NONE};
 
 /// Decisions about a model. Constant over a run.
 pub struct Plan {
@@ -55,9 +55,9 @@ impl Plan {
                 sizes.push(directions.len() - before);
             }
         }
-        let cliques = assembly::cliques(system, nodes.len()).into_iter().map(|clique| {
-            clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect::<Vec<_>>()
-        });
+        let cliques = assembly::cliques(system, nodes.len())
+            .into_iter()
+            .map(|clique| clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect::<Vec<_>>());
         let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect() };
         let kind = choose::kind(&structure);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.

@@ -75,7 +75,10 @@ fn explain(places: &[Place], normal: Option<usize>) -> Vec<Omission> {
         (count(Why::Nothing, 0..3), "translations on which nothing acts".to_string()),
         (count(Why::Nothing, 3..6), "rotations on which nothing acts: neither element nor inertia".to_string()),
         (count(Why::Still, 0..6), "directions of free masses that nothing sets moving".to_string()),
-        (count(Why::Plane, 0..6), format!("motion out of the plane normal to {axis}: the scene is plane, nothing causes it")),
+        (
+            count(Why::Plane, 0..6),
+            format!("motion out of the plane normal to {axis}: the scene is plane, nothing causes it"),
+        ),
     ]
     .into_iter()
     .filter(|(count, _)| *count > 0)

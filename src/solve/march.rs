@@ -27,9 +27,14 @@ pub struct Wanted {
 pub enum Outcome {
     Done,
     /// The least step failed; results are valid up to `time`.
-    Failed { time: f64, failure: Failure },
+    Failed {
+        time: f64,
+        failure: Failure,
+    },
     /// The flag was raised.
-    Stopped { time: f64 },
+    Stopped {
+        time: f64,
+    },
     /// The observer could not write.
     Io(std::io::Error),
 }

@@ -98,9 +98,7 @@ impl Stepper<'_> {
             }
         }
         self.factorizations += 1;
-        self.solver
-            .factor()
-            .map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))?;
+        self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))?;
         self.solver.solve(&mut self.r);
         self.solves += 1;
         for (node, rows) in state.nodes.iter_mut().zip(&self.plan.rows) {

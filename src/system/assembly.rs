@@ -267,7 +267,10 @@ impl Assembly {
                 let last = (first + CHUNK).min(block.len());
                 let local = &mut self.scratch.local[..length * (last - first)];
                 if self.threads > 1 && block.len() >= PARALLEL {
-                    local.par_chunks_mut(length).enumerate().for_each(|(k, K)| block.tangent(first + k, nodes, rate, K));
+                    local
+                        .par_chunks_mut(length)
+                        .enumerate()
+                        .for_each(|(k, K)| block.tangent(first + k, nodes, rate, K));
                 } else {
                     local.chunks_mut(length).enumerate().for_each(|(k, K)| block.tangent(first + k, nodes, rate, K));
                 }

@@ -79,9 +79,7 @@ impl Inertia {
                 let L = skew(&(J * node.omega));
                 let C = omega * J - L;
                 // ∂ω/∂θ ≈ rate·I − ½ ω~ and ∂α/∂θ ≈ acceleration·I − ½ α~ along the rotation vector of the step.
-                k += C * (rate * Mat3::identity() - 0.5 * omega)
-                    + J * (0.5 * alpha)
-                    + omega * (J * omega - L)
+                k += C * (rate * Mat3::identity() - 0.5 * omega) + J * (0.5 * alpha) + omega * (J * omega - L)
                     - skew(&(J * node.alpha));
             }
             K.fixed_view_mut::<3, 3>(3, 3).copy_from(&k);
@@ -126,10 +124,10 @@ impl ConsistentMass {
         let n = nodes.len();
         let (at, _) = quadrature::lobatto(n);
         let (points, weights) = quadrature::gauss(n);
-        let shape = |a: usize, xi: f64| -> f64 {
-            (0..n).filter(|&b| b != a).map(|b| (xi - at[b]) / (at[a] - at[b])).product()
-        };
-        let entry = |a, b| points.iter().zip(weights).map(|(&xi, w)| 0.5 * w * shape(a, xi) * shape(b, xi)).sum::<f64>();
+        let shape =
+            |a: usize, xi: f64| -> f64 { (0..n).filter(|&b| b != a).map(|b| (xi - at[b]) / (at[a] - at[b])).product() };
+        let entry =
+            |a, b| points.iter().zip(weights).map(|(&xi, w)| 0.5 * w * shape(a, xi) * shape(b, xi)).sum::<f64>();
         let m = (0..n * n).map(|i| mass * entry(i / n, i % n)).collect();
         ConsistentMass { nodes: nodes.to_vec(), m }
     }

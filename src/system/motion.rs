@@ -3,7 +3,7 @@
 use super::Loading;
 use crate::amplitude::Amplitude;
 use crate::math::Vec3;
-use crate::model::{History, Held, Kind, Model, Motion};
+use crate::model::{Held, History, Kind, Model, Motion};
 
 /// Displacement, velocity and acceleration of a held direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
