@@ -1,6 +1,21 @@
 //! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
 //! Built once from the deck, never changed; everything downstream borrows it.
 
+mod analysis;
+mod attachments;
+mod beams;
+mod bodies;
+mod build;
+mod check;
+mod expects;
+mod links;
+mod loads;
+mod places;
+mod sections;
+mod supports;
+
+pub use build::build;
+
 use crate::amplitude::Amplitude;
 use crate::elements::link::Law;
 use crate::integrators::Scheme;
@@ -103,10 +118,20 @@ pub struct Body {
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// Full edge lengths along `axes` (columns: the shape's axes in body components).
-    Box { size: [f64; 3], axes: Mat3 },
-    Sphere { radius: f64 },
+    Box {
+        size: [f64; 3],
+        axes: Mat3,
+    },
+    Sphere {
+        radius: f64,
+    },
     /// Along `axis`; `inner_radius` 0 for a solid cylinder.
-    Cylinder { radius: f64, inner_radius: f64, length: f64, axis: Vec3 },
+    Cylinder {
+        radius: f64,
+        inner_radius: f64,
+        length: f64,
+        axis: Vec3,
+    },
 }
 
 /// A point mass (with optional rotary inertia, global axes at t = 0).
