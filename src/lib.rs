@@ -9,12 +9,16 @@
 #![allow(non_snake_case)] // matrices are capitals, as in the formulas
 
 pub mod amplitude;
+pub mod command;
 pub mod constraints;
+pub mod deck;
+pub mod diagnostic;
 pub mod elements;
 pub mod integrators;
 pub mod linear;
 pub mod math;
 pub mod model;
+pub mod names;
 pub mod output;
 pub mod plan;
 pub mod sections;

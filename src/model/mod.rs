@@ -1,6 +1,21 @@
 //! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
 //! Built once from the deck, never changed; everything downstream borrows it.
 
+mod analysis;
+mod attachments;
+mod beams;
+mod bodies;
+mod build;
+mod check;
+mod expects;
+mod links;
+mod loads;
+mod places;
+mod sections;
+mod supports;
+
+pub use build::build;
+
 use crate::amplitude::Amplitude;
 use crate::elements::link::Law;
 use crate::integrators::Scheme;

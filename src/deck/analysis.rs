@@ -1,0 +1,101 @@
+//! `[analysis]`, `[integrator]` and `[iteration]`: how long, by which scheme, how each step is solved.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::words::Maybe;
+
+/// What is computed and over what time.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Analysis {
+    #[schemars(required)]
+    pub kind: Maybe<Kind>,
+    /// The run goes from t = 0 to this time.
+    #[schemars(required)]
+    pub end_time: Maybe<f64>,
+    /// Time per step.
+    #[schemars(required)]
+    pub time_step: Maybe<f64>,
+    /// A step that does not converge is halved, but not below this. Default: time_step / 2^20.
+    pub least_step: Maybe<f64>,
+    /// Leave out motion out of a plane where nothing can cause it. Default: "auto".
+    pub plane: Maybe<Plane>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Motion in time.
+    Dynamic,
+    /// Load stepping without inertia; loads without an amplitude grow linearly from 0 to 1 at the end time.
+    Static,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Plane {
+    /// Left out where nothing can cause it.
+    Auto,
+    /// Always kept.
+    Off,
+}
+
+/// The time integration scheme.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Integrator {
+    /// Default: "wilson-theta".
+    pub scheme: Maybe<Scheme>,
+    /// Equilibrium is written at t + theta * time_step. Default: 1.4; unconditionally stable from 1.366 on.
+    pub theta: Maybe<f64>,
+    /// How rotations follow from their increments. Default: "exponential", which is exact.
+    pub rotation_update: Maybe<RotationUpdate>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    WilsonTheta,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RotationUpdate {
+    Exponential,
+    FirstOrder,
+    SecondOrder,
+}
+
+/// How the equations of a step are solved.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Iteration {
+    /// Default: "tangent-stiffness".
+    pub method: Maybe<Method>,
+    /// When the matrix is formed and factorised anew. Default: "auto".
+    pub update: Maybe<Update>,
+    /// Relative, on residual and increment. Default: 1e-8.
+    pub tolerance: Maybe<f64>,
+    /// Iterations in a step before it is cut. Default: 20.
+    pub limit: Maybe<u64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    TangentStiffness,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Update {
+    /// In every iteration.
+    Iteration,
+    /// Once in every step.
+    Step,
+    /// When it costs less than the iterations it saves.
+    Auto,
+    /// Once in the run.
+    Never,
+}

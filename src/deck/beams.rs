@@ -1,0 +1,74 @@
+//! `[[beams]]` and `[[bars]]`: deformable parts along paths of points.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::words::{Maybe, Names, OneOrMany, Vector};
+
+/// A shear-flexible beam along straight segments between points.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Beam {
+    #[schemars(required)]
+    pub name: Maybe<String>,
+    /// Names of points, two or more.
+    #[schemars(required)]
+    pub path: Maybe<Names>,
+    /// Elements per segment, or a list with one number for each.
+    #[schemars(required)]
+    pub elements: Maybe<OneOrMany<u64>>,
+    /// Name of a material; not needed where the section gives stiffnesses.
+    pub material: Maybe<String>,
+    /// Name of a section.
+    #[schemars(required)]
+    pub section: Maybe<String>,
+    /// A vector in the plane of local x (along the beam) and local y.
+    #[schemars(required)]
+    pub orientation: Maybe<Vector>,
+    /// Degree of an element's interpolation, 1 to 4; an element has order - 1 inner nodes.
+    pub order: Maybe<u64>,
+    /// Default: "lumped".
+    pub mass: Maybe<Mass>,
+    /// Keep the rotary inertia of the section. Default: true.
+    pub rotary_inertia: Maybe<bool>,
+    /// From the path's first point to the beam's end, rigid, global components at t = 0.
+    pub offset_start: Maybe<Vector>,
+    /// From the path's last point to the beam's end, rigid, global components at t = 0.
+    pub offset_end: Maybe<Vector>,
+}
+
+/// A bar or cable: no bending.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bar {
+    #[schemars(required)]
+    pub name: Maybe<String>,
+    /// Names of points, two or more.
+    #[schemars(required)]
+    pub path: Maybe<Names>,
+    /// Elements per segment, or a list with one number for each. Default: 1.
+    pub elements: Maybe<OneOrMany<u64>>,
+    /// Name of a material, with area.
+    pub material: Maybe<String>,
+    /// Cross-sectional area, with material.
+    pub area: Maybe<f64>,
+    /// E A, force; instead of material and area.
+    pub axial_stiffness: Maybe<f64>,
+    /// With axial_stiffness.
+    pub mass_per_length: Maybe<f64>,
+    /// Slack when shortened. Default: false.
+    pub tension_only: Maybe<bool>,
+    /// Default: "lumped".
+    pub mass: Maybe<Mass>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mass {
+    /// At the nodes.
+    Lumped,
+    /// Spread as the displacements are.
+    Consistent,
+    /// The part has no mass.
+    None,
+}

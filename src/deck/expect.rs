@@ -1,0 +1,39 @@
+//! `[[expect]]`: values the run must reach.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::words::Maybe;
+
+/// A value that is checked at the end of the run; a miss ends it with exit code 5.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// Name of a point, body or link, or "energy".
+    #[schemars(required)]
+    pub at: Maybe<String>,
+    /// A column of nodes.csv, bodies.csv, links.csv or energy.csv.
+    #[schemars(required)]
+    pub quantity: Maybe<String>,
+    /// When the value is taken.
+    pub time: Maybe<f64>,
+    /// Of the whole run, instead of a time.
+    pub peak: Maybe<Peak>,
+    #[schemars(required)]
+    pub value: Maybe<f64>,
+    /// Relative.
+    pub tolerance: Maybe<f64>,
+    /// Instead of a relative one.
+    pub absolute_tolerance: Maybe<f64>,
+    /// Where the value comes from: author, year, table or figure.
+    pub source: Maybe<String>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Peak {
+    Max,
+    Min,
+    /// Greatest absolute value.
+    Abs,
+}

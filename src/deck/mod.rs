@@ -1,0 +1,93 @@
+//! The words of the deck, as written: one file per family of tables, every value with its place.
+//!
+//! Every key may be left out here; what is needed is decided where it is used, so that a missing key is one more
+//! diagnostic and not the end of reading.
+
+pub mod amplitudes;
+pub mod analysis;
+pub mod attachments;
+pub mod beams;
+pub mod bodies;
+pub mod environment;
+pub mod expect;
+pub mod initial;
+pub mod links;
+pub mod loads;
+pub mod materials;
+pub mod output;
+pub mod read;
+pub mod sections;
+pub mod set;
+pub mod supports;
+pub mod words;
+
+pub use read::read;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::diagnostic::{At, Span};
+use words::{Maybe, Named, Vector};
+
+/// A deck of rdsolve: one scene and how to compute it. Units are SI or any consistent set.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Deck {
+    /// What the scene is, in one line.
+    pub title: Maybe<String>,
+    /// Unit system: labels output and turns on warnings about implausible values. Computes nothing.
+    pub units: Maybe<output::Units>,
+    #[schemars(required)]
+    pub analysis: Maybe<analysis::Analysis>,
+    pub integrator: Maybe<analysis::Integrator>,
+    pub iteration: Maybe<analysis::Iteration>,
+    /// Materials by name.
+    #[serde(default)]
+    pub materials: Named<materials::Material>,
+    /// Cross sections of beams by name.
+    #[serde(default)]
+    pub sections: Named<sections::Section>,
+    /// Named points [x, y, z] at t = 0; every one becomes a node.
+    #[serde(default)]
+    pub points: Named<Vector>,
+    /// Lists of names under one name: points, bodies, beams, bars, further sets.
+    #[serde(default)]
+    pub sets: Named<Vec<At<String>>>,
+    #[serde(default)]
+    pub beams: Vec<At<beams::Beam>>,
+    #[serde(default)]
+    pub bars: Vec<At<beams::Bar>>,
+    #[serde(default)]
+    pub bodies: Vec<At<bodies::Body>>,
+    #[serde(default)]
+    pub masses: Vec<At<bodies::Mass>>,
+    #[serde(default)]
+    pub attachments: Vec<At<attachments::Attachment>>,
+    #[serde(default)]
+    pub supports: Vec<At<supports::Support>>,
+    #[serde(default)]
+    pub links: Vec<At<links::Link>>,
+    #[serde(default)]
+    pub loads: Vec<At<loads::Load>>,
+    /// Functions of time by name, for loads and prescribed motion.
+    #[serde(default)]
+    pub amplitudes: Named<amplitudes::Amplitude>,
+    pub environment: Maybe<environment::Environment>,
+    #[serde(default)]
+    pub initial: Vec<At<initial::Initial>>,
+    pub damping: Maybe<environment::Damping>,
+    #[serde(default)]
+    pub expect: Vec<At<expect::Expect>>,
+    pub output: Maybe<output::Output>,
+    /// Entries that are written but could not be read: not missing, and already reported.
+    #[serde(skip)]
+    pub spoiled: Vec<Spoiled>,
+}
+
+/// An entry taken out of its table because it is wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spoiled {
+    /// Where its table stands; `None`: somewhere, the text being no TOML there.
+    pub table: Option<Span>,
+    pub key: String,
+}

@@ -1,0 +1,59 @@
+//! `[output]` and `units`.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::words::{Maybe, Names};
+
+/// What is written, and how often. t = 0 and the end are always written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Nodes in nodes.csv: "named", "all", or names of points and sets. Default: "named".
+    pub nodes: Maybe<Names>,
+    /// Steps between two rows. Default: 1.
+    pub every: Maybe<u64>,
+    /// Time between two rows, instead of `every`: steps land on its multiples.
+    pub interval: Maybe<f64>,
+    /// Files for looking at: the deformed shape.
+    pub fields: Maybe<Fields>,
+    /// Write energy.csv. Default: true.
+    pub energy: Maybe<bool>,
+    /// Write links.csv. Default: false.
+    pub links: Maybe<bool>,
+    /// Write reactions.csv. Default: false.
+    pub reactions: Maybe<bool>,
+    /// Write sections.csv. Default: false.
+    pub sections: Maybe<bool>,
+}
+
+/// Field files.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fields {
+    #[schemars(required)]
+    pub format: Maybe<Format>,
+    /// Steps between two files. Default: 1.
+    pub every: Maybe<u64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Format {
+    Vtu,
+}
+
+/// Length, mass and time; `SI` is `m-kg-s`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum Units {
+    #[serde(rename = "SI")]
+    Si,
+    #[serde(rename = "m-kg-s")]
+    MKgS,
+    #[serde(rename = "mm-t-s")]
+    MmTS,
+    #[serde(rename = "mm-kg-s")]
+    MmKgS,
+    #[serde(rename = "mm-kg-ms")]
+    MmKgMs,
+}

@@ -1,0 +1,227 @@
+//! Text → deck, with everything that is wrong found in one go.
+//!
+//! Serde stops at the first error. So the entry it stumbles over is noted, taken out of the table, and reading starts
+//! again until nothing is left to stumble over.
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+
+use super::{Deck, Spoiled, set};
+use crate::diagnostic::{Diagnostic, Source, Span};
+use crate::names::nearest;
+
+/// Wrong entries looked for in one go.
+const LIMIT: usize = 200;
+
+/// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported.
+pub fn read(source: &Source) -> (Deck, Vec<Diagnostic>) {
+    let arguments: Vec<String> = source.sets.iter().map(|(offset, text)| set::padded(*offset, text)).collect();
+    let (root, syntax) = DeTable::parse_recoverable(&source.text);
+    let mut root = root.into_inner();
+    let mut reader = Reader::default();
+    for error in &syntax {
+        reader.syntax(&source.text, error);
+    }
+    for ((offset, text), argument) in source.sets.iter().zip(&arguments) {
+        if let Err(problem) = set::merge(&mut root, argument, *offset, text) {
+            reader.problems.push(problem);
+        }
+    }
+    reader.numbers(&mut root);
+    let mut deck = reader.tables(root);
+    deck.spoiled = reader.spoiled;
+    (deck, reader.problems)
+}
+
+#[derive(Default)]
+struct Reader {
+    problems: Vec<Diagnostic>,
+    spoiled: Vec<Spoiled>,
+    /// Lines that are no TOML: nothing more is said about them.
+    broken: Vec<Span>,
+}
+
+impl Reader {
+    fn syntax(&mut self, text: &str, error: &toml::de::Error) {
+        let span = error.span().unwrap_or(text.len()..text.len());
+        let at = span.start.min(text.len());
+        let begin = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+        let end = text[at..].find('\n').map_or(text.len(), |newline| at + newline);
+        if self.broken.iter().any(|line| line.start == begin) {
+            return;
+        }
+        // A key on a broken line is written, so it is not missing.
+        let key = text[begin..end].split('=').next().unwrap_or_default().trim().trim_matches('"');
+        self.spoiled.push(Spoiled { table: None, key: key.to_owned() });
+        self.broken.push(begin..end);
+        let message = match error.message() {
+            "duplicate key" => format!("`{}` is given twice", &text[span.clone()]),
+            message => format!("this is not TOML: {message}"),
+        };
+        self.problems.push(Diagnostic::error(message).at(&span));
+    }
+
+    /// Takes out all numbers that are not finite.
+    fn numbers(&mut self, root: &mut DeTable) {
+        let mut wrong = Vec::new();
+        for value in root.values() {
+            not_finite(value, &mut wrong);
+        }
+        for span in wrong {
+            let key = self.strike(root, &span).map_or_else(|| "this".to_owned(), |entry| format!("`{}`", entry.key));
+            self.problems.push(Diagnostic::error(format!("{key} must be a finite number")).at(&span));
+        }
+    }
+
+    fn tables(&mut self, mut root: DeTable) -> Deck {
+        loop {
+            let table = Spanned::new(0..0, DeValue::Table(root.clone()));
+            let error = match Deck::deserialize(ValueDeserializer::from(table)) {
+                Ok(deck) => return deck,
+                Err(error) => error,
+            };
+            let span = error.span().unwrap_or_default();
+            let Some(entry) = self.strike(&mut root, &span) else {
+                self.problems.push(Diagnostic::error(error.message().to_owned()).at(&span));
+                return Deck::default();
+            };
+            if !self.broken.iter().any(|line| line.contains(&span.start)) {
+                let problem = self.wrong(&entry, error.message());
+                self.problems.push(problem.at(&span));
+            }
+            if self.problems.len() >= LIMIT {
+                self.problems.push(Diagnostic::error("there may be more errors; these come first"));
+                return Deck::default();
+            }
+        }
+    }
+
+    /// Takes out the innermost entry that `span` belongs to.
+    fn strike(&mut self, root: &mut DeTable, span: &Span) -> Option<Entry> {
+        let entry = strike(root, &(0..0), span)?;
+        self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: entry.key.clone() });
+        Some(entry)
+    }
+
+    /// Serde's message in the deck's words.
+    fn wrong(&mut self, entry: &Entry, message: &str) -> Diagnostic {
+        let key = &entry.key;
+        let subject = if entry.whole { format!("`{key}`") } else { format!("an entry of `{key}`") };
+        let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+        let words: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+        if problem.starts_with("unknown field") {
+            let diagnostic = Diagnostic::error(format!("there is no key `{key}` here"));
+            return match nearest(key, words.iter().copied()) {
+                Some(near) => {
+                    // The key it was meant to be is then not missing.
+                    self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: near.to_owned() });
+                    diagnostic.hint(format!("did you mean `{near}`?"))
+                }
+                None => diagnostic.hint("not a key of this table").hint(format!("the keys are {}", words.join(", "))),
+            };
+        }
+        if problem.starts_with("unknown variant") {
+            let word = problem.split('`').nth(1).unwrap_or_default();
+            let known = crate::names::listed(words.iter().copied());
+            let diagnostic = Diagnostic::error(format!("{subject} cannot be `{word}`"));
+            return match nearest(word, words.iter().copied()) {
+                Some(near) if words.len() > 1 => {
+                    diagnostic.hint(format!("did you mean `{near}`?")).hint(format!("it can be {known}"))
+                }
+                Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
+                None => diagnostic.hint(format!("it can be {known}")),
+            };
+        }
+        if let Some(found) = problem.strip_prefix("invalid type: ").or(problem.strip_prefix("invalid value: ")) {
+            return Diagnostic::error(format!("{subject} must be {}, not {}", wanted(expected), found_words(found)));
+        }
+        if let Some(length) = problem.strip_prefix("invalid length ") {
+            return Diagnostic::error(format!("{subject} must be {}; there are {length}", wanted(expected)));
+        }
+        if problem.starts_with("wanted ") {
+            return Diagnostic::error(format!("{subject} must be a word in quotes"));
+        }
+        Diagnostic::error(format!("{subject}: {message}"))
+    }
+}
+
+/// What serde expects, in plain words with an example.
+fn wanted(expected: &str) -> &str {
+    match expected {
+        "f64" => "a number, such as 2.5",
+        "u64" | "usize" => "a whole number, such as 12",
+        "a boolean" => "true or false",
+        "a string" => "text in quotes, such as \"steel\"",
+        "a sequence" => "a list in brackets, such as [1.0, 2.0, 3.0]",
+        "a map" => "a table",
+        _ if expected.starts_with("struct ") => "a table, such as { key = value }",
+        other => other,
+    }
+}
+
+/// What serde found, in plain words.
+fn found_words(found: &str) -> String {
+    let value = found.split_once(' ').map(|(_, value)| value.trim_matches('`'));
+    match (found, value) {
+        ("map", _) => "a table".to_owned(),
+        ("sequence", _) => "a list".to_owned(),
+        (_, Some(value)) if found.starts_with("string ") => format!("the text {value}"),
+        (_, Some(value)) if found.starts_with("integer ") => format!("the number {value}"),
+        (_, Some(value)) if found.starts_with("floating point ") => {
+            format!("the number {}", value.trim_start_matches("point ").trim_matches('`'))
+        }
+        (_, Some(value)) => format!("`{value}`"),
+        _ => found.to_owned(),
+    }
+}
+
+/// An entry taken out.
+struct Entry {
+    table: Span,
+    key: String,
+    /// The error is about all of its value, not about a part of it.
+    whole: bool,
+}
+
+/// Keys come before what is below them, and what is below before the value itself: a table's span is that of its
+/// header, which also holds the keys above it.
+fn strike(table: &mut DeTable, place: &Span, span: &Span) -> Option<Entry> {
+    let entry = |key: &str, whole| Entry { table: place.clone(), key: key.to_owned(), whole };
+    if let Some(key) = table.keys().find(|key| key.span() == *span).map(|key| key.get_ref().to_string()) {
+        table.remove(key.as_str());
+        return Some(entry(&key, true));
+    }
+    let below = table.iter_mut().find_map(|(_, value)| {
+        let place = value.span();
+        strike_below(value.get_mut(), &place, span)
+    });
+    if below.is_some() {
+        return below;
+    }
+    let holds = |value: &Spanned<DeValue>| value.span().start <= span.start && span.end <= value.span().end;
+    let (key, value) = table.iter().find(|(_, value)| holds(value))?;
+    let struck = entry(key.get_ref(), value.span() == *span);
+    table.remove(struck.key.as_str());
+    Some(struck)
+}
+
+fn strike_below(value: &mut DeValue, place: &Span, span: &Span) -> Option<Entry> {
+    match value {
+        DeValue::Table(table) => strike(table, place, span),
+        DeValue::Array(list) => list.iter_mut().find_map(|item| {
+            let place = item.span();
+            strike_below(item.get_mut(), &place, span)
+        }),
+        _ => None,
+    }
+}
+
+fn not_finite(value: &Spanned<DeValue>, wrong: &mut Vec<Span>) {
+    match value.get_ref() {
+        DeValue::Float(number) if !number.as_str().parse().is_ok_and(f64::is_finite) => wrong.push(value.span()),
+        DeValue::Array(list) => list.iter().for_each(|item| not_finite(item, wrong)),
+        DeValue::Table(table) => table.values().for_each(|item| not_finite(item, wrong)),
+        _ => {}
+    }
+}

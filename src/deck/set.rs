@@ -1,0 +1,171 @@
+//! `--set KEY=VALUE`: one entry of the deck, overridden before it is read.
+//!
+//! An argument is itself a line of TOML. It is parsed behind as many blanks as its offset in the [`Source`], so that its
+//! spans are already those of the source. One freedom is added for the sake of shells, which eat quotes: a value that
+//! is a bare word, and neither a number nor `true` or `false`, is text (`--set integrator.scheme=wilson-theta`).
+//!
+//! [`Source`]: crate::diagnostic::Source
+
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::names::nearest;
+
+/// Tables that an override may begin; entries of any other must stand in the deck.
+const SINGLE: [&str; 6] = ["analysis", "integrator", "iteration", "environment", "damping", "output"];
+/// Tables whose entries are named by the user.
+const NAMED: [&str; 5] = ["materials", "sections", "points", "sets", "amplitudes"];
+
+/// The argument behind `offset` blanks, a bare word in quotes.
+pub fn padded(offset: usize, argument: &str) -> String {
+    let blank = " ".repeat(offset);
+    match equals(argument).map(|at| argument.split_at(at + 1)) {
+        Some((key, value)) if is_bare_word(value) => format!("{blank}{key}\"{value}\""),
+        _ => format!("{blank}{argument}"),
+    }
+}
+
+fn is_bare_word(value: &str) -> bool {
+    let letters = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    value.starts_with(char::is_alphabetic)
+        && value.chars().all(letters)
+        && !["true", "false", "inf", "nan"].contains(&value)
+}
+
+/// The first `=` outside quotes.
+fn equals(argument: &str) -> Option<usize> {
+    let mut quote = None;
+    for (at, c) in argument.char_indices() {
+        match (quote, c) {
+            (None, '=') => return Some(at),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), _) if open == c => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Puts the value of `padded` in its place in the deck.
+pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argument: &str) -> Result<(), Diagnostic> {
+    let all = offset..offset + argument.len();
+    let example = "such as beams.portal.elements=24";
+    let equals = equals(argument)
+        .ok_or_else(|| Diagnostic::error("`--set` takes KEY=VALUE").at(&all).hint(example))
+        .map(|at| offset + at)?;
+    let mut table = DeTable::parse(padded)
+        .map_err(|error| {
+            let diagnostic = Diagnostic::error(format!("this is not KEY=VALUE with a TOML value: {}", error.message()));
+            diagnostic.at(&error.span().unwrap_or(all.clone())).hint("text with blanks or signs needs quotes")
+        })?
+        .into_inner();
+    // Down the dotted key; a table behind the sign is the value itself.
+    let mut path = Vec::new();
+    let value = loop {
+        let Some((key, value)) = table.into_iter().next() else {
+            return Err(Diagnostic::error("`--set` takes KEY=VALUE").at(&all).hint(example));
+        };
+        path.push(key);
+        let span = value.span();
+        match value.into_inner() {
+            DeValue::Table(inner) if inner.keys().next().is_some_and(|key| key.span().start < equals) => table = inner,
+            value => break Spanned::new(span, value),
+        }
+    };
+    let named = path.len() > 1 && NAMED.contains(&path[0].get_ref().as_ref());
+    let known = SINGLE.contains(&path[0].get_ref().as_ref());
+    if path.len() > 1 && !known && !root.contains_key(path[0].get_ref().as_ref()) {
+        return Err(unknown("the deck has no", &path[0], root.keys().map(|key| key.get_ref().as_ref())));
+    }
+    if named && let Some(DeValue::Table(entries)) = root.get(path[0].get_ref().as_ref()).map(Spanned::get_ref) {
+        if !entries.contains_key(path[1].get_ref().as_ref()) {
+            let what = format!("`{}` has no", path[0].get_ref());
+            return Err(unknown(&what, &path[1], entries.keys().map(|key| key.get_ref().as_ref())));
+        }
+    }
+    put(root, &path, value)
+}
+
+fn unknown<'a>(what: &str, key: &Spanned<DeString>, known: impl Iterator<Item = &'a str>) -> Diagnostic {
+    let diagnostic = Diagnostic::error(format!("{what} `{}`", key.get_ref())).at(&key.span());
+    match nearest(key.get_ref(), known) {
+        Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
+        None => diagnostic.hint("only what stands in the deck can be overridden"),
+    }
+}
+
+fn put<'i>(
+    table: &mut DeTable<'i>,
+    path: &[Spanned<DeString<'i>>],
+    value: Spanned<DeValue<'i>>,
+) -> Result<(), Diagnostic> {
+    let Some((key, rest)) = path.split_first() else { return Ok(()) };
+    match table.get_mut(key.get_ref().as_ref()) {
+        Some(found) if rest.is_empty() => *found = value,
+        Some(found) => return put_below(found, key, rest, value),
+        None if rest.is_empty() => {
+            table.insert(key.clone(), value);
+        }
+        None => {
+            let mut inner = DeTable::new();
+            put(&mut inner, rest, value)?;
+            table.insert(key.clone(), Spanned::new(key.span(), DeValue::Table(inner)));
+        }
+    }
+    Ok(())
+}
+
+/// `rest` is not empty.
+fn put_below<'i>(
+    found: &mut Spanned<DeValue<'i>>,
+    key: &Spanned<DeString<'i>>,
+    rest: &[Spanned<DeString<'i>>],
+    value: Spanned<DeValue<'i>>,
+) -> Result<(), Diagnostic> {
+    match found.get_mut() {
+        DeValue::Table(inner) => put(inner, rest, value),
+        DeValue::Array(list) => {
+            let (word, rest) = (&rest[0], &rest[1..]);
+            let index = item(list, key.get_ref(), word.get_ref(), &word.span())?;
+            let Some(found) = list.get_mut(index) else { return Ok(()) };
+            if rest.is_empty() {
+                *found = value;
+                return Ok(());
+            }
+            put_below(found, word, rest, value)
+        }
+        _ => {
+            let message = format!("`{}` is a value and has no entry `{}`", key.get_ref(), rest[0].get_ref());
+            Err(Diagnostic::error(message).at(&rest[0].span()))
+        }
+    }
+}
+
+/// Which item of a list is meant, by its number or its `name`.
+fn item(list: &[Spanned<DeValue>], key: &str, word: &str, place: &Span) -> Result<usize, Diagnostic> {
+    let names: Vec<(usize, &str)> = list
+        .iter()
+        .enumerate()
+        .filter_map(|(i, item)| Some((i, item.get_ref().as_table()?.get("name")?.get_ref().as_str()?)))
+        .collect();
+    if let Some((index, _)) = names.iter().find(|(_, name)| *name == word) {
+        return Ok(*index);
+    }
+    match word.parse::<usize>() {
+        Ok(index) if index < list.len() => Ok(index),
+        Ok(_) => {
+            let last = list.len().saturating_sub(1);
+            Err(Diagnostic::error(format!("`{key}` has no item {word}"))
+                .at(place)
+                .hint(format!("items are 0 to {last}")))
+        }
+        Err(_) => {
+            let diagnostic = Diagnostic::error(format!("`{key}` has no item named `{word}`")).at(place);
+            Err(match nearest(word, names.iter().map(|(_, name)| *name)) {
+                Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
+                None => diagnostic.hint(format!("items go by their name or by a number, such as {key}.0")),
+            })
+        }
+    }
+}

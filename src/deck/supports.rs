@@ -1,0 +1,52 @@
+//! `[[supports]]`: motion that is given.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::words::{Directions, Maybe, Names};
+
+/// Directions held at rest or moved as told.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Names of points, bodies or sets.
+    #[schemars(required)]
+    pub at: Maybe<Names>,
+    /// Directions held at rest.
+    pub fix: Maybe<Directions>,
+    /// Directions moved as a function of time.
+    pub motion: Maybe<Motions>,
+}
+
+/// Prescribed motion by direction.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Motions {
+    pub ux: Maybe<Motion>,
+    pub uy: Maybe<Motion>,
+    pub uz: Maybe<Motion>,
+    pub rx: Maybe<Motion>,
+    pub ry: Maybe<Motion>,
+    pub rz: Maybe<Motion>,
+}
+
+/// A motion: scale times amplitude.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Name of an amplitude.
+    #[schemars(required)]
+    pub amplitude: Maybe<String>,
+    /// Default: 1.
+    pub scale: Maybe<f64>,
+    /// What the amplitude describes. Default: "displacement".
+    pub history: Maybe<History>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum History {
+    Displacement,
+    Velocity,
+    Acceleration,
+}

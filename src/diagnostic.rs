@@ -1,0 +1,155 @@
+//! What the program says about a deck: a message, the place it speaks of, and hints.
+//!
+//! A [`Source`] is the deck's text followed by the `--set` arguments, each at offsets of its own, so that one range of
+//! bytes says both in which of them a value stands and where.
+
+use std::borrow::Cow;
+use std::ops::{Deref, Range};
+
+use annotate_snippets::renderer::Renderer;
+use annotate_snippets::{AnnotationKind, Group, Level, Snippet};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Deserializer};
+
+/// Bytes in a [`Source`].
+pub type Span = Range<usize>;
+
+/// A value of the deck and where it stands.
+#[derive(Debug, Clone, Default)]
+pub struct At<T> {
+    pub value: T,
+    pub span: Span,
+}
+
+impl<T> Deref for At<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.value
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let spanned = toml::Spanned::<T>::deserialize(deserializer)?;
+        Ok(At { span: spanned.span(), value: spanned.into_inner() })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for At<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    /// The deck cannot be run.
+    Error,
+    /// It can, but perhaps not as it was meant.
+    Warning,
+}
+
+/// One thing to say about a deck.
+#[derive(Debug, Clone)]
+pub struct Diagnostic {
+    pub severity: Severity,
+    pub message: String,
+    pub place: Option<Span>,
+    /// The first one stands at the caret, the others below the line.
+    pub hints: Vec<String>,
+}
+
+impl Diagnostic {
+    pub fn error(message: impl Into<String>) -> Self {
+        Diagnostic { severity: Severity::Error, message: message.into(), place: None, hints: Vec::new() }
+    }
+
+    pub fn warning(message: impl Into<String>) -> Self {
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(message) }
+    }
+
+    pub fn at(mut self, place: &Span) -> Self {
+        self.place = Some(place.clone());
+        self
+    }
+
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hints.push(hint.into());
+        self
+    }
+
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+
+    /// As text: message, file:line:column, the line, the caret.
+    pub fn draw(&self, source: &Source, styled: bool) -> String {
+        let level = match self.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+        };
+        let title = level.primary_title(self.message.as_str());
+        let mut hints = self.hints.iter().map(String::as_str);
+        let mut group = Group::with_title(title);
+        if let Some(place) = &self.place {
+            let (name, text, range) = source.locate(place);
+            let mark = AnnotationKind::Primary.span(range).label(hints.next());
+            group = group.element(Snippet::source(text).path(name).annotation(mark));
+        }
+        let group = group.elements(hints.map(|hint| Level::HELP.message(hint)));
+        let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
+        renderer.render(&[group]).to_string()
+    }
+}
+
+/// The deck's text and the `--set` arguments.
+#[derive(Debug, Clone)]
+pub struct Source {
+    pub path: String,
+    pub text: String,
+    /// Each with the offset at which its spans begin.
+    pub sets: Vec<(usize, String)>,
+}
+
+/// Room after each text: for a place behind its end, and for the quotes that [`crate::deck::set`] adds to a bare word.
+const GAP: usize = 4;
+
+impl Source {
+    pub fn new(path: impl Into<String>, text: impl Into<String>, sets: &[String]) -> Self {
+        let text = text.into();
+        let mut offset = text.len() + GAP;
+        let place = |argument: &String| {
+            let begin = offset;
+            offset += argument.len() + GAP;
+            (begin, argument.clone())
+        };
+        Source { path: path.into(), sets: sets.iter().map(place).collect(), text }
+    }
+
+    /// Name and text of the file or argument in which `span` lies, and the range within it.
+    fn locate(&self, span: &Span) -> (&str, &str, Range<usize>) {
+        let argument = self.sets.iter().rev().find(|(offset, _)| *offset <= span.start);
+        let (name, text, offset) = match argument {
+            Some((offset, text)) => ("--set", text.as_str(), *offset),
+            None => (self.path.as_str(), self.text.as_str(), 0),
+        };
+        let inside = |byte: usize| {
+            let byte = byte.saturating_sub(offset).min(text.len());
+            (0..=byte).rev().find(|&b| text.is_char_boundary(b)).unwrap_or(0)
+        };
+        (name, text, inside(span.start)..inside(span.end.max(span.start)))
+    }
+}

@@ -1,0 +1,96 @@
+//! `[analysis]`, `[integrator]`, `[iteration]`.
+
+use super::build::{Builder, Owner};
+use super::{Analysis, Kind, Update};
+use crate::deck::analysis as deck;
+use crate::diagnostic::Diagnostic;
+use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
+
+/// Wilson-θ is unconditionally stable from here on.
+const STABLE_THETA: f64 = 1.366;
+/// A step is halved at most so many times, unless the deck says otherwise.
+const HALVINGS: i32 = 20;
+
+impl<'d> Builder<'d> {
+    pub fn analysis(&mut self) {
+        match &self.deck.analysis {
+            Some(analysis) => self.times(&analysis.value, &analysis.span),
+            None if self.is_spoiled(&(0..0), "analysis") => {}
+            None => {
+                let example = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-3";
+                self.problems.push(Diagnostic::error("the deck has no table `[analysis]`").hint(example));
+            }
+        }
+        if let Some(integrator) = &self.deck.integrator {
+            self.scheme(integrator);
+        }
+        if let Some(iteration) = &self.deck.iteration {
+            self.iteration(iteration);
+        }
+    }
+
+    fn times(&mut self, analysis: &'d deck::Analysis, span: &'d std::ops::Range<usize>) {
+        let owner = Owner { what: "`[analysis]`".to_owned(), span };
+        let kind = match self.need(&owner, "kind", &analysis.kind).map(|kind| kind.value) {
+            Some(deck::Kind::Static) => Kind::Static,
+            Some(deck::Kind::Dynamic) | None => Kind::Dynamic,
+        };
+        let end_time = self.need_positive(&owner, "end_time", &analysis.end_time);
+        let time_step = self.need_positive(&owner, "time_step", &analysis.time_step);
+        let least_step = self.positive("least_step", &analysis.least_step);
+        if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
+            && step > end
+        {
+            self.error::<()>(&at.span, format!("`time_step` is longer than the run, which ends at {end}"));
+        }
+        if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
+            && least > step
+        {
+            self.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
+        }
+        let (end_time, time_step) = (end_time.unwrap_or(f64::MAX), time_step.unwrap_or(1.0));
+        self.model.analysis = Analysis {
+            kind,
+            end_time,
+            time_step,
+            least_step: least_step.unwrap_or(time_step * 0.5_f64.powi(HALVINGS)),
+            plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == deck::Plane::Auto),
+        };
+    }
+
+    fn scheme(&mut self, integrator: &deck::Integrator) {
+        let theta = integrator.theta.as_ref().map_or(1.4, |theta| theta.value);
+        if let Some(at) = &integrator.theta {
+            if theta < 1.0 {
+                self.error::<()>(&at.span, "`theta` must be at least 1");
+            } else if theta < STABLE_THETA {
+                let limit = format!("below {STABLE_THETA} long steps may grow without bound");
+                self.warn(&at.span, format!("Wilson-theta with theta = {theta} is not unconditionally stable"), limit);
+            }
+        }
+        let rotation = match integrator.rotation_update.as_ref().map(|update| update.value) {
+            Some(deck::RotationUpdate::FirstOrder) => RotationUpdate::FirstOrder,
+            Some(deck::RotationUpdate::SecondOrder) => RotationUpdate::SecondOrder,
+            Some(deck::RotationUpdate::Exponential) | None => RotationUpdate::Exponential,
+        };
+        self.model.scheme = Scheme::WilsonTheta(WilsonTheta { theta, rotation });
+    }
+
+    fn iteration(&mut self, iteration: &deck::Iteration) {
+        if let Some(at) = &iteration.tolerance
+            && !(at.value > 0.0 && at.value < 1.0)
+        {
+            self.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
+        }
+        let limit = self.count("limit", &iteration.limit, self.model.iteration.limit);
+        let own = &mut self.model.iteration;
+        own.limit = limit;
+        own.tolerance = iteration.tolerance.as_ref().map_or(own.tolerance, |at| at.value);
+        own.update = match iteration.update.as_ref().map(|update| update.value) {
+            Some(deck::Update::Iteration) => Update::Iteration,
+            Some(deck::Update::Step) => Update::Step,
+            Some(deck::Update::Never) => Update::Never,
+            Some(deck::Update::Auto) | None => Update::Auto,
+        };
+    }
+}

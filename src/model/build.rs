@@ -1,0 +1,279 @@
+//! Deck → model, all errors together. This file holds the order of work and what every part of it uses: needed keys,
+//! sensible numbers, names. Each part goes on after an error with what is sound, so that one mistake hides no other.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use super::places::Place;
+use super::{Cadence, Damping, Iteration, Kind, Model, Node, Output, Update};
+use crate::deck::Deck;
+use crate::deck::words::{Maybe, Named, Vector};
+use crate::diagnostic::{At, Diagnostic, Span};
+use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use crate::math::Vec3;
+use crate::names::{listed, nearest};
+
+/// The model the deck describes, and everything there is to say about the deck. `None` if any of it is an error.
+pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
+    let mut b = Builder::new(deck);
+    b.analysis();
+    b.points();
+    b.bodies();
+    b.register_names();
+    b.amplitudes();
+    b.materials();
+    b.beams();
+    b.bars();
+    b.masses();
+    b.links();
+    b.attachments();
+    b.supports();
+    b.loads();
+    b.environment();
+    b.damping();
+    b.initial();
+    b.expects();
+    b.output();
+    b.check();
+    let sound = !b.problems.iter().any(Diagnostic::is_error);
+    (sound.then_some(b.model), b.problems)
+}
+
+/// A model in the making.
+pub(super) struct Builder<'d> {
+    pub deck: &'d Deck,
+    pub model: Model,
+    pub problems: Vec<Diagnostic>,
+    /// What the names of points, bodies, sets, beams, bars and links stand for.
+    pub places: HashMap<&'d str, (Place, &'d Span)>,
+    /// Per node: directions in which an element, a mass, a body or a link acts on it.
+    pub acts: Vec<[bool; 6]>,
+    /// Per node: its entry in `model.riders` and the place in the deck that made it ride.
+    pub rides: HashMap<usize, (usize, Span)>,
+    /// Nodes of each beam and bar, in order along it.
+    pub beam_nodes: Vec<Vec<usize>>,
+    pub bar_nodes: Vec<Vec<usize>>,
+    /// Section and material → `model.stiffnesses`.
+    pub stiffnesses: HashMap<(usize, Option<usize>), Option<usize>>,
+    /// Directions held, by node and direction; who holds them, and whether they move.
+    pub held: BTreeMap<(usize, usize), (super::Held, Span)>,
+    /// Materials, sections and amplitudes that something names.
+    pub used: HashSet<(&'static str, usize)>,
+}
+
+/// A table of the deck, for messages: "beam `portal`".
+pub(super) struct Owner<'d> {
+    pub what: String,
+    pub span: &'d Span,
+}
+
+impl<'d> Builder<'d> {
+    fn new(deck: &'d Deck) -> Self {
+        let model = Model {
+            title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
+            units: deck.units.as_ref().map(|units| units.label().to_owned()),
+            analysis: super::Analysis {
+                kind: Kind::Dynamic,
+                end_time: 0.0,
+                time_step: 0.0,
+                least_step: 0.0,
+                plane: true,
+            },
+            scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+            iteration: Iteration { update: Update::Auto, tolerance: 1e-8, limit: 20 },
+            nodes: Vec::new(),
+            bodies: Vec::new(),
+            masses: Vec::new(),
+            stiffnesses: Vec::new(),
+            beams: Vec::new(),
+            bars: Vec::new(),
+            links: Vec::new(),
+            riders: Vec::new(),
+            held: Vec::new(),
+            amplitudes: Vec::new(),
+            loads: Vec::new(),
+            gravity: Vec3::zeros(),
+            base_accelerations: Vec::new(),
+            damping: Damping::default(),
+            expects: Vec::new(),
+            output: Output {
+                nodes: Vec::new(),
+                cadence: Cadence::Steps(1),
+                energy: true,
+                links: false,
+                reactions: false,
+                sections: false,
+                fields: None,
+            },
+        };
+        Builder {
+            deck,
+            model,
+            problems: Vec::new(),
+            places: HashMap::new(),
+            acts: Vec::new(),
+            rides: HashMap::new(),
+            beam_nodes: Vec::new(),
+            bar_nodes: Vec::new(),
+            stiffnesses: HashMap::new(),
+            held: BTreeMap::new(),
+            used: HashSet::new(),
+        }
+    }
+
+    /// Reports an error; the answer is `None`, so that `return self.error(…)` leaves a part that cannot go on.
+    pub fn error<T>(&mut self, place: &Span, message: impl Into<String>) -> Option<T> {
+        self.problems.push(Diagnostic::error(message).at(place));
+        None
+    }
+
+    /// [`Builder::error`] with a hint at the caret.
+    pub fn error_with<T>(&mut self, place: &Span, message: impl Into<String>, hint: impl Into<String>) -> Option<T> {
+        self.problems.push(Diagnostic::error(message).at(place).hint(hint));
+        None
+    }
+
+    pub fn warn(&mut self, place: &Span, message: impl Into<String>, hint: impl Into<String>) {
+        self.problems.push(Diagnostic::warning(message).at(place).hint(hint));
+    }
+
+    /// The value of a key that must be there.
+    pub fn need<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
+        if value.is_none() && !self.is_spoiled(owner.span, key) {
+            self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
+        }
+        value.as_ref()
+    }
+
+    /// Whether a key is written, but so that it could not be read: that has been reported.
+    pub fn is_spoiled(&self, table: &Span, key: &str) -> bool {
+        let here = |entry: &Option<Span>| entry.as_ref().is_none_or(|span| span == table);
+        self.deck.spoiled.iter().any(|entry| entry.key == key && here(&entry.table))
+    }
+
+    /// A number above zero, if it is there.
+    pub fn positive(&mut self, key: &str, value: &Maybe<f64>) -> Option<f64> {
+        let value = value.as_ref()?;
+        if value.value > 0.0 {
+            Some(value.value)
+        } else {
+            self.error(&value.span, format!("`{key}` must be above zero"))
+        }
+    }
+
+    pub fn need_positive(&mut self, owner: &Owner, key: &str, value: &'d Maybe<f64>) -> Option<f64> {
+        self.need(owner, key, value)?;
+        self.positive(key, value)
+    }
+
+    /// A number of zero or more; `default` if it is not there.
+    pub fn not_negative(&mut self, key: &str, value: &Maybe<f64>, default: f64) -> f64 {
+        match value {
+            Some(value) if value.value < 0.0 => {
+                self.error::<()>(&value.span, format!("`{key}` must not be negative"));
+                default
+            }
+            Some(value) => value.value,
+            None => default,
+        }
+    }
+
+    /// A whole number of at least one.
+    pub fn count(&mut self, key: &str, value: &Maybe<u64>, default: usize) -> usize {
+        match value {
+            Some(value) if value.value == 0 => {
+                self.error::<()>(&value.span, format!("`{key}` must be at least 1"));
+                default
+            }
+            Some(value) => usize::try_from(value.value).unwrap_or(usize::MAX),
+            None => default,
+        }
+    }
+
+    /// The unit vector along a direction, which must not be zero.
+    pub fn unit(&mut self, key: &str, value: &At<Vector>) -> Option<Vec3> {
+        // Scaled first: the square of a large component may overflow, that of a small one vanish.
+        let v = vec3(value);
+        let unit = v.try_normalize(0.0).or_else(|| (v / v.amax()).try_normalize(0.0)).filter(|u| u.amax().is_finite());
+        unit.or_else(|| self.error(&value.span, format!("`{key}` must not be zero")))
+    }
+
+    /// Keys that mean nothing here, of those given by name and place.
+    pub fn stray(&mut self, what: &str, keys: &[(&str, Option<&Span>)]) {
+        for (key, place) in keys {
+            if let Some(place) = place {
+                self.error::<()>(place, format!("`{key}` means nothing for {what}"));
+            }
+        }
+    }
+
+    /// The entry of a named table, by name; `what` is one of them, in singular.
+    pub fn find<T>(
+        &mut self,
+        what: &'static str,
+        table: &'d Named<T>,
+        name: &At<String>,
+    ) -> Option<(usize, &'d At<T>)> {
+        if let Some(index) = table.position(name) {
+            self.used.insert((what, index));
+            return Some((index, &table.0[index].1));
+        }
+        self.unknown(what, name, table.names())
+    }
+
+    /// Reports a name that stands for nothing.
+    pub fn unknown<'n, T>(
+        &mut self,
+        what: &str,
+        name: &At<String>,
+        known: impl Iterator<Item = &'n str> + Clone,
+    ) -> Option<T> {
+        let message = format!("no {what} is named `{}`", name.value);
+        match nearest(name, known.clone()) {
+            Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
+            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck defines none"),
+            None if known.clone().count() <= 6 => {
+                self.error_with(&name.span, message, format!("there is {}", listed(known)))
+            }
+            None => self.error(&name.span, message),
+        }
+    }
+
+    pub fn amplitude(&mut self, name: &At<String>) -> Option<usize> {
+        self.find("amplitude", &self.deck.amplitudes, name).map(|(index, _)| index)
+    }
+
+    /// A new node at rest.
+    pub fn node(&mut self, label: String, named: bool, x: Vec3) -> usize {
+        self.model.nodes.push(Node { label, named, x, v: Vec3::zeros(), omega: Vec3::zeros() });
+        self.acts.push([false; 6]);
+        self.model.nodes.len() - 1
+    }
+
+    /// Something acts on a node, on its translations or also on its rotations.
+    pub fn touch(&mut self, node: usize, rotations: bool) {
+        self.acts[node][..3].fill(true);
+        if rotations {
+            self.acts[node][3..].fill(true);
+        }
+    }
+
+    /// A new node that moves with another one in every way.
+    pub fn rider(&mut self, label: String, x: Vec3, master: usize, place: &Span) -> usize {
+        let node = self.node(label, false, x);
+        self.rides.insert(node, (self.model.riders.len(), place.clone()));
+        self.model.riders.push(super::Rider { node, master, dofs: [true; 6] });
+        node
+    }
+}
+
+pub(super) fn vec3(value: &Vector) -> Vec3 {
+    Vec3::from(value.0)
+}
+
+pub(super) fn vec3_or_zero(value: &Maybe<Vector>) -> Vec3 {
+    value.as_ref().map_or_else(Vec3::zeros, |value| vec3(value))
+}
+
+pub(super) fn span<T>(value: &Maybe<T>) -> Option<&Span> {
+    value.as_ref().map(|value| &value.span)
+}

@@ -1,0 +1,107 @@
+//! What is odd about a deck that is otherwise sound: nothing in it, things nothing uses, numbers of the wrong units.
+
+use super::build::Builder;
+use crate::deck::output::Units;
+use crate::diagnostic::{At, Diagnostic};
+
+impl Units {
+    pub fn label(self) -> &'static str {
+        match self {
+            Units::Si => "SI",
+            Units::MKgS => "m-kg-s",
+            Units::MmTS => "mm-t-s",
+            Units::MmKgS => "mm-kg-s",
+            Units::MmKgMs => "mm-kg-ms",
+        }
+    }
+
+    /// Its length, mass and time in metres, kilograms and seconds.
+    fn scales(self) -> [f64; 3] {
+        match self {
+            Units::Si | Units::MKgS => [1.0, 1.0, 1.0],
+            Units::MmTS => [1e-3, 1e3, 1.0],
+            Units::MmKgS => [1e-3, 1.0, 1.0],
+            Units::MmKgMs => [1e-3, 1.0, 1e-3],
+        }
+    }
+}
+
+/// From rubber to diamond, in Pa.
+const MODULUS: [f64; 2] = [1e5, 1.3e12];
+/// From aerogel to osmium, in kg/m³.
+const DENSITY: [f64; 2] = [1.0, 2.3e4];
+/// From the Moon to Jupiter, in m/s².
+const GRAVITY: [f64; 2] = [1.6, 26.0];
+
+impl<'d> Builder<'d> {
+    pub fn check(&mut self) {
+        self.check_content();
+        self.check_use();
+        if let Some(units) = &self.deck.units {
+            self.check_units(units.value);
+        }
+    }
+
+    fn check_content(&mut self) {
+        let deck = self.deck;
+        let parts = [deck.beams.len(), deck.bars.len(), deck.bodies.len(), deck.masses.len(), deck.links.len()];
+        let spoiled = ["beams", "bars", "bodies", "masses", "links"].iter().any(|key| self.is_spoiled(&(0..0), key));
+        if parts[..4].iter().all(|&count| count == 0) && !spoiled {
+            let message = "the deck has nothing that could move: no beams, bars, bodies or masses";
+            self.problems.push(Diagnostic::error(message));
+        }
+    }
+
+    fn check_use(&mut self) {
+        let deck = self.deck;
+        let masters: std::collections::HashSet<usize> = self.model.riders.iter().map(|rider| rider.master).collect();
+        for (node, (name, _)) in deck.points.0.iter().enumerate() {
+            let used = self.acts[node].contains(&true) || self.rides.contains_key(&node) || masters.contains(&node);
+            if !used {
+                let message = format!("nothing is connected to point `{}`", name.value);
+                self.warn(&name.span, message, "it is left out of the computation");
+            }
+        }
+        self.check_table("material", deck.materials.0.iter().map(|(name, _)| name));
+        self.check_table("section", deck.sections.0.iter().map(|(name, _)| name));
+        self.check_table("amplitude", deck.amplitudes.0.iter().map(|(name, _)| name));
+    }
+
+    fn check_table(&mut self, what: &'static str, names: impl Iterator<Item = &'d At<String>>) {
+        for (index, name) in names.enumerate() {
+            if !self.used.contains(&(what, index)) {
+                self.warn(&name.span, format!("nothing uses {what} `{}`", name.value), "never named");
+            }
+        }
+    }
+
+    fn check_units(&mut self, units: Units) {
+        let [length, mass, time] = units.scales();
+        let pressure = mass / (length * time * time);
+        for (_, material) in &self.deck.materials.0 {
+            self.plausible(units, "youngs_modulus", material.youngs_modulus.as_ref(), pressure, MODULUS, "Pa");
+            self.plausible(units, "density", material.density.as_ref(), mass / length.powi(3), DENSITY, "kg/m³");
+        }
+        let gravity = self.deck.environment.as_ref().and_then(|environment| environment.gravity.as_ref());
+        let gravity = gravity.map(|g| At { value: super::build::vec3(g).norm(), span: g.span.clone() });
+        let gravity = gravity.filter(|g| g.value > 0.0);
+        self.plausible(units, "gravity", gravity.as_ref(), length / (time * time), GRAVITY, "m/s²");
+    }
+
+    fn plausible(
+        &mut self,
+        units: Units,
+        key: &str,
+        at: Option<&At<f64>>,
+        scale: f64,
+        [low, high]: [f64; 2],
+        si: &str,
+    ) {
+        let Some(at) = at else { return };
+        let value = at.value * scale;
+        if value > 0.0 && !(low..=high).contains(&value) {
+            let message = format!("`{key}` is not plausible in the units {}", units.label());
+            self.warn(&at.span, message, format!("that is {value:.3e} {si}"));
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! `[[expect]]` and `[output]`.
+
+use super::build::{Builder, Owner};
+use super::places::{Place, Reach};
+use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Tolerance, When};
+use crate::deck::expect as deck;
+use crate::diagnostic::{At, Diagnostic};
+use crate::names::{listed, nearest};
+
+/// Columns of nodes.csv, apart from displacements and rotations.
+const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
+const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+const LINK: [&str; 2] = ["force", "elongation"];
+const ENERGY: [&str; 15] = [
+    "kinetic",
+    "strain",
+    "plastic",
+    "viscous",
+    "damping",
+    "links",
+    "external",
+    "numerical",
+    "total",
+    "px",
+    "py",
+    "pz",
+    "lx",
+    "ly",
+    "lz",
+];
+
+impl<'d> Builder<'d> {
+    pub fn expects(&mut self) {
+        for (index, expect) in self.deck.expect.iter().enumerate() {
+            let owner = Owner { what: format!("expect.{index}"), span: &expect.span };
+            if let Some(read) = self.expect(&owner, expect) {
+                self.model.expects.push(read);
+            }
+        }
+    }
+
+    fn expect(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<Expect> {
+        let name = self.need(owner, "at", &expect.at);
+        let at = name.and_then(|name| self.expect_at(name));
+        let quantity = self.need(owner, "quantity", &expect.quantity);
+        if let (Some((_, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
+            self.column(columns, quantity, name);
+        }
+        let when = self.when(owner, expect);
+        let value = self.need(owner, "value", &expect.value);
+        let tolerance = self.tolerance(owner, expect);
+        let ((at, _), quantity, when, tolerance) = (at?, quantity?, when?, tolerance?);
+        let moment = match when {
+            When::Time(time) => format!("at t = {time}"),
+            When::Max => "at its maximum".to_owned(),
+            When::Min => "at its minimum".to_owned(),
+            When::Abs => "at its greatest absolute value".to_owned(),
+        };
+        Some(Expect {
+            at,
+            quantity: quantity.value.clone(),
+            when,
+            value: value?.value,
+            tolerance,
+            source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
+            label: format!("{} of {} {moment}", quantity.value, name?.value),
+        })
+    }
+
+    /// Where, and the columns there are.
+    fn expect_at(&mut self, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
+        if name.value == "energy" {
+            return Some((ExpectAt::Energy, ENERGY.to_vec()));
+        }
+        match self.places.get(name.as_str()).map(|(place, _)| *place) {
+            Some(Place::Point(node)) => Some((ExpectAt::Node(node), [&MOTION[..], &DIRECTIONS].concat())),
+            Some(Place::Body(body)) => {
+                let columns = [&MOTION[..], &DIRECTIONS, &QUATERNION].concat();
+                Some((ExpectAt::Node(self.model.bodies[body].node), columns))
+            }
+            Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
+            Some(place) => {
+                let message = format!("`{}` is a {}", name.value, place.kind());
+                self.error_with(&name.span, message, "values are at points, bodies, links or \"energy\"")
+            }
+            None => {
+                let mut known: Vec<&str> = self.places.keys().copied().chain(["energy"]).collect();
+                known.sort_unstable();
+                self.unknown("point, body or link", name, known.into_iter())
+            }
+        }
+    }
+
+    fn column(&mut self, columns: &[&str], quantity: &At<String>, name: &At<String>) {
+        if columns.contains(&quantity.as_str()) {
+            return;
+        }
+        let message = format!("there is no quantity `{}` at `{}`", quantity.value, name.value);
+        let diagnostic = Diagnostic::error(message).at(&quantity.span);
+        self.problems.push(match nearest(quantity, columns.iter().copied()) {
+            Some(near) if quantity.chars().count() > 2 => diagnostic.hint(format!("did you mean `{near}`?")),
+            _ => diagnostic.hint("not a column").hint(format!("there are {}", listed(columns.iter().copied()))),
+        });
+    }
+
+    fn when(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<When> {
+        match (&expect.time, &expect.peak) {
+            (Some(_), Some(peak)) => self.error(&peak.span, "an expected value has `time` or `peak`, not both"),
+            (Some(time), None) if !(time.value >= 0.0 && time.value <= self.model.analysis.end_time) => {
+                let message = format!("the run goes from 0 to {}", self.model.analysis.end_time);
+                self.error_with(&time.span, "`time` lies outside the run", message)
+            }
+            (Some(time), None) => Some(When::Time(time.value)),
+            (None, Some(peak)) => Some(match peak.value {
+                deck::Peak::Max => When::Max,
+                deck::Peak::Min => When::Min,
+                deck::Peak::Abs => When::Abs,
+            }),
+            (None, None) if ["time", "peak"].iter().any(|key| self.is_spoiled(owner.span, key)) => None,
+            (None, None) => self.error(owner.span, format!("{} needs `time` or `peak`", owner.what)),
+        }
+    }
+
+    fn tolerance(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<Tolerance> {
+        match (&expect.tolerance, &expect.absolute_tolerance) {
+            (Some(_), Some(absolute)) => {
+                self.error(&absolute.span, "an expected value has `tolerance` or `absolute_tolerance`, not both")
+            }
+            (Some(relative), None) if expect.value.as_ref().is_some_and(|value| value.value == 0.0) => {
+                let message = "`tolerance` is relative, and the expected value is zero";
+                self.error_with(&relative.span, message, "give `absolute_tolerance` instead")
+            }
+            (Some(_), None) => self.positive("tolerance", &expect.tolerance).map(Tolerance::Relative),
+            (None, Some(_)) => self.positive("absolute_tolerance", &expect.absolute_tolerance).map(Tolerance::Absolute),
+            (None, None) if ["tolerance", "absolute_tolerance"].iter().any(|key| self.is_spoiled(owner.span, key)) => {
+                None
+            }
+            (None, None) => self.error(owner.span, format!("{} needs `tolerance` or `absolute_tolerance`", owner.what)),
+        }
+    }
+
+    pub fn output(&mut self) {
+        let is_body: Vec<usize> = self.model.bodies.iter().map(|body| body.node).collect();
+        let all = |named: bool| -> Vec<usize> {
+            let nodes = self.model.nodes.iter().enumerate();
+            nodes
+                .filter(|(i, node)| (node.named || !named) && is_body.binary_search(i).is_err())
+                .map(|(i, _)| i)
+                .collect()
+        };
+        let named = all(true);
+        let Some(output) = &self.deck.output else {
+            self.model.output.nodes = named;
+            return;
+        };
+        let owner = Owner { what: "`[output]`".to_owned(), span: &output.span };
+        let word = output.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
+        let nodes = match word {
+            Some("named") => named,
+            Some("all") => all(false),
+            _ if output.nodes.is_none() => named,
+            _ => {
+                let spots = self.spots(&owner, "nodes", &output.nodes, Reach::Nodes);
+                for spot in spots.iter().filter(|spot| spot.direct && is_body.binary_search(&spot.node).is_ok()) {
+                    let message = format!("`{}` is a body, and not written with the nodes", spot.name);
+                    self.error_with::<()>(spot.span, message, "bodies always go to bodies.csv");
+                }
+                let mut nodes: Vec<usize> = spots.iter().map(|spot| spot.node).collect();
+                nodes.retain(|node| is_body.binary_search(node).is_err());
+                nodes.sort_unstable();
+                nodes
+            }
+        };
+        let cadence = match (&output.every, &output.interval) {
+            (Some(_), Some(interval)) => {
+                self.error::<()>(&interval.span, "`[output]` takes `every` or `interval`, not both");
+                Cadence::Steps(1)
+            }
+            (None, Some(_)) => self.positive("interval", &output.interval).map_or(Cadence::Steps(1), Cadence::Interval),
+            _ => Cadence::Steps(self.count("every", &output.every, 1)),
+        };
+        let fields = output.fields.as_ref().map(|fields| {
+            let owner = Owner { what: "`fields`".to_owned(), span: &fields.span };
+            self.need(&owner, "format", &fields.format);
+            self.count("every", &fields.every, 1)
+        });
+        let flag = |flag: &crate::deck::words::Maybe<bool>, default| flag.as_ref().map_or(default, |at| at.value);
+        self.model.output = Output {
+            nodes,
+            cadence,
+            energy: flag(&output.energy, true),
+            links: flag(&output.links, false),
+            reactions: flag(&output.reactions, false),
+            sections: flag(&output.sections, false),
+            fields,
+        };
+    }
+}

@@ -1,0 +1,219 @@
+//! `[amplitudes.x]`, `[[loads]]`, `[environment]`, `[damping]`.
+
+use super::attachments::directions;
+use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
+use super::places::Reach;
+use super::{BaseAcceleration, Damping, Load, NodalDamping};
+use crate::amplitude::Amplitude;
+use crate::deck::amplitudes as deck;
+use crate::diagnostic::At;
+
+impl<'d> Builder<'d> {
+    /// One for each of the deck, also for those with errors: others refer to them.
+    pub fn amplitudes(&mut self) {
+        for (name, amplitude) in &self.deck.amplitudes.0 {
+            let read = self.read_amplitude(&name.value, amplitude).unwrap_or(Amplitude::Constant);
+            self.model.amplitudes.push(read);
+        }
+    }
+
+    fn read_amplitude(&mut self, name: &str, amplitude: &'d At<deck::Amplitude>) -> Option<Amplitude> {
+        let a = amplitude;
+        let owner = Owner { what: format!("amplitude `{name}`"), span: &a.span };
+        let kind = self.need(&owner, "kind", &a.kind)?.value;
+        let points = [("points", span(&a.points))];
+        let waves = [("frequency", span(&a.frequency)), ("angular_frequency", span(&a.angular_frequency))];
+        let phase = [("phase", span(&a.phase))];
+        let window = [("start", span(&a.start)), ("end", span(&a.end))];
+        let start = a.start.as_ref().map_or(0.0, |start| start.value);
+        let end = a.end.as_ref().map_or(f64::INFINITY, |end| end.value);
+        if let Some(at) = &a.end
+            && end <= start
+        {
+            self.error::<()>(&at.span, format!("`end` must come after `start`, which is {start}"));
+        }
+        match kind {
+            deck::Kind::Table => {
+                self.stray("a table", &[&waves[..], &phase, &window].concat());
+                let points = self.need(&owner, "points", &a.points)?;
+                self.rising("time", points).map(|points| Amplitude::Table { points })
+            }
+            deck::Kind::Sine => {
+                self.stray("a sine", &points);
+                let angular_frequency = self.angular_frequency(&owner, a)?;
+                let phase = a.phase.as_ref().map_or(0.0, |phase| phase.value);
+                Some(Amplitude::Sine { angular_frequency, phase, start, end })
+            }
+            deck::Kind::SineSquared => {
+                self.stray("a sine squared", &[points, phase].concat());
+                let angular_frequency = self.angular_frequency(&owner, a)?;
+                Some(Amplitude::SineSquared { angular_frequency, start, end })
+            }
+            deck::Kind::Ramp => {
+                self.stray("a ramp", &[&points[..], &waves, &phase].concat());
+                self.need(&owner, "end", &a.end)?;
+                Some(Amplitude::Ramp { start, end })
+            }
+            deck::Kind::Step => {
+                self.stray("a step", &[&points[..], &waves, &phase].concat());
+                Some(Amplitude::Step { start, end })
+            }
+            deck::Kind::Constant => {
+                self.stray("a constant", &[&points[..], &waves, &phase, &window].concat());
+                Some(Amplitude::Constant)
+            }
+        }
+    }
+
+    /// Radians per time.
+    fn angular_frequency(&mut self, owner: &Owner<'d>, a: &'d deck::Amplitude) -> Option<f64> {
+        match (&a.frequency, &a.angular_frequency) {
+            (Some(_), Some(angular)) => {
+                self.error(&angular.span, format!("{} takes `frequency` or `angular_frequency`, not both", owner.what))
+            }
+            (None, Some(_)) => self.positive("angular_frequency", &a.angular_frequency),
+            _ if self.is_spoiled(owner.span, "angular_frequency") => None,
+            _ => self.need_positive(owner, "frequency", &a.frequency).map(|hertz| std::f64::consts::TAU * hertz),
+        }
+    }
+
+    pub fn loads(&mut self) {
+        for (index, load) in self.deck.loads.iter().enumerate() {
+            let owner = Owner { what: format!("loads.{index}"), span: &load.span };
+            let spots = self.spots(&owner, "at", &load.at, Reach::Nodes);
+            let amplitude = load.amplitude.as_ref().map(|name| self.amplitude(name));
+            let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
+            let unread = self.is_spoiled(owner.span, "force") || self.is_spoiled(owner.span, "moment");
+            if load.force.is_none() && load.moment.is_none() && !unread {
+                self.error_with::<()>(owner.span, "this load is empty", "give it `force` or `moment`");
+            }
+            let follower = load.follower.as_ref().is_some_and(|follower| follower.value);
+            for spot in spots {
+                if self.is_loose(&spot, "this load") {
+                    continue;
+                }
+                let parts = [(0, &force, span(&load.force)), (3, &moment, span(&load.moment))];
+                for (first, part, place) in parts {
+                    let lost = (0..3).filter(|&i| part[i] != 0.0 && !self.is_taken(spot.node, first + i));
+                    let lost = directions(lost.map(|i| first + i));
+                    if let Some(place) = place.filter(|_| !lost.is_empty()) {
+                        let message = format!("nothing connected to `{}` takes a load in {lost}", spot.name);
+                        self.error_with::<()>(place, message, "bars, springs and point masses do not turn");
+                    }
+                }
+                let amplitude = amplitude.flatten();
+                self.model.loads.push(Load { node: spot.node, force, moment, follower, amplitude });
+            }
+        }
+    }
+
+    pub fn environment(&mut self) {
+        let Some(environment) = &self.deck.environment else { return };
+        self.model.gravity = vec3_or_zero(&environment.gravity);
+        for (index, base) in environment.base_acceleration.iter().enumerate() {
+            let owner = Owner { what: format!("base_acceleration.{index}"), span: &base.span };
+            let direction = self.need(&owner, "direction", &base.direction);
+            let direction = direction.and_then(|direction| self.unit("direction", direction));
+            let amplitude = self.need(&owner, "amplitude", &base.amplitude).and_then(|name| self.amplitude(name));
+            let scale = base.scale.as_ref().map_or(1.0, |scale| scale.value);
+            if let (Some(direction), Some(amplitude)) = (direction, amplitude) {
+                let base = BaseAcceleration { direction: direction * scale, amplitude };
+                self.model.base_accelerations.push(base);
+            }
+        }
+    }
+
+    pub fn damping(&mut self) {
+        let Some(damping) = &self.deck.damping else { return };
+        let mass_factor = self.not_negative("mass_factor", &damping.mass_factor, 0.0);
+        let stiffness_factor = self.not_negative("stiffness_factor", &damping.stiffness_factor, 0.0);
+        let mut nodal = Vec::new();
+        for (index, entry) in damping.nodal.iter().enumerate() {
+            let owner = Owner { what: format!("damping.nodal.{index}"), span: &entry.span };
+            let spots = self.spots(&owner, "at", &entry.at, Reach::Nodes);
+            let translation = self.not_negative("translation", &entry.translation, 0.0);
+            let rotation = self.not_negative("rotation", &entry.rotation, 0.0);
+            for spot in spots {
+                if !self.is_loose(&spot, "this damper") {
+                    nodal.push(NodalDamping { node: spot.node, translation, rotation });
+                }
+            }
+        }
+        self.model.damping = Damping { mass_factor, stiffness_factor, nodal };
+    }
+
+    /// Motion at t = 0: as the tables say, then made to agree with supports and attachments.
+    pub fn initial(&mut self) {
+        for (index, initial) in self.deck.initial.iter().enumerate() {
+            let owner = Owner { what: format!("initial.{index}"), span: &initial.span };
+            let everything = initial.at.as_ref().is_some_and(|at| at.single && at.values[0].value == "all");
+            let nodes: Vec<usize> = if everything {
+                (0..self.model.nodes.len()).collect()
+            } else {
+                let spots = self.spots(&owner, "at", &initial.at, Reach::Parts);
+                for spot in spots.iter().filter(|spot| spot.direct) {
+                    if let Some(master) = self.master(spot.node, 0) {
+                        let master = &self.model.nodes[master].label;
+                        let message = format!("`{}` moves with `{master}`", spot.name);
+                        self.error_with::<()>(spot.span, message, "give the velocity to that");
+                    }
+                }
+                spots.iter().map(|spot| spot.node).collect()
+            };
+            let unread = ["velocity", "angular_velocity"].iter().any(|key| self.is_spoiled(owner.span, key));
+            if initial.velocity.is_none() && initial.angular_velocity.is_none() && !unread {
+                let hint = "give it `velocity` or `angular_velocity`";
+                self.error_with::<()>(owner.span, "this initial motion is empty", hint);
+            }
+            let (v, omega) = (vec3_or_zero(&initial.velocity), vec3_or_zero(&initial.angular_velocity));
+            for node in nodes {
+                let node = &mut self.model.nodes[node];
+                node.omega = omega;
+                node.v = match &initial.about {
+                    Some(about) => v + omega.cross(&(node.x - vec3(about))),
+                    None => v,
+                };
+            }
+        }
+        self.hold_still();
+        self.carry();
+    }
+
+    /// Nothing moves at t = 0 where it is held at rest.
+    fn hold_still(&mut self) {
+        for held in self.model.held.iter().filter(|held| held.motion.is_none()) {
+            let node = &mut self.model.nodes[held.node];
+            match held.dof {
+                dof @ 0..3 => node.v[dof] = 0.0,
+                dof => node.omega[dof - 3] = 0.0,
+            }
+        }
+    }
+
+    /// What rides moves as its master does; masters first.
+    fn carry(&mut self) {
+        let mut done = vec![false; self.model.riders.len()];
+        for start in 0..done.len() {
+            let (mut chain, mut next) = (Vec::new(), Some(start));
+            while let Some(rider) = next.filter(|&rider| !std::mem::replace(&mut done[rider], true)) {
+                chain.push(rider);
+                next = self.rides.get(&self.model.riders[rider].master).map(|(rider, _)| *rider);
+            }
+            for rider in chain.into_iter().rev() {
+                let rider = &self.model.riders[rider];
+                let master = &self.model.nodes[rider.master];
+                let omega = master.omega;
+                let v = master.v + omega.cross(&(self.model.nodes[rider.node].x - master.x));
+                let node = &mut self.model.nodes[rider.node];
+                for i in 0..3 {
+                    if rider.dofs[i] {
+                        node.v[i] = v[i];
+                    }
+                    if rider.dofs[3 + i] {
+                        node.omega[i] = omega[i];
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! What the names of a deck stand for: points, bodies, sets, beams, bars, links.
+
+use super::build::{Builder, Owner, vec3};
+use crate::deck::words::{Maybe, Names};
+use crate::diagnostic::{At, Diagnostic, Span};
+use crate::math::Vec3;
+
+/// What a name stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// By its node.
+    Point(usize),
+    // The others by their index in the deck, which is that in a sound model.
+    Body(usize),
+    Set(usize),
+    Beam(usize),
+    Bar(usize),
+    Link(usize),
+}
+
+/// A node that a list of names covers.
+pub(super) struct Spot<'d> {
+    pub node: usize,
+    pub name: &'d str,
+    /// Where the name stands that covers it.
+    pub span: &'d Span,
+    /// Named itself, and not as part of a set, a beam or everything.
+    pub direct: bool,
+}
+
+/// Which names a list may hold besides points, bodies and sets.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    Nodes,
+    /// Beams and bars too.
+    Parts,
+}
+
+impl<'d> Builder<'d> {
+    pub fn points(&mut self) {
+        for (name, x) in &self.deck.points.0 {
+            let node = self.node(name.value.clone(), true, vec3(x));
+            self.name(name, Place::Point(node));
+        }
+    }
+
+    /// Takes a name for something; names of points, bodies, sets, beams, bars and links are all different.
+    pub fn name(&mut self, name: &'d At<String>, place: Place) {
+        if name.is_empty() {
+            self.error::<()>(&name.span, "a name must not be empty");
+        } else if name.value == "all" || name.value == "energy" {
+            self.error::<()>(&name.span, format!("`{}` has a meaning of its own and cannot be a name", name.value));
+        } else if self.places.contains_key(name.as_str()) {
+            let message = format!("the name `{}` is taken", name.value);
+            let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
+            let rule = "points, bodies, sets, beams, bars and links share one space of names";
+            self.problems.push(diagnostic.hint(rule));
+        } else {
+            self.places.insert(&name.value, (place, &name.span));
+        }
+    }
+
+    /// Names of parts whose nodes come later, so that lists may mention them.
+    pub fn register_names(&mut self) {
+        let deck = self.deck;
+        for (index, (name, _)) in deck.sets.0.iter().enumerate() {
+            self.name(name, Place::Set(index));
+        }
+        for (index, beam) in deck.beams.iter().enumerate() {
+            if let Some(name) = &beam.name {
+                self.name(name, Place::Beam(index));
+            }
+        }
+        for (index, bar) in deck.bars.iter().enumerate() {
+            if let Some(name) = &bar.name {
+                self.name(name, Place::Bar(index));
+            }
+        }
+        for (index, link) in deck.links.iter().enumerate() {
+            if let Some(name) = &link.name {
+                self.name(name, Place::Link(index));
+            }
+        }
+        for (index, (_, members)) in deck.sets.0.iter().enumerate() {
+            for member in &members.value {
+                self.lookup(member);
+            }
+            if self.holds_itself(index) {
+                let name = &deck.sets.0[index].0;
+                self.error::<()>(&name.span, format!("set `{}` holds itself", name.value));
+            }
+        }
+    }
+
+    fn holds_itself(&self, set: usize) -> bool {
+        let (mut todo, mut seen) = (vec![set], vec![false; self.deck.sets.0.len()]);
+        while let Some(index) = todo.pop() {
+            for member in &self.deck.sets.0[index].1.value {
+                match self.places.get(member.as_str()) {
+                    Some((Place::Set(inner), _)) if *inner == set => return true,
+                    Some((Place::Set(inner), _)) if !seen[*inner] => {
+                        seen[*inner] = true;
+                        todo.push(*inner);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        false
+    }
+
+    /// What a name stands for; reports a name that stands for nothing.
+    pub fn lookup(&mut self, name: &At<String>) -> Option<Place> {
+        if let Some((place, _)) = self.places.get(name.as_str()) {
+            return Some(*place);
+        }
+        let mut known: Vec<&str> = self.places.keys().copied().collect();
+        known.sort_unstable();
+        self.unknown("point, body or set", name, known.into_iter())
+    }
+
+    /// The node of a point; `key` wants nothing else.
+    pub fn point(&mut self, key: &str, name: &At<String>) -> Option<usize> {
+        match self.places.get(name.as_str()) {
+            Some((Place::Point(node), _)) => Some(*node),
+            Some((place, _)) => {
+                let message = format!("`{key}` wants points, and `{}` is a {}", name.value, place.kind());
+                self.error(&name.span, message)
+            }
+            None => self.unknown("point", name, self.deck.points.names()),
+        }
+    }
+
+    /// Index of a body by name.
+    pub fn body(&mut self, name: &At<String>) -> Option<usize> {
+        match self.places.get(name.as_str()) {
+            Some((Place::Body(body), _)) => Some(*body),
+            Some((place, _)) => self.error(&name.span, format!("`{}` is a {}, not a body", name.value, place.kind())),
+            None => {
+                let names = self.deck.bodies.iter().filter_map(|body| body.name.as_ref()).map(|name| name.as_str());
+                self.unknown("body", name, names)
+            }
+        }
+    }
+
+    /// All nodes that a list of names covers, each once, in the order of the list.
+    pub fn spots(&mut self, owner: &Owner, key: &str, names: &'d Maybe<Names>, reach: Reach) -> Vec<Spot<'d>> {
+        let Some(names) = self.need(owner, key, names) else { return Vec::new() };
+        if names.values.is_empty() {
+            self.error::<()>(&names.span, format!("`{key}` is empty"));
+        }
+        let mut spots = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for name in &names.values {
+            let Some(place) = self.lookup(name) else { continue };
+            if reach == Reach::Nodes && matches!(place, Place::Beam(_) | Place::Bar(_) | Place::Link(_)) {
+                let message =
+                    format!("`{key}` wants points, bodies or sets, and `{}` is a {}", name.value, place.kind());
+                self.error::<()>(&name.span, message);
+                continue;
+            }
+            let direct = matches!(place, Place::Point(_) | Place::Body(_));
+            for node in self.nodes_of(place) {
+                if seen.insert(node) {
+                    let label = if direct { name.as_str() } else { self.label(node, name) };
+                    spots.push(Spot { node, name: label, span: &name.span, direct });
+                }
+            }
+        }
+        spots
+    }
+
+    /// The name under which the deck knows a node that a set or a part brought in.
+    fn label(&self, node: usize, part: &'d At<String>) -> &'d str {
+        let point = self.deck.points.0.get(node).map(|(name, _)| name);
+        let body = || self.deck.bodies.get(node.checked_sub(self.deck.points.0.len())?)?.name.as_ref();
+        point.or_else(body).unwrap_or(part)
+    }
+
+    fn nodes_of(&self, place: Place) -> Vec<usize> {
+        let (mut nodes, mut todo, mut seen) = (Vec::new(), vec![place], vec![false; self.deck.sets.0.len()]);
+        while let Some(place) = todo.pop() {
+            match place {
+                Place::Point(node) => nodes.push(node),
+                Place::Body(body) => nodes.push(self.model.bodies[body].node),
+                Place::Beam(beam) => nodes.extend(self.beam_nodes.get(beam).into_iter().flatten()),
+                Place::Bar(bar) => nodes.extend(self.bar_nodes.get(bar).into_iter().flatten()),
+                Place::Link(_) => {}
+                Place::Set(set) if std::mem::replace(&mut seen[set], true) => {}
+                Place::Set(set) => {
+                    let members = self.deck.sets.0[set].1.value.iter().rev();
+                    todo.extend(members.filter_map(|name| self.places.get(name.as_str())).map(|(place, _)| *place));
+                }
+            }
+        }
+        nodes
+    }
+
+    pub fn x(&self, node: usize) -> Vec3 {
+        self.model.nodes[node].x
+    }
+}
+
+impl Place {
+    pub fn kind(self) -> &'static str {
+        match self {
+            Place::Point(_) => "point",
+            Place::Body(_) => "body",
+            Place::Set(_) => "set",
+            Place::Beam(_) => "beam",
+            Place::Bar(_) => "bar",
+            Place::Link(_) => "link",
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! `[materials.x]` and `[sections.x]` → section stiffnesses.
+
+use super::MassKind;
+use super::build::{Builder, Owner, span};
+use crate::deck::beams::Beam;
+use crate::deck::materials::Material;
+use crate::deck::sections as deck;
+use crate::deck::words::{Maybe, Numbers};
+use crate::diagnostic::{At, Span};
+use crate::sections::{Section, Stiffness};
+
+impl<'d> Builder<'d> {
+    pub fn materials(&mut self) {
+        for (name, material) in &self.deck.materials.0 {
+            let owner = Owner { what: format!("material `{}`", name.value), span: &material.span };
+            self.need(&owner, "model", &material.model);
+            self.need_positive(&owner, "youngs_modulus", &material.youngs_modulus);
+            self.positive("density", &material.density);
+            if let Some(ratio) = &material.poisson_ratio
+                && !(ratio.value > -1.0 && ratio.value <= 0.5)
+            {
+                self.error::<()>(&ratio.span, "`poisson_ratio` must lie above -1 and not above 0.5");
+            }
+        }
+    }
+
+    /// The density of a material, which must be there if `part` has mass.
+    pub fn density(&mut self, name: &At<String>, material: &At<Material>, mass: MassKind, part: &str) -> Option<f64> {
+        match &material.density {
+            Some(density) => Some(density.value),
+            None if self.is_spoiled(&material.span, "density") => None,
+            None if self.needs_mass(mass) => {
+                let message = format!("material `{}` has no density, which the mass of {part} needs", name.value);
+                self.error_with(&name.span, message, "give it one, or `mass = \"none\"` to the part")
+            }
+            None => Some(0.0),
+        }
+    }
+
+    /// Index of the stiffness of a beam's section and material.
+    pub fn beam_section(&mut self, owner: &Owner<'d>, beam: &'d Beam, mass: MassKind) -> Option<usize> {
+        let material = match &beam.material {
+            Some(name) => Some((name, self.find("material", &self.deck.materials, name)?)),
+            None => None,
+        };
+        let name = self.need(owner, "section", &beam.section)?;
+        let (section_index, section) = self.find("section", &self.deck.sections, name)?;
+        let direct = is_direct(section);
+        if direct && let Some((name, _)) = &material {
+            let message = format!(
+                "section `{}` gives stiffnesses, so {} takes no material",
+                beam.section.as_ref()?.value,
+                owner.what
+            );
+            return self.error(&name.span, message);
+        }
+        let material = if direct { None } else { Some(material) };
+        let (material_index, numbers) = match material {
+            None => (None, [0.0; 3]),
+            Some(None) => {
+                self.need(owner, "material", &beam.material)?;
+                return None;
+            }
+            Some(Some((name, (index, material)))) => {
+                let density = self.density(name, material, mass, &owner.what);
+                let what = format!("material `{}`, of which {} is made,", name.value, owner.what);
+                let ratio = self.need(&Owner { what, span: &material.span }, "poisson_ratio", &material.poisson_ratio);
+                (Some(index), [material.youngs_modulus.as_ref()?.value, ratio?.value, density?])
+            }
+        };
+        let key = (section_index, material_index);
+        if let Some(known) = self.stiffnesses.get(&key) {
+            return *known;
+        }
+        let stiffness = self.stiffness(&name.value, section, numbers);
+        let index = stiffness.map(|stiffness| {
+            self.model.stiffnesses.push(stiffness);
+            self.model.stiffnesses.len() - 1
+        });
+        self.stiffnesses.insert(key, index);
+        index
+    }
+
+    fn stiffness(
+        &mut self,
+        name: &str,
+        section: &'d At<deck::Section>,
+        [modulus, ratio, density]: [f64; 3],
+    ) -> Option<Stiffness> {
+        let owner = Owner { what: format!("section `{name}`"), span: &section.span };
+        if is_direct(section) {
+            return self.direct(&owner, section);
+        }
+        let shape = self.need(&owner, "shape", &section.shape)?;
+        let taken = taken(shape.value);
+        let stray: Vec<(&str, Option<&Span>)> =
+            keys(section).into_iter().filter(|(key, _)| !taken.contains(key)).collect();
+        self.stray(&format!("a section of shape \"{}\"", word(shape.value)), &stray);
+        let made = self.section(&owner, section, shape.value)?;
+        match made {
+            Ok(made) => Some(made.stiffness(modulus, ratio, density)),
+            Err(reason) => self.error(&shape.span, format!("{}: {reason}", owner.what)),
+        }
+    }
+
+    fn section(
+        &mut self,
+        owner: &Owner<'d>,
+        section: &'d deck::Section,
+        shape: deck::Shape,
+    ) -> Option<Result<Section, String>> {
+        use deck::Shape;
+        let s = section;
+        if let Some(walls) = &s.thickness {
+            let most = if matches!(shape, Shape::Box | Shape::L) { 2 } else { 1 };
+            if walls.values.is_empty() || walls.values.len() > most {
+                let message = format!("`thickness` has {} values here; it takes {most}", walls.values.len());
+                return self.error(&walls.span, message);
+            }
+            for wall in &walls.values {
+                self.positive("thickness", &Some(wall.clone()))?;
+            }
+        }
+        match shape {
+            Shape::Rectangle => {
+                let width = self.need_positive(owner, "width", &s.width);
+                let height = self.need_positive(owner, "height", &s.height);
+                Some(Section::rectangle(width?, height?))
+            }
+            Shape::Tube => {
+                let radius = match (&s.radius, &s.diameter) {
+                    (Some(_), Some(diameter)) => {
+                        return self.error(&diameter.span, "a tube takes `radius` or `diameter`, not both");
+                    }
+                    (None, Some(_)) => self.positive("diameter", &s.diameter).map(|diameter| 0.5 * diameter),
+                    _ => self.need_positive(owner, "radius", &s.radius),
+                };
+                let walls = self.need(owner, "thickness", &s.thickness)?;
+                Some(Section::tube(radius?, walls.values[0].value))
+            }
+            Shape::Box | Shape::L => {
+                let width = self.need_positive(owner, "width", &s.width);
+                let height = self.need_positive(owner, "height", &s.height);
+                let walls = &self.need(owner, "thickness", &s.thickness)?.values;
+                let (first, second) = (walls.first()?.value, walls.last()?.value);
+                Some(match shape {
+                    Shape::Box => Section::box_(width?, height?, first, second),
+                    _ => Section::l(height?, width?, first, second),
+                })
+            }
+            Shape::I => {
+                let height = self.need_positive(owner, "height", &s.height);
+                let web = self.need_positive(owner, "web_thickness", &s.web_thickness);
+                let widths =
+                    self.pair(owner, ["width", "top_width", "bottom_width"], [&s.width, &s.top_width, &s.bottom_width]);
+                let flanges = self.pair(
+                    owner,
+                    ["flange_thickness", "top_flange_thickness", "bottom_flange_thickness"],
+                    [&s.flange_thickness, &s.top_flange_thickness, &s.bottom_flange_thickness],
+                );
+                let ([top, bottom], [upper, lower]) = (widths?, flanges?);
+                Some(Section::i(height?, top, bottom, web?, upper, lower))
+            }
+            Shape::C => {
+                let height = self.need_positive(owner, "height", &s.height);
+                let width = self.need_positive(owner, "width", &s.width);
+                let web = self.need_positive(owner, "web_thickness", &s.web_thickness);
+                let flange = self.need_positive(owner, "flange_thickness", &s.flange_thickness);
+                Some(Section::c(height?, width?, web?, flange?))
+            }
+            Shape::General => {
+                let area = self.need_positive(owner, "area", &s.area);
+                let moments = self.both_positive(owner, "moments", &s.moments);
+                let torsion = self.need_positive(owner, "torsion_constant", &s.torsion_constant);
+                let shear = self.both_positive(owner, "shear_areas", &s.shear_areas);
+                let product = s.product_moment.as_ref().map_or(0.0, |product| product.value);
+                let [iy, iz] = moments?;
+                if product * product >= iy * iz {
+                    let place = &s.product_moment.as_ref()?.span;
+                    return self.error(place, "`product_moment` is larger than the moments allow");
+                }
+                Some(Section::general(area?, [iy, iz], product, torsion?, shear?))
+            }
+        }
+    }
+
+    fn direct(&mut self, owner: &Owner<'d>, s: &'d deck::Section) -> Option<Stiffness> {
+        if let Some(shape) = self.need(owner, "shape", &s.shape)
+            && shape.value != deck::Shape::General
+        {
+            self.error::<()>(&shape.span, "stiffnesses can be given only to a section of shape \"general\"");
+        }
+        let stray: Vec<(&str, Option<&Span>)> = keys(s).into_iter().filter(|(key, _)| !DIRECT.contains(key)).collect();
+        self.stray("a section that gives its stiffnesses", &stray);
+        let axial = self.need_positive(owner, "axial_stiffness", &s.axial_stiffness);
+        let shear = self.both_positive(owner, "shear_stiffness", &s.shear_stiffness);
+        let torsion = self.need_positive(owner, "torsional_stiffness", &s.torsional_stiffness);
+        let bending = self.both_positive(owner, "bending_stiffness", &s.bending_stiffness);
+        self.need(owner, "mass_per_length", &s.mass_per_length);
+        let mass = self.not_negative("mass_per_length", &s.mass_per_length, 0.0);
+        let inertia = self.need(owner, "inertia_per_length", &s.inertia_per_length)?;
+        if inertia.value.0.iter().any(|&j| j < 0.0) {
+            return self.error(&inertia.span, "`inertia_per_length` must not be negative");
+        }
+        Some(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia.value.0))
+    }
+
+    /// One value for both flanges, or one for each.
+    fn pair(&mut self, owner: &Owner<'d>, names: [&str; 3], values: [&'d Maybe<f64>; 3]) -> Option<[f64; 2]> {
+        let [both, top, bottom] = values;
+        if both.is_some() {
+            let what = format!("a section with `{}`", names[0]);
+            self.stray(&what, &[(names[1], span(top)), (names[2], span(bottom))]);
+            return self.positive(names[0], both).map(|value| [value, value]);
+        }
+        if top.is_none() && bottom.is_none() {
+            self.need(owner, names[0], both)?;
+        }
+        let top = self.need_positive(owner, names[1], top);
+        let bottom = self.need_positive(owner, names[2], bottom);
+        Some([top?, bottom?])
+    }
+
+    fn both_positive(&mut self, owner: &Owner<'d>, key: &str, value: &'d Maybe<Numbers<2>>) -> Option<[f64; 2]> {
+        let value = self.need(owner, key, value)?;
+        if value.value.0.iter().all(|&number| number > 0.0) {
+            return Some(value.value.0);
+        }
+        self.error(&value.span, format!("both values of `{key}` must be above zero"))
+    }
+}
+
+const DIRECT: [&str; 6] = [
+    "axial_stiffness",
+    "shear_stiffness",
+    "torsional_stiffness",
+    "bending_stiffness",
+    "mass_per_length",
+    "inertia_per_length",
+];
+
+/// Whether a section gives its stiffnesses itself.
+fn is_direct(section: &deck::Section) -> bool {
+    keys(section).iter().any(|(key, place)| place.is_some() && DIRECT.contains(key))
+}
+
+fn keys(s: &deck::Section) -> [(&'static str, Option<&Span>); 22] {
+    [
+        ("width", span(&s.width)),
+        ("height", span(&s.height)),
+        ("radius", span(&s.radius)),
+        ("diameter", span(&s.diameter)),
+        ("thickness", span(&s.thickness)),
+        ("top_width", span(&s.top_width)),
+        ("bottom_width", span(&s.bottom_width)),
+        ("web_thickness", span(&s.web_thickness)),
+        ("flange_thickness", span(&s.flange_thickness)),
+        ("top_flange_thickness", span(&s.top_flange_thickness)),
+        ("bottom_flange_thickness", span(&s.bottom_flange_thickness)),
+        ("area", span(&s.area)),
+        ("moments", span(&s.moments)),
+        ("product_moment", span(&s.product_moment)),
+        ("torsion_constant", span(&s.torsion_constant)),
+        ("shear_areas", span(&s.shear_areas)),
+        ("axial_stiffness", span(&s.axial_stiffness)),
+        ("shear_stiffness", span(&s.shear_stiffness)),
+        ("torsional_stiffness", span(&s.torsional_stiffness)),
+        ("bending_stiffness", span(&s.bending_stiffness)),
+        ("mass_per_length", span(&s.mass_per_length)),
+        ("inertia_per_length", span(&s.inertia_per_length)),
+    ]
+}
+
+fn taken(shape: deck::Shape) -> &'static [&'static str] {
+    use deck::Shape;
+    match shape {
+        Shape::Rectangle => &["width", "height"],
+        Shape::Tube => &["radius", "diameter", "thickness"],
+        Shape::Box | Shape::L => &["width", "height", "thickness"],
+        Shape::I => &[
+            "width",
+            "height",
+            "top_width",
+            "bottom_width",
+            "web_thickness",
+            "flange_thickness",
+            "top_flange_thickness",
+            "bottom_flange_thickness",
+        ],
+        Shape::C => &["width", "height", "web_thickness", "flange_thickness"],
+        Shape::General => &["area", "moments", "product_moment", "torsion_constant", "shear_areas"],
+    }
+}
+
+fn word(shape: deck::Shape) -> &'static str {
+    use deck::Shape;
+    match shape {
+        Shape::Rectangle => "rectangle",
+        Shape::Tube => "tube",
+        Shape::Box => "box",
+        Shape::I => "i",
+        Shape::C => "c",
+        Shape::L => "l",
+        Shape::General => "general",
+    }
+}
