@@ -216,7 +216,7 @@ impl<'a> Run<'a> {
                 Cadence::Steps(every) => self.counts.steps.is_multiple_of(every.max(1)),
                 Cadence::Interval(_) => false,
             };
-        let began = due.then(Instant::now);
+        let began = Instant::now();
         self.derive(state, due, balance);
         let frame = Frame {
             model,
@@ -234,9 +234,7 @@ impl<'a> Run<'a> {
             sections: &self.sections,
         };
         observer.see(&frame).map_err(Outcome::Io)?;
-        if let Some(began) = began {
-            self.observing += began.elapsed();
-        }
+        self.observing += began.elapsed();
         Ok(())
     }
 

@@ -106,18 +106,6 @@ impl<'a> Stepper<'a> {
                 _ if last.0.is_infinite() => 0.5,
                 _ => (size / last.0).max(taken.residual / last.1),
             };
-            if std::env::var("DBG").is_ok() {
-                eprintln!(
-                    "t {to} it {} size {size:e} res {:e} corr {:e} {:e} motion {:e} {:e} refac {}",
-                    taken.iterations,
-                    taken.residual,
-                    correction.translation,
-                    correction.rotation,
-                    motion.translation,
-                    motion.rotation,
-                    taken.refactorizations
-                );
-            }
             // Error and residual left after this correction, each relative. Positions cannot be told apart below rounding.
             let left = contraction / (1.0 - contraction) * size;
             let unbalanced = contraction * taken.residual;
