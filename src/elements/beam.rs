@@ -1,0 +1,2 @@
+//! stub
+pub const DEFAULT_ORDER: usize = 3;
