@@ -86,7 +86,7 @@ impl Reader {
                 self.problems.push(Diagnostic::error(error.message().to_owned()).at(&span));
                 return Deck::default();
             };
-            if !self.broken.iter().any(|line| line.contains(&span.start)) {
+            if !self.broken.iter().any(|line| (line.start..=line.end).contains(&span.start)) {
                 let problem = self.wrong(&entry, error.message());
                 self.problems.push(problem.at(&span));
             }
@@ -123,14 +123,11 @@ impl Reader {
         }
         if problem.starts_with("unknown variant") {
             let word = problem.split('`').nth(1).unwrap_or_default();
-            let known = crate::names::listed(words.iter().copied());
+            let known = crate::names::quoted(words.iter().copied());
             let diagnostic = Diagnostic::error(format!("{subject} cannot be `{word}`"));
             return match nearest(word, words.iter().copied()) {
-                Some(near) if words.len() > 1 => {
-                    diagnostic.hint(format!("did you mean `{near}`?")).hint(format!("it can be {known}"))
-                }
                 Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
-                None => diagnostic.hint(format!("it can be {known}")),
+                None => diagnostic.hint(format!("known: {known}")),
             };
         }
         if let Some(found) = problem.strip_prefix("invalid type: ").or(problem.strip_prefix("invalid value: ")) {

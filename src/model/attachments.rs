@@ -92,9 +92,5 @@ impl<'d> Builder<'d> {
 /// "ux, uy and rz".
 pub(super) fn directions(dofs: impl IntoIterator<Item = usize>) -> String {
     let words: Vec<&str> = dofs.into_iter().map(|dof| DIRECTIONS[dof]).collect();
-    match words.split_last() {
-        Some((last, [])) => (*last).to_owned(),
-        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
-        None => String::new(),
-    }
+    crate::names::joined(&words)
 }

@@ -7,12 +7,22 @@ use super::places::Place;
 use super::{Cadence, Damping, Iteration, Kind, Model, Node, Output, Update};
 use crate::deck::Deck;
 use crate::deck::words::{Maybe, Named, Vector};
-use crate::diagnostic::{At, Diagnostic, Span};
+use crate::diagnostic::{At, Diagnostic, Source, Span};
 use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use crate::math::Vec3;
-use crate::names::{listed, nearest};
+use crate::names::{nearest, quoted};
 
-/// The model the deck describes, and everything there is to say about the deck. `None` if any of it is an error.
+/// Reads a deck and builds its model; everything there is to say about it, in the order of the deck.
+pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
+    let (deck, mut problems) = crate::deck::read(source);
+    let (model, more) = build(&deck);
+    let model = model.filter(|_| !problems.iter().any(Diagnostic::is_error));
+    problems.extend(more);
+    problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
+    (model, problems)
+}
+
+/// The model the deck describes, and everything there is to say about it. `None` if any of that is an error.
 pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     let mut b = Builder::new(deck);
     b.analysis();
@@ -227,12 +237,16 @@ impl<'d> Builder<'d> {
         name: &At<String>,
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Option<T> {
+        // It may be there, but too wrong to be read.
+        if self.deck.spoiled.iter().any(|entry| entry.key == name.value) {
+            return None;
+        }
         let message = format!("no {what} is named `{}`", name.value);
         match nearest(name, known.clone()) {
             Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
             None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck defines none"),
             None if known.clone().count() <= 6 => {
-                self.error_with(&name.span, message, format!("there is {}", listed(known)))
+                self.error_with(&name.span, message, format!("known: {}", quoted(known)))
             }
             None => self.error(&name.span, message),
         }

@@ -36,7 +36,10 @@ const GRAVITY: [f64; 2] = [1.6, 26.0];
 impl<'d> Builder<'d> {
     pub fn check(&mut self) {
         self.check_content();
-        self.check_use();
+        // What an error has left out may be all that used it.
+        if self.deck.spoiled.is_empty() && !self.problems.iter().any(Diagnostic::is_error) {
+            self.check_use();
+        }
         if let Some(units) = &self.deck.units {
             self.check_units(units.value);
         }
