@@ -28,6 +28,15 @@ pub fn joined(words: &[&str]) -> String {
     }
 }
 
+/// A number to four digits, for messages.
+pub fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-4..1e6).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,5 +58,6 @@ mod tests {
         assert_eq!(quoted(["a", "b"]), "`a`, `b`");
         assert_eq!(joined(&["ux", "uy", "rz"]), "ux, uy and rz");
         assert_eq!(joined(&["ux"]), "ux");
+        assert_eq!([-10.0, 0.123456, 2.1e17].map(short), ["-10", "0.1235", "2.1e17"]);
     }
 }

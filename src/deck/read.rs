@@ -11,6 +11,9 @@ use super::{Deck, Spoiled, set};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::nearest;
 
+/// Where the table of the top-level keys stands.
+pub const ROOT: Span = 0..0;
+
 /// Wrong entries looked for in one go.
 const LIMIT: usize = 200;
 
@@ -38,7 +41,7 @@ pub fn read(source: &Source) -> (Deck, Vec<Diagnostic>) {
 struct Reader {
     problems: Vec<Diagnostic>,
     spoiled: Vec<Spoiled>,
-    /// Lines that are no TOML: nothing more is said about them.
+    /// Lines that are no TOML, and what hangs on them: nothing more is said about these.
     broken: Vec<Span>,
 }
 
@@ -48,18 +51,25 @@ impl Reader {
         let at = span.start.min(text.len());
         let begin = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
         let end = text[at..].find('\n').map_or(text.len(), |newline| at + newline);
-        if self.broken.iter().any(|line| line.start == begin) {
+        if self.is_broken(at) {
             return;
         }
-        // A key on a broken line is written, so it is not missing.
-        let key = text[begin..end].split('=').next().unwrap_or_default().trim().trim_matches('"');
-        self.spoiled.push(Spoiled { table: None, key: key.to_owned() });
-        self.broken.push(begin..end);
+        // Names on a broken line are written, so they are not missing. Below a broken header all keys are astray.
+        let line = &text[begin..end];
+        let words =
+            line.split('=').next().unwrap_or_default().split(|c: char| !(c.is_alphanumeric() || "_-".contains(c)));
+        self.spoiled.extend(words.map(|word| Spoiled { table: None, key: word.to_owned() }));
+        let next_header = || text[end..].find("\n[").map_or(text.len(), |next| end + next);
+        self.broken.push(begin..if line.starts_with('[') { next_header() } else { end });
         let message = match error.message() {
             "duplicate key" => format!("`{}` is given twice", &text[span.clone()]),
             message => format!("this is not TOML: {message}"),
         };
         self.problems.push(Diagnostic::error(message).at(&span));
+    }
+
+    fn is_broken(&self, at: usize) -> bool {
+        self.broken.iter().any(|region| (region.start..=region.end).contains(&at))
     }
 
     /// Takes out all numbers that are not finite.
@@ -76,7 +86,7 @@ impl Reader {
 
     fn tables(&mut self, mut root: DeTable) -> Deck {
         loop {
-            let table = Spanned::new(0..0, DeValue::Table(root.clone()));
+            let table = Spanned::new(ROOT, DeValue::Table(root.clone()));
             let error = match Deck::deserialize(ValueDeserializer::from(table)) {
                 Ok(deck) => return deck,
                 Err(error) => error,
@@ -86,7 +96,7 @@ impl Reader {
                 self.problems.push(Diagnostic::error(error.message().to_owned()).at(&span));
                 return Deck::default();
             };
-            if !self.broken.iter().any(|line| (line.start..=line.end).contains(&span.start)) {
+            if !self.is_broken(span.start) {
                 let problem = self.wrong(&entry, error.message());
                 self.problems.push(problem.at(&span));
             }
@@ -99,7 +109,7 @@ impl Reader {
 
     /// Takes out the innermost entry that `span` belongs to.
     fn strike(&mut self, root: &mut DeTable, span: &Span) -> Option<Entry> {
-        let entry = strike(root, &(0..0), span)?;
+        let entry = strike(root, &ROOT, span)?;
         self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: entry.key.clone() });
         Some(entry)
     }
@@ -131,6 +141,10 @@ impl Reader {
             };
         }
         if let Some(found) = problem.strip_prefix("invalid type: ").or(problem.strip_prefix("invalid value: ")) {
+            if entry.table == ROOT && found == "map" && expected == "a sequence" {
+                return Diagnostic::error(format!("`{key}` is a list of tables"))
+                    .hint(format!("each begins with [[{key}]]"));
+            }
             return Diagnostic::error(format!("{subject} must be {}, not {}", wanted(expected), found_words(found)));
         }
         if let Some(length) = problem.strip_prefix("invalid length ") {
@@ -151,8 +165,6 @@ fn wanted(expected: &str) -> &str {
         "a boolean" => "true or false",
         "a string" => "text in quotes, such as \"steel\"",
         "a sequence" => "a list in brackets, such as [1.0, 2.0, 3.0]",
-        "a map" => "a table",
-        _ if expected.starts_with("struct ") => "a table, such as { key = value }",
         other => other,
     }
 }

@@ -36,6 +36,7 @@ pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     b.masses();
     b.links();
     b.attachments();
+    b.sure = !b.unsure;
     b.supports();
     b.loads();
     b.environment();
@@ -66,6 +67,10 @@ pub(super) struct Builder<'d> {
     pub stiffnesses: HashMap<(usize, Option<usize>), Option<usize>>,
     /// Directions held, by node and direction; who holds them, and whether they move.
     pub held: BTreeMap<(usize, usize), (super::Held, Span)>,
+    /// A part names something unknown, so what is connected to what is not known either.
+    pub unsure: bool,
+    /// Not so when all parts were read: a point that nothing touches is an error of its own.
+    pub sure: bool,
     /// Materials, sections and amplitudes that something names.
     pub used: HashSet<(&'static str, usize)>,
 }
@@ -126,6 +131,8 @@ impl<'d> Builder<'d> {
             bar_nodes: Vec::new(),
             stiffnesses: HashMap::new(),
             held: BTreeMap::new(),
+            unsure: false,
+            sure: true,
             used: HashSet::new(),
         }
     }
@@ -148,6 +155,7 @@ impl<'d> Builder<'d> {
 
     /// The value of a key that must be there.
     pub fn need<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
+        self.unsure |= value.is_none() && ["path", "at", "nodes", "from", "to"].contains(&key);
         if value.is_none() && !self.is_spoiled(owner.span, key) {
             self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
         }
@@ -237,6 +245,7 @@ impl<'d> Builder<'d> {
         name: &At<String>,
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Option<T> {
+        self.unsure |= what.starts_with("point") || what == "body";
         // It may be there, but too wrong to be read.
         if self.deck.spoiled.iter().any(|entry| entry.key == name.value) {
             return None;
@@ -244,8 +253,8 @@ impl<'d> Builder<'d> {
         let message = format!("no {what} is named `{}`", name.value);
         match nearest(name, known.clone()) {
             Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
-            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck defines none"),
-            None if known.clone().count() <= 6 => {
+            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck has none"),
+            None if known.clone().count() <= 8 => {
                 self.error_with(&name.span, message, format!("known: {}", quoted(known)))
             }
             None => self.error(&name.span, message),

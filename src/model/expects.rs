@@ -31,8 +31,8 @@ const ENERGY: [&str; 15] = [
 
 impl<'d> Builder<'d> {
     pub fn expects(&mut self) {
-        for (index, expect) in self.deck.expect.iter().enumerate() {
-            let owner = Owner { what: format!("expect.{index}"), span: &expect.span };
+        for expect in &self.deck.expect {
+            let owner = Owner { what: "`[[expect]]`".to_owned(), span: &expect.span };
             if let Some(read) = self.expect(&owner, expect) {
                 self.model.expects.push(read);
             }
