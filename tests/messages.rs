@@ -1,6 +1,8 @@
 //! What the program says about wrong decks, compared as text with `tests/snapshots`.
 
 use insta::assert_snapshot;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 use rdsolve::diagnostic::Source;
 
 /// A sound deck; each test spoils a part of it.
@@ -311,4 +313,27 @@ fn loads_and_values() {
         portal_and("[output]\nnodes = [\"block\", \"knee_left\"]\nevery = 0\nfields = { every = 2 }")
     );
     assert_snapshot!("initial", portal_and("[[initial]]\nat = [\"portal\", \"everything\"]"));
+}
+
+/// Whatever is done to a deck, it is answered, by a model or by errors, and every answer can be drawn.
+#[test]
+fn no_text_is_too_wrong() {
+    let sound = include_str!("everything.toml");
+    let scraps =
+        ["[", "]", "{", "}", "=", "\"", "\n", ".", ",", "#", "0", "-1", "1e999", "nan", "true", "\u{e9}", "[[x]]\n"];
+    let mut random = StdRng::seed_from_u64(1993);
+    for _ in 0..1500 {
+        let mut text = sound.to_owned();
+        for _ in 0..random.random_range(1..4) {
+            let mut cut = [random.random_range(0..text.len()), random.random_range(0..text.len())];
+            cut.sort_unstable();
+            if cut[1] - cut[0] > 40 {
+                cut[1] = cut[0] + random.random_range(0..8);
+            }
+            if text.is_char_boundary(cut[0]) && text.is_char_boundary(cut[1]) {
+                text.replace_range(cut[0]..cut[1], scraps[random.random_range(0..scraps.len())]);
+            }
+        }
+        said(&text, &[]);
+    }
 }

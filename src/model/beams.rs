@@ -92,6 +92,7 @@ impl<'d> Builder<'d> {
     fn path(&mut self, owner: &Owner<'d>, path: &'d Maybe<OneOrMany<String>>, rotations: bool) -> Option<Vec<usize>> {
         let path = self.need(owner, "path", path)?;
         if path.values.len() < 2 {
+            self.unsure = true;
             self.error_with::<()>(&path.span, "a path needs two points or more", "such as [\"foot\", \"knee\"]");
         }
         let nodes: Vec<Option<usize>> = path.values.iter().map(|point| self.point("path", point)).collect();
