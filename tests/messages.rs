@@ -166,6 +166,7 @@ fn overrides() {
     assert_snapshot!("set_no_value", portal_set(&["analysis.end_time"]));
     assert_snapshot!("set_syntax", portal_set(&["points.knee_left=[0.0, 0.0"]));
     assert_snapshot!("set_word", portal_set(&["integrator.scheme=wilson-thata"]));
+    assert_snapshot!("set_part", portal_set(&["beams.portal=3"]));
     assert_snapshot!("set_name_in_file", portal_set(&["beams.portal.material=copper"]));
     assert_eq!(
         portal_set(&["integrator.scheme=wilson-theta", "points.knee_left.2=2.5", "damping.mass_factor=0.1"]),

@@ -17,8 +17,9 @@ pub const ROOT: Span = 0..0;
 /// Wrong entries looked for in one go.
 const LIMIT: usize = 200;
 
-/// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported.
-pub fn read(source: &Source) -> (Deck, Vec<Diagnostic>) {
+/// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported; if that is too
+/// much, there is no deck.
+pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     let arguments: Vec<String> = source.sets.iter().map(|(offset, text)| set::padded(*offset, text)).collect();
     let (root, syntax) = DeTable::parse_recoverable(&source.text);
     let mut root = root.into_inner();
@@ -32,9 +33,9 @@ pub fn read(source: &Source) -> (Deck, Vec<Diagnostic>) {
         }
     }
     reader.numbers(&mut root);
-    let mut deck = reader.tables(root);
-    deck.spoiled = reader.spoiled;
-    (deck, reader.problems)
+    let deck = reader.tables(root);
+    let spoiled = reader.spoiled;
+    (deck.map(|deck| Deck { spoiled, ..deck }), reader.problems)
 }
 
 #[derive(Default)]
@@ -84,25 +85,25 @@ impl Reader {
         }
     }
 
-    fn tables(&mut self, mut root: DeTable) -> Deck {
+    fn tables(&mut self, mut root: DeTable) -> Option<Deck> {
         loop {
             let table = Spanned::new(ROOT, DeValue::Table(root.clone()));
             let error = match Deck::deserialize(ValueDeserializer::from(table)) {
-                Ok(deck) => return deck,
+                Ok(deck) => return Some(deck),
                 Err(error) => error,
             };
             let span = error.span().unwrap_or_default();
             let Some(entry) = self.strike(&mut root, &span) else {
                 self.problems.push(Diagnostic::error(error.message().to_owned()).at(&span));
-                return Deck::default();
+                return None;
             };
             if !self.is_broken(span.start) {
                 let problem = self.wrong(&entry, error.message());
                 self.problems.push(problem.at(&span));
             }
             if self.problems.len() >= LIMIT {
-                self.problems.push(Diagnostic::error("there may be more errors; these come first"));
-                return Deck::default();
+                self.problems.push(Diagnostic::error("there may be more errors; correct these first"));
+                return None;
             }
         }
     }
@@ -171,16 +172,13 @@ fn wanted(expected: &str) -> &str {
 
 /// What serde found, in plain words.
 fn found_words(found: &str) -> String {
-    let value = found.split_once(' ').map(|(_, value)| value.trim_matches('`'));
-    match (found, value) {
-        ("map", _) => "a table".to_owned(),
-        ("sequence", _) => "a list".to_owned(),
-        (_, Some(value)) if found.starts_with("string ") => format!("the text {value}"),
-        (_, Some(value)) if found.starts_with("integer ") => format!("the number {value}"),
-        (_, Some(value)) if found.starts_with("floating point ") => {
-            format!("the number {}", value.trim_start_matches("point ").trim_matches('`'))
-        }
-        (_, Some(value)) => format!("`{value}`"),
+    let quoted = found.split('`').nth(1).unwrap_or(found);
+    match found.split_once(' ') {
+        Some(("string", text)) => format!("the text {text}"),
+        Some(("integer" | "floating", _)) => format!("the number {quoted}"),
+        Some(("boolean", _)) => quoted.to_owned(),
+        None if found == "map" => "a table".to_owned(),
+        None if found == "sequence" => "a list".to_owned(),
         _ => found.to_owned(),
     }
 }
@@ -208,8 +206,7 @@ fn strike(table: &mut DeTable, place: &Span, span: &Span) -> Option<Entry> {
     if below.is_some() {
         return below;
     }
-    let holds = |value: &Spanned<DeValue>| value.span().start <= span.start && span.end <= value.span().end;
-    let (key, value) = table.iter().find(|(_, value)| holds(value))?;
+    let (key, value) = table.iter().find(|(_, value)| holds(value, span))?;
     let struck = entry(key.get_ref(), value.span() == *span);
     table.remove(struck.key.as_str());
     Some(struck)
@@ -224,6 +221,13 @@ fn strike_below(value: &mut DeValue, place: &Span, span: &Span) -> Option<Entry>
         }),
         _ => None,
     }
+}
+
+/// An item of a list of tables may stand outside the span of the list, which is its first header.
+fn holds(value: &Spanned<DeValue>, span: &Span) -> bool {
+    let items = value.get_ref().as_array();
+    let within = value.span().start <= span.start && span.end <= value.span().end;
+    within || items.is_some_and(|items| items.iter().any(|item| item.span() == *span))
 }
 
 fn not_finite(value: &Spanned<DeValue>, wrong: &mut Vec<Span>) {

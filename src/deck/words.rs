@@ -269,7 +269,7 @@ impl Directions {
     pub const ALL: Directions = Directions([true; 6]);
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum Direction {
     Ux,
@@ -316,10 +316,11 @@ impl JsonSchema for Directions {
         "Directions".into()
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let direction = generator.subschema_for::<Direction>();
         json_schema!({ "anyOf": [
             { "enum": ["all", "translations", "rotations"] },
-            { "type": "array", "items": { "enum": crate::model::DIRECTIONS } },
+            { "type": "array", "items": direction },
         ] })
     }
 }

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::places::Place;
 use super::{Cadence, Damping, Iteration, Kind, Model, Node, Output, Update};
 use crate::deck::Deck;
+use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
 use crate::diagnostic::{At, Diagnostic, Source, Span};
 use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
@@ -15,7 +16,7 @@ use crate::names::{nearest, quoted};
 /// Reads a deck and builds its model; everything there is to say about it, in the order of the deck.
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
     let (deck, mut problems) = crate::deck::read(source);
-    let (model, more) = build(&deck);
+    let (model, more) = deck.as_ref().map_or((None, Vec::new()), build);
     let model = model.filter(|_| !problems.iter().any(Diagnostic::is_error));
     problems.extend(more);
     problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
@@ -131,7 +132,7 @@ impl<'d> Builder<'d> {
             bar_nodes: Vec::new(),
             stiffnesses: HashMap::new(),
             held: BTreeMap::new(),
-            unsure: false,
+            unsure: deck.spoiled.iter().any(|entry| entry.table.as_ref().is_none_or(|table| *table == ROOT)),
             sure: true,
             used: HashSet::new(),
         }

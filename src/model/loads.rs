@@ -147,7 +147,7 @@ impl<'d> Builder<'d> {
     pub fn initial(&mut self) {
         for initial in &self.deck.initial {
             let owner = Owner { what: "`[[initial]]`".to_owned(), span: &initial.span };
-            let everything = initial.at.as_ref().is_some_and(|at| at.single && at.values[0].value == "all");
+            let everything = initial.at.as_ref().is_some_and(|at| at.values.iter().any(|name| name.value == "all"));
             let nodes: Vec<usize> = if everything {
                 (0..self.model.nodes.len()).collect()
             } else {

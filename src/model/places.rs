@@ -114,7 +114,9 @@ impl<'d> Builder<'d> {
         if let Some((place, _)) = self.places.get(name.as_str()) {
             return Some(*place);
         }
-        let mut known: Vec<&str> = self.places.keys().copied().collect();
+        let is_link = |place: &Place| matches!(place, Place::Link(_));
+        let known = self.places.iter().filter(|(_, (place, _))| !is_link(place)).map(|(name, _)| *name);
+        let mut known: Vec<&str> = known.collect();
         known.sort_unstable();
         self.unknown("point, body or set", name, known.into_iter())
     }
