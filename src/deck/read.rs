@@ -63,7 +63,7 @@ impl Reader {
         let next_header = || text[end..].find("\n[").map_or(text.len(), |next| end + next);
         self.broken.push(begin..if line.starts_with('[') { next_header() } else { end });
         let message = match error.message() {
-            "duplicate key" => format!("`{}` is given twice", &text[span.clone()]),
+            "duplicate key" => format!("`{}` is given twice", text.get(span.clone()).unwrap_or_default()),
             message => format!("this is not TOML: {message}"),
         };
         self.problems.push(Diagnostic::error(message).at(&span));
