@@ -1,9 +1,16 @@
-//! `rdsolve check deck.toml`.
+//! `rdsolve check deck.toml`: read, validate, print the plan; run nothing.
 
-use super::{DeckArgs, Exit, load, show};
+use super::{DeckArgs, Exit, complain, load, show};
+use crate::plan::Plan;
+use crate::system::System;
 
 pub(super) fn check(args: &DeckArgs) -> Result<(), Exit> {
     let loaded = load(&args.deck, &args.sets)?;
     show(&loaded.warnings, &loaded.source);
-    super::print(&format!("{}: no errors\n", loaded.source.path))
+    let system = System::new(&loaded.model).map_err(|error| {
+        complain(&error);
+        Exit::Internal
+    })?;
+    let plan = Plan::new(&loaded.model, &system, 1);
+    super::print(&format!("{}: no errors\n{}", loaded.source.path, plan.explain(&loaded.model, &system)))
 }

@@ -1,17 +1,203 @@
-//! `rdsolve run deck.toml`.
+//! `rdsolve run deck.toml`: read, plan, march, write.
 
-use super::{Exit, RunArgs, load, output_folder, show};
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use super::{Exit, Loaded, RunArgs, complain, load, output_folder, show};
+use crate::model::Model;
+use crate::output::Files;
+use crate::output::expect::{Expectations, Verdict};
+use crate::output::log::Log;
+use crate::output::progress::Progress;
+use crate::output::result_json::{Counts, Report, Status, Timings, peak_memory_bytes};
+use crate::plan::Plan;
+use crate::solve::{Frame, Observer, Outcome, Run, Wanted};
+use crate::system::System;
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
+    let began = Instant::now();
     let loaded = load(&args.deck, &args.sets)?;
     let folder = output_folder(args)?;
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    super::print(&format!(
-        "{}: {} nodes, results in {}\n",
-        loaded.source.path,
-        loaded.model.nodes.len(),
-        folder.display()
-    ))
+    let threads = args.threads.map_or_else(available_threads, usize::from);
+    let timings = Timings { read_s: began.elapsed().as_secs_f64(), ..Timings::default() };
+    let report = compute(&loaded, &folder, threads, args.quiet, timings, began).map_err(|error| {
+        complain(&format!("cannot write results: {error}"));
+        Exit::InputOutput
+    })?;
+    conclude(&report, &folder, args.quiet)
+}
+
+fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Runs the scene and writes its files; an error is one of input/output.
+fn compute(
+    loaded: &Loaded,
+    folder: &Path,
+    threads: usize,
+    quiet: bool,
+    mut timings: Timings,
+    began: Instant,
+) -> io::Result<Report> {
+    let model = &loaded.model;
+    let planning = Instant::now();
+    let system = System::new(model).map_err(io::Error::other)?;
+    let plan = Plan::new(model, &system, threads);
+    let text = plan.explain(model, &system);
+    let stop = stop_on_signals()?;
+    let mut run = Run::new(model, &system, &plan, wanted(model), &stop);
+    timings.plan_s = planning.elapsed().as_secs_f64();
+
+    let mut log = Log::open(folder, false)?;
+    log.say(&format!("rdsolve {}, deck {}", env!("CARGO_PKG_VERSION"), loaded.source.path))?;
+    log.say(&text)?;
+    let mut watchers = Watchers {
+        files: Files::open(folder, model, None)?,
+        expectations: Expectations::new(model),
+        progress: Progress::new(quiet),
+    };
+    let looping = Instant::now();
+    let (outcome, _) = run.run(&mut watchers);
+    let whole = looping.elapsed();
+    timings.loop_s = whole.saturating_sub(run.observing).as_secs_f64();
+    timings.write_s = run.observing.as_secs_f64();
+    watchers.progress.finish();
+    watchers.files.finish()?;
+
+    let expectations = watchers.expectations.verdicts();
+    let (status, reason) = judge(outcome, &expectations)?;
+    log.say(if reason.is_empty() { "done" } else { &reason })?;
+    let counts = run.counts;
+    timings.total_s = began.elapsed().as_secs_f64();
+    let report = Report {
+        status,
+        exit_code: status.exit_code(),
+        reason,
+        version: env!("CARGO_PKG_VERSION").to_string(),
+        deck_hash: loaded.hash.clone(),
+        plan: text.lines().collect(),
+        counts: Counts {
+            steps: counts.steps,
+            iterations: counts.iterations,
+            factorizations: counts.factorizations,
+            solves: counts.solves,
+            cuts: counts.cuts,
+        },
+        timings,
+        peak_memory_bytes: peak_memory_bytes(),
+        warnings: loaded.warnings.iter().map(|w| w.message.clone()).collect(),
+        expectations,
+    };
+    report.write(folder)?;
+    Ok(report)
+}
+
+/// What the files and expectations of this deck need to be computed.
+fn wanted(model: &Model) -> Wanted {
+    let expects = |at: fn(&crate::model::ExpectAt) -> bool| model.expects.iter().any(|e| at(&e.at));
+    Wanted {
+        energy: model.output.energy || expects(|at| matches!(at, crate::model::ExpectAt::Energy)),
+        reactions: model.output.reactions,
+        links: model.output.links || expects(|at| matches!(at, crate::model::ExpectAt::Link(_))),
+        sections: model.output.sections,
+    }
+}
+
+/// A flag that interrupt and termination raise: the run ends after the step in hand, with whole files.
+fn stop_on_signals() -> io::Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        // A second signal ends the program at once.
+        signal_hook::flag::register_conditional_shutdown(signal, i32::from(Exit::Stopped as u8), Arc::clone(&flag))?;
+        signal_hook::flag::register(signal, Arc::clone(&flag))?;
+    }
+    Ok(flag)
+}
+
+fn judge(outcome: Outcome, expectations: &[Verdict]) -> io::Result<(Status, String)> {
+    Ok(match outcome {
+        Outcome::Io(error) => return Err(error),
+        Outcome::Failed { time, failure } => {
+            (Status::NotConverged, format!("at t = {time}: {failure}; results are valid up to this time"))
+        }
+        Outcome::Stopped { time } => {
+            (Status::Stopped, format!("stopped by a signal at t = {time}; results are valid up to this time"))
+        }
+        Outcome::Done => {
+            let missed = expectations.iter().filter(|v| !v.passed).count();
+            match missed {
+                0 => (Status::Done, String::new()),
+                n => (Status::ExpectationMissed, format!("{n} of {} expected values missed", expectations.len())),
+            }
+        }
+    })
+}
+
+/// Says how the run ended: failures on standard error, the verdicts and the folder on standard output.
+fn conclude(report: &Report, folder: &Path, quiet: bool) -> Result<(), Exit> {
+    let mut text = String::new();
+    for verdict in &report.expectations {
+        if !quiet || !verdict.passed {
+            text += &format!("{}\n", line(verdict));
+        }
+    }
+    if !quiet {
+        let t = &report.timings;
+        let c = &report.counts;
+        text += &format!(
+            "{} steps, {} iterations, {} factorizations; time loop {:.4} s of {:.4} s; results in {}\n",
+            c.steps,
+            c.iterations,
+            c.factorizations,
+            t.loop_s,
+            t.total_s,
+            folder.display()
+        );
+    }
+    super::print(&text)?;
+    let exit = match report.status {
+        Status::Done => return Ok(()),
+        Status::NotConverged => Exit::NotConverged,
+        Status::ExpectationMissed => Exit::CheckFailed,
+        Status::Stopped => Exit::Stopped,
+        Status::Failed => Exit::Internal,
+    };
+    complain(&report.reason);
+    Err(exit)
+}
+
+fn line(v: &Verdict) -> String {
+    let mark = if v.passed { "ok  " } else { "MISS" };
+    let value = v.value.map_or("no value".to_string(), |value| format!("{value:.6e}"));
+    let error = match (v.error, &v.reason) {
+        (Some(error), _) => {
+            let kind = if v.relative { "relative" } else { "absolute" };
+            format!("{kind} error {error:.2e} of {:.0e}", v.tolerance)
+        }
+        (None, Some(reason)) => reason.clone(),
+        (None, None) => String::new(),
+    };
+    format!("{mark} {}: {value}, expected {:.6e}, {error}", v.label, v.expected)
+}
+
+/// Everyone who watches the run, one after the other.
+struct Watchers {
+    files: Files,
+    expectations: Expectations,
+    progress: Progress,
+}
+
+impl Observer for Watchers {
+    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.see(frame)?;
+        self.progress.see(frame)?;
+        self.files.see(frame)
+    }
 }

@@ -1,1 +1,3 @@
-//! stub
+//! Nodes that follow other nodes.
+
+pub mod attachment;

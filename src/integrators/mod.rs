@@ -1,22 +1,61 @@
-//! Time integration schemes: each is an unknown, three weights and an update.
+//! Time integration schemes. Within a step a node moves by an increment q = (Δu, Θ) from its start, where q̇ = v and q̈ = a
+//! are known; a one-step scheme says at which instant equilibrium is written, how q̇ and q̈ follow there from the unknown
+//! q, and what they are at the end of the step. All of these are linear, so a scheme is a handful of numbers.
 
+pub mod load_steps;
 pub mod wilson_theta;
 
+use crate::math::Vec6;
+pub use crate::math::rotation::RotationUpdate;
+use crate::state::Increment;
 pub use wilson_theta::WilsonTheta;
-
-/// How a node's rotation follows from the rotation vector of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RotationUpdate {
-    /// R ← exp(Θ~) R.
-    Exponential,
-    /// R ← (I + Θ~) R, made orthogonal again (61).
-    FirstOrder,
-    /// R ← (I + Θ~ + ½ Θ~Θ~) R, made orthogonal again (62).
-    SecondOrder,
-}
 
 /// A scheme the deck can name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scheme {
     WilsonTheta(WilsonTheta),
+}
+
+/// A scheme for a step of length Δt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients {
+    /// Equilibrium is written at t + `instant` Δt; loads and prescribed motions are extrapolated linearly to it.
+    pub instant: f64,
+    /// q̇ there from (q, v, a).
+    pub rate: [f64; 3],
+    /// q̈ there from (q, v, a).
+    pub acceleration: [f64; 3],
+    /// First guess of q from (v, a, ȧ).
+    pub prediction: [f64; 3],
+    /// (q, q̇, q̈) at t + Δt from (q, v, a, q̈ at the instant).
+    pub end: [[f64; 4]; 3],
+    pub rotation: RotationUpdate,
+}
+
+impl Coefficients {
+    /// ∂q̇/∂q and ∂q̈/∂q: what multiplies C and M in the matrix of the step.
+    pub fn weights(&self) -> (f64, f64) {
+        (self.rate[0], self.acceleration[0])
+    }
+
+    #[inline]
+    pub fn predict(&self, v: &Vec6, a: &Vec6, jerk: &Vec6) -> Vec6 {
+        let [c1, c2, c3] = self.prediction;
+        v * c1 + a * c2 + jerk * c3
+    }
+
+    /// Fills q̇ and q̈ of `increment` from its q.
+    #[inline]
+    pub fn differentiate(&self, increment: &mut Increment, v: &Vec6, a: &Vec6) {
+        let ([r1, r2, r3], [a1, a2, a3]) = (self.rate, self.acceleration);
+        increment.d = increment.q * r1 + v * r2 + a * r3;
+        increment.dd = increment.q * a1 + v * a2 + a * a3;
+    }
+
+    /// The increment at the end of the step from that at the instant of equilibrium.
+    #[inline]
+    pub fn finish(&self, at_instant: &Increment, v: &Vec6, a: &Vec6) -> Increment {
+        let of = |[c1, c2, c3, c4]: [f64; 4]| at_instant.q * c1 + v * c2 + a * c3 + at_instant.dd * c4;
+        Increment { q: of(self.end[0]), d: of(self.end[1]), dd: of(self.end[2]) }
+    }
 }

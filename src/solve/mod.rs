@@ -1,8 +1,19 @@
 //! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 
+mod failure;
+mod march;
+mod refresh;
+mod start;
+mod stations;
+mod step;
+
+pub use failure::{Failure, Largest};
+pub use march::{Counts, Outcome, Run, Wanted};
+
 use crate::model::Model;
 use crate::state::State;
 use crate::system::energy::Energy;
+pub use crate::system::results::{LinkState, SectionPoint};
 
 /// One accepted step, read-only.
 pub struct Frame<'a> {
@@ -14,19 +25,29 @@ pub struct Frame<'a> {
     pub dt: f64,
     pub iterations: usize,
     pub refactorizations: usize,
-    /// Relative residual at acceptance.
+    /// Relative residual at the last evaluation.
     pub residual: f64,
     /// Times the step was cut before it was accepted.
     pub cuts: usize,
     /// True when the output cadence asks for this step; t = 0 and the last step always are.
     pub due: bool,
-    /// Present when `due` and energies are wanted.
+    /// Present when `due` and wanted.
     pub energy: Option<&'a Energy>,
-    /// In the order of [`Model::held`]; force or moment on the structure, global components. Present when wanted.
+    /// In the order of [`Model::held`]; force or moment on the structure, global components. Empty unless `due` and wanted.
     pub reactions: &'a [f64],
+    /// In the order of [`Model::links`]. Empty unless `due` and wanted.
+    pub links: &'a [LinkState],
+    /// Empty unless `due` and wanted.
+    pub sections: &'a [SectionPoint],
 }
 
 /// Whoever watches a run. Errors are input/output errors; they end the run with exit code 6.
 pub trait Observer {
     fn see(&mut self, frame: &Frame) -> std::io::Result<()>;
+}
+
+impl Observer for () {
+    fn see(&mut self, _: &Frame) -> std::io::Result<()> {
+        Ok(())
+    }
 }

@@ -1,6 +1,7 @@
-//! What changes when a step is accepted, and nothing else: time and the motion of every node.
+//! What changes when a step is accepted, and nothing else: time, the motion of every node, work done so far.
 
-use crate::math::{Mat3, Vec3};
+use crate::math::rotation::{self, RotationUpdate};
+use crate::math::{Mat3, Vec3, Vec6, bottom, top};
 use nalgebra::Quaternion;
 
 /// Motion of one node, all in global components.
@@ -24,8 +25,39 @@ impl Node {
     /// Rotation matrix of `q`.
     #[inline]
     pub fn R(&self) -> Mat3 {
-        crate::math::rotation::matrix(&self.q)
+        rotation::matrix(&self.q)
     }
+
+    /// The node moved from `start` by an increment q = (Δu, Θ) whose rates are q̇, q̈: the only place where a rotation is
+    /// updated, R = exp(Θ~) R_n. Returns how far the matrix of a truncated update was from orthogonal.
+    #[inline]
+    pub fn advance(&mut self, start: &Node, increment: &Increment, update: RotationUpdate) -> f64 {
+        let Increment { q, d, dd } = increment;
+        let theta = bottom(q);
+        self.x = start.x + top(q);
+        self.v = top(d);
+        self.a = top(dd);
+        let (turn, drift) = update.quaternion(&theta);
+        self.q = rotation::renormalise(&(turn * start.q));
+        (self.omega, self.alpha) = rotation::rates(&theta, &bottom(d), &bottom(dd));
+        drift
+    }
+}
+
+/// Motion of a node within a step: displacement and rotation vector from the start of the step, with their rates.
+/// At the start of the step the rates of the rotation vector are ω and α themselves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Increment {
+    pub q: Vec6,
+    pub d: Vec6,
+    pub dd: Vec6,
+}
+
+impl Increment {
+    pub const ZERO: Increment = {
+        let zero = Vec6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        Increment { q: zero, d: zero, dd: zero }
+    };
 }
 
 /// Time and nodes at the end of an accepted step.
@@ -33,7 +65,10 @@ impl Node {
 pub struct State {
     pub time: f64,
     pub nodes: Vec<Node>,
-    /// Energy that has crossed the boundary since t = 0, and the forces it is integrated from.
+    /// Change of (a, α) per time over the last step, for the prediction of the next.
+    pub jerk: Vec<Vec6>,
+    /// Forces on the held directions, in the order of the model's list.
+    pub reactions: Vec<f64>,
     pub work: Work,
 }
 
@@ -44,4 +79,6 @@ pub struct Work {
     pub external: f64,
     /// Taken by dampers, nodal and Rayleigh damping.
     pub damping: f64,
+    /// Power of the damping at the end of the step.
+    pub damping_power: f64,
 }

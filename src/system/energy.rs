@@ -1,6 +1,8 @@
 //! Energies and momenta of a state.
 
+use super::{GroupKind, System};
 use crate::math::Vec3;
+use crate::state::State;
 
 /// The columns of energy.csv.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,4 +28,49 @@ pub struct Energy {
     pub p: Vec3,
     /// Angular momentum about the origin.
     pub l: Vec3,
+}
+
+impl System {
+    /// `initial`: the total at t = 0, against which the balance is drawn.
+    pub fn energy(&self, state: &State, initial: Option<f64>) -> Energy {
+        let nodes = &state.nodes;
+        let stored = |kind| self.groups.iter().filter(|g| g.kind == kind).map(|g| g.block.energy(nodes)).sum::<f64>();
+        let (strain, links) = (stored(GroupKind::Structure), stored(GroupKind::Link));
+        let mut kinetic = 0.0;
+        let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
+        for inertia in &self.inertias {
+            let node = &nodes[inertia.node];
+            kinetic += inertia.kinetic_energy(node);
+            let momentum = inertia.mass * node.v;
+            p += momentum;
+            l += node.x.cross(&momentum);
+            if inertia.rotary {
+                l += inertia.J(node) * node.omega;
+            }
+        }
+        for mass in &self.consistent {
+            kinetic += mass.kinetic_energy(nodes);
+            let (dp, dl) = mass.momentum(nodes);
+            p += dp;
+            l += dl;
+        }
+        if !self.dynamic {
+            (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
+        }
+        let total = kinetic + strain + links;
+        let work = state.work;
+        Energy {
+            kinetic,
+            strain,
+            plastic: 0.0,
+            viscous: 0.0,
+            damping: work.damping,
+            links,
+            external: work.external,
+            numerical: initial.unwrap_or(total) + work.external - work.damping - total,
+            total,
+            p,
+            l,
+        }
+    }
 }

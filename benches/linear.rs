@@ -1,0 +1,89 @@
+//! Times of plan, factor and solve: the least of many repeats. Arguments keep the structures that
+//! begin with one of them: `cargo bench --bench linear -- chain sheet`.
+
+#[path = "../tests/structures/mod.rs"]
+mod structures;
+
+use rdsolve::linear::{Kind, Solver, Structure};
+use std::time::Instant;
+use structures::{Random, Values, chain, entries, fill, frame, quadratic_chain, sheet, slots};
+
+/// Least seconds of one `call` over about `budget` seconds of rounds, each preceded by `prepare`.
+fn least<T>(subject: &mut T, budget: f64, prepare: impl Fn(&mut T), call: impl Fn(&mut T)) -> f64 {
+    let (begin, mut least) = (Instant::now(), f64::INFINITY);
+    while begin.elapsed().as_secs_f64() < budget {
+        prepare(subject);
+        let start = Instant::now();
+        call(subject);
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least
+}
+
+fn measure(name: &str, structure: &Structure, kind: Kind, values: Values, threads: usize) {
+    let filters: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    if !filters.is_empty() && !filters.iter().any(|filter| name.starts_with(filter)) {
+        return;
+    }
+    let begin = Instant::now();
+    let solver = Solver::new(structure, kind, threads);
+    let plan = begin.elapsed().as_secs_f64();
+    let slots = slots(&solver, &entries(structure, values, &mut Random(6)));
+    let n = structure.sizes.iter().sum();
+    let subject = &mut (solver, vec![1.0; n]);
+    let factor = least(subject, 0.4, |(s, _)| fill(s, &slots), |(s, _)| s.factor().unwrap());
+    let solve = least(subject, 0.2, |(_, b)| b.fill(1.0), |(s, b)| s.solve(b));
+    let stats = subject.0.stats();
+    println!(
+        "{name:19} {n:6} {:8} {:11} {:>9.1} {:>11.2} {:>9.2} {:>7.2} {:>9.2e} {:>9} {:14} {:?}",
+        format!("{kind:?}"),
+        format!("{values:?}"),
+        plan * 1e6,
+        factor * 1e6,
+        solve * 1e6,
+        stats.flops / factor / 1e9,
+        stats.flops,
+        stats.nonzeros,
+        stats.ordering,
+        Kind::choose(structure),
+    );
+}
+
+fn main() {
+    println!(
+        "{:19} {:>6} {:8} {:11} {:>9} {:>11} {:>9} {:>7} {:>9} {:>9} {:14} chosen",
+        "structure", "rows", "kind", "values", "plan µs", "factor µs", "solve µs", "GF/s", "flops", "nonzeros", "order",
+    );
+    let small = [
+        ("chain 5", chain(5, 6)),
+        ("chain 20", chain(20, 6)),
+        ("chain 100", chain(100, 6)),
+        ("three-node chain 10", quadratic_chain(10, 6)),
+        ("plane chain 20", chain(20, 3)),
+        ("plane chain 200", chain(200, 3)),
+        ("plane frame 30x20", frame(30, 20, 1, 3)),
+        ("plane sheet 20x20", sheet(20, 20, 3)),
+        ("plane sheet 40x40", sheet(40, 40, 3)),
+        ("frame 3x2x2", frame(3, 2, 2, 6)),
+        ("frame 5x3x3", frame(5, 3, 3, 6)),
+        ("plane frame 10x5", frame(10, 5, 1, 3)),
+        ("sheet 5x5", sheet(5, 5, 6)),
+        ("sheet 10x10", sheet(10, 10, 6)),
+        ("frame 10x4x4", frame(10, 4, 4, 6)),
+        ("sheet 20x20", sheet(20, 20, 6)),
+        ("frame 10x6x6", frame(10, 6, 6, 6)),
+    ];
+    for (name, structure) in &small {
+        for values in [Values::Unsymmetric, Values::Definite] {
+            measure(name, structure, Kind::Block, values, 1);
+        }
+        for values in [Values::Definite, Values::Indefinite] {
+            measure(name, structure, Kind::Cholesky, values, 1);
+        }
+    }
+    for (name, structure) in [("frame 15x15x15", frame(15, 15, 15, 6)), ("frame 20x22x23", frame(20, 22, 23, 6))] {
+        for threads in [1, 2] {
+            measure(&format!("{name} /{threads}"), &structure, Kind::Cholesky, Values::Definite, threads);
+        }
+    }
+}

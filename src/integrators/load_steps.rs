@@ -1,0 +1,14 @@
+//! Load stepping: a static analysis is the scheme without rates.
+
+use super::{Coefficients, RotationUpdate};
+
+pub fn coefficients() -> Coefficients {
+    Coefficients {
+        instant: 1.0,
+        rate: [0.0; 3],
+        acceleration: [0.0; 3],
+        prediction: [0.0; 3],
+        end: [[1.0, 0.0, 0.0, 0.0], [0.0; 4], [0.0; 4]],
+        rotation: RotationUpdate::Exponential,
+    }
+}

@@ -1,0 +1,163 @@
+//! LU factorisation on dense B×B blocks, one per group: pattern symmetric, values not.
+//!
+//! Blocks are eliminated in a fixed order without exchange between them; within a diagonal block rows are exchanged, so
+//! that indefinite tangents pass. A = L U with L_ik = A_ik D_k⁻¹ and U_ki = A_ki, where D_k is the diagonal block when
+//! its turn comes and its inverse is what is kept: to multiply by it is shorter than a substitution, whose operations wait
+//! for each other. A group of fewer than B unknowns is padded with rows of the identity.
+
+use super::elimination::Elimination;
+use super::graph::Graph;
+use super::kernel::{Block, Column, invert, product, row_scale, subtract_product, subtract_times, times};
+use super::{Singular, Stats};
+
+pub struct BlockLu<const B: usize> {
+    graph: Graph,
+    elimination: Elimination,
+    /// First block of each position k in `blocks`: D_k, then L_ik and then U_ki for each i of `below(k)`. One more at
+    /// the end, which is the spare block.
+    start: Vec<usize>,
+    /// For each k and each pair i < j of `below(k)`: the place of j in `below(i)`.
+    places: Vec<u32>,
+    /// Diagonal entries of unknowns that are not there, in `values`.
+    padding: Vec<usize>,
+    /// Written by assembly, overwritten by `factor`.
+    blocks: Vec<Block<B>>,
+    /// Largest entry of each row of the diagonal blocks as assembled, by position. Written by `factor`.
+    scales: Vec<Column<B>>,
+    /// Right-hand side and solution by position; zero where an unknown is not there. Written by `solve`.
+    x: Vec<Column<B>>,
+}
+
+impl<const B: usize> BlockLu<B> {
+    pub(super) fn new(graph: Graph) -> Self {
+        let elimination = Elimination::new(&graph);
+        let n = elimination.groups();
+        let mut start = vec![0];
+        let (mut places, mut padding) = (Vec::new(), Vec::new());
+        for k in 0..n {
+            let below = elimination.below(k);
+            for (t, &i) in below.iter().enumerate() {
+                // Fill: whatever couples with k couples with i, so the search always finds.
+                let row = elimination.below(i as usize);
+                places.extend(below[t + 1..].iter().map(|j| row.partition_point(|other| other < j) as u32));
+            }
+            let diagonal = start[k] * B * B;
+            padding.extend((graph.sizes[elimination.order[k]]..B).map(|i| diagonal + i * B + i));
+            start.push(start[k] + 1 + 2 * below.len());
+        }
+        let blocks = vec![[[0.0; B]; B]; start[n] + 1];
+        let zeros = vec![[0.0; B]; n];
+        BlockLu { graph, elimination, start, places, padding, blocks, scales: zeros.clone(), x: zeros }
+    }
+
+    pub(super) fn slot(&self, row: usize, col: usize) -> Option<usize> {
+        let (g, h) = (*self.graph.group.get(row)? as usize, *self.graph.group.get(col)? as usize);
+        if !self.graph.coupled(g, h) {
+            return None;
+        }
+        let (i, j) = (self.elimination.position[g], self.elimination.position[h]);
+        let k = i.min(j);
+        let below = self.elimination.below(k);
+        let place = |other: usize| below.binary_search(&(other as u32)).ok();
+        let block = match i.cmp(&j) {
+            std::cmp::Ordering::Equal => 0,
+            std::cmp::Ordering::Greater => 1 + place(i)?,
+            std::cmp::Ordering::Less => 1 + below.len() + place(j)?,
+        };
+        Some(((self.start[k] + block) * B + col - self.graph.first[h]) * B + row - self.graph.first[g])
+    }
+
+    pub(super) fn values(&mut self) -> &mut [f64] {
+        self.blocks.as_flattened_mut().as_flattened_mut()
+    }
+
+    pub(super) fn spare(&self) -> usize {
+        (self.blocks.len() - 1) * B * B
+    }
+
+    /// Right-looking: each D_k in turn, then what it changes in all blocks below and right of it.
+    pub(super) fn factor(&mut self) -> Result<(), Singular> {
+        let values = self.blocks.as_flattened_mut().as_flattened_mut();
+        for &slot in &self.padding {
+            values[slot] = 1.0;
+        }
+        for (scale, &start) in self.scales.iter_mut().zip(&self.start) {
+            *scale = row_scale(&self.blocks[start]);
+        }
+
+        let mut places = self.places.iter();
+        for k in 0..self.elimination.groups() {
+            let (done, rest) = self.blocks.split_at_mut(self.start[k + 1]);
+            let (D, beside) = done[self.start[k]..].split_first_mut().expect("each position has its diagonal block");
+            invert(D, &self.scales[k])
+                .map_err(|(i, pivot)| Singular { row: self.graph.first[self.elimination.order[k]] + i, pivot })?;
+
+            let below = self.elimination.below(k);
+            let (L, U) = beside.split_at_mut(below.len());
+            for L_ik in L.iter_mut() {
+                *L_ik = product(L_ik, D);
+            }
+            for (t, &i) in below.iter().enumerate() {
+                let i = i as usize;
+                let (at, m) = (self.start[i] - self.start[k + 1], self.elimination.below(i).len());
+                subtract_product(&mut rest[at], &L[t], &U[t]);
+                for (s, &place) in (t + 1..below.len()).zip(&mut places) {
+                    let lower = at + 1 + place as usize;
+                    subtract_product(&mut rest[lower], &L[s], &U[t]);
+                    subtract_product(&mut rest[lower + m], &L[t], &U[s]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn solve(&mut self, b: &mut [f64]) {
+        self.gather(b);
+        let n = self.elimination.groups();
+        for k in 0..n {
+            let x = self.x[k];
+            let below = self.elimination.below(k);
+            for (L, &i) in self.blocks[self.start[k] + 1..].iter().zip(below) {
+                subtract_times(&mut self.x[i as usize], L, &x);
+            }
+        }
+        for k in (0..n).rev() {
+            let mut x = self.x[k];
+            let below = self.elimination.below(k);
+            for (U, &i) in self.blocks[self.start[k] + 1 + below.len()..].iter().zip(below) {
+                subtract_times(&mut x, U, &self.x[i as usize]);
+            }
+            self.x[k] = times(&self.blocks[self.start[k]], &x);
+        }
+        self.scatter(b);
+    }
+
+    fn gather(&mut self, b: &[f64]) {
+        for (x, &g) in self.x.iter_mut().zip(&self.elimination.order) {
+            let b = &b[self.graph.first[g]..self.graph.first[g + 1]];
+            match <&Column<B>>::try_from(b) {
+                Ok(whole) => *x = *whole,
+                Err(_) => x.iter_mut().zip(b).for_each(|(x, b)| *x = *b),
+            }
+        }
+    }
+
+    fn scatter(&self, b: &mut [f64]) {
+        for (x, &g) in self.x.iter().zip(&self.elimination.order) {
+            let b = &mut b[self.graph.first[g]..self.graph.first[g + 1]];
+            match <&mut Column<B>>::try_from(&mut *b) {
+                Ok(whole) => *whole = *x,
+                Err(_) => b.iter_mut().zip(x).for_each(|(b, x)| *b = *x),
+            }
+        }
+    }
+
+    pub(super) fn stats(&self) -> Stats {
+        Stats {
+            unknowns: self.graph.unknowns(),
+            nonzeros: self.start[self.elimination.groups()] * B * B,
+            flops: self.elimination.block_flops * (B * B * B) as f64,
+            ordering: self.elimination.name,
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The order in which groups are eliminated and the fill it causes.
+//!
+//! Minimum degree on the graph of groups is 6 to 15 times cheaper than on the unknowns and gives the same fill; the
+//! natural order is kept when it costs no more, because a chain numbered along its length then stays a band that the
+//! processor reads forward. Dissection is left out, for want of a library in Rust that is as good as METIS: it would
+//! save a tenth of the operations on shells and, from some 50,000 unknowns, two fifths on space frames.
+
+use super::graph::Graph;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+
+/// An elimination order with the pattern of its factor. Groups are counted by their position in the order.
+#[derive(Debug, Clone)]
+pub(super) struct Elimination {
+    /// Group at each position.
+    pub order: Vec<usize>,
+    /// Position of each group.
+    pub position: Vec<usize>,
+    start: Vec<usize>,
+    below: Vec<u32>,
+    /// Nonzeros of a triangular factor with dense blocks.
+    pub nonzeros: usize,
+    /// Additions and multiplications of a triangular factorisation, Σ over columns of (length)².
+    pub flops: f64,
+    /// Additions and multiplications of the block LU on padded blocks of unit size: Σ 2 (1 + m + m²) for m blocks
+    /// below.
+    pub block_flops: f64,
+    pub name: &'static str,
+}
+
+impl Elimination {
+    pub fn new(graph: &Graph) -> Self {
+        let degree = Self::fill(graph, minimum_degree(graph), "minimum degree", f64::INFINITY)
+            .map(|fill| fill.postorder())
+            .and_then(|order| Self::fill(graph, order, "minimum degree", f64::INFINITY));
+        let limit = degree.as_ref().map_or(f64::INFINITY, |degree| degree.flops);
+        let natural = Self::fill(graph, (0..graph.groups()).collect(), "natural", limit);
+        natural.or(degree).expect("without a limit there is a pattern")
+    }
+
+    pub fn groups(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Positions after `k` with which the group at `k` is coupled once those before it are gone, ascending.
+    pub fn below(&self, k: usize) -> &[u32] {
+        &self.below[self.start[k]..self.start[k + 1]]
+    }
+
+    /// The pattern of the factor; none as soon as it costs more than `limit` flops.
+    /// A column is the union of the original one and of those whose first entry below the diagonal it is.
+    fn fill(graph: &Graph, order: Vec<usize>, name: &'static str, limit: f64) -> Option<Self> {
+        let n = order.len();
+        let mut position = vec![0; n];
+        for (k, &g) in order.iter().enumerate() {
+            position[g] = k;
+        }
+        let (mut start, mut below) = (vec![0], Vec::<u32>::new());
+        let (mut first_child, mut next_sibling, mut seen) = (vec![NONE; n], vec![NONE; n], vec![NONE; n]);
+        let (mut nonzeros, mut flops, mut block_flops) = (0, 0.0, 0.0);
+        for k in 0..n {
+            let begin = below.len();
+            seen[k] = k;
+            let mut add = |below: &mut Vec<u32>, i: usize| {
+                if i > k && seen[i] != k {
+                    seen[i] = k;
+                    below.push(i as u32);
+                }
+            };
+            for &h in graph.neighbours(order[k]) {
+                add(&mut below, position[h as usize]);
+            }
+            let mut child = first_child[k];
+            while child != NONE {
+                for entry in start[child]..start[child + 1] {
+                    let i = below[entry] as usize;
+                    add(&mut below, i);
+                }
+                child = next_sibling[child];
+            }
+            below[begin..].sort_unstable();
+            start.push(below.len());
+            if let Some(&parent) = below.get(begin) {
+                next_sibling[k] = first_child[parent as usize];
+                first_child[parent as usize] = k;
+            }
+
+            let own = graph.sizes[order[k]];
+            let rest: usize = below[begin..].iter().map(|&i| graph.sizes[order[i as usize]]).sum();
+            for length in rest + 1..=rest + own {
+                nonzeros += length;
+                flops += (length * length) as f64;
+            }
+            let blocks = (below.len() - begin) as f64;
+            block_flops += 2.0 * (1.0 + blocks + blocks * blocks);
+            if flops > limit {
+                return None;
+            }
+        }
+        Some(Elimination { order, position, start, below, nonzeros, flops, block_flops, name })
+    }
+
+    /// The same elimination tree walked depth first: equal fill, but what is needed together lies together, which the
+    /// supernodes of the Cholesky factor rest on.
+    fn postorder(&self) -> Vec<usize> {
+        let n = self.groups();
+        let (mut first_child, mut next_sibling, mut roots) = (vec![NONE; n], vec![NONE; n], Vec::new());
+        for k in (0..n).rev() {
+            match self.below(k).first() {
+                Some(&parent) => {
+                    next_sibling[k] = first_child[parent as usize];
+                    first_child[parent as usize] = k;
+                }
+                None => roots.push(k),
+            }
+        }
+        let (mut order, mut stack) = (Vec::with_capacity(n), roots);
+        while let Some(&k) = stack.last() {
+            let child = first_child[k];
+            if child == NONE {
+                order.push(self.order[k]);
+                stack.pop();
+            } else {
+                first_child[k] = next_sibling[child];
+                stack.push(child);
+            }
+        }
+        order
+    }
+}
+
+const NONE: usize = usize::MAX;
+
+/// Approximate minimum degree (Amestoy, Davis, Duff 1996) on the graph of groups.
+fn minimum_degree(graph: &Graph) -> Vec<usize> {
+    let n = graph.groups();
+    let (start, neighbours) = graph.compressed();
+    let neighbours: Vec<usize> = neighbours.iter().map(|&h| h as usize).collect();
+    let (mut order, mut position) = (vec![0; n], vec![0; n]);
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, start, None, &neighbours);
+    let mut buffer = MemBuffer::new(amd::order_scratch::<usize>(n, neighbours.len()));
+    match amd::order(&mut order, &mut position, pattern, amd::Control::default(), MemStack::new(&mut buffer)) {
+        Ok(_) => order,
+        Err(_) => (0..n).collect(),
+    }
+}

@@ -1,0 +1,68 @@
+//! Who couples with whom: groups of unknowns as the vertices of an undirected graph, and their numbers.
+
+use super::Structure;
+
+/// The coupling of groups, with the numbering of their unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct Graph {
+    /// Unknowns per group.
+    pub sizes: Vec<usize>,
+    /// First external row of each group, and the number of unknowns at the end.
+    pub first: Vec<usize>,
+    /// Group of each external row.
+    pub group: Vec<u32>,
+    start: Vec<usize>,
+    neighbours: Vec<u32>,
+}
+
+impl Graph {
+    pub fn new(structure: &Structure) -> Self {
+        let sizes = structure.sizes.clone();
+        let mut first = vec![0; sizes.len() + 1];
+        let mut group = Vec::new();
+        for (g, &size) in sizes.iter().enumerate() {
+            first[g + 1] = first[g] + size;
+            group.resize(first[g + 1], g as u32);
+        }
+
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for clique in &structure.cliques {
+            for &g in clique {
+                pairs.extend(clique.iter().filter(|&&h| h != g).map(|&h| (g as u32, h as u32)));
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut start = vec![0; sizes.len() + 1];
+        for &(g, _) in &pairs {
+            start[g as usize + 1] += 1;
+        }
+        for g in 0..sizes.len() {
+            start[g + 1] += start[g];
+        }
+        let neighbours = pairs.into_iter().map(|(_, h)| h).collect();
+        Graph { sizes, first, group, start, neighbours }
+    }
+
+    pub fn groups(&self) -> usize {
+        self.sizes.len()
+    }
+
+    pub fn unknowns(&self) -> usize {
+        self.group.len()
+    }
+
+    /// Groups that couple with `g`, ascending, without `g` itself.
+    pub fn neighbours(&self, g: usize) -> &[u32] {
+        &self.neighbours[self.start[g]..self.start[g + 1]]
+    }
+
+    /// Start of each group's neighbours, and the neighbours: a compressed pattern with both triangles.
+    pub fn compressed(&self) -> (&[usize], &[u32]) {
+        (&self.start, &self.neighbours)
+    }
+
+    pub fn coupled(&self, g: usize, h: usize) -> bool {
+        g == h || self.neighbours(g).binary_search(&(h as u32)).is_ok()
+    }
+}

@@ -1,0 +1,55 @@
+//! energy.csv: the energy balance and the momenta.
+
+use super::table::Table;
+use crate::solve::Frame;
+use crate::system::energy::Energy;
+use std::io;
+
+pub const COLUMNS: [&str; 15] = [
+    "kinetic",
+    "strain",
+    "plastic",
+    "viscous",
+    "damping",
+    "links",
+    "external",
+    "numerical",
+    "total",
+    "px",
+    "py",
+    "pz",
+    "lx",
+    "ly",
+    "lz",
+];
+
+/// The columns of one state.
+pub fn values(e: &Energy) -> [f64; 15] {
+    let [p, l] = [e.p, e.l];
+    [
+        e.kinetic,
+        e.strain,
+        e.plastic,
+        e.viscous,
+        e.damping,
+        e.links,
+        e.external,
+        e.numerical,
+        e.total,
+        p.x,
+        p.y,
+        p.z,
+        l.x,
+        l.y,
+        l.z,
+    ]
+}
+
+pub(super) fn header() -> String {
+    format!("step,time,{}", COLUMNS.join(","))
+}
+
+pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
+    let Some(energy) = frame.energy else { return Ok(()) };
+    table.row(frame.step, frame.state.time).numbers(&values(energy)).end()
+}

@@ -1,0 +1,149 @@
+//! Values the deck expects, taken while the run goes and judged at its end.
+//!
+//! Peaks of motion look at every accepted step, those of energies and links at the steps where these are formed.
+
+use super::{bodies_csv, energy_csv, links_csv, nodes_csv};
+use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
+use crate::solve::{Frame, Observer};
+use serde::Serialize;
+use std::io;
+
+/// The names `quantity` may take, in the order of the columns they are.
+pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Node(_) => [&nodes_csv::COLUMNS[..], &bodies_csv::COLUMNS[QUATERNION]].concat(),
+        ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
+        ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
+    }
+}
+
+/// Columns of bodies.csv that nodes.csv has not.
+const QUATERNION: std::ops::Range<usize> = 3..7;
+
+/// How one expectation went.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    pub label: String,
+    /// `None`: the run never came to it.
+    pub value: Option<f64>,
+    /// Time of the value.
+    pub time: Option<f64>,
+    pub expected: f64,
+    /// Of the kind of the tolerance.
+    pub error: Option<f64>,
+    pub tolerance: f64,
+    pub relative: bool,
+    pub passed: bool,
+    pub source: String,
+    /// Why it was missed.
+    pub reason: Option<String>,
+}
+
+/// Collects samples; [`Expectations::verdicts`] compares them.
+pub struct Expectations {
+    watches: Vec<Watch>,
+    end_time: f64,
+}
+
+struct Watch {
+    expect: Expect,
+    /// Index into [`quantities`].
+    column: Option<usize>,
+    sample: Option<Sample>,
+}
+
+#[derive(Clone, Copy)]
+struct Sample {
+    time: f64,
+    value: f64,
+}
+
+impl Expectations {
+    pub fn new(model: &Model) -> Expectations {
+        let watch = |expect: &Expect| Watch {
+            column: quantities(expect.at).iter().position(|name| *name == expect.quantity),
+            expect: expect.clone(),
+            sample: None,
+        };
+        Expectations { watches: model.expects.iter().map(watch).collect(), end_time: model.analysis.end_time }
+    }
+
+    /// In deck order.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        self.watches.iter().map(Watch::verdict).collect()
+    }
+}
+
+impl Observer for Expectations {
+    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        let time = frame.state.time;
+        for watch in &mut self.watches {
+            if matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time) {
+                continue;
+            }
+            let Some(value) = watch.column.and_then(|column| sample(watch.expect.at, column, frame)) else { continue };
+            let better = |old: Sample| match watch.expect.when {
+                When::Time(t) => (time - t).abs() < (old.time - t).abs(),
+                When::Max => value > old.value,
+                When::Min => value < old.value,
+                When::Abs => value.abs() > old.value.abs(),
+            };
+            if watch.sample.is_none_or(better) {
+                watch.sample = Some(Sample { time, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The value of a column now, where this frame has it.
+fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
+    match at {
+        ExpectAt::Node(i) => {
+            let now = frame.state.nodes.get(i)?;
+            match column.checked_sub(nodes_csv::COLUMNS.len()) {
+                None => Some(nodes_csv::values(&frame.model.nodes[i], now)[column]),
+                Some(column) => Some(bodies_csv::values(now)[QUATERNION][column]),
+            }
+        }
+        ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
+        ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
+    }
+}
+
+impl Watch {
+    fn verdict(&self) -> Verdict {
+        let Expect { quantity, value: expected, tolerance, when, source, label, .. } = &self.expect;
+        let (tolerance, unit, relative) = match *tolerance {
+            Tolerance::Relative(tolerance) => (tolerance, expected.abs(), true),
+            Tolerance::Absolute(tolerance) => (tolerance, 1.0, false),
+        };
+        let difference = self.sample.map(|sample| (sample.value - expected).abs());
+        // Multiplied rather than divided: an expected 0 with a relative tolerance is met by 0.
+        let passed = difference.is_some_and(|difference| difference <= tolerance * unit);
+        let reason = match (self.column, self.sample, *when) {
+            _ if passed => None,
+            (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
+            (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
+            (_, None, _) => Some(format!("the run never formed `{quantity}`")),
+            (_, Some(sample), _) => Some(format!(
+                "{} at time {} is not {expected} within {tolerance}{}",
+                sample.value,
+                sample.time,
+                if relative { " of it" } else { "" }
+            )),
+        };
+        Verdict {
+            label: label.clone(),
+            value: self.sample.map(|sample| sample.value),
+            time: self.sample.map(|sample| sample.time),
+            expected: *expected,
+            error: difference.map(|difference| difference / unit).filter(|error| error.is_finite()),
+            tolerance,
+            relative,
+            passed,
+            source: source.clone(),
+            reason,
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
+//! names the parts that the grids number.
+//!
+//! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
+//! links are lines, bodies closed shapes. A grid is named after its step and listed only once it is whole.
+
+use super::shape::Surface;
+use super::vtu::{self, Cell};
+use super::{at, replace};
+use crate::math::{Mat3, Vec3, rotation};
+use crate::model::Model;
+use crate::solve::Frame;
+use std::fmt::Write;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A drawn point: fixed to a node, `arm` and `axes` (columns) as they are at t = 0.
+struct Place {
+    node: usize,
+    arm: Vec3,
+    axes: Mat3,
+}
+
+/// Cells of the whole scene, and the part each belongs to.
+#[derive(Default)]
+struct Grid {
+    places: Vec<Place>,
+    connectivity: Vec<i64>,
+    offsets: Vec<i64>,
+    types: Vec<u8>,
+    parts: Vec<i64>,
+}
+
+impl Grid {
+    fn cell(&mut self, kind: Cell, part: usize, points: impl Iterator<Item = usize>) {
+        self.connectivity.extend(points.map(|point| point as i64));
+        self.offsets.push(self.connectivity.len() as i64);
+        self.types.push(kind as u8);
+        self.parts.push(part as i64);
+    }
+
+    /// A curve from the first node to the last, with points of its own. VTK lists the ends first. It spaces its parameter
+    /// evenly, Lobatto points are not even; the curve drawn passes through all of them.
+    fn curve(&mut self, kind: Cell, part: usize, nodes: &[usize], axes: Mat3) {
+        let (first, last) = (self.places.len(), self.places.len() + nodes.len() - 1);
+        self.places.extend(nodes.iter().map(|&node| Place { node, arm: Vec3::zeros(), axes }));
+        self.cell(kind, part, [first, last].into_iter().chain(first + 1..last));
+    }
+
+    /// Beams, bars, links, bodies, each in deck order.
+    fn of(model: &Model) -> Grid {
+        let mut grid = Grid::default();
+        let mut part = 0..;
+        let mut next = || part.next().unwrap_or_default();
+        for beam in &model.beams {
+            let kind = match beam.order {
+                1 => Cell::Line,
+                2 => Cell::QuadraticEdge,
+                _ => Cell::LagrangeCurve,
+            };
+            let part = next();
+            for element in &beam.elements {
+                grid.curve(kind, part, &element.nodes[..=beam.order], element.frame);
+            }
+        }
+        for bar in &model.bars {
+            let part = next();
+            for nodes in &bar.elements {
+                grid.curve(Cell::Line, part, nodes, Mat3::identity());
+            }
+        }
+        for link in &model.links {
+            grid.curve(Cell::Line, next(), &link.ends, Mat3::identity());
+        }
+        for body in &model.bodies {
+            let (part, first) = (next(), grid.places.len());
+            let surface = Surface::of(&body.shape);
+            let place = |arm| Place { node: body.node, arm, axes: Mat3::identity() };
+            grid.places.extend(surface.points.into_iter().map(place));
+            for (kind, points) in surface.cells {
+                grid.cell(kind, part, points.into_iter().map(|point| first + point));
+            }
+        }
+        grid
+    }
+}
+
+/// fields.csv, in the order of [`Grid::of`].
+fn names(model: &Model) -> csv::Result<Vec<u8>> {
+    let beams = model.beams.iter().map(|part| ("beam", &part.name));
+    let bars = model.bars.iter().map(|part| ("bar", &part.name));
+    let links = model.links.iter().map(|part| ("link", &part.name));
+    let bodies = model.bodies.iter().map(|part| ("body", &part.name));
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(["part", "kind", "name"])?;
+    for (part, (kind, name)) in beams.chain(bars).chain(links).chain(bodies).enumerate() {
+        table.write_record([&part.to_string(), kind, name])?;
+    }
+    table.into_inner().map_err(|e| e.into_error().into())
+}
+
+pub struct Fields {
+    dir: PathBuf,
+    every: usize,
+    places: Vec<Place>,
+    /// What is the same in every grid: the opening of its one piece, and what follows the points.
+    piece: String,
+    cells: String,
+    /// Lines of fields.pvd so far.
+    listed: String,
+    text: String,
+    bytes: Vec<u8>,
+}
+
+impl Fields {
+    /// With `keep_to`, the list goes on after the grid of that step.
+    pub fn open(dir: &Path, model: &Model, every: usize, keep_to: Option<usize>) -> io::Result<Fields> {
+        let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
+        replace(&dir.join("fields.csv"), &names(model)?)?;
+        let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
+        let (mut cells, mut bytes) = (String::from("<CellData>\n"), Vec::new());
+        vtu::array(&mut cells, &mut bytes, "part", 1, parts.into_iter());
+        cells.push_str("</CellData>\n<Cells>\n");
+        vtu::array(&mut cells, &mut bytes, "connectivity", 1, connectivity.into_iter());
+        vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.into_iter());
+        vtu::array(&mut cells, &mut bytes, "types", 1, types.into_iter());
+        cells.push_str("</Cells>\n</Piece>\n");
+        let listed = match keep_to {
+            Some(step) => kept(&dir.join("fields.pvd"), step)?,
+            None => String::new(),
+        };
+        Ok(Fields { dir: dir.into(), every, places, piece, cells, listed, text: String::new(), bytes })
+    }
+
+    /// Every so many steps, and the first and the last.
+    pub fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        let end = frame.model.analysis.end_time;
+        let last = frame.state.time >= end - 1e-9 * end;
+        if frame.step.is_multiple_of(self.every.max(1)) || last { self.write(frame) } else { Ok(()) }
+    }
+
+    fn write(&mut self, frame: &Frame) -> io::Result<()> {
+        let (text, bytes) = (&mut self.text, &mut self.bytes);
+        let time = frame.state.time;
+        text.clear();
+        text.push_str(vtu::OPEN);
+        text.push_str("<FieldData>\n");
+        vtu::array(text, bytes, "TimeValue", 1, [time].into_iter());
+        text.push_str("</FieldData>\n");
+        text.push_str(&self.piece);
+
+        let (places, start, now) = (&self.places, &frame.model.nodes, &frame.state.nodes);
+        let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
+            vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
+        };
+        let arm = |p: &Place| now[p.node].R() * p.arm;
+        text.push_str("<PointData>\n");
+        vectors(text, "displacement", &|p| now[p.node].x + arm(p) - start[p.node].x - p.arm);
+        vectors(text, "velocity", &|p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
+        vectors(text, "rotation", &|p| rotation::log(&now[p.node].q));
+        for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
+            vectors(text, name, &|p| now[p.node].R() * p.axes.column(axis));
+        }
+        text.push_str("</PointData>\n<Points>\n");
+        vectors(text, "Points", &|p| now[p.node].x + arm(p));
+        text.push_str("</Points>\n");
+        text.push_str(&self.cells);
+        text.push_str(vtu::CLOSE);
+
+        let name = format!("fields_{:06}.vtu", frame.step);
+        let path = self.dir.join(&name);
+        fs::write(&path, text.as_bytes()).map_err(|e| at(&path, e))?;
+        let _ = writeln!(self.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
+        let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.listed);
+        replace(&self.dir.join("fields.pvd"), list.as_bytes())
+    }
+}
+
+const LIST: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+
+/// The lines of a list up to the grid of `step`; none where there is no list yet.
+fn kept(path: &Path, step: usize) -> io::Result<String> {
+    let list = match fs::read_to_string(path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(String::new()),
+        read => read.map_err(|e| at(path, e))?,
+    };
+    let number = |line: &str| line.split_once("file=\"fields_")?.1.split_once(".vtu")?.0.parse::<usize>().ok();
+    Ok(list.lines().filter(|line| number(line).is_some_and(|n| n <= step)).flat_map(|line| [line, "\n"]).collect())
+}

@@ -1,0 +1,57 @@
+//! run.log: what happened, in plain lines. Timings are welcome here, as they are not in the tables.
+
+use super::at;
+use crate::solve::{Frame, Observer};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Lines reach the file at once: they are few, and the last ones matter when a run dies.
+pub struct Log {
+    path: PathBuf,
+    file: File,
+}
+
+impl Log {
+    /// A new log, or the old one continued.
+    pub fn open(dir: &Path, resume: bool) -> io::Result<Log> {
+        let path = dir.join("run.log");
+        let mut options = OpenOptions::new();
+        options.create(true).write(true).append(resume).truncate(!resume);
+        let file = std::fs::create_dir_all(dir).and_then(|()| options.open(&path)).map_err(|e| at(&path, e))?;
+        Ok(Log { path, file })
+    }
+
+    /// One or more lines; the last may do without its line break.
+    pub fn say(&mut self, text: &str) -> io::Result<()> {
+        let text = format!("{}\n", text.trim_end());
+        self.file.write_all(text.as_bytes()).map_err(|e| at(&self.path, e))
+    }
+}
+
+impl Observer for Log {
+    /// Notes the steps that had to be cut.
+    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        if frame.cuts == 0 {
+            return Ok(());
+        }
+        let times = if frame.cuts == 1 { "once".into() } else { format!("{} times", frame.cuts) };
+        let (step, time, dt) = (frame.step, frame.state.time, frame.dt);
+        self.say(&format!("step {step} to t = {time}: cut {times}, accepted with dt = {dt}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_is_continued_on_resume() {
+        let dir = tempfile::tempdir().unwrap();
+        let folder = dir.path().join("new");
+        for (resume, line) in [(false, "lost"), (false, "start\nplan\n"), (true, "resumed")] {
+            Log::open(&folder, resume).unwrap().say(line).unwrap();
+        }
+        assert_eq!(std::fs::read_to_string(folder.join("run.log")).unwrap(), "start\nplan\nresumed\n");
+    }
+}

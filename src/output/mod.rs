@@ -1,0 +1,129 @@
+//! The files of the output folder. Each format is one file here; [`Files`] opens those the deck asks for and shows them
+//! every accepted step. Errors name the file.
+
+pub mod expect;
+pub mod log;
+pub mod progress;
+pub mod result_json;
+
+pub mod bodies_csv;
+pub mod energy_csv;
+mod fields;
+pub mod links_csv;
+pub mod nodes_csv;
+mod reactions_csv;
+mod sections_csv;
+mod shape;
+mod steps_csv;
+mod table;
+mod vtu;
+
+use crate::model::Model;
+use crate::solve::{Frame, Observer};
+use fields::Fields;
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use table::Table;
+
+/// Finished rows reach their files at least this often, and at [`Files::finish`].
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// A file, or family of files, that grows with the run.
+enum Format {
+    Nodes(Table),
+    Bodies(Table),
+    Energy(Table),
+    Links(Table),
+    Reactions(Table),
+    Sections(Table),
+    Steps(Table),
+    Fields(Fields),
+}
+
+impl Format {
+    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        match self {
+            Format::Steps(table) => steps_csv::write(table, frame),
+            Format::Fields(fields) => fields.see(frame),
+            _ if !frame.due => Ok(()),
+            Format::Nodes(table) => nodes_csv::write(table, frame),
+            Format::Bodies(table) => bodies_csv::write(table, frame),
+            Format::Energy(table) => energy_csv::write(table, frame),
+            Format::Links(table) => links_csv::write(table, frame),
+            Format::Reactions(table) => reactions_csv::write(table, frame),
+            Format::Sections(table) => sections_csv::write(table, frame),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Format::Nodes(table)
+            | Format::Bodies(table)
+            | Format::Energy(table)
+            | Format::Links(table)
+            | Format::Reactions(table)
+            | Format::Sections(table)
+            | Format::Steps(table) => table.flush(),
+            Format::Fields(_) => Ok(()), // whole after every frame
+        }
+    }
+}
+
+/// Writes what the deck asks for. [`Files::finish`] ends the run however it went.
+pub struct Files {
+    formats: Vec<Format>,
+    flushed: Instant,
+}
+
+impl Files {
+    /// Creates the folder and its files; with `keep_to`, goes on with those of a run interrupted after that step.
+    pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Files> {
+        fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
+        let asked = &model.output;
+        let mut formats = Vec::new();
+        let mut table = |asked: bool, format: fn(Table) -> Format, name: &str, header: String| {
+            if asked {
+                formats.push(format(Table::open(dir, name, &header, keep_to)?));
+            }
+            io::Result::Ok(())
+        };
+        table(!asked.nodes.is_empty(), Format::Nodes, "nodes.csv", nodes_csv::header())?;
+        table(!model.bodies.is_empty(), Format::Bodies, "bodies.csv", bodies_csv::header())?;
+        table(asked.energy, Format::Energy, "energy.csv", energy_csv::header())?;
+        table(asked.links && !model.links.is_empty(), Format::Links, "links.csv", links_csv::header())?;
+        table(asked.reactions, Format::Reactions, "reactions.csv", reactions_csv::header())?;
+        table(asked.sections && !model.beams.is_empty(), Format::Sections, "sections.csv", sections_csv::header())?;
+        table(true, Format::Steps, "steps.csv", steps_csv::header())?;
+        if let Some(every) = asked.fields {
+            formats.push(Format::Fields(Fields::open(dir, model, every, keep_to)?));
+        }
+        Ok(Files { formats, flushed: Instant::now() })
+    }
+
+    /// Hands over the rows still waiting: at the end of a run, and before a checkpoint.
+    pub fn finish(&mut self) -> io::Result<()> {
+        self.flushed = Instant::now();
+        self.formats.iter_mut().try_for_each(Format::flush)
+    }
+}
+
+impl Observer for Files {
+    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        self.formats.iter_mut().try_for_each(|format| format.see(frame))?;
+        if self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
+    }
+}
+
+/// The error with the file it is about.
+fn at(path: &Path, error: io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}
+
+/// Writes a small file so that a reader sees the old one or the new one, never a part.
+fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".tmp");
+    fs::write(&name, text).and_then(|()| fs::rename(&name, path)).map_err(|e| at(path, e))
+}

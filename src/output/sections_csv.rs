@@ -1,0 +1,16 @@
+//! sections.csv: section forces of the beams at their integration points, section axes.
+
+use super::table::Table;
+use crate::solve::Frame;
+use std::io;
+
+pub(super) fn header() -> String {
+    "step,time,beam,element,point,s,N,Qy,Qz,T,My,Mz".into()
+}
+
+pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
+    frame.sections.iter().try_for_each(|at| {
+        table.row(frame.step, frame.state.time).text(&frame.model.beams[at.beam].name);
+        table.count(at.element).count(at.point).number(at.s).numbers(&at.forces).end()
+    })
+}

@@ -1,0 +1,86 @@
+//! The plan in words, for `rdsolve check` and the log.
+
+use super::Plan;
+use crate::integrators::Scheme;
+use crate::linear::Kind;
+use crate::model::{Kind as Analysis, Model, Update};
+use std::fmt::Write;
+
+impl Plan {
+    /// Lines of plain text: what will be computed, what is left out and why.
+    pub fn explain(&self, model: &Model, system: &crate::system::System) -> String {
+        let mut text = String::new();
+        let mut line = |label: &str, what: String| {
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{label:<12}{what}");
+        };
+        let analysis = &model.analysis;
+        let steps = (analysis.end_time / analysis.time_step - 1e-9).ceil().max(1.0);
+        match analysis.kind {
+            Analysis::Static => line("analysis", format!("static, {steps} load steps")),
+            Analysis::Dynamic => {
+                let Scheme::WilsonTheta(scheme) = &model.scheme;
+                let time = format!("to t = {} in {steps} steps of {}", analysis.end_time, analysis.time_step);
+                line("analysis", format!("dynamic, {time}, wilson-theta with theta = {}", scheme.theta));
+            }
+        }
+        let beams: usize = model.beams.iter().map(|b| b.elements.len()).sum();
+        let bars: usize = model.bars.iter().map(|b| b.elements.len()).sum();
+        let parts = [
+            (model.nodes.len(), "nodes"),
+            (model.bodies.len(), "bodies"),
+            (beams, "beam elements"),
+            (bars, "bar elements"),
+            (model.links.len(), "links"),
+            (model.riders.len(), "attached nodes"),
+        ];
+        let parts: Vec<String> =
+            parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        line("model", parts.join(", "));
+        line("unknowns", self.unknowns.to_string());
+        for omission in &self.omissions {
+            line("  left out", format!("{} {}", omission.count, omission.what));
+        }
+        for what in self.unneeded(model, system) {
+            line("  left out", what.to_string());
+        }
+        let matrix = match self.kind {
+            Kind::Block => "exact unsymmetric tangent, sparse LU by blocks of nodes",
+            Kind::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
+        };
+        line("matrix", matrix.to_string());
+        let update = match (self.linear, model.iteration.update) {
+            (true, _) => "once per length of step: the scene is linear",
+            (_, Update::Iteration) => "in every iteration",
+            (_, Update::Step) => "once a step",
+            (_, Update::Auto) => "when convergence slows",
+            (_, Update::Never) => "never after the first",
+        };
+        line("  refreshed", update.to_string());
+        text
+    }
+
+    /// Terms of the equation of motion that this scene does without.
+    fn unneeded(&self, model: &Model, system: &crate::system::System) -> Vec<&'static str> {
+        let static_analysis = model.analysis.kind == Analysis::Static;
+        let turning = system.inertias.iter().any(|i| {
+            i.rotary && (3..6).any(|dof| self.is_unknown(i.node, dof) || model.riders.iter().any(|r| r.node == i.node))
+        });
+        let plane = self.omissions.iter().any(|o| o.what.contains("plane"));
+        let mut out = Vec::new();
+        if static_analysis {
+            out.push("inertia and damping: static");
+        } else {
+            if !turning {
+                out.push("gyroscopic term C(r): no rotary inertia turns");
+            } else if plane {
+                out.push("gyroscopic term C(r): rotation about one axis only");
+            }
+            if !system.is_damped() {
+                out.push("damping: none is given");
+            }
+        }
+        out.push("history of material points: all materials are elastic");
+        out
+    }
+}

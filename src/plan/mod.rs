@@ -1,0 +1,91 @@
+//! What will be computed, decided once: which directions are unknowns and why the others are not, the structure of the
+//! matrix, the factorisation, when it is refreshed.
+
+mod choose;
+mod explain;
+mod place;
+
+use crate::linear::{Kind, Solver, Structure};
+use crate::model::Model;
+use crate::system::System;
+use crate::system::assembly::{self, Assembly, NONE};
+
+/// Decisions about a model. Constant over a run.
+pub struct Plan {
+    /// Row of each direction of each node in the system, or [`NONE`].
+    pub rows: Vec<[u32; 6]>,
+    pub unknowns: usize,
+    /// (node, direction) of each row.
+    pub directions: Vec<(usize, usize)>,
+    pub structure: Structure,
+    pub kind: Kind,
+    pub omissions: Vec<Omission>,
+    /// The matrix never changes: it is factorised once per length of step.
+    pub linear: bool,
+    /// Iterations that a fresh matrix may cost: forming and factorising it against one residual and one solve.
+    pub refresh_cost: f64,
+    pub threads: usize,
+    nodes: Vec<place::Place>,
+}
+
+/// Directions that are no unknowns, with the reason.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Omission {
+    pub count: usize,
+    pub what: String,
+}
+
+impl Plan {
+    pub fn new(model: &Model, system: &System, threads: usize) -> Plan {
+        let (nodes, omissions) = place::place(model, system);
+        let mut rows = vec![[NONE; 6]; nodes.len()];
+        let mut directions = Vec::new();
+        let mut sizes = Vec::new();
+        let mut group = vec![usize::MAX; nodes.len()];
+        for (node, place) in nodes.iter().enumerate() {
+            let before = directions.len();
+            for (dof, why) in place.iter().enumerate() {
+                if *why == place::Why::Unknown {
+                    rows[node][dof] = directions.len() as u32;
+                    directions.push((node, dof));
+                }
+            }
+            if directions.len() > before {
+                group[node] = sizes.len();
+                sizes.push(directions.len() - before);
+            }
+        }
+        let cliques = assembly::cliques(system, nodes.len())
+            .into_iter()
+            .map(|clique| clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect::<Vec<_>>());
+        let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect() };
+        let kind = choose::kind(&structure);
+        // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
+        let turns = |node: usize| (3..6).filter(|&d| nodes[node][d] == place::Why::Unknown).count() > 1;
+        let linear = system.is_linear() && !system.inertias.iter().any(|i| turns(i.node));
+        Plan {
+            unknowns: directions.len(),
+            refresh_cost: choose::refresh_cost(kind),
+            linear,
+            rows,
+            directions,
+            structure,
+            kind,
+            omissions,
+            threads,
+            nodes,
+        }
+    }
+
+    /// The solver and the assembly of this plan.
+    pub fn build(&self, system: &System) -> (Solver, Assembly) {
+        let solver = Solver::new(&self.structure, self.kind, self.threads);
+        let assembly = Assembly::new(system, &self.rows, &solver, self.threads);
+        (solver, assembly)
+    }
+
+    /// True for directions that ride, are held or are left out: their increments do not come from the solution.
+    pub fn is_unknown(&self, node: usize, dof: usize) -> bool {
+        self.nodes[node][dof] == place::Why::Unknown
+    }
+}

@@ -1,0 +1,216 @@
+//! For each direction of each node: unknown, held, riding, or left out, and why.
+
+use super::Omission;
+use crate::elements::Block;
+use crate::math::{Mat3, Vec3, skew};
+use crate::model::{LinkKind, Model};
+use crate::system::System;
+
+/// Why a direction is what it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Why {
+    Unknown,
+    Held,
+    Rides,
+    /// No element, inertia or link acts on it.
+    Nothing,
+    /// Only inertia acts, and nothing can set it moving.
+    Still,
+    /// Out of the plane of a plane scene.
+    Plane,
+}
+
+pub type Place = [Why; 6];
+
+pub fn place(model: &Model, system: &System) -> (Vec<Place>, Vec<Omission>) {
+    let n = model.nodes.len();
+    let resisted = resistance(system, n);
+    let moved = causes(model, system, &resisted);
+    let normal = if model.analysis.plane { plane_normal(model, system) } else { None };
+    let mut places = vec![[Why::Nothing; 6]; n];
+    for inertia in &system.inertias {
+        for dof in 0..6 {
+            if dof < 3 || inertia.rotary {
+                places[inertia.node][dof] = if moved[inertia.node][dof] { Why::Unknown } else { Why::Still };
+            }
+        }
+    }
+    for (place, resisted) in places.iter_mut().zip(&resisted) {
+        for dof in 0..6 {
+            if resisted[dof] {
+                place[dof] = Why::Unknown;
+            }
+        }
+    }
+    if let Some(normal) = normal {
+        for place in &mut places {
+            for (dof, why) in place.iter_mut().enumerate() {
+                let out = if dof < 3 { dof == normal } else { dof - 3 != normal };
+                if out && *why == Why::Unknown {
+                    *why = Why::Plane;
+                }
+            }
+        }
+    }
+    for rider in &model.riders {
+        for dof in (0..6).filter(|&d| rider.dofs[d]) {
+            places[rider.node][dof] = Why::Rides;
+        }
+    }
+    for held in &model.held {
+        places[held.node][held.dof] = Why::Held;
+    }
+    let omissions = explain(&places, normal);
+    (places, omissions)
+}
+
+fn explain(places: &[Place], normal: Option<usize>) -> Vec<Omission> {
+    let count = |why: Why, dofs: std::ops::Range<usize>| -> usize {
+        places.iter().map(|p| p[dofs.clone()].iter().filter(|&&w| w == why).count()).sum()
+    };
+    let axis = ["x", "y", "z"][normal.unwrap_or(0)];
+    [
+        (count(Why::Held, 0..6), "held: their motion is given".to_string()),
+        (count(Why::Rides, 0..6), "eliminated: they ride on a body or node (58)".to_string()),
+        (count(Why::Nothing, 0..3), "translations on which nothing acts".to_string()),
+        (count(Why::Nothing, 3..6), "rotations on which nothing acts: neither element nor inertia".to_string()),
+        (count(Why::Still, 0..6), "directions of free masses that nothing sets moving".to_string()),
+        (
+            count(Why::Plane, 0..6),
+            format!("motion out of the plane normal to {axis}: the scene is plane, nothing causes it"),
+        ),
+    ]
+    .into_iter()
+    .filter(|(count, _)| *count > 0)
+    .map(|(count, what)| Omission { count, what })
+    .collect()
+}
+
+/// Directions on which elements, links or riders act.
+fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
+    let mut acts = vec![[false; 6]; n];
+    for group in &system.groups {
+        for e in 0..group.block.len() {
+            let reach = reach(&*group.block, e);
+            for &node in group.block.nodes(e) {
+                for dof in 0..6 {
+                    acts[node][dof] |= reach[dof];
+                }
+            }
+        }
+    }
+    for damping in system.nodal_damping() {
+        for dof in 0..6 {
+            acts[damping.node][dof] |= if dof < 3 { damping.translation > 0.0 } else { damping.rotation > 0.0 };
+        }
+    }
+    let masses = system.inertias.iter().map(|i| (i.node, i.rotary));
+    let massive: Vec<(usize, bool)> = masses.collect();
+    // What acts on a rider acts on its master; a force at an arm turns it.
+    for rider in system.attachments.iter().rev() {
+        let carries = massive.iter().find(|(node, _)| *node == rider.node);
+        for dof in (0..6).filter(|&d| rider.dofs[d]) {
+            let heavy = carries.is_some_and(|&(_, rotary)| dof < 3 || rotary);
+            if !(acts[rider.node][dof] || heavy) {
+                continue;
+            }
+            acts[rider.master][dof] = true;
+            if dof < 3 && rider.S0 != Vec3::zeros() {
+                acts[rider.master][3..6].fill(true);
+            }
+        }
+    }
+    acts
+}
+
+/// Directions on which an element acts: those of its matrix, but for links along a fixed direction only that one.
+fn reach(block: &dyn Block, e: usize) -> [bool; 6] {
+    let mut reach = [false; 6];
+    reach[..block.dofs()].fill(true);
+    if let Some(direction) = block.fixed_direction(e) {
+        for i in 0..3 {
+            reach[i] = direction[i] != 0.0;
+        }
+    }
+    reach
+}
+
+/// Directions of masses that something can set moving.
+fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 6]> {
+    let mut moved = resisted.to_vec();
+    for load in &model.loads {
+        for i in 0..3 {
+            moved[load.node][i] |= load.follower || load.force[i] != 0.0;
+            moved[load.node][3 + i] |= load.follower || load.moment[i] != 0.0;
+        }
+    }
+    let mut field = model.gravity.map(f64::abs);
+    for base in &model.base_accelerations {
+        field += base.direction.map(f64::abs);
+    }
+    for inertia in &system.inertias {
+        let node = &model.nodes[inertia.node];
+        let moved = &mut moved[inertia.node];
+        for i in 0..3 {
+            moved[i] |= field[i] != 0.0 || node.v[i] != 0.0;
+            moved[3 + i] |= node.omega[i] != 0.0;
+        }
+        // Rotations about the three axes act on one another.
+        if moved[3..6].contains(&true) {
+            moved[3..6].fill(true);
+        }
+    }
+    moved
+}
+
+/// The global axis normal to the plane of a scene in which nothing can move out of it.
+fn plane_normal(model: &Model, system: &System) -> Option<usize> {
+    (0..3).rev().find(|&n| is_plane(model, system, n))
+}
+
+fn is_plane(model: &Model, system: &System, n: usize) -> bool {
+    let small = 1e-12; // of the entries beside it: what rounding leaves of a zero
+    let out_of_plane = |v: &Vec3| v[n].abs() > small * v.norm();
+    let not_along = |v: &Vec3| (0..3).any(|i| i != n && v[i].abs() > small * v.norm());
+    // A symmetric tensor that keeps the normal and the plane apart.
+    let mixes = |J: &Mat3| (0..3).any(|i| i != n && J[(n, i)].abs().max(J[(i, n)].abs()) > small * J.norm());
+    // A matrix that pairs a vector in the plane with a rotation along the normal, or the other way round.
+    let pairs_wrongly =
+        |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.norm()));
+
+    let Some(first) = model.nodes.first() else { return false };
+    let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
+    let flat = |p: &crate::model::Node| (p.x[n] - first.x[n]).abs() <= small * size;
+    let still = |p: &crate::model::Node| !out_of_plane(&p.v) && !not_along(&p.omega);
+    if !model.nodes.iter().all(|p| flat(p) && still(p)) {
+        return false;
+    }
+    if model.loads.iter().any(|l| out_of_plane(&l.force) || not_along(&l.moment)) {
+        return false;
+    }
+    if out_of_plane(&model.gravity) || model.base_accelerations.iter().any(|b| out_of_plane(&b.direction)) {
+        return false;
+    }
+    let in_plane = |dof: usize| if dof < 3 { dof != n } else { dof - 3 == n };
+    if model.held.iter().any(|h| h.motion.is_some() && !in_plane(h.dof)) {
+        return false;
+    }
+    if system.inertias.iter().any(|i| mixes(&i.J0)) {
+        return false;
+    }
+    let beams = model.beams.iter().flat_map(|b| &b.elements).all(|e| {
+        let C = &model.stiffnesses[e.section];
+        let turn = |K: &Mat3| e.frame * K * e.frame.transpose();
+        !mixes(&turn(&C.N)) && !mixes(&turn(&C.M)) && !pairs_wrongly(&turn(&C.NM))
+    });
+    let links = model.links.iter().all(|link| match &link.kind {
+        LinkKind::Line { direction, .. } => direction.is_none_or(|d| !out_of_plane(&d)),
+        LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {
+            let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
+            !mixes(&turn(&k[..3])) && !mixes(&turn(&k[3..]))
+        }),
+    });
+    // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
+    let arms = system.attachments.iter().all(|a| !pairs_wrongly(&skew(&a.S0)) || a.S0 == Vec3::zeros());
+    beams && links && arms
+}

@@ -1,0 +1,64 @@
+//! Why a step could not be taken, in names.
+
+use crate::model::{DIRECTIONS, Model};
+use std::fmt;
+
+/// A step that was given up.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Failure {
+    /// The matrix has a vanishing pivot at this direction.
+    Singular { label: String, direction: &'static str },
+    /// Iterations did not contract.
+    NotConverged { iterations: usize, largest: Vec<Largest> },
+    /// A number stopped being one.
+    NotFinite { largest: Vec<Largest> },
+}
+
+/// An unbalanced force.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Largest {
+    pub label: String,
+    pub direction: &'static str,
+    pub residual: f64,
+}
+
+impl Failure {
+    pub(super) fn singular(model: &Model, (node, dof): (usize, usize)) -> Failure {
+        Failure::Singular { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof] }
+    }
+}
+
+/// The five largest residuals by name.
+pub(super) fn largest(model: &Model, directions: &[(usize, usize)], residual: &[f64]) -> Vec<Largest> {
+    let mut order: Vec<usize> = (0..residual.len()).collect();
+    let size = |i: usize| if residual[i].is_nan() { f64::INFINITY } else { residual[i].abs() };
+    order.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
+    let name = |&i: &usize| {
+        let (node, dof) = directions[i];
+        Largest { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof], residual: residual[i] }
+    };
+    order.iter().take(5).map(name).collect()
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let list = |f: &mut fmt::Formatter, largest: &[Largest]| {
+            largest.iter().try_for_each(|l| write!(f, "\n  {} {}: {:.3e}", l.label, l.direction, l.residual))
+        };
+        match self {
+            Failure::Singular { label, direction } => write!(
+                f,
+                "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
+                 a mechanism, or a bifurcation)"
+            ),
+            Failure::NotConverged { iterations, largest } => {
+                write!(f, "no convergence in {iterations} iterations; the largest unbalanced forces are")?;
+                list(f, largest)
+            }
+            Failure::NotFinite { largest } => {
+                write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;
+                list(f, largest)
+            }
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! From 0 to the end time: steps land on the times asked for, are cut where they fail and grow again.
+
+use super::failure::Failure;
+use super::refresh::Refresh;
+use super::stations::{Stretch, stretches};
+use super::step::{Stepper, Taken, extent};
+use super::{Frame, LinkState, Observer, SectionPoint};
+use crate::model::{Cadence, Model};
+use crate::plan::Plan;
+use crate::state::{Increment, Node, State};
+use crate::system::energy::Energy;
+use crate::system::{Drive, Forces, Loading, System};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Which of the derived quantities the observer needs; what is not wanted is not computed.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Wanted {
+    pub energy: bool,
+    pub reactions: bool,
+    pub links: bool,
+    pub sections: bool,
+}
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum Outcome {
+    Done,
+    /// The least step failed; results are valid up to `time`.
+    Failed {
+        time: f64,
+        failure: Failure,
+    },
+    /// The flag was raised.
+    Stopped {
+        time: f64,
+    },
+    /// The observer could not write.
+    Io(std::io::Error),
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    pub steps: usize,
+    pub iterations: usize,
+    pub factorizations: usize,
+    pub solves: usize,
+    pub cuts: usize,
+}
+
+/// A run of one scene.
+pub struct Run<'a> {
+    stepper: Stepper<'a>,
+    wanted: Wanted,
+    stop: &'a AtomicBool,
+    pub counts: Counts,
+    /// Time spent in the observer.
+    pub observing: Duration,
+    energy: Option<Energy>,
+    links: Vec<LinkState>,
+    sections: Vec<SectionPoint>,
+}
+
+/// Halvings of a step that are ever tried; the deck's least step may stop earlier.
+const DEEPEST: u32 = 40;
+
+impl<'a> Run<'a> {
+    pub fn new(model: &'a Model, system: &'a System, plan: &'a Plan, wanted: Wanted, stop: &'a AtomicBool) -> Self {
+        let n = model.nodes.len();
+        let (solver, assembly) = plan.build(system);
+        let mut rides = vec![false; n];
+        system.attachments.iter().filter(|a| a.rigid).for_each(|a| rides[a.node] = true);
+        let mut held = vec![[false; 6]; n];
+        let mut driven = vec![false; n];
+        for h in &model.held {
+            held[h.node][h.dof] = true;
+            driven[h.node] |= h.motion.is_some();
+        }
+        // A node with nothing to move it stays where it is and costs nothing.
+        let moves = |i: &usize| !rides[*i] && (driven[*i] || (0..6).any(|d| plan.is_unknown(*i, d)));
+        let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
+        let stepper = Stepper {
+            model,
+            plan,
+            system,
+            drive: Drive::new(model),
+            solver,
+            assembly,
+            refresh: Refresh::new(model.iteration.update, plan.linear, plan.refresh_cost),
+            length: extent(&at_rest),
+            reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(extent(&at_rest)),
+            trial: at_rest,
+            increments: vec![Increment::ZERO; n],
+            forces: Forces::new(system, n),
+            r: vec![0.0; plan.unknowns],
+            given: [Loading::default(), Loading::default(), Loading::default()],
+            held: [Vec::new(), Vec::new(), Vec::new()],
+            movers: (0..n).filter(moves).collect(),
+            wants_forces: wanted.reactions || wanted.energy,
+            factorizations: 0,
+            solves: 0,
+            drift: 0.0,
+        };
+        Run {
+            stepper,
+            wanted,
+            stop,
+            counts: Counts::default(),
+            observing: Duration::ZERO,
+            energy: None,
+            links: Vec::new(),
+            sections: Vec::new(),
+        }
+    }
+
+    /// Largest departure from orthogonality that a truncated rotation update left to be mended.
+    pub fn rotation_drift(&self) -> f64 {
+        self.stepper.drift
+    }
+
+    /// Runs to the end, to a failure, or until stopped. The state it ends with is returned too.
+    pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
+        let mut state = match self.stepper.start() {
+            Ok(state) => state,
+            Err(failure) => return (Outcome::Failed { time: 0.0, failure }, None),
+        };
+        let outcome = self.march(&mut state, observer);
+        self.counts.factorizations = self.stepper.factorizations;
+        self.counts.solves = self.stepper.solves;
+        let end = match outcome {
+            Ok(()) => Outcome::Done,
+            Err(outcome) => outcome,
+        };
+        (end, Some(state))
+    }
+
+    fn march(&mut self, state: &mut State, observer: &mut dyn Observer) -> Result<(), Outcome> {
+        let initial = self.wanted.energy.then(|| self.stepper.system.energy(state, None));
+        let balance = initial.map(|e| e.total);
+        let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
+        self.show(state, observer, balance, 0.0, &still, 0, true)?;
+        for stretch in stretches(self.stepper.model) {
+            for k in 1..=stretch.steps {
+                self.advance(state, &stretch, k, observer, balance)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// One step of the deck, in as many pieces as it takes. Pieces are halves of halves, so they end where the step ends.
+    fn advance(
+        &mut self,
+        state: &mut State,
+        stretch: &Stretch,
+        k: usize,
+        observer: &mut dyn Observer,
+        balance: Option<f64>,
+    ) -> Result<(), Outcome> {
+        let (from, to) = (state.time, stretch.time(k));
+        let whole = 1u64 << DEEPEST;
+        let (mut at, mut piece, mut cuts, mut successes) = (0u64, whole, 0, 0);
+        while at < whole {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Outcome::Stopped { time: state.time });
+            }
+            let next = at + piece;
+            let target = if next == whole { to } else { from + (to - from) * (next as f64 / whole as f64) };
+            let dt = target - state.time;
+            match self.stepper.step(state, target) {
+                Ok(taken) => {
+                    at = next;
+                    successes += 1;
+                    let last = at == whole;
+                    let due = last && k == stretch.steps && stretch.due;
+                    self.show(state, observer, balance, dt, &taken, cuts, due)?;
+                    cuts = 0;
+                    // Two pieces taken and a longer one fits: try it.
+                    if successes >= 2 && piece < whole && at.is_multiple_of(2 * piece) {
+                        piece *= 2;
+                        successes = 0;
+                    }
+                }
+                Err(failure) => {
+                    let half = 0.5 * dt;
+                    if piece == 1 || half < self.stepper.model.analysis.least_step {
+                        return Err(Outcome::Failed { time: state.time, failure });
+                    }
+                    piece /= 2;
+                    cuts += 1;
+                    successes = 0;
+                    self.counts.cuts += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn show(
+        &mut self,
+        state: &State,
+        observer: &mut dyn Observer,
+        balance: Option<f64>,
+        dt: f64,
+        taken: &Taken,
+        cuts: usize,
+        due: bool,
+    ) -> Result<(), Outcome> {
+        let model = self.stepper.model;
+        if dt > 0.0 {
+            self.counts.steps += 1;
+            self.counts.iterations += taken.iterations;
+        }
+        let due = due
+            || match model.output.cadence {
+                Cadence::Steps(every) => self.counts.steps.is_multiple_of(every.max(1)),
+                Cadence::Interval(_) => false,
+            };
+        let began = Instant::now();
+        self.derive(state, due, balance);
+        let frame = Frame {
+            model,
+            state,
+            step: self.counts.steps,
+            dt,
+            iterations: taken.iterations,
+            refactorizations: taken.refactorizations,
+            residual: taken.residual,
+            cuts,
+            due,
+            energy: self.energy.as_ref(),
+            reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
+            links: &self.links,
+            sections: &self.sections,
+        };
+        observer.see(&frame).map_err(Outcome::Io)?;
+        self.observing += began.elapsed();
+        Ok(())
+    }
+
+    /// What is computed only to be shown.
+    fn derive(&mut self, state: &State, due: bool, balance: Option<f64>) {
+        self.energy = None;
+        self.links.clear();
+        self.sections.clear();
+        if !due {
+            return;
+        }
+        let system = self.stepper.system;
+        if self.wanted.energy {
+            self.energy = Some(system.energy(state, balance));
+        }
+        if self.wanted.links {
+            system.link_states(&state.nodes, &mut self.links);
+        }
+        if self.wanted.sections {
+            system.section_points(self.stepper.model, &state.nodes, &mut self.sections);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The state at t = 0: positions and velocities as given, accelerations from equilibrium.
+
+use super::failure::Failure;
+use super::step::Stepper;
+use crate::math::{Vec3, Vec6, rotation};
+use crate::model::Kind;
+use crate::state::{Increment, Node, State, Work};
+use crate::system::assembly::{NONE, Weights};
+
+impl Stepper<'_> {
+    /// # Errors
+    /// [`Failure::Singular`] where a mass matrix cannot be inverted.
+    pub fn start(&mut self) -> Result<State, Failure> {
+        let dynamic = self.model.analysis.kind == Kind::Dynamic;
+        let nodes: Vec<Node> = self
+            .model
+            .nodes
+            .iter()
+            .enumerate()
+            .map(|(i, spec)| {
+                let mut node = Node::at_rest(spec.x);
+                for dof in 0..3 {
+                    // Directions left out have no motion at all.
+                    if dynamic && self.plan.is_unknown(i, dof) {
+                        node.v[dof] = spec.v[dof];
+                    }
+                    if dynamic && self.plan.is_unknown(i, 3 + dof) {
+                        node.omega[dof] = spec.omega[dof];
+                    }
+                }
+                node
+            })
+            .collect();
+        let n = nodes.len();
+        let mut state = State {
+            time: 0.0,
+            nodes,
+            jerk: vec![Vec6::zeros(); n],
+            reactions: vec![0.0; self.model.held.len()],
+            work: Work::default(),
+        };
+        self.drive.loading(0.0, &mut self.given[2]);
+        self.drive.held(0.0, &mut self.held[0]);
+        for (held, given) in self.model.held.iter().zip(&self.held[0]) {
+            let node = &mut state.nodes[held.node];
+            if held.dof < 3 {
+                node.x[held.dof] += given.u;
+                node.v[held.dof] = given.v;
+                node.a[held.dof] = given.a;
+            } else {
+                let mut turn = Vec3::zeros();
+                turn[held.dof - 3] = given.u;
+                node.q = rotation::exp(&turn) * node.q;
+                node.omega[held.dof - 3] = given.v;
+                node.alpha[held.dof - 3] = given.a;
+            }
+        }
+        self.follow(&mut state);
+        self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+        if dynamic {
+            self.accelerate(&mut state)?;
+            self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+        }
+        for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
+            *reaction = -self.forces.on_nodes[held.node][held.dof];
+        }
+        state.work.damping_power = if dynamic { self.system.damping_power(&state.nodes) } else { 0.0 };
+        self.trial.clone_from(&state.nodes);
+        Ok(state)
+    }
+
+    fn follow(&mut self, state: &mut State) {
+        for (increment, node) in self.increments.iter_mut().zip(&state.nodes) {
+            *increment = Increment {
+                q: Vec6::zeros(),
+                d: crate::math::join(&node.v, &node.omega),
+                dd: crate::math::join(&node.a, &node.alpha),
+            };
+        }
+        for rider in &self.system.attachments {
+            let start = state.nodes[rider.node];
+            rider.follow(&mut state.nodes, &mut self.increments, &start);
+        }
+    }
+
+    /// M a = f at t = 0. Directions without mass have no equation for their acceleration: it starts from zero.
+    fn accelerate(&mut self, state: &mut State) -> Result<(), Failure> {
+        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0 };
+        self.assembly.tangent(self.system, &state.nodes, &self.given[2], &self.forces, weights, &mut self.solver);
+        for row in 0..self.plan.unknowns {
+            let (node, dof) = self.plan.directions[row];
+            self.r[row] = self.forces.on_nodes[node][dof];
+            let Some(slot) = self.solver.slot(row, row) else { continue };
+            let diagonal = &mut self.solver.values()[slot];
+            if *diagonal == 0.0 {
+                *diagonal = 1.0;
+                self.r[row] = 0.0;
+            }
+        }
+        self.factorizations += 1;
+        self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))?;
+        self.solver.solve(&mut self.r);
+        self.solves += 1;
+        for (node, rows) in state.nodes.iter_mut().zip(&self.plan.rows) {
+            for dof in 0..3 {
+                if rows[dof] != NONE {
+                    node.a[dof] = self.r[rows[dof] as usize];
+                }
+                if rows[3 + dof] != NONE {
+                    node.alpha[dof] = self.r[rows[3 + dof] as usize];
+                }
+            }
+        }
+        self.follow(state);
+        Ok(())
+    }
+}

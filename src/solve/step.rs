@@ -1,0 +1,330 @@
+//! One step: predict, then residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
+
+use super::failure::{self, Failure};
+use super::refresh::{Advice, Refresh};
+use crate::integrators::{Coefficients, Scheme, load_steps};
+use crate::linear::Solver;
+use crate::math::rotation::inverse_tangent;
+use crate::math::{Vec3, Vec6, bottom, join};
+use crate::model::{Kind, Model};
+use crate::plan::Plan;
+use crate::state::{Increment, Node, State};
+use crate::system::assembly::{Assembly, NONE, Weights};
+use crate::system::{Drive, Forces, Loading, Prescribed, Scale, System, between};
+
+/// Everything a step writes to. Allocated once.
+pub struct Stepper<'a> {
+    pub model: &'a Model,
+    pub plan: &'a Plan,
+    pub system: &'a System,
+    pub drive: Drive<'a>,
+    pub solver: Solver,
+    pub assembly: Assembly,
+    pub refresh: Refresh,
+    /// Motion at the instant of equilibrium.
+    pub trial: Vec<Node>,
+    pub increments: Vec<Increment>,
+    pub forces: Forces,
+    /// Residual, then correction, per unknown.
+    pub r: Vec<f64>,
+    /// Given values at the start of the step, at its end, and at the instant of equilibrium.
+    pub given: [Loading; 3],
+    pub held: [Vec<Prescribed>; 3],
+    /// Nodes that move by increments of their own.
+    pub movers: Vec<usize>,
+    /// Length on which corrections are judged where hardly anything moves.
+    pub length: f64,
+    /// Largest coordinate of a node: what positions are rounded against.
+    pub reach: f64,
+    pub wants_forces: bool,
+    pub factorizations: usize,
+    pub solves: usize,
+    /// Largest departure from orthogonality that a truncated rotation update left to be mended.
+    pub drift: f64,
+}
+
+/// A step that was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Taken {
+    pub iterations: usize,
+    pub refactorizations: usize,
+    /// Relative to the largest force or moment at a node.
+    pub residual: f64,
+}
+
+/// Largest translations and rotations of a set of increments.
+#[derive(Debug, Clone, Copy, Default)]
+struct Size {
+    translation: f64,
+    rotation: f64,
+}
+
+impl<'a> Stepper<'a> {
+    pub fn coefficients(&self, dt: f64) -> Coefficients {
+        match (self.model.analysis.kind, &self.model.scheme) {
+            (Kind::Static, _) => load_steps::coefficients(),
+            (Kind::Dynamic, Scheme::WilsonTheta(scheme)) => scheme.coefficients(dt),
+        }
+    }
+
+    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
+        let dt = to - state.time;
+        let scheme = self.coefficients(dt);
+        self.give(state.time, to, scheme.instant);
+        self.predict(state, &scheme);
+        let tolerance = self.model.iteration.tolerance;
+        let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
+        let mut last = (f64::INFINITY, f64::INFINITY);
+        loop {
+            self.move_trial(state, &scheme);
+            let scale = self.system.residual(&self.trial, &self.given[2], &mut self.forces);
+            taken.residual = self.gather(&scale);
+            if !taken.residual.is_finite() {
+                return Err(self.not_finite());
+            }
+            if self.refresh.due(taken.iterations, dt) {
+                self.form_matrix(&scheme)?;
+                self.refresh.done(dt);
+                taken.refactorizations += 1;
+            }
+            self.solver.solve(&mut self.r);
+            self.solves += 1;
+            let (correction, motion) = self.correct();
+            taken.iterations += 1;
+            // Error left after this correction, relative to the motion of the step, from the contraction seen so far.
+            let size = self.relative(correction, motion);
+            if !size.is_finite() {
+                return Err(self.not_finite());
+            }
+            // The first correction shows no contraction yet; a linear scene has nothing left after it.
+            let contraction = match taken.iterations {
+                _ if self.plan.linear => 0.0,
+                _ if last.0.is_infinite() => 0.5,
+                _ => (size / last.0).max(taken.residual / last.1),
+            };
+            // Error and residual left after this correction, each relative. Positions cannot be told apart below rounding.
+            let left = contraction / (1.0 - contraction) * size;
+            let unbalanced = contraction * taken.residual;
+            if contraction < 1.0 && left <= tolerance && unbalanced <= tolerance || self.is_rounding(correction) {
+                break;
+            }
+            if taken.iterations >= self.model.iteration.limit {
+                return Err(self.not_converged(&taken));
+            }
+            if last.0.is_finite() {
+                let remaining = (tolerance / left.max(unbalanced)).ln() / contraction.ln();
+                let remaining = if contraction < 1.0 { remaining } else { f64::INFINITY };
+                if self.refresh.watch(taken.refactorizations > 0, contraction, remaining) == Advice::Restart {
+                    self.predict(state, &scheme);
+                    last = (f64::INFINITY, f64::INFINITY);
+                    continue;
+                }
+            }
+            last = (size, taken.residual);
+        }
+        self.refresh.accepted(taken.iterations);
+        self.accept(state, &scheme, to);
+        Ok(taken)
+    }
+
+    /// Loads and held motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
+    fn give(&mut self, from: f64, to: f64, instant: f64) {
+        let [start, end, at] = &mut self.given;
+        self.drive.loading(from, start);
+        self.drive.loading(to, end);
+        between(start, end, instant, at);
+        let [start, end, at] = &mut self.held;
+        self.drive.held(from, start);
+        self.drive.held(to, end);
+        at.clear();
+        at.extend(start.iter().zip(end.iter()).map(|(a, b)| Prescribed {
+            u: instant * (b.u - a.u),
+            v: a.v + instant * (b.v - a.v),
+            a: a.a + instant * (b.a - a.a),
+        }));
+    }
+
+    fn predict(&mut self, state: &State, scheme: &Coefficients) {
+        for &node in &self.movers {
+            let start = &state.nodes[node];
+            let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+            self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
+        }
+    }
+
+    /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.
+    fn move_trial(&mut self, state: &State, scheme: &Coefficients) {
+        for &node in &self.movers {
+            let start = &state.nodes[node];
+            let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+            scheme.differentiate(&mut self.increments[node], &v, &a);
+        }
+        for (held, given) in self.model.held.iter().zip(&self.held[2]) {
+            set(&mut self.increments[held.node], held.dof, given);
+        }
+        for &node in &self.movers {
+            let drift = self.trial[node].advance(&state.nodes[node], &self.increments[node], scheme.rotation);
+            self.drift = self.drift.max(drift);
+        }
+        for rider in &self.system.attachments {
+            rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
+        }
+    }
+
+    /// Residual per unknown; returns its largest entry relative to the forces (moments) it is made of.
+    fn gather(&mut self, scale: &Scale) -> f64 {
+        let mut largest = [0.0f64; 2];
+        for (r, &(node, dof)) in self.r.iter_mut().zip(&self.plan.directions) {
+            *r = self.forces.on_nodes[node][dof];
+            // NaN must not vanish in max().
+            let size = if r.is_nan() { f64::INFINITY } else { r.abs() };
+            let kind = usize::from(dof > 2);
+            largest[kind] = largest[kind].max(size);
+        }
+        // Forces and moments apart; one counts against the other over the model's length where its own scale is nil.
+        let force = scale.force.max(1e-3 * scale.moment / self.length);
+        let moment = scale.moment.max(1e-3 * scale.force * self.length);
+        let ratio = |size: f64, of: f64| if size == 0.0 { 0.0 } else { size / of.max(f64::MIN_POSITIVE) };
+        ratio(largest[0], force).max(ratio(largest[1], moment))
+    }
+
+    fn form_matrix(&mut self, scheme: &Coefficients) -> Result<(), Failure> {
+        let (rate, acceleration) = scheme.weights();
+        let weights = Weights { stiffness: true, rate, acceleration };
+        self.assembly.tangent(self.system, &self.trial, &self.given[2], &self.forces, weights, &mut self.solver);
+        self.factorizations += 1;
+        self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))
+    }
+
+    /// Adds the correction in `r` to the increments. Returns its size and that of the increments.
+    fn correct(&mut self) -> (Size, Size) {
+        let (mut correction, mut motion) = (Size::default(), Size::default());
+        for &node in &self.movers {
+            let rows = &self.plan.rows[node];
+            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
+            let increment = &mut self.increments[node].q;
+            let dq = Vec6::from_fn(|i, _| entry(i));
+            let theta = bottom(increment);
+            // δΘ = T⁻¹ δθ
+            let dtheta = inverse_tangent(&theta, &bottom(&dq));
+            for i in 0..3 {
+                increment[i] += dq[i];
+                if rows[3 + i] != NONE {
+                    increment[3 + i] += dtheta[i];
+                }
+                correction.translation = correction.translation.max(dq[i].abs());
+                correction.rotation = correction.rotation.max(dq[3 + i].abs());
+                motion.translation = motion.translation.max(increment[i].abs());
+                motion.rotation = motion.rotation.max(increment[3 + i].abs());
+            }
+            if dq.iter().any(|c| !c.is_finite()) {
+                correction.translation = f64::NAN;
+            }
+        }
+        (correction, motion)
+    }
+
+    /// Correction relative to the motion of the step, translations and rotations apart, with floors for scenes at rest.
+    fn relative(&self, correction: Size, motion: Size) -> f64 {
+        const STILL: f64 = 1e-6; // of the model's length, or radians: a step that moves less is judged on this
+        if correction.translation.is_nan() {
+            return f64::NAN;
+        }
+        let translation = correction.translation / motion.translation.max(STILL * self.length);
+        translation.max(correction.rotation / motion.rotation.max(STILL))
+    }
+
+    /// True for a correction that only stirs the last digits of the positions.
+    fn is_rounding(&self, correction: Size) -> bool {
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        correction.translation <= ROUNDING * self.reach && correction.rotation <= ROUNDING
+    }
+
+    /// State at the end of the step, written once.
+    fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
+        if self.wants_forces {
+            self.move_trial(state, scheme);
+            self.system.residual(&self.trial, &self.given[2], &mut self.forces);
+        } else {
+            for &node in &self.movers {
+                let start = &state.nodes[node];
+                let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+                scheme.differentiate(&mut self.increments[node], &v, &a);
+            }
+        }
+        let dt = to - state.time;
+        for &node in &self.movers {
+            let start = &state.nodes[node];
+            let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+            self.increments[node] = scheme.finish(&self.increments[node], &v, &a);
+        }
+        for (i, held) in self.model.held.iter().enumerate() {
+            let (from, to) = (&self.held[0][i], &self.held[1][i]);
+            set(&mut self.increments[held.node], held.dof, &Prescribed { u: to.u - from.u, ..*to });
+        }
+        for &node in &self.movers {
+            let start = &state.nodes[node];
+            let end = &mut self.trial[node];
+            end.advance(start, &self.increments[node], scheme.rotation);
+            let change = join(&(end.a - start.a), &(end.alpha - start.alpha));
+            state.jerk[node] = change / dt;
+        }
+        for rider in &self.system.attachments {
+            rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
+        }
+        if self.wants_forces {
+            self.account(state, scheme, dt);
+        }
+        std::mem::swap(&mut state.nodes, &mut self.trial);
+        state.time = to;
+    }
+
+    /// Reactions, taken where equilibrium is written and carried to the end of the step; work and dissipation.
+    fn account(&mut self, state: &mut State, scheme: &Coefficients, dt: f64) {
+        for (i, held) in self.model.held.iter().enumerate() {
+            let old = state.reactions[i];
+            let at_instant = -self.forces.on_nodes[held.node][held.dof];
+            let new = old + (at_instant - old) / scheme.instant;
+            let moved = self.held[1][i].u - self.held[0][i].u;
+            state.work.external += 0.5 * (old + new) * moved;
+            state.reactions[i] = new;
+        }
+        state.work.external += self.system.external_work((&state.nodes, &self.given[0]), (&self.trial, &self.given[1]));
+        if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
+            let power = self.system.damping_power(&self.trial);
+            state.work.damping += 0.5 * dt * (state.work.damping_power + power);
+            state.work.damping_power = power;
+        }
+    }
+
+    fn not_converged(&mut self, taken: &Taken) -> Failure {
+        self.refresh.rejected();
+        self.gather(&Scale::default());
+        let largest = failure::largest(self.model, &self.plan.directions, &self.r);
+        Failure::NotConverged { iterations: taken.iterations, largest }
+    }
+
+    fn not_finite(&mut self) -> Failure {
+        self.refresh.rejected();
+        self.gather(&Scale::default());
+        Failure::NotFinite { largest: failure::largest(self.model, &self.plan.directions, &self.r) }
+    }
+}
+
+#[inline]
+fn set(increment: &mut Increment, dof: usize, given: &Prescribed) {
+    increment.q[dof] = given.u;
+    increment.d[dof] = given.v;
+    increment.dd[dof] = given.a;
+}
+
+/// Largest distance of a node from the first, or 1 for a single point.
+pub fn extent(nodes: &[Node]) -> f64 {
+    let first = nodes.first().map_or(Vec3::zeros(), |n| n.x);
+    let extent = nodes.iter().map(|n| (n.x - first).norm()).fold(0.0, f64::max);
+    if extent > 0.0 { extent } else { 1.0 }
+}

@@ -1,0 +1,324 @@
+//! The equation of motion of a scene: residual, tangent, energies, for any state of its nodes. Bodies are seen here for
+//! the first time: what an element does to a node that rides on a body is handed to the body.
+
+pub mod assembly;
+pub mod energy;
+mod inertia;
+mod motion;
+pub mod results;
+
+pub use inertia::Inertia;
+pub use motion::{Drive, Prescribed, between};
+pub use results::{LinkState, SectionPoint};
+
+use crate::constraints::attachment::{self, Attachment};
+use crate::elements::beam::{Beams, Description};
+use crate::elements::bushing::{Bushing, Bushings};
+use crate::elements::link::{Link, Links};
+use crate::elements::{Block, Force, bar};
+use crate::math::{Mat3, Vec3, quadrature, rotation, skew};
+use crate::model::{self, Model};
+use crate::state::Node;
+use inertia::ConsistentMass;
+
+/// A group of like elements and where its energy is booked.
+pub struct Group {
+    pub block: Box<dyn Block>,
+    pub kind: GroupKind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GroupKind {
+    Structure,
+    Link,
+}
+
+/// Everything that acts on the nodes. Constant over a run.
+pub struct System {
+    pub groups: Vec<Group>,
+    /// At most one per node, by node.
+    pub inertias: Vec<Inertia>,
+    consistent: Vec<ConsistentMass>,
+    /// Masters before their riders.
+    pub attachments: Vec<Attachment>,
+    watched: Vec<results::Watched>,
+    loads: Vec<model::Load>,
+    nodal_damping: Vec<model::NodalDamping>,
+    mass_damping: f64,
+    /// Inertia does not act in a static analysis; weight does.
+    dynamic: bool,
+}
+
+/// Loads at the instant of equilibrium: factors of the model's loads, and the acceleration field that every mass feels.
+#[derive(Debug, Clone, Default)]
+pub struct Loading {
+    pub factors: Vec<f64>,
+    pub field: Vec3,
+}
+
+/// What acts, as the residual leaves it. Written by [`System::residual`].
+#[derive(Debug, Clone)]
+pub struct Forces {
+    /// f_ext − f_int − C v − M a per node; what falls on a constrained direction has been handed to the master.
+    pub on_nodes: Vec<Force>,
+    /// The forces so handed over, in the order of [`System::attachments`].
+    pub on_riders: Vec<Vec3>,
+}
+
+impl Forces {
+    pub fn new(system: &System, nodes: usize) -> Self {
+        Forces { on_nodes: vec![[0.0; 6]; nodes], on_riders: vec![Vec3::zeros(); system.attachments.len()] }
+    }
+}
+
+/// Magnitudes against which a residual is judged.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Scale {
+    pub force: f64,
+    pub moment: f64,
+}
+
+impl Scale {
+    #[inline]
+    fn meet_force(&mut self, f: &Vec3) {
+        self.force = self.force.max(f.amax());
+    }
+
+    #[inline]
+    fn meet_moment(&mut self, m: &Vec3) {
+        self.moment = self.moment.max(m.amax());
+    }
+
+    #[inline]
+    fn meet(&mut self, f: &Force) {
+        self.force = self.force.max(f[0].abs()).max(f[1].abs()).max(f[2].abs());
+        self.moment = self.moment.max(f[3].abs()).max(f[4].abs()).max(f[5].abs());
+    }
+}
+
+impl System {
+    /// # Errors
+    /// A cycle among attachments, which [`crate::model`] excludes.
+    pub fn new(model: &Model) -> Result<System, String> {
+        let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
+        let beta = model.damping.stiffness_factor;
+        let mut groups = Vec::new();
+        let mut consistent = Vec::new();
+        let mut lumped = inertia::Lumped::new(x.len());
+        for body in &model.bodies {
+            lumped.add(body.node, body.mass, &body.inertia);
+        }
+        for mass in &model.masses {
+            lumped.add(mass.node, mass.mass, &mass.inertia);
+        }
+        for beam in &model.beams {
+            groups.push(Group { block: beams(beam, model, &x, beta), kind: GroupKind::Structure });
+            let (_, weights) = quadrature::lobatto(beam.order + 1);
+            for element in &beam.elements {
+                let nodes = &element.nodes[..=beam.order];
+                let section = &model.stiffnesses[element.section];
+                let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
+                let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
+                for (&node, w) in nodes.iter().zip(weights) {
+                    let share = 0.5 * w * length;
+                    let mass = match beam.mass {
+                        model::MassKind::Lumped => share * section.mass_per_length,
+                        _ => 0.0,
+                    };
+                    let keep = beam.rotary_inertia && beam.mass != model::MassKind::None;
+                    lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
+                }
+                if beam.mass == model::MassKind::Consistent {
+                    consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
+                }
+            }
+        }
+        for part in &model.bars {
+            let links = bar::links(&part.elements, part.axial_stiffness, part.tension_only, &x, beta);
+            groups.push(Group { block: Box::new(links), kind: GroupKind::Structure });
+            for nodes in &part.elements {
+                let mass = part.mass_per_length * (x[nodes[1]] - x[nodes[0]]).norm();
+                match part.mass {
+                    model::MassKind::Lumped => nodes.iter().for_each(|&n| lumped.add(n, 0.5 * mass, &Mat3::zeros())),
+                    model::MassKind::Consistent => consistent.push(ConsistentMass::new(nodes, mass)),
+                    model::MassKind::None => {}
+                }
+            }
+        }
+        let mut lines = Vec::new();
+        let mut bushings = Vec::new();
+        let mut watched = Vec::new();
+        for link in &model.links {
+            match &link.kind {
+                model::LinkKind::Line { law, damping, direction, free_length } => {
+                    let line = Link {
+                        nodes: link.ends,
+                        law: law.clone(),
+                        damping: *damping,
+                        direction: *direction,
+                        free_length: *free_length,
+                    };
+                    watched.push(results::Watched::Line(line.clone()));
+                    lines.push(line);
+                }
+                model::LinkKind::Bushing { stiffness, damping, axes } => {
+                    let bushing = Bushing {
+                        nodes: link.ends,
+                        axes: *axes,
+                        stiffness: *stiffness,
+                        damping: *damping,
+                        offset: axes.tr_mul(&(x[link.ends[1]] - x[link.ends[0]])),
+                    };
+                    watched.push(results::Watched::Bushing(bushing.clone()));
+                    bushings.push(bushing);
+                }
+            }
+        }
+        let blocks: [Box<dyn Block>; 2] = [Box::new(Links(lines)), Box::new(Bushings(bushings))];
+        groups.extend(blocks.into_iter().map(|block| Group { block, kind: GroupKind::Link }));
+        groups.retain(|g| !g.block.is_empty());
+
+        let attachments =
+            model.riders.iter().map(|r| Attachment::new(r.node, r.master, x[r.node] - x[r.master], r.dofs)).collect();
+        Ok(System {
+            groups,
+            inertias: lumped.finish(),
+            consistent,
+            attachments: attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?,
+            watched,
+            loads: model.loads.clone(),
+            nodal_damping: model.damping.nodal.clone(),
+            mass_damping: model.damping.mass_factor,
+            dynamic: model.analysis.kind == model::Kind::Dynamic,
+        })
+    }
+
+    /// Sums f_ext − f_int − C v − M a per node and hands the forces on constrained directions to their masters (58).
+    /// Returns the magnitude of what was summed.
+    pub fn residual(&self, nodes: &[Node], loading: &Loading, forces: &mut Forces) -> Scale {
+        let F = &mut forces.on_nodes[..];
+        F.fill([0.0; 6]);
+        let mut scale = Scale::default();
+        for group in &self.groups {
+            group.block.subtract_forces(nodes, F);
+        }
+        for f in F.iter() {
+            scale.meet(f);
+        }
+        for inertia in &self.inertias {
+            let node = &nodes[inertia.node];
+            let mut f = inertia.force(node, &loading.field, self.dynamic, &mut scale);
+            if self.mass_damping > 0.0 {
+                inertia.add_damping(node, self.mass_damping, &mut f);
+            }
+            for (sum, f) in F[inertia.node].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
+        for mass in &self.consistent {
+            mass.add_forces(nodes, &loading.field, self.dynamic, self.mass_damping, F);
+        }
+        for damping in &self.nodal_damping {
+            let node = &nodes[damping.node];
+            crate::elements::subtract(&mut F[damping.node], 0, &(damping.translation * node.v));
+            crate::elements::subtract(&mut F[damping.node], 3, &(damping.rotation * node.omega));
+        }
+        for (load, factor) in self.loads.iter().zip(&loading.factors) {
+            let (f, m) = load_on(load, *factor, &nodes[load.node]);
+            let f = [f.x, f.y, f.z, m.x, m.y, m.z];
+            scale.meet(&f);
+            for (sum, f) in F[load.node].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
+        for (rider, force) in self.attachments.iter().zip(&mut forces.on_riders).rev() {
+            *force = Vec3::new(F[rider.node][0], F[rider.node][1], F[rider.node][2]);
+            rider.lift(nodes, F);
+        }
+        scale
+    }
+
+    /// Work of loads and weight over a step, by the mean of the forces at its ends.
+    pub fn external_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> f64 {
+        let field = 0.5 * (from.1.field + to.1.field);
+        let moved = |node: usize| to.0[node].x - from.0[node].x;
+        let mut work = 0.0;
+        if field != Vec3::zeros() {
+            work += self.inertias.iter().map(|i| i.mass * field.dot(&moved(i.node))).sum::<f64>();
+            let weight = |mass: &ConsistentMass| mass.pairs().map(|(a, _, m)| m * field.dot(&moved(a))).sum::<f64>();
+            work += self.consistent.iter().map(weight).sum::<f64>();
+        }
+        for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
+            let (a, b) = (&from.0[load.node], &to.0[load.node]);
+            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
+            work += 0.5 * (f_a + f_b).dot(&(b.x - a.x));
+            if load.moment != Vec3::zeros() {
+                work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.q * a.q.conjugate())));
+            }
+        }
+        work
+    }
+
+    /// Power that dampers take.
+    pub fn damping_power(&self, nodes: &[Node]) -> f64 {
+        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(nodes)).sum();
+        if self.mass_damping > 0.0 {
+            let twice = 2.0 * self.mass_damping;
+            power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
+            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes)).sum::<f64>();
+        }
+        for d in &self.nodal_damping {
+            let node = &nodes[d.node];
+            power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
+        }
+        power
+    }
+
+    pub fn nodal_damping(&self) -> &[model::NodalDamping] {
+        &self.nodal_damping
+    }
+
+    /// True when anything takes energy by rate.
+    pub fn is_damped(&self) -> bool {
+        self.mass_damping > 0.0 || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
+    }
+
+    /// True when no term of the equation of motion depends on the motion other than linearly, with a constant matrix.
+    pub fn is_linear(&self) -> bool {
+        self.groups.iter().all(|g| g.block.is_linear())
+            && self.attachments.is_empty()
+            && self.loads.iter().all(|l| !l.follower)
+    }
+}
+
+/// Force and moment of a load; a follower turns with its node.
+#[inline]
+fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Vec3) {
+    let (f, m) = (factor * load.force, factor * load.moment);
+    if load.follower {
+        let R = node.R();
+        (R * f, R * m)
+    } else {
+        (f, m)
+    }
+}
+
+/// ∂(f, m)/∂θ of a follower, as internal force (with the sign of a stiffness).
+fn follower_stiffness(load: &model::Load, factor: f64, node: &Node) -> [Mat3; 2] {
+    let (f, m) = load_on(load, factor, node);
+    [skew(&f), skew(&m)]
+}
+
+fn beams(beam: &model::Beam, model: &Model, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+    let elements = beam.elements.iter().map(|e| Description {
+        nodes: &e.nodes,
+        frame: &e.frame,
+        stiffness: &model.stiffnesses[e.section],
+    });
+    match beam.order {
+        1 => Box::new(Beams::<2>::new(elements, x, beta)),
+        2 => Box::new(Beams::<3>::new(elements, x, beta)),
+        3 => Box::new(Beams::<4>::new(elements, x, beta)),
+        _ => Box::new(Beams::<5>::new(elements, x, beta)),
+    }
+}

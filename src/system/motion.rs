@@ -1,0 +1,76 @@
+//! What is given over time: factors of loads, the field of gravity and ground acceleration, motion of held directions.
+
+use super::Loading;
+use crate::amplitude::Amplitude;
+use crate::math::Vec3;
+use crate::model::{Held, History, Kind, Model, Motion};
+
+/// Displacement, velocity and acceleration of a held direction.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Prescribed {
+    pub u: f64,
+    pub v: f64,
+    pub a: f64,
+}
+
+/// The given functions of time of a model.
+pub struct Drive<'a> {
+    model: &'a Model,
+}
+
+impl<'a> Drive<'a> {
+    pub fn new(model: &'a Model) -> Self {
+        Drive { model }
+    }
+
+    /// A load without an amplitude: constant in dynamics, growing linearly over a static analysis.
+    fn plain_factor(&self, t: f64) -> f64 {
+        match self.model.analysis.kind {
+            Kind::Dynamic => 1.0,
+            Kind::Static => t / self.model.analysis.end_time,
+        }
+    }
+
+    /// Loads at time t, into `loading`.
+    pub fn loading(&self, t: f64, loading: &mut Loading) {
+        loading.factors.clear();
+        let factor = |amplitude: Option<usize>| match amplitude {
+            Some(i) => self.model.amplitudes[i].value(t),
+            None => self.plain_factor(t),
+        };
+        loading.factors.extend(self.model.loads.iter().map(|load| factor(load.amplitude)));
+        loading.field = self.plain_factor(t) * self.model.gravity;
+        for base in &self.model.base_accelerations {
+            loading.field -= self.model.amplitudes[base.amplitude].value(t) * base.direction;
+        }
+    }
+
+    /// Motion of the held directions at time t, in the model's order.
+    pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {
+        out.clear();
+        out.extend(self.model.held.iter().map(|held: &Held| match &held.motion {
+            None => Prescribed::default(),
+            Some(motion) => prescribed(motion, &self.model.amplitudes[motion.amplitude], t),
+        }));
+    }
+}
+
+fn prescribed(motion: &Motion, amplitude: &Amplitude, t: f64) -> Prescribed {
+    let (u, v, a) = match motion.history {
+        History::Displacement => (amplitude.value(t), amplitude.rate(t), amplitude.second_rate(t)),
+        History::Velocity => (amplitude.integral(t), amplitude.value(t), amplitude.rate(t)),
+        History::Acceleration => (amplitude.double_integral(t), amplitude.integral(t), amplitude.value(t)),
+    };
+    Prescribed { u: motion.scale * u, v: motion.scale * v, a: motion.scale * a }
+}
+
+/// y ← a + s (b − a): given values at an instant from those at the ends of a step.
+pub fn between(a: &Loading, b: &Loading, s: f64, y: &mut Loading) {
+    y.factors.clear();
+    y.factors.extend(a.factors.iter().zip(&b.factors).map(|(a, b)| a + s * (b - a)));
+    y.field = lerp(&a.field, &b.field, s);
+}
+
+fn lerp(a: &Vec3, b: &Vec3, s: f64) -> Vec3 {
+    a + s * (b - a)
+}

@@ -1,0 +1,52 @@
+//! Rows are written without allocating.
+
+mod scene;
+
+use rdsolve::output::Files;
+use rdsolve::output::expect::Expectations;
+use rdsolve::output::progress::Progress;
+use rdsolve::solve::Observer;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: passes every call on to the system allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn nothing_is_allocated_per_row() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut model = scene::model();
+    model.nodes[2].label = "elbow".into();
+    let state = scene::state(&model, 0.7);
+    let extras = scene::Extras::at(0.7);
+    let mut files = Files::open(dir.path(), &model, None).unwrap();
+    let (mut expectations, mut progress) = (Expectations::new(&model), Progress::new(true));
+    let mut round = |steps| {
+        for step in steps {
+            let frame = extras.frame(&model, &state, step);
+            files.see(&frame).unwrap();
+            expectations.see(&frame).unwrap();
+            progress.see(&frame).unwrap();
+        }
+    };
+    round(0..2);
+    let before = ALLOCATIONS.load(Relaxed);
+    round(2..2000);
+    assert_eq!(ALLOCATIONS.load(Relaxed) - before, 0);
+}

@@ -1,0 +1,253 @@
+//! Both factorisations against a dense one, over structures of every shape.
+
+mod structures;
+
+use nalgebra::{DMatrix, DVector};
+use rdsolve::linear::{Kind, Solver, Structure};
+use structures::{Random, Values, chain, cliques, entries, fill, frame, quadratic_chain, sheet, slots, tree};
+
+fn shapes(random: &mut Random) -> Vec<Structure> {
+    let mut shapes = vec![
+        chain(1, 6),
+        chain(20, 6),
+        chain(9, 3),
+        chain(7, 1),
+        quadratic_chain(10, 6),
+        quadratic_chain(6, 2),
+        sheet(5, 6, 5),
+        frame(3, 3, 3, 6),
+        frame(1, 4, 5, 3),
+        Structure { sizes: vec![6, 2, 3], cliques: vec![] },
+        Structure { sizes: vec![], cliques: vec![] },
+    ];
+    for groups in [2, 5, 17, 40] {
+        shapes.push(tree(groups, random));
+        shapes.push(cliques(groups, random));
+    }
+    shapes
+}
+
+fn unknowns(structure: &Structure) -> usize {
+    structure.sizes.iter().sum()
+}
+
+fn dense(n: usize, entries: &[(usize, usize, f64)]) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(n, n);
+    for &(i, j, value) in entries {
+        matrix[(i, j)] += value;
+    }
+    matrix
+}
+
+/// Factors and solves for a random right-hand side; compares with a dense LU.
+fn check(solver: &mut Solver, structure: &Structure, values: Values, random: &mut Random) {
+    let n = unknowns(structure);
+    let entries = entries(structure, values, random);
+    let matrix = dense(n, &entries);
+    let b = DVector::from_fn(n, |_, _| random.number());
+    let slots = slots(solver, &entries);
+    fill(solver, &slots);
+    solver.factor().unwrap();
+    let mut x = b.clone();
+    solver.solve(x.as_mut_slice());
+    if n == 0 {
+        return; // nalgebra does not divide by nothing
+    }
+
+    let residual = (&matrix * &x - &b).norm() / (matrix.norm() * x.norm() + b.norm()).max(1e-300);
+    assert!(residual <= 1e-14, "{}: residual {residual:e}", solver.describe());
+    let expected = matrix.lu().solve(&b).unwrap();
+    assert!((&x - &expected).norm() <= 1e-12 * expected.norm(), "{}", solver.describe());
+}
+
+#[test]
+fn both_agree_with_a_dense_factorisation() {
+    let mut random = Random(1);
+    for structure in shapes(&mut random) {
+        let mut block = Solver::new(&structure, Kind::Block, 1);
+        let mut cholesky = Solver::new(&structure, Kind::Cholesky, 1);
+        assert!(!block.symmetric() && cholesky.symmetric());
+        for _ in 0..3 {
+            for values in [Values::Unsymmetric, Values::Definite, Values::Indefinite] {
+                check(&mut block, &structure, values, &mut random);
+            }
+            for values in [Values::Definite, Values::Indefinite, Values::Definite] {
+                check(&mut cholesky, &structure, values, &mut random);
+            }
+        }
+    }
+}
+
+#[test]
+fn slots_are_symmetric_unique_and_inside_the_structure() {
+    let mut random = Random(2);
+    for structure in shapes(&mut random) {
+        let n = unknowns(&structure);
+        let group: Vec<usize> = structure.sizes.iter().enumerate().flat_map(|(g, &s)| vec![g; s]).collect();
+        for kind in [Kind::Block, Kind::Cholesky] {
+            let mut solver = Solver::new(&structure, kind, 1);
+            let mut taken = vec![false; solver.values().len()];
+            taken[solver.spare()] = true;
+            for i in 0..n {
+                for j in 0..n {
+                    let slot = solver.slot(i, j);
+                    let (g, h) = (group[i], group[j]);
+                    let coupled = g == h || structure.cliques.iter().any(|c| c.contains(&g) && c.contains(&h));
+                    assert_eq!(slot.is_some(), coupled, "{kind:?} ({i}, {j})");
+                    if let (Some(slot), true) = (slot, !solver.symmetric() || i >= j) {
+                        assert!(!std::mem::replace(&mut taken[slot], true), "{kind:?} ({i}, {j})");
+                    }
+                    if solver.symmetric() {
+                        assert_eq!(slot, solver.slot(j, i));
+                    }
+                }
+            }
+            assert_eq!(solver.slot(n, 0), None);
+        }
+    }
+}
+
+#[test]
+fn the_row_of_a_vanishing_pivot_is_named_and_the_solver_lives_on() {
+    let mut random = Random(3);
+    for structure in shapes(&mut random).into_iter().filter(|s| !s.sizes.is_empty()) {
+        let good = entries(&structure, Values::Definite, &mut random);
+        let first: Vec<usize> =
+            structure.sizes.iter().scan(0, |sum, s| Some(std::mem::replace(sum, *sum + s))).collect();
+        for kind in [Kind::Block, Kind::Cholesky] {
+            let mut solver = Solver::new(&structure, kind, 1);
+            let all = slots(&solver, &good);
+
+            // A row and its column are zero.
+            let row = random.below(unknowns(&structure));
+            let without: Vec<_> = good.iter().copied().filter(|&(i, j, _)| i != row && j != row).collect();
+            let kept = slots(&solver, &without);
+            fill(&mut solver, &kept);
+            assert_eq!(solver.factor().unwrap_err().row, row, "{kind:?}");
+
+            // A group is held by nothing.
+            let g = random.below(structure.sizes.len());
+            let rows = first[g]..first[g] + structure.sizes[g];
+            let without: Vec<_> =
+                good.iter().copied().filter(|(i, j, _)| !rows.contains(i) && !rows.contains(j)).collect();
+            let kept = slots(&solver, &without);
+            fill(&mut solver, &kept);
+            assert!(rows.contains(&solver.factor().unwrap_err().row), "{kind:?}");
+
+            // A number that is none.
+            for bad in [f64::NAN, f64::INFINITY] {
+                fill(&mut solver, &all);
+                let slot = all[random.below(all.len())].0;
+                solver.values()[slot] = bad;
+                assert!(solver.factor().is_err(), "{kind:?} {bad}");
+            }
+
+            check(&mut solver, &structure, Values::Definite, &mut random);
+        }
+    }
+}
+
+/// Springs between neighbours and none to the ground: the exact pivot of the last is zero, rounding leaves a little.
+#[test]
+fn a_floating_chain_of_springs_is_singular() {
+    for n in [2, 10, 300] {
+        let structure = chain(n, 1);
+        for kind in [Kind::Block, Kind::Cholesky] {
+            let mut solver = Solver::new(&structure, kind, 1);
+            let mut random = Random(n as u64);
+            let springs = (1..n).flat_map(|i| {
+                let k = 2.0 + random.number();
+                [(i, i, k), (i - 1, i - 1, k), (i, i - 1, -k), (i - 1, i, -k)]
+            });
+            let slots = slots(&solver, &springs.collect::<Vec<_>>());
+            fill(&mut solver, &slots);
+            assert!(solver.factor().is_err(), "{n} {kind:?}");
+        }
+    }
+}
+
+/// A slender cantilever of plane beams, axial 10⁴ times stiffer than bending, oblique to the axes: stiffnesses far
+/// apart meet in each block, and its inverse is what the LU keeps. The error is measured backwards,
+/// ‖b − K x‖ / (‖K‖ ‖x‖ + ‖b‖).
+#[test]
+fn stiff_directions_do_not_spoil_the_soft_ones() {
+    let n = 50;
+    let structure = chain(n, 3);
+    let (c, s) = (0.6_f64.cos(), 0.6_f64.sin());
+    #[rustfmt::skip]
+    let local = DMatrix::from_row_slice(6, 6, &[
+        1e4, 0., 0., -1e4, 0., 0.,   0., 12., 6., 0., -12., 6.,   0., 6., 4., 0., -6., 2.,
+        -1e4, 0., 0., 1e4, 0., 0.,   0., -12., -6., 0., 12., -6.,  0., 6., 2., 0., -6., 4.,
+    ]);
+    #[rustfmt::skip]
+    let turn = DMatrix::from_row_slice(6, 6, &[
+        c, s, 0., 0., 0., 0.,  -s, c, 0., 0., 0., 0.,  0., 0., 1., 0., 0., 0.,
+        0., 0., 0., c, s, 0.,  0., 0., 0., -s, c, 0.,  0., 0., 0., 0., 0., 1.,
+    ]);
+    let element = turn.transpose() * local * turn;
+    let beam = |first: usize| (0..36).map(move |e| (first + e / 6, first + e % 6, (e / 6, e % 6)));
+    let mut entries: Vec<_> = (1..n).flat_map(|g| beam(3 * g - 3)).map(|(i, j, at)| (i, j, element[at])).collect();
+    entries.extend((0..9).map(|e| (e / 3, e % 3, element[(3 + e / 3, 3 + e % 3)])));
+    let matrix = dense(3 * n, &entries);
+    let b = DVector::from_fn(3 * n, |i, _| if i == 3 * n - 2 { 1.0 } else { 0.0 });
+    for kind in [Kind::Block, Kind::Cholesky] {
+        let mut solver = Solver::new(&structure, kind, 1);
+        let slots = slots(&solver, &entries);
+        fill(&mut solver, &slots);
+        solver.factor().unwrap();
+        let mut x = b.clone();
+        solver.solve(x.as_mut_slice());
+        let residual = &matrix * &x - &b;
+        let error = residual.norm() / (matrix.norm() * x.norm() + b.norm());
+        let deflection = (n as f64).powi(3) / 3.0 * c * c;
+        assert!(error <= 1e-16, "{kind:?}: {error:e}");
+        assert!((x[3 * n - 2] / deflection - 1.0).abs() <= 1e-3, "{kind:?}");
+    }
+}
+
+/// A block without a diagonal needs its rows exchanged.
+#[test]
+fn rows_are_exchanged_within_a_block() {
+    let structure = Structure { sizes: vec![6, 6], cliques: vec![vec![0, 1]] };
+    let mut solver = Solver::new(&structure, Kind::Block, 1);
+    let matrix = DMatrix::from_fn(12, 12, |i, j| match ((i + 1) % 6 == j % 6, i / 6 == j / 6) {
+        (true, true) => 2.0 + i as f64,
+        (true, false) => 0.3,
+        _ => 0.0,
+    });
+    let entries: Vec<_> = (0..144).map(|e| (e / 12, e % 12, matrix[(e / 12, e % 12)])).collect();
+    let slots = slots(&solver, &entries);
+    fill(&mut solver, &slots);
+    solver.factor().unwrap();
+    let b = DVector::from_fn(12, |i, _| 1.0 + i as f64);
+    let mut x = b.clone();
+    solver.solve(x.as_mut_slice());
+    assert!((&matrix * &x - &b).norm() <= 1e-13 * b.norm());
+}
+
+#[test]
+fn chains_go_to_blocks_and_large_frames_to_cholesky() {
+    assert_eq!(Kind::choose(&chain(2, 6)), Kind::Block);
+    assert_eq!(Kind::choose(&chain(2000, 6)), Kind::Block);
+    assert_eq!(Kind::choose(&frame(10, 6, 6, 6)), Kind::Cholesky);
+    assert_eq!(Kind::choose(&Structure { sizes: vec![], cliques: vec![] }), Kind::Block);
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let structure = frame(11, 11, 11, 6);
+    for values in [Values::Definite, Values::Indefinite] {
+        let entries = entries(&structure, values, &mut Random(4));
+        let solutions = [1, 2].map(|threads| {
+            let mut solver = Solver::new(&structure, Kind::Cholesky, threads);
+            assert!(solver.stats().flops > 5e8, "too small for threads: {}", solver.describe());
+            let slots = slots(&solver, &entries);
+            fill(&mut solver, &slots);
+            solver.factor().unwrap();
+            let mut b: Vec<f64> = (0..unknowns(&structure)).map(|i| (i as f64).sin()).collect();
+            solver.solve(&mut b);
+            b
+        });
+        assert!(solutions[0] == solutions[1], "{values:?}");
+    }
+}

@@ -1,0 +1,247 @@
+//! The files of the output folder, read back.
+
+mod scene;
+
+use base64::prelude::{BASE64_STANDARD, Engine};
+use rdsolve::model::{Expect, ExpectAt, Model, Tolerance, When};
+use rdsolve::output::Files;
+use rdsolve::output::expect::{Expectations, quantities};
+use rdsolve::solve::Observer;
+use std::fs;
+use std::path::Path;
+
+/// Shows steps `from..=to` of ten to an observer.
+fn show(observer: &mut dyn Observer, model: &Model, from: usize, to: usize) {
+    for step in from..=to {
+        let state = scene::state(model, step as f64 / 10.0);
+        let extras = scene::Extras::at(state.time);
+        observer.see(&extras.frame(model, &state, step)).unwrap();
+    }
+}
+
+fn run(dir: &Path, model: &Model) {
+    let mut files = Files::open(dir, model, None).unwrap();
+    show(&mut files, model, 0, 10);
+    files.finish().unwrap();
+}
+
+fn table(dir: &Path, name: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_path(dir.join(name)).unwrap();
+    let header = reader.headers().unwrap().iter().map(String::from).collect();
+    (header, reader.records().map(|row| row.unwrap().iter().map(String::from).collect()).collect())
+}
+
+#[test]
+fn headers_are_those_of_the_interface() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), &scene::model());
+    for (name, header) in [
+        ("nodes.csv", "step,time,node,x,y,z,ux,uy,uz,rx,ry,rz,vx,vy,vz,wx,wy,wz,ax,ay,az,bx,by,bz"),
+        ("bodies.csv", "step,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,bx,by,bz"),
+        (
+            "energy.csv",
+            "step,time,kinetic,strain,plastic,viscous,damping,links,external,numerical,total,px,py,pz,lx,ly,lz",
+        ),
+        ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
+        ("reactions.csv", "step,time,node,direction,value"),
+        ("sections.csv", "step,time,beam,element,point,s,N,Qy,Qz,T,My,Mz"),
+        ("steps.csv", "step,time,dt,iterations,refactorizations,residual,cuts"),
+    ] {
+        let text = fs::read_to_string(dir.path().join(name)).unwrap();
+        assert_eq!(text.lines().next(), Some(header), "{name}");
+        assert!(text.ends_with('\n') && !text.contains("NaN") && !text.contains("inf"), "{name}");
+    }
+}
+
+#[test]
+fn rows_are_the_frames_to_the_last_bit() {
+    let dir = tempfile::tempdir().unwrap();
+    let model = scene::model();
+    run(dir.path(), &model);
+    let (header, rows) = table(dir.path(), "nodes.csv");
+    assert_eq!(rows.len(), 6 * 2, "six due steps, two nodes");
+    for (i, row) in rows.iter().enumerate() {
+        let step = 2 * (i / 2);
+        let node = model.output.nodes[i % 2];
+        let state = scene::state(&model, step as f64 / 10.0);
+        let now = &state.nodes[node];
+        assert_eq!(row[..3], [step.to_string(), format!("{:?}", state.time), model.nodes[node].label.clone()]);
+        let value = |name: &str| row[header.iter().position(|h| h == name).unwrap()].parse::<f64>().unwrap();
+        for (names, vector) in [
+            (["x", "y", "z"], now.x),
+            (["ux", "uy", "uz"], now.x - model.nodes[node].x),
+            (["vx", "vy", "vz"], now.v),
+            (["wx", "wy", "wz"], now.omega),
+            (["ax", "ay", "az"], now.a),
+            (["bx", "by", "bz"], now.alpha),
+        ] {
+            assert!((0..3).all(|k| value(names[k]).to_bits() == vector[k].to_bits()), "{names:?} at step {step}");
+        }
+        let angle = ["rx", "ry", "rz"].map(value).iter().map(|r| r * r).sum::<f64>().sqrt();
+        assert!(angle <= std::f64::consts::PI * (1.0 + 1e-15), "principal rotation vector");
+    }
+    let (header, rows) = table(dir.path(), "bodies.csv");
+    let qw = header.iter().position(|name| name == "qw").unwrap();
+    assert_eq!(rows.len(), 6 * 4);
+    assert!(rows.iter().all(|row| row[qw].parse::<f64>().unwrap() >= 0.0));
+    assert_eq!(table(dir.path(), "steps.csv").1.len(), 10, "every accepted step");
+    assert_eq!(table(dir.path(), "reactions.csv").1[1][2..], ["node[0]", "rz", "-1.0"]);
+    assert_eq!(table(dir.path(), "sections.csv").1[1][2..6], ["fore & aft", "0", "1", "0.5"]);
+    assert_eq!(table(dir.path(), "links.csv").1[0][2..6], ["bumper", "0.1", "-1.0", "7.0"]);
+}
+
+/// An interrupted run, resumed from a checkpoint that lies before its last rows, ends in the same bytes.
+#[test]
+fn a_resumed_run_leaves_the_same_files() {
+    let [whole, resumed] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let mut model = scene::model();
+    model.output.fields = Some(3);
+    run(whole.path(), &model);
+    let mut files = Files::open(resumed.path(), &model, None).unwrap();
+    show(&mut files, &model, 0, 7);
+    files.finish().unwrap();
+    let mut files = Files::open(resumed.path(), &model, Some(4)).unwrap();
+    show(&mut files, &model, 5, 10);
+    files.finish().unwrap();
+    let mut names: Vec<_> = fs::read_dir(whole.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names.len(), 7 + 2 + 5, "seven tables, names, the list, grids of steps 0 3 6 9 10");
+    for name in names {
+        let [a, b] = [&whole, &resumed].map(|dir| fs::read(dir.path().join(&name)).unwrap());
+        assert!(a == b, "{name:?}");
+    }
+}
+
+#[test]
+fn only_what_is_asked_for_is_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut model = scene::model();
+    model.bodies.clear();
+    let output = &mut model.output;
+    output.nodes.clear();
+    (output.energy, output.links, output.reactions, output.sections) = (false, false, false, false);
+    run(dir.path(), &model);
+    let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names, ["steps.csv"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("file");
+    fs::write(&file, "").unwrap();
+    let error = Files::open(&file.join("out"), &scene::model(), None).err().unwrap();
+    assert!(error.to_string().contains("file/out: "), "{error}");
+}
+
+/// Content of the array of a name, after its length.
+fn array(xml: &str, name: &str) -> Vec<u8> {
+    let from = xml.find(&format!("Name=\"{name}\"")).unwrap();
+    let text = xml[from..].split_once('>').unwrap().1.split_once('<').unwrap().0;
+    let bytes = BASE64_STANDARD.decode(text).unwrap();
+    let (length, content) = bytes.split_at(8);
+    assert_eq!(u64::from_le_bytes(length.try_into().unwrap()), content.len() as u64, "{name}");
+    content.to_vec()
+}
+
+fn numbers(bytes: &[u8]) -> Vec<f64> {
+    bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect()
+}
+
+fn indices(bytes: &[u8]) -> Vec<usize> {
+    bytes.chunks_exact(8).map(|chunk| i64::from_le_bytes(chunk.try_into().unwrap()) as usize).collect()
+}
+
+/// Every opened element is closed in order.
+fn well_formed(xml: &str) -> bool {
+    let mut open = Vec::new();
+    for tag in xml.split('<').skip(1).filter_map(|rest| rest.split_once('>')).map(|(tag, _)| tag) {
+        if tag.starts_with('?') || tag.ends_with('/') {
+            continue;
+        }
+        match tag.strip_prefix('/') {
+            Some(name) if open.pop() != Some(name) => return false,
+            Some(_) => {}
+            None => open.push(tag.split(' ').next().unwrap_or_default()),
+        }
+    }
+    open.is_empty()
+}
+
+#[test]
+fn grids_hold_together() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut model = scene::model();
+    model.output.fields = Some(4);
+    run(dir.path(), &model);
+    let list = fs::read_to_string(dir.path().join("fields.pvd")).unwrap();
+    assert!(well_formed(&list));
+    for (time, step) in [("0", 0), ("0.4", 4), ("0.8", 8), ("1", 10)] {
+        assert!(list.contains(&format!("timestep=\"{time}\" part=\"0\" file=\"fields_{step:06}.vtu\"")), "{list}");
+    }
+    let xml = fs::read_to_string(dir.path().join("fields_000004.vtu")).unwrap();
+    assert!(well_formed(&xml));
+    let state = scene::state(&model, 0.4);
+    let points = numbers(&array(&xml, "Points"));
+    let (offsets, connectivity) = (indices(&array(&xml, "offsets")), indices(&array(&xml, "connectivity")));
+    let (types, parts) = (array(&xml, "types"), indices(&array(&xml, "part")));
+    let (count, cells) = (points.len() / 3, types.len());
+    assert!(xml.contains(&format!("<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">")));
+    for name in ["displacement", "velocity", "rotation", "frame_x", "frame_y", "frame_z"] {
+        assert_eq!(numbers(&array(&xml, name)).len(), points.len(), "{name}");
+    }
+    assert_eq!(numbers(&array(&xml, "TimeValue")), [state.time]);
+    assert!(offsets.is_sorted() && *offsets.last().unwrap() == connectivity.len() && offsets.len() == cells);
+    assert!(connectivity.iter().all(|point| *point < count) && parts.len() == cells);
+    // The cubic element: ends first, then inner nodes; its points are the nodes 0 to 3.
+    assert_eq!((&connectivity[..4], &types[..4], offsets[0]), (&[0, 3, 1, 2][..], &[68, 3, 3, 3][..], 4));
+    assert_eq!(points[3..6], *state.nodes[1].x.as_slice());
+    assert_eq!((parts[0], parts[1], parts[3], parts[4]), (0, 1, 2, 3), "beams, bar, link");
+    assert_eq!(table(dir.path(), "fields.csv").1[1], ["1", "beam", "fore & aft"]);
+    // A corner of the box moves as part of it: x = X + R S, v = v₀ + ω×RS; the bound is a few roundings of sums of size 10.
+    let corner = connectivity[offsets[4]];
+    assert_eq!(types[5], 12);
+    let (body, arm) = (&state.nodes[6], rdsolve::math::Vec3::new(-0.5, -0.25, -0.1));
+    let expected = body.x + body.R() * arm;
+    let velocity = body.v + body.omega.cross(&(body.R() * arm));
+    let velocities = numbers(&array(&xml, "velocity"));
+    for k in 0..3 {
+        assert!((points[3 * corner + k] - expected[k]).abs() < 1e-14);
+        assert!((velocities[3 * corner + k] - velocity[k]).abs() < 1e-14);
+    }
+}
+
+fn expect(at: ExpectAt, quantity: &str, when: When, value: f64, tolerance: Tolerance) -> Expect {
+    let (quantity, source) = (quantity.to_string(), "by hand".to_string());
+    Expect { at, quantity, when, value, tolerance, source, label: "it".into() }
+}
+
+#[test]
+fn expectations_are_judged() {
+    let mut model = scene::model();
+    let (node, relative, absolute) = (ExpectAt::Node(2), Tolerance::Relative, Tolerance::Absolute);
+    // ux = sin 3t peaks at t = 0.5 among the steps; a due frame has an even step.
+    let peak = 1.5f64.sin();
+    model.expects = vec![
+        expect(node, "ux", When::Max, peak, relative(1e-12)),
+        expect(node, "ux", When::Time(0.3), 0.9f64.sin(), absolute(1e-12)),
+        expect(node, "uy", When::Abs, 2.0f64.cos() - 1.0, relative(1e-12)),
+        expect(node, "qw", When::Time(0.2), 0.5f64.cos(), relative(1e-12)),
+        expect(ExpectAt::Energy, "kinetic", When::Max, 1.0, relative(1e-12)),
+        expect(ExpectAt::Link(0), "elongation", When::Min, -0.9, relative(1e-12)),
+        expect(node, "uz", When::Time(0.0), 0.0, relative(0.1)),
+        expect(node, "ux", When::Max, 1.0, relative(1e-3)),
+        expect(node, "ux", When::Time(0.35), 1.0, relative(1.0)),
+        expect(node, "kinetic", When::Max, 1.0, relative(1.0)),
+    ];
+    let mut expectations = Expectations::new(&model);
+    show(&mut expectations, &model, 0, 10);
+    let verdicts = expectations.verdicts();
+    assert!(verdicts[..7].iter().all(|v| v.passed && v.reason.is_none()), "{verdicts:#?}");
+    assert!(verdicts[7..].iter().all(|v| !v.passed && v.reason.is_some()), "{verdicts:#?}");
+    assert_eq!(verdicts[0].time, Some(0.5));
+    assert!((verdicts[7].error.unwrap() - (1.0 - peak)).abs() < 1e-15, "relative error of an expected 1");
+    assert_eq!(verdicts[8].reason.as_deref(), Some("the run has no step at time 0.35"));
+    assert_eq!(verdicts[9].reason.as_deref(), Some("there is no quantity `kinetic` here"));
+    assert!(quantities(node).contains(&"qz") && quantities(ExpectAt::Link(0)).contains(&"rate"));
+}

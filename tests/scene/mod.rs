@@ -1,0 +1,155 @@
+//! A small scene of one of each, and a made-up motion for it: what observers are shown in their tests.
+
+use nalgebra::{Quaternion, Unit, UnitQuaternion};
+use rdsolve::elements::link::Law;
+use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use rdsolve::math::{Mat3, Vec3};
+use rdsolve::model::*;
+use rdsolve::solve::{Frame, LinkState, SectionPoint};
+use rdsolve::state::{self, State};
+use rdsolve::system::energy::Energy;
+
+/// A cubic beam on nodes 0-3, a beam of two straight elements on 3-5, a bar, a link, and a body of every shape on 6-9.
+pub fn model() -> Model {
+    let mut nodes: Vec<Node> = (0..10)
+        .map(|i| Node {
+            label: format!("node[{i}]"),
+            named: true,
+            x: Vec3::new(f64::from(i), 0.1 * f64::from(i * i), 0.0),
+            v: Vec3::zeros(),
+            omega: Vec3::zeros(),
+        })
+        .collect();
+    nodes[2].label = "elbow, \"left\"".into();
+    let element = |nodes: [usize; 5]| BeamElement { nodes, frame: Mat3::identity(), section: 0 };
+    let beam = |name: &str, order, elements| Beam {
+        name: name.into(),
+        order,
+        mass: MassKind::Consistent,
+        rotary_inertia: true,
+        elements,
+    };
+    let axis = Vec3::new(1.0, 1.0, 0.0);
+    let shapes = [
+        Shape::Box { size: [1.0, 0.5, 0.2], axes: Mat3::identity() },
+        Shape::Sphere { radius: 0.5 },
+        Shape::Cylinder { radius: 0.5, inner_radius: 0.0, length: 1.0, axis },
+        Shape::Cylinder { radius: 0.5, inner_radius: 0.4, length: 1.0, axis },
+    ];
+    let body =
+        |(i, shape)| Body { name: format!("body {i}"), node: 6 + i, mass: 1.0, inertia: Mat3::identity(), shape };
+    let law = Law::Linear { stiffness: 1.0, preload: 0.0 };
+    Model {
+        title: "one of each".into(),
+        units: None,
+        analysis: Analysis { kind: Kind::Dynamic, end_time: 1.0, time_step: 0.1, least_step: 1e-6, plane: false },
+        scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+        iteration: Iteration { update: Update::Auto, tolerance: 1e-8, limit: 20 },
+        nodes,
+        bodies: shapes.into_iter().enumerate().map(body).collect(),
+        masses: vec![],
+        stiffnesses: vec![],
+        beams: vec![
+            beam("arm", 3, vec![element([0, 1, 2, 3, 0])]),
+            beam("fore & aft", 1, vec![element([3, 4, 0, 0, 0]), element([4, 5, 0, 0, 0])]),
+        ],
+        bars: vec![Bar {
+            name: "stay".into(),
+            axial_stiffness: 1.0,
+            mass_per_length: 0.0,
+            mass: MassKind::None,
+            tension_only: false,
+            elements: vec![[5, 0]],
+        }],
+        links: vec![Link {
+            name: "bumper".into(),
+            ends: [2, 5],
+            kind: LinkKind::Line { law, damping: 0.0, direction: None, free_length: 1.0 },
+        }],
+        riders: vec![],
+        held: vec![Held { node: 0, dof: 0, motion: None }, Held { node: 0, dof: 5, motion: None }],
+        amplitudes: vec![],
+        loads: vec![],
+        gravity: Vec3::zeros(),
+        base_accelerations: vec![],
+        damping: Damping::default(),
+        expects: vec![],
+        output: Output {
+            nodes: vec![2, 0],
+            cadence: Cadence::Steps(1),
+            energy: true,
+            links: true,
+            reactions: true,
+            sections: true,
+            fields: None,
+        },
+    }
+}
+
+/// Every node turns about its own axis at 5 rad per time and drifts; the numbers have all their digits.
+pub fn state(model: &Model, time: f64) -> State {
+    let nodes = model
+        .nodes
+        .iter()
+        .enumerate()
+        .map(|(i, node)| {
+            let axis = Unit::new_normalize(Vec3::new(1.0, i as f64, -0.3));
+            let q: Quaternion<f64> = *UnitQuaternion::from_axis_angle(&axis, 5.0 * time).quaternion();
+            let swing = Vec3::new((3.0 * time).sin(), (2.0 * time).cos() - 1.0, time / 3.0);
+            state::Node { x: node.x + swing, q, v: swing / 7.0, omega: 5.0 * *axis, a: -swing, alpha: swing * 1e-9 }
+        })
+        .collect();
+    State { time, nodes, jerk: vec![], reactions: vec![], work: Default::default() }
+}
+
+/// What goes with a state in a frame.
+pub struct Extras {
+    energy: Energy,
+    reactions: [f64; 2],
+    links: [LinkState; 1],
+    sections: [SectionPoint; 2],
+}
+
+impl Extras {
+    pub fn at(time: f64) -> Extras {
+        let p = Vec3::new(time, 1.0 / 3.0, -time);
+        let point =
+            |point| SectionPoint { beam: 1, element: 0, point, s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0] };
+        Extras {
+            energy: Energy {
+                kinetic: time * time,
+                strain: 0.1,
+                plastic: 0.0,
+                viscous: 0.0,
+                damping: 1e-20,
+                links: 0.3,
+                external: 1e20,
+                numerical: -0.0,
+                total: time,
+                p,
+                l: -p,
+            },
+            reactions: [time, -1.0],
+            links: [LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
+            sections: [point(0), point(1)],
+        }
+    }
+
+    pub fn frame<'a>(&'a self, model: &'a Model, state: &'a State, step: usize) -> Frame<'a> {
+        Frame {
+            model,
+            state,
+            step,
+            dt: if step == 0 { 0.0 } else { 0.1 },
+            iterations: 3,
+            refactorizations: 1,
+            residual: 1e-9,
+            cuts: step % 2,
+            due: step.is_multiple_of(2) || step == 10,
+            energy: Some(&self.energy),
+            reactions: &self.reactions,
+            links: &self.links,
+            sections: &self.sections,
+        }
+    }
+}
