@@ -14,7 +14,7 @@ mod places;
 mod sections;
 mod supports;
 
-pub use build::build;
+pub use build::{build, read};
 
 use crate::amplitude::Amplitude;
 use crate::elements::link::Law;

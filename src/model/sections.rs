@@ -5,7 +5,7 @@ use super::build::{Builder, Owner, span};
 use crate::deck::beams::Beam;
 use crate::deck::materials::Material;
 use crate::deck::sections as deck;
-use crate::deck::words::{Maybe, Numbers};
+use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Span};
 use crate::sections::{Section, Stiffness};
 
@@ -25,7 +25,13 @@ impl<'d> Builder<'d> {
     }
 
     /// The density of a material, which must be there if `part` has mass.
-    pub fn density(&mut self, name: &At<String>, material: &At<Material>, mass: MassKind, part: &str) -> Option<f64> {
+    pub fn density(
+        &mut self,
+        name: &At<String>,
+        material: &At<Table<Material>>,
+        mass: MassKind,
+        part: &str,
+    ) -> Option<f64> {
         match &material.density {
             Some(density) => Some(density.value),
             None if self.is_spoiled(&material.span, "density") => None,
@@ -85,7 +91,7 @@ impl<'d> Builder<'d> {
     fn stiffness(
         &mut self,
         name: &str,
-        section: &'d At<deck::Section>,
+        section: &'d At<Table<deck::Section>>,
         [modulus, ratio, density]: [f64; 3],
         heavy: bool,
     ) -> Option<Stiffness> {
