@@ -64,8 +64,8 @@ pub(super) struct Builder<'d> {
     /// Nodes of each beam and bar, in order along it.
     pub beam_nodes: Vec<Vec<usize>>,
     pub bar_nodes: Vec<Vec<usize>>,
-    /// Section and material → `model.stiffnesses`.
-    pub stiffnesses: HashMap<(usize, Option<usize>), Option<usize>>,
+    /// Section, material and whether it needs a mass → `model.stiffnesses`.
+    pub stiffnesses: HashMap<(usize, Option<usize>, bool), Option<usize>>,
     /// Directions held, by node and direction; who holds them, and whether they move.
     pub held: BTreeMap<(usize, usize), (super::Held, Span)>,
     /// A part names something unknown, so what is connected to what is not known either.
