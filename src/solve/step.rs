@@ -79,12 +79,17 @@ impl<'a> Stepper<'a> {
         let tolerance = self.model.iteration.tolerance;
         let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
         let mut last = (f64::INFINITY, f64::INFINITY);
+        let mut limit = self.model.iteration.limit;
         loop {
             self.move_trial(state, &scheme);
             let scale = self.system.residual(&self.trial, &self.given[2], &mut self.forces);
             taken.residual = self.gather(&scale);
             if !taken.residual.is_finite() {
-                return Err(self.not_finite());
+                if !self.once_more(state, &scheme) {
+                    return Err(self.not_finite());
+                }
+                last = (f64::INFINITY, f64::INFINITY);
+                continue;
             }
             if self.refresh.due(taken.iterations, dt) {
                 self.form_matrix(&scheme)?;
@@ -116,8 +121,13 @@ impl<'a> Stepper<'a> {
             {
                 break;
             }
-            if taken.iterations >= self.model.iteration.limit {
-                return Err(self.not_converged(&taken));
+            if taken.iterations >= limit {
+                if !self.once_more(state, &scheme) {
+                    return Err(self.not_converged(&taken));
+                }
+                last = (f64::INFINITY, f64::INFINITY);
+                limit += self.model.iteration.limit;
+                continue;
             }
             if last.0.is_finite() {
                 let remaining = (tolerance / left.max(unbalanced)).ln() / contraction.ln();
@@ -150,6 +160,15 @@ impl<'a> Stepper<'a> {
             v: a.v + instant * (b.v - a.v),
             a: a.a + instant * (b.a - a.a),
         }));
+    }
+
+    /// Before a step is cut: back to its prediction, to go on with a matrix for every iteration; false if that was done.
+    fn once_more(&mut self, state: &State, scheme: &Coefficients) -> bool {
+        let again = self.refresh.insist();
+        if again {
+            self.predict(state, scheme);
+        }
+        again
     }
 
     fn predict(&mut self, state: &State, scheme: &Coefficients) {

@@ -77,6 +77,9 @@ fn static_reactions_balance_the_loads() {
         let mut m = zoo(&mut rng, Kind::Static, 0.05);
         // Links along a fixed direction pass on moments that nobody takes; only supports may.
         m.links.retain(|l| !matches!(l.kind, LinkKind::Line { direction: Some(_), .. }));
+        // Far from buckling.
+        m.loads.iter_mut().for_each(|load| (load.force, load.moment) = (load.force * 0.3, load.moment * 0.3));
+        m.gravity *= 0.3;
         let record = run(&m);
         let state = record.last();
         let (mut force, mut moment, mut size) = (Vec3::zeros(), Vec3::zeros(), 0.0f64);
@@ -105,22 +108,6 @@ fn static_reactions_balance_the_loads() {
             add(&node.x, Vec3::new(f[0], f[1], f[2]), Vec3::new(f[3], f[4], f[5]));
         }
         eprintln!("force {:e} moment {:e}", force.norm() / size, moment.norm() / size);
-        assert!(force.norm() < 1e-9 * size && moment.norm() < 1e-9 * size, "{force} {moment}");
-    }
-}
-
-#[test]
-fn debug_static() {
-    for (kink, scale, update) in [(0.0, 1.0, Update::Auto), (0.0, 1.0, Update::Iteration), (0.1, 1.0, Update::Auto), (0.1, 0.3, Update::Auto)] {
-    let mut rng = StdRng::seed_from_u64(32);
-        let mut m = zoo(&mut rng, Kind::Static, 0.05);
-        m.iteration.update = update;
-        for l in &mut m.links {
-            if let LinkKind::Line { law: rdsolve::elements::link::Law::Table { points }, .. } = &mut l.kind { points[1][0] = kink; }
-        }
-        m.loads.iter_mut().for_each(|l| { l.force *= scale; l.moment *= scale });
-        m.links.retain(|l| !matches!(l.kind, LinkKind::Line { direction: Some(_), .. }));
-        let r = std::panic::catch_unwind(|| run(&m).counts);
-        eprintln!("tol kink {kink} scale {scale} {update:?} {:?}", r.ok());
+        assert!(force.norm() < 1e-12 * size && moment.norm() < 1e-12 * size, "{force} {moment}");
     }
 }

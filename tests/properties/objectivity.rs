@@ -50,8 +50,8 @@ fn differences(m: &Model, q: &Quat, shift: &Vec3) -> [f64; 4] {
     std::array::from_fn(|i| apart[i] / size[i])
 }
 
-/// Iteration leaves 1e-12 per step and rounding less; the scene's frequencies let it grow over 150 steps, accelerations
-/// of its stiffest mode (axial, ωΔt ≈ 10) most.
+/// Iteration leaves 1e-12 per step and rounding less; 150 steps let it grow tenfold, and what differs by that in position
+/// does so by ω² more in acceleration.
 #[test]
 fn answers_turn_with_the_scene() {
     let mut rng = StdRng::seed_from_u64(11);
@@ -59,7 +59,7 @@ fn answers_turn_with_the_scene() {
         let m = lively(&mut rng);
         let e = differences(&m, &turn(&mut rng), &Vec3::zeros());
         eprintln!("turned: {e:?}");
-        assert!(e[..3].iter().all(|&e| e < 1e-9) && e[3] < 1e-8, "{e:?}");
+        assert!(e[..3].iter().all(|&e| e < 1e-11) && e[3] < 1e-10, "{e:?}");
     }
 }
 
@@ -96,11 +96,16 @@ fn small_loads_far_away_meet_rounding_and_go_on() {
             record.last().nodes[b].x - m.nodes[b].x
         };
         let near = tip(0.0);
-        for x in [1e4, 1e6] {
+        // Masses far out would be shaken by the rounding alone.
+        for &x in if kind == Kind::Static { &[1e4, 1e6][..] } else { &[1e4] } {
             // Positions are rounded to 2e-12 and 2e-10; slenderness squared, EA L²/EI = 1e4, is what bending makes of it.
             // Masses do as the rounded forces tell them, which is more than the load.
             let off = (tip(x) - near).norm();
-            assert!(kind == Kind::Dynamic || off < 1e4 * f64::EPSILON * x, "{kind:?}, load {load}, at {x}: {off:e} of {:e}", near.norm());
+            assert!(
+                kind == Kind::Dynamic || off < 1e4 * f64::EPSILON * x,
+                "{kind:?}, load {load}, at {x}: {off:e} of {:e}",
+                near.norm()
+            );
         }
     }
 }
