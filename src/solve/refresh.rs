@@ -17,6 +17,8 @@ pub struct Refresh {
     /// Steps still to start with a fresh matrix, and how many to ask for next time an old one misleads.
     eager: usize,
     patience: usize,
+    /// The step in hand gets a fresh matrix in every iteration: anything less has failed.
+    insisting: bool,
 }
 
 /// What to do after a correction.
@@ -30,13 +32,23 @@ pub enum Advice {
 impl Refresh {
     pub fn new(update: Update, linear: bool, cost: f64) -> Self {
         let update = if linear { Update::Never } else { update };
-        Refresh { update, cost, dt: None, wanted: false, baseline: None, excess: 0, eager: 0, patience: 1 }
+        Refresh {
+            update,
+            cost,
+            dt: None,
+            wanted: false,
+            baseline: None,
+            excess: 0,
+            eager: 0,
+            patience: 1,
+            insisting: false,
+        }
     }
 
     /// Asked before each solve of a step of length `dt`; `iteration` counts from 0.
     pub fn due(&self, iteration: usize, dt: f64) -> bool {
         // Steps of one length differ by the rounding of their ends.
-        if self.wanted || self.dt.is_none_or(|of| (of - dt).abs() > 1e-9 * dt) {
+        if self.wanted || self.insisting || self.dt.is_none_or(|of| (of - dt).abs() > 1e-9 * dt) {
             return true;
         }
         match self.update {
@@ -60,7 +72,7 @@ impl Refresh {
         if self.update == Update::Never && contraction < 1.0 {
             return Advice::GoOn;
         }
-        if !fresh && contraction > 0.5 {
+        if !fresh && contraction > 0.5 && !self.insisting {
             self.wanted = true;
             self.eager = self.patience;
             self.patience = (2 * self.patience).min(64);
@@ -73,6 +85,7 @@ impl Refresh {
     /// After an accepted step. A matrix is worth renewing once the iterations it has cost beyond those of a fresh one
     /// would have paid for it.
     pub fn accepted(&mut self, iterations: usize) {
+        self.insisting = false;
         let baseline = *self.baseline.get_or_insert(iterations);
         self.excess += iterations.saturating_sub(baseline);
         self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
@@ -86,5 +99,14 @@ impl Refresh {
     /// After a step that was given up: the matrix belongs to a motion that was not taken.
     pub fn rejected(&mut self) {
         self.dt = None;
+        self.insisting = false;
+    }
+
+    /// After a step that did not converge: whether it is to be tried with a fresh matrix in every iteration, which it has
+    /// not been so far.
+    pub fn insist(&mut self) -> bool {
+        let more = !self.insisting && matches!(self.update, Update::Auto | Update::Step);
+        self.insisting |= more;
+        more
     }
 }

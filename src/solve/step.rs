@@ -79,12 +79,17 @@ impl<'a> Stepper<'a> {
         let tolerance = self.model.iteration.tolerance;
         let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
         let mut last = (f64::INFINITY, f64::INFINITY);
+        let mut limit = self.model.iteration.limit;
         loop {
             self.move_trial(state, &scheme);
             let scale = self.system.residual(&self.trial, &self.given[2], &mut self.forces);
             taken.residual = self.gather(&scale);
             if !taken.residual.is_finite() {
-                return Err(self.not_finite());
+                if !self.once_more(state, &scheme) {
+                    return Err(self.not_finite());
+                }
+                last = (f64::INFINITY, f64::INFINITY);
+                continue;
             }
             if self.refresh.due(taken.iterations, dt) {
                 self.form_matrix(&scheme)?;
@@ -109,11 +114,20 @@ impl<'a> Stepper<'a> {
             // Error and residual left after this correction, each relative. Positions cannot be told apart below rounding.
             let left = contraction / (1.0 - contraction) * size;
             let unbalanced = contraction * taken.residual;
-            if contraction < 1.0 && left <= tolerance && unbalanced <= tolerance || self.is_rounding(correction) {
+            // Where an exact matrix no longer brings the error down, only rounding is left; a far origin, a small load or a
+            // stiff part may put that above the tolerance.
+            let stuck = taken.refactorizations > 0 && contraction > 0.5;
+            if contraction < 1.0 && left <= tolerance && unbalanced <= tolerance || self.is_rounding(correction, stuck)
+            {
                 break;
             }
-            if taken.iterations >= self.model.iteration.limit {
-                return Err(self.not_converged(&taken));
+            if taken.iterations >= limit {
+                if !self.once_more(state, &scheme) {
+                    return Err(self.not_converged(&taken));
+                }
+                last = (f64::INFINITY, f64::INFINITY);
+                limit += self.model.iteration.limit;
+                continue;
             }
             if last.0.is_finite() {
                 let remaining = (tolerance / left.max(unbalanced)).ln() / contraction.ln();
@@ -146,6 +160,15 @@ impl<'a> Stepper<'a> {
             v: a.v + instant * (b.v - a.v),
             a: a.a + instant * (b.a - a.a),
         }));
+    }
+
+    /// Before a step is cut: back to its prediction, to go on with a matrix for every iteration; false if that was done.
+    fn once_more(&mut self, state: &State, scheme: &Coefficients) -> bool {
+        let again = self.refresh.insist();
+        if again {
+            self.predict(state, scheme);
+        }
+        again
     }
 
     fn predict(&mut self, state: &State, scheme: &Coefficients) {
@@ -238,10 +261,17 @@ impl<'a> Stepper<'a> {
         translation.max(correction.rotation / motion.rotation.max(STILL))
     }
 
-    /// True for a correction that only stirs the last digits of the positions.
-    fn is_rounding(&self, correction: Size) -> bool {
+    /// True for a correction that only stirs the last digits of the positions. The axial stiffness turns these digits into
+    /// forces, and bending answers them with corrections that are larger by the slenderness squared: where iteration is
+    /// `stuck`, four digits more are given for that, and rotations follow the positions over the model's length.
+    fn is_rounding(&self, correction: Size, stuck: bool) -> bool {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
-        correction.translation <= ROUNDING * self.reach && correction.rotation <= ROUNDING
+        let (translation, rotation) = if stuck {
+            (1e4 * ROUNDING * self.reach, 1e4 * ROUNDING * (self.reach / self.length).max(1.0))
+        } else {
+            (ROUNDING * self.reach, ROUNDING)
+        };
+        correction.translation <= translation && correction.rotation <= rotation
     }
 
     /// State at the end of the step, written once.

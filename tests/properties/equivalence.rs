@@ -1,0 +1,165 @@
+//! One scene, told or solved in two ways: one answer.
+
+use crate::scene::*;
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rdsolve::linear;
+use rdsolve::math::{Mat3, Vec3};
+use rdsolve::model::{Kind, MassKind, Model, Update};
+use rdsolve::plan::Plan;
+use rdsolve::state::Node;
+use rdsolve::system::System;
+
+/// An arm of two beams with something at its end, to be put there; gravity and a pulse act. The end comes back.
+fn arm(time_step: f64) -> (Model, usize) {
+    let mut m = empty(Kind::Dynamic, 1.0, time_step);
+    section(&mut m);
+    let p = [[0.0, 0.0, 0.0], [1.0, 0.2, 0.1], [1.8, -0.3, 0.5]].map(|x| node(&mut m, Vec3::from(x)));
+    beam(&mut m, [p[0], p[1]], 1, 3, Vec3::z(), MassKind::Lumped);
+    beam(&mut m, [p[1], p[2]], 2, 1, Vec3::z(), MassKind::Consistent);
+    fix(&mut m, p[0], 0..6);
+    m.gravity = Vec3::new(1.0, -2.0, -4.0);
+    let pulse = sine_squared(&mut m, 5.0);
+    push(&mut m, p[1], Vec3::new(0.0, 20.0, -10.0), Vec3::new(5.0, 0.0, 3.0), true, Some(pulse));
+    (m, p[2])
+}
+
+/// Largest distance over a run between nodes of two models.
+fn off(a: (&Model, usize), b: (&Model, usize)) -> f64 {
+    let (r, s) = (run(a.0), run(b.0));
+    assert_eq!(r.states.len(), s.states.len());
+    r.states.iter().zip(&s.states).map(|(r, s)| (r.nodes[a.1].x - s.nodes[b.1].x).norm()).fold(0.0, f64::max)
+}
+
+/// The same equations: rounding over 100 steps and 1e-12 left by the iteration.
+const SAME: f64 = 1e-10;
+
+#[test]
+fn a_mass_is_a_body_on_its_node_or_a_point_mass_with_inertia() {
+    let mut rng = StdRng::seed_from_u64(61);
+    let (m0, J) = (3.0, inertia(&mut rng, 1.0));
+    let (mut point, tip) = arm(0.01);
+    mass(&mut point, tip, m0, J);
+    let (mut rider, other) = arm(0.01);
+    let x = rider.nodes[other].x;
+    let block = body(&mut rider, x, m0, J);
+    ride(&mut rider, other, block, ALL);
+    let e = off((&point, tip), (&rider, other));
+    assert!(e < SAME, "a body that carries the node: {e:e}");
+    // The other way round: the body's node rides on the tip.
+    let (mut carried, tip2) = arm(0.01);
+    let block = body(&mut carried, x, m0, J);
+    ride(&mut carried, block, tip2, ALL);
+    let e = off((&point, tip), (&carried, tip2));
+    assert!(e < SAME, "a body on the node: {e:e}");
+}
+
+/// A body held by one node; by that and two more on a line, which nothing else holds; and by a chain of riders.
+#[test]
+fn more_nodes_on_a_body_change_nothing() {
+    let mut rng = StdRng::seed_from_u64(62);
+    let J = inertia(&mut rng, 1.0);
+    let with = |extra: usize, chain: bool| {
+        let (mut m, tip) = arm(0.01);
+        let x = m.nodes[tip].x;
+        let block = body(&mut m, x + Vec3::new(0.4, 0.2, -0.1), 3.0, J);
+        for k in 0..extra {
+            let p = node(&mut m, x + Vec3::new(0.0, 0.3, 0.1) * (k + 1) as f64);
+            ride(&mut m, p, block, ALL);
+        }
+        let master = if chain {
+            let between = node(&mut m, x + Vec3::new(-0.5, 1.0, 2.0));
+            ride(&mut m, between, block, ALL);
+            between
+        } else {
+            block
+        };
+        ride(&mut m, tip, master, ALL);
+        (m, tip)
+    };
+    let (one, tip) = with(0, false);
+    for (extra, chain) in [(1, false), (2, false), (0, true), (2, true)] {
+        let (other, tip2) = with(extra, chain);
+        let e = off((&one, tip), (&other, tip2));
+        assert!(e < SAME, "{extra} more nodes, chain {chain}: {e:e}");
+    }
+}
+
+/// Two masses on a rigid arm are one body at their centre. Equations are written at different points, so the answers agree
+/// to the order of the scheme.
+#[test]
+fn masses_on_arms_are_the_body_they_make() {
+    let mut rng = StdRng::seed_from_u64(63);
+    let (m1, J1, m2, J2) = (2.0, inertia(&mut rng, 0.6), 1.5, inertia(&mut rng, 0.3));
+    let S = Vec3::new(0.5, -0.3, 0.4);
+    let errors: Vec<f64> = [0.01, 0.005, 0.0025]
+        .iter()
+        .map(|&dt| {
+            let (mut two, tip) = arm(dt);
+            let x = two.nodes[tip].x + Vec3::new(0.1, 0.2, 0.0);
+            let first = body(&mut two, x, m1, J1);
+            let second = node(&mut two, x + S);
+            mass(&mut two, second, m2, J2);
+            ride(&mut two, second, first, ALL);
+            ride(&mut two, tip, first, ALL);
+            let (mut one, tip1) = arm(dt);
+            let reduced = m1 * m2 / (m1 + m2);
+            let parallel = (Mat3::identity() * S.norm_squared() - S * S.transpose()) * reduced;
+            let both = body(&mut one, x + S * (m2 / (m1 + m2)), m1 + m2, J1 + J2 + parallel);
+            ride(&mut one, tip1, both, ALL);
+            off((&two, tip), (&one, tip1))
+        })
+        .collect();
+    eprintln!("two masses or one body: {errors:?}");
+    assert!(order(errors[0], errors[1]) > 1.7 && order(errors[1], errors[2]) > 1.7, "{errors:?}");
+    assert!(errors[2] < 1e-4, "{errors:?}");
+}
+
+#[test]
+fn a_plane_scene_is_the_same_in_space() {
+    let in_plane = |plane: bool| {
+        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        m.analysis.plane = plane;
+        m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
+        let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
+        beam(&mut m, [p[0], p[1]], 1, 3, Vec3::y(), MassKind::Lumped);
+        beam(&mut m, [p[1], p[2]], 2, 1, Vec3::y(), MassKind::Lumped);
+        fix(&mut m, p[0], 0..6);
+        let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
+        ride(&mut m, p[2], block, ALL);
+        m.nodes[block].omega = Vec3::y() * 2.0;
+        m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
+        m.gravity = Vec3::new(1.0, 0.0, -4.0);
+        (m, p[2])
+    };
+    let ((plane, tip), (space, _)) = (in_plane(true), in_plane(false));
+    let unknowns = |m: &Model| Plan::new(m, &System::new(m).unwrap(), 1).unknowns;
+    assert_eq!(unknowns(&space), 2 * unknowns(&plane));
+    let e = off((&plane, tip), (&space, tip));
+    assert!(e < SAME, "{e:e}");
+}
+
+/// Each way stops within the tolerance of a step; a hundred steps let that grow tenfold.
+#[test]
+fn updates_and_factorisations_do_not_show() {
+    let tolerance = 1e-9;
+    let mut rng = StdRng::seed_from_u64(64);
+    let mut m = zoo(&mut rng, Kind::Dynamic, 0.005);
+    m.analysis.end_time = 0.5;
+    m.iteration.tolerance = tolerance;
+    m.iteration.limit = 60;
+    m.iteration.update = Update::Iteration;
+    let first = run_with(&m, Some(linear::Kind::Block));
+    let travel = m.nodes.iter().zip(&first.last().nodes).map(|(a, b): (_, &Node)| (a.x - b.x).norm());
+    assert!(travel.fold(0.0, f64::max) > 0.3, "the scene moves");
+    for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
+        for kind in [linear::Kind::Block, linear::Kind::Cholesky] {
+            m.iteration.update = update;
+            let other = run_with(&m, Some(kind));
+            let e = first.states.iter().zip(&other.states).map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
+            eprintln!("{update:?} {kind:?}: {e:e}, {:?}", other.counts);
+            assert_eq!(other.counts.cuts, 0, "{update:?} {kind:?}");
+            assert!(e < 10.0 * tolerance, "{update:?} {kind:?}: {e:e}");
+        }
+    }
+}

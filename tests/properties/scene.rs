@@ -1,0 +1,307 @@
+//! Scenes put together in code, and runs of them kept frame by frame.
+
+use rand::rngs::StdRng;
+use rand::{Rng, RngExt};
+use rdsolve::amplitude::Amplitude;
+use rdsolve::elements::link::Law;
+use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use rdsolve::linear;
+use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
+use rdsolve::model::*;
+use rdsolve::plan::Plan;
+use rdsolve::sections::Stiffness;
+use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, Wanted};
+use rdsolve::state::State;
+use rdsolve::system::System;
+use rdsolve::system::energy::Energy;
+use std::sync::atomic::AtomicBool;
+
+pub type Quat = nalgebra::Quaternion<f64>;
+pub const ALL: [bool; 6] = [true; 6];
+pub const TRANSLATIONS: [bool; 6] = [true, true, true, false, false, false];
+
+pub fn vector(rng: &mut impl Rng, size: f64) -> Vec3 {
+    Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
+}
+
+pub fn turn(rng: &mut impl Rng) -> Quat {
+    let c = nalgebra::Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0));
+    Quat::from(c).normalize()
+}
+
+/// A positive inertia that no axis favours.
+pub fn inertia(rng: &mut impl Rng, size: f64) -> Mat3 {
+    let R = rotation::matrix(&turn(rng));
+    let [a, b, c] = [(); 3].map(|()| rng.random_range(0.5..1.0));
+    // The moments of three masses on the axes: each below the sum of the other two.
+    R * Mat3::from_diagonal(&Vec3::new(a + b, b + c, c + a)) * R.transpose() * size
+}
+
+/// Nothing in it. The iteration tolerance lies so low that iteration is not what tests see.
+pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
+    Model {
+        title: String::new(),
+        units: None,
+        analysis: Analysis { kind, end_time, time_step, least_step: time_step * 1e-3, plane: false },
+        scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+        iteration: Iteration { update: Update::Auto, tolerance: 1e-12, limit: 30 },
+        nodes: vec![],
+        bodies: vec![],
+        masses: vec![],
+        stiffnesses: vec![],
+        beams: vec![],
+        bars: vec![],
+        links: vec![],
+        riders: vec![],
+        held: vec![],
+        amplitudes: vec![],
+        loads: vec![],
+        gravity: Vec3::zeros(),
+        base_accelerations: vec![],
+        damping: Damping::default(),
+        expects: vec![],
+        output: Output {
+            nodes: vec![],
+            cadence: Cadence::Steps(1),
+            energy: true,
+            links: false,
+            reactions: true,
+            sections: false,
+            fields: None,
+        },
+    }
+}
+
+pub fn node(m: &mut Model, x: Vec3) -> usize {
+    let label = format!("n{}", m.nodes.len());
+    m.nodes.push(Node { label, named: true, x, v: Vec3::zeros(), omega: Vec3::zeros() });
+    m.nodes.len() - 1
+}
+
+pub fn body(m: &mut Model, x: Vec3, mass: f64, inertia: Mat3) -> usize {
+    let n = node(m, x);
+    m.bodies.push(Body { name: format!("b{n}"), node: n, mass, inertia, shape: Shape::Sphere { radius: 1.0 } });
+    n
+}
+
+pub fn mass(m: &mut Model, node: usize, mass: f64, inertia: Mat3) {
+    m.masses.push(Mass { node, mass, inertia });
+}
+
+pub fn ride(m: &mut Model, node: usize, master: usize, dofs: [bool; 6]) {
+    m.riders.push(Rider { node, master, dofs });
+}
+
+/// A section whose stiffnesses are of the same order, so that all of them show.
+pub fn section(m: &mut Model) {
+    m.stiffnesses.push(Stiffness {
+        N: Mat3::new(900.0, 0.0, 0.0, 0.0, 400.0, 30.0, 0.0, 30.0, 300.0),
+        M: Mat3::new(30.0, 0.0, 0.0, 0.0, 40.0, 5.0, 0.0, 5.0, 60.0),
+        NM: Mat3::new(0.0, 0.0, 0.0, 6.0, 0.0, 0.0, -4.0, 0.0, 0.0),
+        mass_per_length: 0.7,
+        inertia_per_length: Mat3::new(0.05, 0.0, 0.0, 0.0, 0.02, 0.005, 0.0, 0.005, 0.03),
+    });
+}
+
+/// A beam of the last section made; `y` lies in its local x-y plane.
+pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: Vec3, mass: MassKind) {
+    let [x0, x1] = ends.map(|n| m.nodes[n].x);
+    let e1 = (x1 - x0).normalize();
+    let e3 = e1.cross(&y).normalize();
+    let frame = Mat3::from_columns(&[e1, e3.cross(&e1), e3]);
+    let at = quadrature::lobatto(order + 1).0;
+    let mut made = vec![];
+    let mut last = ends[0];
+    for e in 0..elements {
+        let mut nodes = [last; 5];
+        for k in 1..=order {
+            let s = (e as f64 + 0.5 + 0.5 * at[k]) / elements as f64;
+            let end = e + 1 == elements && k == order;
+            nodes[k] = if end { ends[1] } else { node(m, x0 + (x1 - x0) * s) };
+        }
+        last = nodes[order];
+        made.push(BeamElement { nodes, frame, section: m.stiffnesses.len() - 1 });
+    }
+    let name = format!("beam{}", m.beams.len());
+    m.beams.push(Beam { name, order, mass, rotary_inertia: true, elements: made });
+}
+
+pub fn line(m: &mut Model, ends: [usize; 2], law: Law, damping: f64, direction: Option<Vec3>) {
+    let arm = m.nodes[ends[1]].x - m.nodes[ends[0]].x;
+    let free_length = direction.map_or(arm.norm(), |d| d.dot(&arm));
+    let kind = LinkKind::Line { law, damping, direction, free_length };
+    m.links.push(Link { name: format!("link{}", m.links.len()), ends, kind });
+}
+
+pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
+    line(m, ends, Law::Linear { stiffness, preload: 0.0 }, damping, None);
+}
+
+pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_length: f64, mass: MassKind) {
+    let name = format!("bar{}", m.bars.len());
+    m.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only: false, elements: vec![ends] });
+}
+
+pub fn fix(m: &mut Model, node: usize, dofs: impl IntoIterator<Item = usize>) {
+    m.held.extend(dofs.into_iter().map(|dof| Held { node, dof, motion: None }));
+}
+
+pub fn push(m: &mut Model, node: usize, force: Vec3, moment: Vec3, follower: bool, amplitude: Option<usize>) {
+    m.loads.push(Load { node, force, moment, follower, amplitude });
+}
+
+pub fn sine_squared(m: &mut Model, angular_frequency: f64) -> usize {
+    m.amplitudes.push(Amplitude::SineSquared { angular_frequency, start: 0.0, end: f64::INFINITY });
+    m.amplitudes.len() - 1
+}
+
+/// A structure of one of each: beams of all orders and masses, a bar, links, a bushing; a body with riders of all six
+/// directions, of translations only, and on a rider; an offset node on a free node; loads that follow.
+pub fn zoo(rng: &mut StdRng, kind: Kind, time_step: f64) -> Model {
+    let mut m = empty(kind, 1.0, time_step);
+    section(&mut m);
+    let spots = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.5, 2.5, 0.5], [1.0, 3.0, 1.0], [0.0, 2.0, 2.0]];
+    let p: Vec<usize> = spots.iter().map(|&x| node(&mut m, Vec3::from(x) + vector(rng, 0.2))).collect();
+    let masses = [MassKind::Lumped, MassKind::Consistent, MassKind::Lumped, MassKind::Consistent];
+    for (order, kind) in (1..=4).zip(masses) {
+        beam(&mut m, [p[order - 1], p[order]], 2, order, Vec3::new(0.3, -0.2, 1.0) + vector(rng, 0.1), kind);
+    }
+    fix(&mut m, p[0], 0..6);
+    let centre = (m.nodes[p[4]].x + m.nodes[p[5]].x) * 0.5;
+    let hub = body(&mut m, centre, 2.0, inertia(rng, 0.4));
+    ride(&mut m, p[4], hub, ALL);
+    ride(&mut m, p[5], hub, TRANSLATIONS);
+    // On the ball joint hangs a beam with a free end, and on that end sits an arm.
+    let out = node(&mut m, centre + Vec3::new(-1.0, 1.0, 2.5) + vector(rng, 0.2));
+    beam(&mut m, [p[5], out], 1, 3, Vec3::new(0.0, 1.0, 0.1), MassKind::Lumped);
+    let offset = node(&mut m, centre + Vec3::new(-1.3, 1.4, 2.8));
+    ride(&mut m, offset, out, ALL);
+    // A rider on a rider.
+    let far = node(&mut m, centre + Vec3::new(0.7, 0.4, -0.6));
+    let farther = node(&mut m, centre + Vec3::new(1.2, 0.1, -1.1));
+    ride(&mut m, far, hub, ALL);
+    ride(&mut m, farther, far, ALL);
+    let ground = node(&mut m, Vec3::new(2.0, 2.0, -2.0));
+    fix(&mut m, ground, 0..6);
+    bar(&mut m, [offset, farther], 50.0, 0.2, MassKind::Consistent);
+    let tip = m.nodes[p[3]].x;
+    let free = node(&mut m, tip + Vec3::new(0.5, -0.2, 1.0));
+    mass(&mut m, free, 0.6, Mat3::zeros());
+    bar(&mut m, [p[3], free], 80.0, 0.0, MassKind::None);
+    spring(&mut m, [farther, free], 40.0, 0.0);
+    line(&mut m, [far, ground], Law::Linear { stiffness: 30.0, preload: 2.0 }, 0.0, Some(vector(rng, 1.0).normalize()));
+    line(&mut m, [free, ground], Law::Table { points: vec![[-9.0, -90.0], [0.0, 0.0], [9.0, 200.0]] }, 0.0, None);
+    m.links.push(Link {
+        name: "bushing".into(),
+        ends: [p[2], offset],
+        kind: LinkKind::Bushing {
+            stiffness: [9.0, 12.0, 8.0, 3.0, 4.0, 2.0],
+            damping: [0.0; 6],
+            axes: rotation::matrix(&turn(rng)),
+        },
+    });
+    for (at, follower) in [(p[1], true), (p[3], false), (farther, true), (hub, true), (offset, true), (p[5], true)] {
+        push(&mut m, at, vector(rng, 8.0), vector(rng, 3.0), follower, None);
+    }
+    mass(&mut m, p[2], 0.5, inertia(rng, 0.1));
+    m.gravity = vector(rng, 5.0);
+    for n in &mut m.nodes {
+        n.v = Vec3::zeros();
+    }
+    m
+}
+
+/// The scene turned by R about the origin, then shifted. Held directions must come in whole triples.
+pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
+    let R = rotation::matrix(q);
+    let mut t = m.clone();
+    let tensor = |J: &mut Mat3| *J = R * *J * R.transpose();
+    for n in &mut t.nodes {
+        (n.x, n.v, n.omega) = (R * n.x + shift, R * n.v, R * n.omega);
+    }
+    t.bodies.iter_mut().for_each(|b| tensor(&mut b.inertia));
+    t.masses.iter_mut().for_each(|b| tensor(&mut b.inertia));
+    t.beams.iter_mut().flat_map(|b| &mut b.elements).for_each(|e| e.frame = R * e.frame);
+    for link in &mut t.links {
+        match &mut link.kind {
+            LinkKind::Line { direction: Some(d), .. } => *d = R * *d,
+            LinkKind::Line { .. } => {}
+            LinkKind::Bushing { axes, .. } => *axes = R * *axes,
+        }
+    }
+    for load in &mut t.loads {
+        (load.force, load.moment) = (R * load.force, R * load.moment);
+    }
+    t.gravity = R * t.gravity;
+    t.base_accelerations.iter_mut().for_each(|b| b.direction = R * b.direction);
+    // A motion along one axis becomes one with three components.
+    let moved: Vec<Held> = t.held.extract_if(.., |h| h.motion.is_some()).collect();
+    for h in moved {
+        let motion = h.motion.expect("filtered");
+        for i in 0..3 {
+            let scale = motion.scale * R[(i, h.dof % 3)];
+            let dof = h.dof / 3 * 3 + i;
+            t.held.retain(|other| (other.node, other.dof) != (h.node, dof));
+            t.held.push(Held { node: h.node, dof, motion: Some(Motion { scale, ..motion.clone() }) });
+        }
+    }
+    t.held.sort_by_key(|h| (h.node, h.dof));
+    t
+}
+
+/// What a run showed at its due steps.
+pub struct Record {
+    pub states: Vec<State>,
+    pub energies: Vec<Energy>,
+    pub counts: Counts,
+}
+
+impl Record {
+    pub fn last(&self) -> &State {
+        self.states.last().expect("t = 0 is always shown")
+    }
+}
+
+impl Observer for Record {
+    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+        if frame.due {
+            self.states.push(frame.state.clone());
+            self.energies.extend(frame.energy);
+        }
+        Ok(())
+    }
+}
+
+/// Runs to the end; anything else fails the test.
+pub fn run(m: &Model) -> Record {
+    run_with(m, None)
+}
+
+pub fn run_with(m: &Model, solver: Option<linear::Kind>) -> Record {
+    let mut m = m.clone();
+    m.held.sort_by_key(|h| (h.node, h.dof));
+    let system = System::new(&m).unwrap();
+    let mut plan = Plan::new(&m, &system, 1);
+    plan.kind = solver.unwrap_or(plan.kind);
+    let stop = AtomicBool::new(false);
+    let wanted = Wanted { energy: true, reactions: true, ..Wanted::default() };
+    let mut run = Run::new(&m, &system, &plan, wanted, &stop);
+    let mut record = Record { states: vec![], energies: vec![], counts: Counts::default() };
+    let (outcome, _) = run.run(&mut record);
+    record.counts = run.counts;
+    match outcome {
+        Outcome::Done => record,
+        Outcome::Failed { time, failure } => panic!("failed at t = {time}: {failure}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Largest difference of the positions of two states, of all nodes.
+pub fn apart(a: &State, b: &State) -> f64 {
+    a.nodes.iter().zip(&b.nodes).map(|(a, b)| (a.x - b.x).norm()).fold(0.0, f64::max)
+}
+
+/// Order with which an error falls when the step is halved: errors at Δt and Δt/2.
+pub fn order(coarse: f64, fine: f64) -> f64 {
+    (coarse / fine).log2()
+}
