@@ -25,7 +25,8 @@ pub fn read(name: &str, sets: &[String]) -> Model {
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let source = Source::new(format!("{name}/deck.toml"), text, sets);
     let (model, problems) = model::read(&source);
-    model.unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
+    model
+        .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
 }
 
 /// A run that came to its end or not.
