@@ -2,14 +2,13 @@
 #![allow(dead_code)] // each test uses its part
 
 use rdsolve::diagnostic::Source;
-use rdsolve::model::Model;
+use rdsolve::model::{self, Model};
 use rdsolve::output::expect::{Expectations, Verdict};
 use rdsolve::output::wanted;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run};
 use rdsolve::state::Node;
 use rdsolve::system::System;
-use rdsolve::{deck, model};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -20,19 +19,23 @@ pub fn decks() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("decks")
 }
 
-/// The model of a deck below `decks/`, with entries overridden as by `--set`.
-pub fn read(name: &str, sets: &[String]) -> Model {
+fn source(name: &str, sets: &[String]) -> Source {
     let path = decks().join(name).join("deck.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let source = Source::new(format!("{name}/deck.toml"), text, sets);
-    let (deck, mut problems) = deck::read(&source);
-    let (model, more) = model::build(&deck);
-    problems.extend(more);
-    let errors: Vec<String> = problems.iter().filter(|p| p.is_error()).map(|p| p.draw(&source, false)).collect();
-    match model {
-        Some(model) if errors.is_empty() => model,
-        _ => panic!("{}", errors.join("\n")),
-    }
+    Source::new(format!("{name}/deck.toml"), text, sets)
+}
+
+/// What reading a deck says, messages alone.
+pub fn warnings(name: &str, sets: &[String]) -> Vec<String> {
+    model::read(&source(name, sets)).1.into_iter().map(|problem| problem.message).collect()
+}
+
+/// The model of a deck below `decks/`, with entries overridden as by `--set`.
+pub fn read(name: &str, sets: &[String]) -> Model {
+    let source = source(name, sets);
+    let (model, problems) = model::read(&source);
+    model
+        .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
 }
 
 /// A run that came to its end or not.
