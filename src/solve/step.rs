@@ -116,9 +116,9 @@ impl<'a> Stepper<'a> {
             let unbalanced = contraction * taken.residual;
             // Where an exact matrix no longer brings the error down, only rounding is left; a far origin, a small load or a
             // stiff part may put that above the tolerance.
-            let stuck = taken.refactorizations > 0 && contraction > 0.5;
-            if contraction < 1.0 && left <= tolerance && unbalanced <= tolerance || self.is_rounding(correction, stuck)
-            {
+            let stalled = contraction > 0.5;
+            let converged = contraction < 1.0 && left <= tolerance && unbalanced <= tolerance;
+            if converged || stalled && self.is_rounding(correction, taken.refactorizations > 0) {
                 break;
             }
             if taken.iterations >= limit {
@@ -261,12 +261,14 @@ impl<'a> Stepper<'a> {
         translation.max(correction.rotation / motion.rotation.max(STILL))
     }
 
-    /// True for a correction that only stirs the last digits of the positions. The axial stiffness turns these digits into
-    /// forces, and bending answers them with corrections that are larger by the slenderness squared: where iteration is
-    /// `stuck`, four digits more are given for that, and rotations follow the positions over the model's length.
-    fn is_rounding(&self, correction: Size, stuck: bool) -> bool {
+    /// True for a correction that only stirs the last digits of the positions. (It must have stopped to contract as well:
+    /// increments, and the accelerations that follow from them, have more digits than positions.) The axial stiffness
+    /// turns these digits into forces, and bending answers them with corrections that are larger by the slenderness
+    /// squared: where even a `fresh` matrix does not help, four digits more are given for that, and rotations follow the
+    /// positions over the model's length.
+    fn is_rounding(&self, correction: Size, fresh: bool) -> bool {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
-        let (translation, rotation) = if stuck {
+        let (translation, rotation) = if fresh {
             (1e4 * ROUNDING * self.reach, 1e4 * ROUNDING * (self.reach / self.length).max(1.0))
         } else {
             (ROUNDING * self.reach, ROUNDING)

@@ -19,11 +19,20 @@ pub fn decks() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("decks")
 }
 
-/// The model of a deck below `decks/`, with entries overridden as by `--set`.
-pub fn read(name: &str, sets: &[String]) -> Model {
+fn source(name: &str, sets: &[String]) -> Source {
     let path = decks().join(name).join("deck.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let source = Source::new(format!("{name}/deck.toml"), text, sets);
+    Source::new(format!("{name}/deck.toml"), text, sets)
+}
+
+/// What reading a deck says, messages alone.
+pub fn warnings(name: &str, sets: &[String]) -> Vec<String> {
+    model::read(&source(name, sets)).1.into_iter().map(|problem| problem.message).collect()
+}
+
+/// The model of a deck below `decks/`, with entries overridden as by `--set`.
+pub fn read(name: &str, sets: &[String]) -> Model {
+    let source = source(name, sets);
     let (model, problems) = model::read(&source);
     model
         .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
