@@ -90,6 +90,7 @@ fn compute(
             cuts: counts.cuts,
         },
         timings,
+        rotation_drift: (run.rotation_drift() > 0.0).then(|| run.rotation_drift()),
         peak_memory_bytes: peak_memory_bytes(),
         warnings: loaded.warnings.iter().map(|w| w.message.clone()).collect(),
         expectations,
