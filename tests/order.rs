@@ -216,12 +216,11 @@ fn r1_far_from_the_separatrix() {
         vec![0.182937038384, 1.402331644080, 0.823299451397],
     ];
     println!("\nfree_body from (1, 1, 1)");
-    let points: Vec<(f64, f64)> = [0.1, 0.05, 0.025, 0.0125, 0.00625, 0.003125, 0.0015625]
+    let points: Vec<(f64, f64)> = [0.1, 0.05, 0.025, 0.0125, 0.00625, 0.003125, 0.0015625, 0.00078125]
         .into_iter()
         .map(|step| {
             let sets = [
                 "bodies.body.angular_velocity=[1.0, 1.0, 1.0]".to_owned(),
-                "analysis.end_time=20.0".to_owned(),
                 "output.interval=5.0".to_owned(),
                 format!("analysis.time_step={step}"),
             ];
