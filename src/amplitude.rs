@@ -20,7 +20,33 @@ pub enum Amplitude {
     Constant,
 }
 
+/// A time at which an amplitude jumps, with its values on both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jump {
+    pub time: f64,
+    pub before: f64,
+    pub after: f64,
+}
+
 impl Amplitude {
+    /// Where the value jumps, in order of time.
+    pub fn jumps(&self) -> Vec<Jump> {
+        let at = |time: f64, before: f64, after: f64| Jump { time, before, after };
+        let all = match *self {
+            Amplitude::Table { ref points } => {
+                points.windows(2).filter(|p| p[0][0] == p[1][0]).map(|p| at(p[0][0], p[0][1], p[1][1])).collect()
+            }
+            Amplitude::Sine { start, end, .. } | Amplitude::SineSquared { start, end, .. } => {
+                vec![at(start, 0.0, self.value(start)), at(end, self.value(end), 0.0)]
+            }
+            Amplitude::Step { start, end } => vec![at(start, 0.0, 1.0), at(end, 1.0, 0.0)],
+            Amplitude::Ramp { start, end } if start == end => vec![at(start, 0.0, 1.0)],
+            Amplitude::Ramp { .. } | Amplitude::Constant => Vec::new(),
+        };
+        // What is left of a sine that ends at a zero is rounding of its argument.
+        all.into_iter().filter(|j| j.time.is_finite() && (j.after - j.before).abs() > 1e-12).collect()
+    }
+
     pub fn value(&self, t: f64) -> f64 {
         match *self {
             Amplitude::Table { ref points } => match around(points, t) {

@@ -57,6 +57,7 @@ impl Plan {
         let update = match (self.linear, model.iteration.update) {
             (true, _) => "once per length of step: the scene is linear",
             (_, Update::Iteration) => "in every iteration",
+            (_, Update::Auto) if analysis.kind == Analysis::Static => "in every iteration: load steps are long and few",
             (_, Update::Step) => "once a step",
             (_, Update::Auto) => "when convergence slows",
             (_, Update::Never) => "never after the first",

@@ -5,7 +5,7 @@ use super::refresh::Refresh;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{Frame, LinkState, Observer, SectionPoint};
-use crate::model::{Cadence, Model};
+use crate::model::{Cadence, Kind, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
@@ -79,6 +79,11 @@ impl<'a> Run<'a> {
         // A node with nothing to move it stays where it is and costs nothing.
         let moves = |i: &usize| !rides[*i] && (driven[*i] || (0..6).any(|d| plan.is_unknown(*i, d)));
         let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
+        // Load steps are long and few, and there is no mass to steady an old matrix.
+        let update = match (model.analysis.kind, model.iteration.update) {
+            (Kind::Static, Update::Auto) => Update::Iteration,
+            (_, update) => update,
+        };
         let stepper = Stepper {
             model,
             plan,
@@ -86,7 +91,7 @@ impl<'a> Run<'a> {
             drive: Drive::new(model),
             solver,
             assembly,
-            refresh: Refresh::new(model.iteration.update, plan.linear, plan.refresh_cost),
+            refresh: Refresh::new(update, plan.linear, plan.refresh_cost),
             length: extent(&at_rest),
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(extent(&at_rest)),
             trial: at_rest,
@@ -142,6 +147,9 @@ impl<'a> Run<'a> {
         for stretch in stretches(self.stepper.model) {
             for k in 1..=stretch.steps {
                 self.advance(state, &stretch, k, observer, balance)?;
+            }
+            if stretch.jump {
+                self.stepper.jump(state).map_err(|failure| Outcome::Failed { time: state.time, failure })?;
             }
         }
         Ok(())

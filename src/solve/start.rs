@@ -5,6 +5,7 @@ use super::step::Stepper;
 use crate::math::{Vec3, Vec6, rotation};
 use crate::model::Kind;
 use crate::state::{Increment, Node, State, Work};
+use crate::system::Side;
 use crate::system::assembly::{NONE, Weights};
 
 impl Stepper<'_> {
@@ -39,7 +40,7 @@ impl Stepper<'_> {
             reactions: vec![0.0; self.model.held.len()],
             work: Work::default(),
         };
-        self.drive.loading(0.0, &mut self.given[2]);
+        self.drive.loading(0.0, Side::After, &mut self.given[2]);
         self.drive.held(0.0, &mut self.held[0]);
         for (held, given) in self.model.held.iter().zip(&self.held[0]) {
             let node = &mut state.nodes[held.node];
@@ -83,7 +84,30 @@ impl Stepper<'_> {
         }
     }
 
-    /// M a = f at t = 0. Directions without mass have no equation for their acceleration: it starts from zero.
+    /// At a jump of the loads velocities go on and accelerations jump by M Δa = Δf; without this the scheme would carry
+    /// the old acceleration into the next step and lose an order.
+    ///
+    /// # Errors
+    /// As for [`Stepper::start`].
+    pub fn jump(&mut self, state: &mut State) -> Result<(), Failure> {
+        if self.model.analysis.kind == Kind::Static {
+            return Ok(());
+        }
+        let mut force = |side: Side| {
+            self.drive.loading(state.time, side, &mut self.given[2]);
+            self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+            self.forces.on_nodes.clone()
+        };
+        let (before, after) = (force(Side::Before), force(Side::After));
+        for (after, (f, before)) in self.forces.on_nodes.iter_mut().zip(after.iter().zip(&before)) {
+            *after = std::array::from_fn(|i| f[i] - before[i]);
+        }
+        self.accelerate(state)?;
+        self.refresh.rejected();
+        Ok(())
+    }
+
+    /// a ← a + M⁻¹ f. Directions without mass have no equation for their acceleration: it stays.
     fn accelerate(&mut self, state: &mut State) -> Result<(), Failure> {
         let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0 };
         self.assembly.tangent(self.system, &state.nodes, &self.given[2], &self.forces, weights, &mut self.solver);
@@ -104,10 +128,10 @@ impl Stepper<'_> {
         for (node, rows) in state.nodes.iter_mut().zip(&self.plan.rows) {
             for dof in 0..3 {
                 if rows[dof] != NONE {
-                    node.a[dof] = self.r[rows[dof] as usize];
+                    node.a[dof] += self.r[rows[dof] as usize];
                 }
                 if rows[3 + dof] != NONE {
-                    node.alpha[dof] = self.r[rows[3 + dof] as usize];
+                    node.alpha[dof] += self.r[rows[3 + dof] as usize];
                 }
             }
         }

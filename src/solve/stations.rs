@@ -10,6 +10,8 @@ pub struct Stretch {
     pub steps: usize,
     /// Its end is an output time.
     pub due: bool,
+    /// A load jumps at its end.
+    pub jump: bool,
 }
 
 impl Stretch {
@@ -19,33 +21,45 @@ impl Stretch {
     }
 }
 
-/// Cuts [0, end] at output times and at the times of expectations, each stretch into steps no longer than the deck's.
+/// Cuts [0, end] at output times, at the times of expectations and where loads jump, each stretch into steps no longer than the deck's.
 pub fn stretches(model: &Model) -> Vec<Stretch> {
     let (end, dt) = (model.analysis.end_time, model.analysis.time_step);
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
-    let mut times: Vec<(f64, bool)> = vec![(end, true)];
+    let station = |to: f64, due: bool, jump: bool| Stretch { from: 0.0, to, steps: 0, due, jump };
+    let mut out = vec![station(end, true, false)];
     if let Cadence::Interval(interval) = model.output.cadence {
         let count = (end / interval + 1e-9).floor() as usize;
-        times.extend((1..=count).map(|k| (k as f64 * interval, true)));
+        out.extend((1..=count).map(|k| station(k as f64 * interval, true, false)));
     }
     for expect in &model.expects {
         if let When::Time(t) = expect.when {
-            times.push((t, true));
+            out.push(station(t, true, false));
         }
     }
-    times.retain(|&(t, _)| t > 1e-9 * end && t <= end * (1.0 + 1e-9));
-    times.sort_by(|a, b| a.0.total_cmp(&b.0));
-    times.dedup_by(|a, b| same(a.0, b.0));
-    if let Some(last) = times.last_mut() {
-        last.0 = end;
+    let loads = model.loads.iter().filter_map(|load| load.amplitude);
+    for amplitude in loads.chain(model.base_accelerations.iter().map(|base| base.amplitude)) {
+        out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| station(jump.time, false, true)));
+    }
+    out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));
+    out.sort_by(|a, b| a.to.total_cmp(&b.to));
+    out.dedup_by(|next, kept| {
+        let one = same(next.to, kept.to);
+        if one {
+            kept.due |= next.due;
+            kept.jump |= next.jump;
+        }
+        one
+    });
+    if let Some(last) = out.last_mut() {
+        last.to = end;
     }
     let mut from = 0.0;
-    let mut out = Vec::new();
-    for (to, due) in times {
+    for stretch in &mut out {
         // A rounding error beyond a whole number of steps asks for no extra step.
-        let steps = ((to - from) / dt - 1e-9 * (to / dt).max(1.0)).ceil().max(1.0) as usize;
-        out.push(Stretch { from, to, steps, due });
-        from = to;
+        let steps = (stretch.to - from) / dt - 1e-9 * (stretch.to / dt).max(1.0);
+        stretch.steps = steps.ceil().max(1.0) as usize;
+        stretch.from = from;
+        from = stretch.to;
     }
     out
 }

@@ -10,7 +10,7 @@ use crate::model::{Kind, Model};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::assembly::{Assembly, NONE, Weights};
-use crate::system::{Drive, Forces, Loading, Prescribed, Scale, System, between};
+use crate::system::{Drive, Forces, Loading, Prescribed, Scale, Side, System, between};
 
 /// Everything a step writes to. Allocated once.
 pub struct Stepper<'a> {
@@ -148,8 +148,8 @@ impl<'a> Stepper<'a> {
     /// Loads and held motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
     fn give(&mut self, from: f64, to: f64, instant: f64) {
         let [start, end, at] = &mut self.given;
-        self.drive.loading(from, start);
-        self.drive.loading(to, end);
+        self.drive.loading(from, Side::After, start);
+        self.drive.loading(to, Side::Before, end);
         between(start, end, instant, at);
         let [start, end, at] = &mut self.held;
         self.drive.held(from, start);

@@ -8,7 +8,7 @@ mod motion;
 pub mod results;
 
 pub use inertia::Inertia;
-pub use motion::{Drive, Prescribed, between};
+pub use motion::{Drive, Prescribed, Side, between};
 pub use results::{LinkState, SectionPoint};
 
 use crate::constraints::attachment::{self, Attachment};

@@ -1,7 +1,7 @@
 //! What is given over time: factors of loads, the field of gravity and ground acceleration, motion of held directions.
 
 use super::Loading;
-use crate::amplitude::Amplitude;
+use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
 use crate::model::{Held, History, Kind, Model, Motion};
 
@@ -13,14 +13,34 @@ pub struct Prescribed {
     pub a: f64,
 }
 
+/// On which side of a jump a load is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    Before,
+    After,
+}
+
 /// The given functions of time of a model.
 pub struct Drive<'a> {
     model: &'a Model,
+    /// Of each amplitude.
+    jumps: Vec<Vec<Jump>>,
+    /// Times that differ by less are the same.
+    slack: f64,
 }
 
 impl<'a> Drive<'a> {
     pub fn new(model: &'a Model) -> Self {
-        Drive { model }
+        let jumps = model.amplitudes.iter().map(Amplitude::jumps).collect();
+        Drive { model, jumps, slack: 1e-9 * model.analysis.end_time }
+    }
+
+    fn factor(&self, amplitude: usize, t: f64, side: Side) -> f64 {
+        match self.jumps[amplitude].iter().find(|jump| (jump.time - t).abs() <= self.slack) {
+            Some(jump) if side == Side::Before => jump.before,
+            Some(jump) => jump.after,
+            None => self.model.amplitudes[amplitude].value(t),
+        }
     }
 
     /// A load without an amplitude: constant in dynamics, growing linearly over a static analysis.
@@ -32,16 +52,16 @@ impl<'a> Drive<'a> {
     }
 
     /// Loads at time t, into `loading`.
-    pub fn loading(&self, t: f64, loading: &mut Loading) {
+    pub fn loading(&self, t: f64, side: Side, loading: &mut Loading) {
         loading.factors.clear();
         let factor = |amplitude: Option<usize>| match amplitude {
-            Some(i) => self.model.amplitudes[i].value(t),
+            Some(i) => self.factor(i, t, side),
             None => self.plain_factor(t),
         };
         loading.factors.extend(self.model.loads.iter().map(|load| factor(load.amplitude)));
         loading.field = self.plain_factor(t) * self.model.gravity;
         for base in &self.model.base_accelerations {
-            loading.field -= self.model.amplitudes[base.amplitude].value(t) * base.direction;
+            loading.field -= self.factor(base.amplitude, t, side) * base.direction;
         }
     }
 

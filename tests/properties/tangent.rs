@@ -39,7 +39,7 @@ impl Instant {
             (Kind::Dynamic, Scheme::WilsonTheta(scheme)) => scheme.coefficients(m.analysis.time_step),
         };
         let mut loading = Loading::default();
-        Drive::new(&m).loading(0.8, &mut loading);
+        Drive::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);
         let whole = turn(rng);
         let R = rdsolve::math::rotation::matrix(&whole);
         let mut start: Vec<Node> = m.nodes.iter().map(|n| Node::at_rest(R * n.x + vector(rng, 0.15))).collect();
