@@ -1,4 +1,7 @@
-//! What the user may have meant.
+//! Words of the deck: the names of directions, and what the user may have meant.
+
+/// Translations along and rotations about the global axes.
+pub const DIRECTIONS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
 
 /// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

@@ -270,7 +270,7 @@ impl JsonSchema for Directions {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({ "anyOf": [
             { "enum": ["all", "translations", "rotations"] },
-            { "type": "array", "items": { "enum": crate::model::DIRECTIONS } },
+            { "type": "array", "items": { "enum": crate::names::DIRECTIONS } },
         ] })
     }
 }
