@@ -6,7 +6,6 @@
 //!  below them, used by them, knowing nothing of them:
 //!  constraints  elements  integrators  │  state  sections  amplitude  linear  │  math  names  diagnostic
 //! ```
-#![allow(non_snake_case)] // matrices are capitals, as in the formulas
 
 pub mod amplitude;
 pub mod command;

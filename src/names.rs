@@ -1,23 +1,39 @@
-//! Words of the deck: the names of directions, and what the user may have meant.
+//! What the user may have meant.
 
-/// Translations along and rotations about the global axes.
-pub const DIRECTIONS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
-
-/// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters.
+/// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters, or in two
+/// if there are no more.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_lowercase();
     let edits = |candidate: &str| strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
-    let near = |candidate: &str| edits(candidate) <= (word.chars().count().max(candidate.chars().count()) / 3).max(1);
+    let near = |candidate: &str| match word.chars().count().max(candidate.chars().count()) {
+        0 | 1 => false,
+        2 => edits(candidate) <= 1,
+        letters => edits(candidate) <= letters / 3,
+    };
     candidates.into_iter().filter(|c| *c != word && near(c)).min_by_key(|c| edits(c))
 }
 
-/// "`a`, `b` or `c`".
-pub fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+/// "`a`, `b`, `c`".
+pub fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
-    match quoted.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+    quoted.join(", ")
+}
+
+/// "a, b and c".
+pub fn joined(words: &[&str]) -> String {
+    match words.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
         None => String::new(),
+    }
+}
+
+/// A number to four digits, for messages.
+pub fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-4..1e6).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
     }
 }
 
@@ -32,12 +48,16 @@ mod tests {
         assert_eq!(nearest("alumnium", names), Some("aluminium"));
         assert_eq!(nearest("Steel", names), Some("steel"));
         assert_eq!(nearest("copper", names), None);
+        assert_eq!(nearest("F", names), None);
+        assert_eq!(nearest("yy", ["ux", "uy"]), Some("uy"));
         assert_eq!(nearest("steel", ["steel"]), None);
     }
 
     #[test]
     fn words_are_listed_as_prose() {
-        assert_eq!(listed(["a", "b", "c"]), "`a`, `b` or `c`");
-        assert_eq!(listed(["a"]), "`a`");
+        assert_eq!(quoted(["a", "b"]), "`a`, `b`");
+        assert_eq!(joined(&["ux", "uy", "rz"]), "ux, uy and rz");
+        assert_eq!(joined(&["ux"]), "ux");
+        assert_eq!([-10.0, 0.123456, 2.1e17].map(short), ["-10", "0.1235", "2.1e17"]);
     }
 }

@@ -1,8 +1,6 @@
 //! Every element: tangent against differences at random large rotations under load, no force in a rigid motion,
 //! forces in balance, energy as the potential of the force.
 
-#![allow(non_snake_case)]
-
 use nalgebra::{Quaternion, Unit, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -12,5 +12,7 @@ pub(super) fn check(args: &DeckArgs) -> Result<(), Exit> {
         Exit::Internal
     })?;
     let plan = Plan::new(&loaded.model, &system, 1);
-    super::print(&format!("{}: no errors\n{}", loaded.source.path, plan.explain(&loaded.model, &system)))
+    let (solver, _) = plan.build(&system);
+    let text = plan.explain(&loaded.model, &system);
+    super::print(&format!("{}: no errors\n{text}{:<12}{}\n", loaded.source.path, "  factor", solver.describe()))
 }

@@ -13,8 +13,7 @@ use clap::{Args, Parser, Subcommand};
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Diagnostic, Source};
-use crate::model::Model;
-use crate::{deck, model};
+use crate::model::{self, Model};
 
 /// How the program ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,15 +137,10 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
     })?;
     let hash = hash(&text, sets);
     let source = Source::new(name, text, sets);
-    let (deck, mut problems) = deck::read(&source);
-    let (model, more) = model::build(&deck);
-    problems.extend(more);
-    // In the order of the deck; what has no place comes last.
-    problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
-    let errors = problems.iter().filter(|problem| problem.is_error()).count();
-    match model {
-        Some(model) if errors == 0 => Ok(Loaded { model, warnings: problems, source, hash }),
-        _ => {
+    match model::read(&source) {
+        (Some(model), warnings) => Ok(Loaded { model, warnings, source, hash }),
+        (None, problems) => {
+            let errors = problems.iter().filter(|problem| problem.is_error()).count();
             show(&problems, &source);
             let warnings = problems.len() - errors;
             let besides = if warnings > 0 { format!(" and {}", counted(warnings, "warning")) } else { String::new() };

@@ -7,14 +7,13 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::{Exit, Loaded, RunArgs, complain, load, output_folder, show};
-use crate::model::Model;
-use crate::output::Files;
 use crate::output::expect::{Expectations, Verdict};
 use crate::output::log::Log;
 use crate::output::progress::Progress;
 use crate::output::result_json::{Counts, Report, Status, Timings, peak_memory_bytes};
+use crate::output::{Files, wanted};
 use crate::plan::Plan;
-use crate::solve::{Frame, Observer, Outcome, Run, Wanted};
+use crate::solve::{Frame, Observer, Outcome, Run};
 use crate::system::System;
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
@@ -91,23 +90,13 @@ fn compute(
             cuts: counts.cuts,
         },
         timings,
+        rotation_drift: (run.rotation_drift() > 0.0).then(|| run.rotation_drift()),
         peak_memory_bytes: peak_memory_bytes(),
         warnings: loaded.warnings.iter().map(|w| w.message.clone()).collect(),
         expectations,
     };
     report.write(folder)?;
     Ok(report)
-}
-
-/// What the files and expectations of this deck need to be computed.
-fn wanted(model: &Model) -> Wanted {
-    let expects = |at: fn(&crate::model::ExpectAt) -> bool| model.expects.iter().any(|e| at(&e.at));
-    Wanted {
-        energy: model.output.energy || expects(|at| matches!(at, crate::model::ExpectAt::Energy)),
-        reactions: model.output.reactions,
-        links: model.output.links || expects(|at| matches!(at, crate::model::ExpectAt::Link(_))),
-        sections: model.output.sections,
-    }
 }
 
 /// A flag that interrupt and termination raise: the run ends after the step in hand, with whole files.

@@ -1,10 +1,40 @@
 //! `rdsolve schema`: the JSON Schema of the deck, for completion and checks in editors.
 
+use serde_json::Value;
+
 use super::Exit;
 use crate::deck::Deck;
 
 pub(super) fn schema() -> Result<(), Exit> {
-    let schema = schemars::schema_for!(Deck);
+    let mut schema = schemars::schema_for!(Deck).to_value();
+    without_null(&mut schema);
     let text = serde_json::to_string_pretty(&schema).map_err(|_| Exit::Internal)?;
     super::print(&format!("{text}\n"))
+}
+
+/// A key that may be left out cannot be null: TOML has none.
+fn without_null(schema: &mut Value) {
+    let is_null = |value: &Value| *value == "null" || value.get("type").is_some_and(|kind| kind == "null");
+    match schema {
+        Value::Object(entries) => {
+            for key in ["type", "anyOf"] {
+                let Some(Value::Array(options)) = entries.get_mut(key) else { continue };
+                options.retain(|option| !is_null(option));
+                if options.len() > 1 {
+                    continue;
+                }
+                match entries.remove(key).and_then(|mut options| options.as_array_mut()?.pop()) {
+                    Some(Value::Object(only)) => only.into_iter().for_each(|(key, value)| {
+                        // The description of the key says more than that of its type.
+                        entries.entry(key).or_insert(value);
+                    }),
+                    Some(only) => entries.extend([(key.to_owned(), only)]),
+                    None => {}
+                }
+            }
+            entries.values_mut().for_each(without_null);
+        }
+        Value::Array(list) => list.iter_mut().for_each(without_null),
+        _ => {}
+    }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Vector};
+use super::words::{Maybe, Names, Table, Vector};
 
 /// A rigid body.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -19,7 +19,7 @@ pub struct Body {
     /// About the centre, global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx].
     pub inertia: Maybe<Vec<f64>>,
     /// Gives the inertia, and the mass if it has a density; with `inertia` it is only drawn.
-    pub shape: Maybe<Shape>,
+    pub shape: Maybe<Table<Shape>>,
     /// Of the centre at t = 0.
     pub velocity: Maybe<Vector>,
     /// At t = 0, global components, radians per time.

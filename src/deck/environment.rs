@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Vector};
+use super::words::{Maybe, Names, Table, Vector};
 use crate::diagnostic::At;
 
 /// Acceleration fields.
@@ -14,7 +14,7 @@ pub struct Environment {
     pub gravity: Maybe<Vector>,
     /// Accelerations of the ground; displacements are then relative to it.
     #[serde(default)]
-    pub base_acceleration: Vec<At<BaseAcceleration>>,
+    pub base_acceleration: Vec<At<Table<BaseAcceleration>>>,
 }
 
 /// Acceleration of the ground along a direction: scale times amplitude.
@@ -40,7 +40,7 @@ pub struct Damping {
     /// Time; acts on strain rates of beams and bars. Default: 0.
     pub stiffness_factor: Maybe<f64>,
     #[serde(default)]
-    pub nodal: Vec<At<NodalDamping>>,
+    pub nodal: Vec<At<Table<NodalDamping>>>,
 }
 
 /// A damper from a node to the ground.

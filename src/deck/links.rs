@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Numbers, Vector};
+use super::words::{Maybe, Numbers, Table, Vector};
 use crate::diagnostic::At;
 
 /// A spring and damper between two ends, along the line between them, along a direction, or a bushing.
@@ -13,9 +13,9 @@ pub struct Link {
     #[schemars(required)]
     pub name: Maybe<String>,
     #[schemars(required)]
-    pub from: Maybe<End>,
+    pub from: Maybe<Table<End>>,
     #[schemars(required)]
-    pub to: Maybe<End>,
+    pub to: Maybe<Table<End>>,
     /// Force against elongation. Default: "linear".
     pub law: Maybe<Law>,
     /// Force per length: linear, compression-only, tension-only.

@@ -27,7 +27,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::diagnostic::{At, Span};
-use words::{Maybe, Named, Vector};
+use words::{Maybe, Named, Names, Table, Vector};
 
 /// A deck of rdsolve: one scene and how to compute it. Units are SI or any consistent set.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -38,47 +38,47 @@ pub struct Deck {
     /// Unit system: labels output and turns on warnings about implausible values. Computes nothing.
     pub units: Maybe<output::Units>,
     #[schemars(required)]
-    pub analysis: Maybe<analysis::Analysis>,
-    pub integrator: Maybe<analysis::Integrator>,
-    pub iteration: Maybe<analysis::Iteration>,
+    pub analysis: Maybe<Table<analysis::Analysis>>,
+    pub integrator: Maybe<Table<analysis::Integrator>>,
+    pub iteration: Maybe<Table<analysis::Iteration>>,
     /// Materials by name.
     #[serde(default)]
-    pub materials: Named<materials::Material>,
+    pub materials: Named<Table<materials::Material>>,
     /// Cross sections of beams by name.
     #[serde(default)]
-    pub sections: Named<sections::Section>,
+    pub sections: Named<Table<sections::Section>>,
     /// Named points [x, y, z] at t = 0; every one becomes a node.
     #[serde(default)]
     pub points: Named<Vector>,
     /// Lists of names under one name: points, bodies, beams, bars, further sets.
     #[serde(default)]
-    pub sets: Named<Vec<At<String>>>,
+    pub sets: Named<Names>,
     #[serde(default)]
-    pub beams: Vec<At<beams::Beam>>,
+    pub beams: Vec<At<Table<beams::Beam>>>,
     #[serde(default)]
-    pub bars: Vec<At<beams::Bar>>,
+    pub bars: Vec<At<Table<beams::Bar>>>,
     #[serde(default)]
-    pub bodies: Vec<At<bodies::Body>>,
+    pub bodies: Vec<At<Table<bodies::Body>>>,
     #[serde(default)]
-    pub masses: Vec<At<bodies::Mass>>,
+    pub masses: Vec<At<Table<bodies::Mass>>>,
     #[serde(default)]
-    pub attachments: Vec<At<attachments::Attachment>>,
+    pub attachments: Vec<At<Table<attachments::Attachment>>>,
     #[serde(default)]
-    pub supports: Vec<At<supports::Support>>,
+    pub supports: Vec<At<Table<supports::Support>>>,
     #[serde(default)]
-    pub links: Vec<At<links::Link>>,
+    pub links: Vec<At<Table<links::Link>>>,
     #[serde(default)]
-    pub loads: Vec<At<loads::Load>>,
+    pub loads: Vec<At<Table<loads::Load>>>,
     /// Functions of time by name, for loads and prescribed motion.
     #[serde(default)]
-    pub amplitudes: Named<amplitudes::Amplitude>,
-    pub environment: Maybe<environment::Environment>,
+    pub amplitudes: Named<Table<amplitudes::Amplitude>>,
+    pub environment: Maybe<Table<environment::Environment>>,
     #[serde(default)]
-    pub initial: Vec<At<initial::Initial>>,
-    pub damping: Maybe<environment::Damping>,
+    pub initial: Vec<At<Table<initial::Initial>>>,
+    pub damping: Maybe<Table<environment::Damping>>,
     #[serde(default)]
-    pub expect: Vec<At<expect::Expect>>,
-    pub output: Maybe<output::Output>,
+    pub expect: Vec<At<Table<expect::Expect>>>,
+    pub output: Maybe<Table<output::Output>>,
     /// Entries that are written but could not be read: not missing, and already reported.
     #[serde(skip)]
     pub spoiled: Vec<Spoiled>,

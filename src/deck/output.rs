@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names};
+use super::words::{Maybe, Names, Table};
 
 /// What is written, and how often. t = 0 and the end are always written.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -16,7 +16,7 @@ pub struct Output {
     /// Time between two rows, instead of `every`: steps land on its multiples.
     pub interval: Maybe<f64>,
     /// Files for looking at: the deformed shape.
-    pub fields: Maybe<Fields>,
+    pub fields: Maybe<Table<Fields>>,
     /// Write energy.csv. Default: true.
     pub energy: Maybe<bool>,
     /// Write links.csv. Default: false.

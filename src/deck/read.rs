@@ -11,11 +11,15 @@ use super::{Deck, Spoiled, set};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::nearest;
 
+/// Where the table of the top-level keys stands.
+pub const ROOT: Span = 0..0;
+
 /// Wrong entries looked for in one go.
 const LIMIT: usize = 200;
 
-/// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported.
-pub fn read(source: &Source) -> (Deck, Vec<Diagnostic>) {
+/// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported; if that is too
+/// much, there is no deck.
+pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     let arguments: Vec<String> = source.sets.iter().map(|(offset, text)| set::padded(*offset, text)).collect();
     let (root, syntax) = DeTable::parse_recoverable(&source.text);
     let mut root = root.into_inner();
@@ -29,16 +33,16 @@ pub fn read(source: &Source) -> (Deck, Vec<Diagnostic>) {
         }
     }
     reader.numbers(&mut root);
-    let mut deck = reader.tables(root);
-    deck.spoiled = reader.spoiled;
-    (deck, reader.problems)
+    let deck = reader.tables(root);
+    let spoiled = reader.spoiled;
+    (deck.map(|deck| Deck { spoiled, ..deck }), reader.problems)
 }
 
 #[derive(Default)]
 struct Reader {
     problems: Vec<Diagnostic>,
     spoiled: Vec<Spoiled>,
-    /// Lines that are no TOML: nothing more is said about them.
+    /// Lines that are no TOML, and what hangs on them: nothing more is said about these.
     broken: Vec<Span>,
 }
 
@@ -48,18 +52,25 @@ impl Reader {
         let at = span.start.min(text.len());
         let begin = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
         let end = text[at..].find('\n').map_or(text.len(), |newline| at + newline);
-        if self.broken.iter().any(|line| line.start == begin) {
+        if self.is_broken(at) {
             return;
         }
-        // A key on a broken line is written, so it is not missing.
-        let key = text[begin..end].split('=').next().unwrap_or_default().trim().trim_matches('"');
-        self.spoiled.push(Spoiled { table: None, key: key.to_owned() });
-        self.broken.push(begin..end);
+        // Names on a broken line are written, so they are not missing. Below a broken header all keys are astray.
+        let line = &text[begin..end];
+        let words =
+            line.split('=').next().unwrap_or_default().split(|c: char| !(c.is_alphanumeric() || "_-".contains(c)));
+        self.spoiled.extend(words.map(|word| Spoiled { table: None, key: word.to_owned() }));
+        let next_header = || text[end..].find("\n[").map_or(text.len(), |next| end + next);
+        self.broken.push(begin..if line.starts_with('[') { next_header() } else { end });
         let message = match error.message() {
-            "duplicate key" => format!("`{}` is given twice", &text[span.clone()]),
+            "duplicate key" => format!("`{}` is given twice", text.get(span.clone()).unwrap_or_default()),
             message => format!("this is not TOML: {message}"),
         };
         self.problems.push(Diagnostic::error(message).at(&span));
+    }
+
+    fn is_broken(&self, at: usize) -> bool {
+        self.broken.iter().any(|region| (region.start..=region.end).contains(&at))
     }
 
     /// Takes out all numbers that are not finite.
@@ -74,32 +85,32 @@ impl Reader {
         }
     }
 
-    fn tables(&mut self, mut root: DeTable) -> Deck {
+    fn tables(&mut self, mut root: DeTable) -> Option<Deck> {
         loop {
-            let table = Spanned::new(0..0, DeValue::Table(root.clone()));
+            let table = Spanned::new(ROOT, DeValue::Table(root.clone()));
             let error = match Deck::deserialize(ValueDeserializer::from(table)) {
-                Ok(deck) => return deck,
+                Ok(deck) => return Some(deck),
                 Err(error) => error,
             };
             let span = error.span().unwrap_or_default();
             let Some(entry) = self.strike(&mut root, &span) else {
                 self.problems.push(Diagnostic::error(error.message().to_owned()).at(&span));
-                return Deck::default();
+                return None;
             };
-            if !self.broken.iter().any(|line| line.contains(&span.start)) {
+            if !self.is_broken(span.start) {
                 let problem = self.wrong(&entry, error.message());
                 self.problems.push(problem.at(&span));
             }
             if self.problems.len() >= LIMIT {
-                self.problems.push(Diagnostic::error("there may be more errors; these come first"));
-                return Deck::default();
+                self.problems.push(Diagnostic::error("there may be more errors; correct these first"));
+                return None;
             }
         }
     }
 
     /// Takes out the innermost entry that `span` belongs to.
     fn strike(&mut self, root: &mut DeTable, span: &Span) -> Option<Entry> {
-        let entry = strike(root, &(0..0), span)?;
+        let entry = strike(root, &ROOT, span)?;
         self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: entry.key.clone() });
         Some(entry)
     }
@@ -123,17 +134,18 @@ impl Reader {
         }
         if problem.starts_with("unknown variant") {
             let word = problem.split('`').nth(1).unwrap_or_default();
-            let known = crate::names::listed(words.iter().copied());
+            let known = crate::names::quoted(words.iter().copied());
             let diagnostic = Diagnostic::error(format!("{subject} cannot be `{word}`"));
             return match nearest(word, words.iter().copied()) {
-                Some(near) if words.len() > 1 => {
-                    diagnostic.hint(format!("did you mean `{near}`?")).hint(format!("it can be {known}"))
-                }
                 Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
-                None => diagnostic.hint(format!("it can be {known}")),
+                None => diagnostic.hint(format!("known: {known}")),
             };
         }
         if let Some(found) = problem.strip_prefix("invalid type: ").or(problem.strip_prefix("invalid value: ")) {
+            if entry.table == ROOT && found == "map" && expected == "a sequence" {
+                return Diagnostic::error(format!("`{key}` is a list of tables"))
+                    .hint(format!("each begins with [[{key}]]"));
+            }
             return Diagnostic::error(format!("{subject} must be {}, not {}", wanted(expected), found_words(found)));
         }
         if let Some(length) = problem.strip_prefix("invalid length ") {
@@ -154,24 +166,19 @@ fn wanted(expected: &str) -> &str {
         "a boolean" => "true or false",
         "a string" => "text in quotes, such as \"steel\"",
         "a sequence" => "a list in brackets, such as [1.0, 2.0, 3.0]",
-        "a map" => "a table",
-        _ if expected.starts_with("struct ") => "a table, such as { key = value }",
         other => other,
     }
 }
 
 /// What serde found, in plain words.
 fn found_words(found: &str) -> String {
-    let value = found.split_once(' ').map(|(_, value)| value.trim_matches('`'));
-    match (found, value) {
-        ("map", _) => "a table".to_owned(),
-        ("sequence", _) => "a list".to_owned(),
-        (_, Some(value)) if found.starts_with("string ") => format!("the text {value}"),
-        (_, Some(value)) if found.starts_with("integer ") => format!("the number {value}"),
-        (_, Some(value)) if found.starts_with("floating point ") => {
-            format!("the number {}", value.trim_start_matches("point ").trim_matches('`'))
-        }
-        (_, Some(value)) => format!("`{value}`"),
+    let quoted = found.split('`').nth(1).unwrap_or(found);
+    match found.split_once(' ') {
+        Some(("string", text)) => format!("the text {text}"),
+        Some(("integer" | "floating", _)) => format!("the number {quoted}"),
+        Some(("boolean", _)) => quoted.to_owned(),
+        None if found == "map" => "a table".to_owned(),
+        None if found == "sequence" => "a list".to_owned(),
         _ => found.to_owned(),
     }
 }
@@ -199,8 +206,7 @@ fn strike(table: &mut DeTable, place: &Span, span: &Span) -> Option<Entry> {
     if below.is_some() {
         return below;
     }
-    let holds = |value: &Spanned<DeValue>| value.span().start <= span.start && span.end <= value.span().end;
-    let (key, value) = table.iter().find(|(_, value)| holds(value))?;
+    let (key, value) = table.iter().find(|(_, value)| holds(value, span))?;
     let struck = entry(key.get_ref(), value.span() == *span);
     table.remove(struck.key.as_str());
     Some(struck)
@@ -215,6 +221,13 @@ fn strike_below(value: &mut DeValue, place: &Span, span: &Span) -> Option<Entry>
         }),
         _ => None,
     }
+}
+
+/// An item of a list of tables may stand outside the span of the list, which is its first header.
+fn holds(value: &Spanned<DeValue>, span: &Span) -> bool {
+    let items = value.get_ref().as_array();
+    let within = value.span().start <= span.start && span.end <= value.span().end;
+    within || items.is_some_and(|items| items.iter().any(|item| item.span() == *span))
 }
 
 fn not_finite(value: &Spanned<DeValue>, wrong: &mut Vec<Span>) {

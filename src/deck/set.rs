@@ -73,15 +73,18 @@ pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argumen
             value => break Spanned::new(span, value),
         }
     };
-    let named = path.len() > 1 && NAMED.contains(&path[0].get_ref().as_ref());
-    let known = SINGLE.contains(&path[0].get_ref().as_ref());
-    if path.len() > 1 && !known && !root.contains_key(path[0].get_ref().as_ref()) {
-        return Err(unknown("the deck has no", &path[0], root.keys().map(|key| key.get_ref().as_ref())));
+    fn word<'k>(key: &'k Spanned<DeString>) -> &'k str {
+        key.get_ref().as_ref()
     }
-    if named && let Some(DeValue::Table(entries)) = root.get(path[0].get_ref().as_ref()).map(Spanned::get_ref) {
-        if !entries.contains_key(path[1].get_ref().as_ref()) {
-            let what = format!("`{}` has no", path[0].get_ref());
-            return Err(unknown(&what, &path[1], entries.keys().map(|key| key.get_ref().as_ref())));
+    if let [first, second, ..] = path.as_slice() {
+        match root.get(word(first)).map(Spanned::get_ref) {
+            None if !SINGLE.contains(&word(first)) => {
+                return Err(unknown("the deck has no", first, root.keys().map(word)));
+            }
+            Some(DeValue::Table(named)) if NAMED.contains(&word(first)) && !named.contains_key(word(second)) => {
+                return Err(unknown(&format!("`{}` has no", word(first)), second, named.keys().map(word)));
+            }
+            _ => {}
         }
     }
     put(root, &path, value)
@@ -126,7 +129,7 @@ fn put_below<'i>(
     match found.get_mut() {
         DeValue::Table(inner) => put(inner, rest, value),
         DeValue::Array(list) => {
-            let (word, rest) = (&rest[0], &rest[1..]);
+            let Some((word, rest)) = rest.split_first() else { return Ok(()) };
             let index = item(list, key.get_ref(), word.get_ref(), &word.span())?;
             let Some(found) = list.get_mut(index) else { return Ok(()) };
             if rest.is_empty() {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Directions, Maybe, Names};
+use super::words::{Directions, Maybe, Names, Table};
 
 /// Directions held at rest or moved as told.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -15,19 +15,19 @@ pub struct Support {
     /// Directions held at rest.
     pub fix: Maybe<Directions>,
     /// Directions moved as a function of time.
-    pub motion: Maybe<Motions>,
+    pub motion: Maybe<Table<Motions>>,
 }
 
 /// Prescribed motion by direction.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motions {
-    pub ux: Maybe<Motion>,
-    pub uy: Maybe<Motion>,
-    pub uz: Maybe<Motion>,
-    pub rx: Maybe<Motion>,
-    pub ry: Maybe<Motion>,
-    pub rz: Maybe<Motion>,
+    pub ux: Maybe<Table<Motion>>,
+    pub uy: Maybe<Table<Motion>>,
+    pub uz: Maybe<Table<Motion>>,
+    pub rx: Maybe<Table<Motion>>,
+    pub ry: Maybe<Table<Motion>>,
+    pub rz: Maybe<Table<Motion>>,
 }
 
 /// A motion: scale times amplitude.

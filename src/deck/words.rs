@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
+use std::ops::Deref;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::value::{F64Deserializer, I64Deserializer, StrDeserializer};
+use serde::de::value::{F64Deserializer, I64Deserializer, MapAccessDeserializer, StrDeserializer};
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
@@ -13,6 +14,54 @@ use crate::diagnostic::At;
 
 /// A key that may be left out.
 pub type Maybe<T> = Option<At<T>>;
+
+/// A table, and nothing else: serde would also fill a struct from a list, by position.
+#[derive(Debug, Clone)]
+pub struct Table<T>(T);
+
+impl<T> Deref for Table<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Reader<T> {
+            type Value = Table<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a table, such as { key = value }")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(Table)
+            }
+        }
+        deserializer.deserialize_map(Reader(PhantomData))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Table<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
 
 /// Exactly `N` numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +125,7 @@ pub trait Item {
 }
 
 impl Item for String {
-    const EXPECTED: &'static str = "a name in quotes or a list of names, such as [\"foot_left\", \"foot_right\"]";
+    const EXPECTED: &'static str = "a name in quotes or a list of names, such as [\"knee\", \"foot\"]";
 }
 
 impl Item for u64 {
@@ -220,7 +269,7 @@ impl Directions {
     pub const ALL: Directions = Directions([true; 6]);
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum Direction {
     Ux,
@@ -267,10 +316,11 @@ impl JsonSchema for Directions {
         "Directions".into()
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let direction = generator.subschema_for::<Direction>();
         json_schema!({ "anyOf": [
             { "enum": ["all", "translations", "rotations"] },
-            { "type": "array", "items": { "enum": crate::names::DIRECTIONS } },
+            { "type": "array", "items": direction },
         ] })
     }
 }

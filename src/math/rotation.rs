@@ -20,13 +20,13 @@ pub enum RotationUpdate {
 impl RotationUpdate {
     /// The unit quaternion of the step and how far the unprojected matrix was from orthogonal (its stretch minus one).
     /// The truncated maps leave the axis alone and turn by the angle of their 2×2 block, which projection keeps.
+    #[inline]
     pub fn quaternion(self, theta: &Vec3) -> (Quaternion<f64>, f64) {
+        if self == RotationUpdate::Exponential {
+            return (exp(theta), 0.0);
+        }
         let t = theta.norm();
-        let (sine, cosine) = match self {
-            RotationUpdate::Exponential => return (exp(theta), 0.0),
-            RotationUpdate::FirstOrder => (t, 1.0),
-            RotationUpdate::SecondOrder => (t, 1.0 - 0.5 * t * t),
-        };
+        let (sine, cosine) = (t, if self == RotationUpdate::FirstOrder { 1.0 } else { 1.0 - 0.5 * t * t });
         let scale = if t > 0.0 { sine.atan2(cosine) / t } else { 1.0 };
         (exp(&(scale * theta)), sine.hypot(cosine) - 1.0)
     }

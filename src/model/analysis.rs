@@ -3,6 +3,7 @@
 use super::build::{Builder, Owner};
 use super::{Analysis, Kind, Update};
 use crate::deck::analysis as deck;
+use crate::deck::read::ROOT;
 use crate::diagnostic::Diagnostic;
 use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
 
@@ -17,7 +18,7 @@ impl<'d> Builder<'d> {
     pub fn analysis(&mut self) {
         match &self.deck.analysis {
             Some(analysis) => self.times(&analysis.value, &analysis.span),
-            None if self.is_spoiled(&(0..0), "analysis") => {}
+            None if self.is_spoiled(&ROOT, "analysis") => {}
             None => {
                 let example = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-3";
                 self.problems.push(Diagnostic::error("the deck has no table `[analysis]`").hint(example));

@@ -7,8 +7,8 @@ use crate::diagnostic::Diagnostic;
 
 impl<'d> Builder<'d> {
     pub fn attachments(&mut self) {
-        for (index, attachment) in self.deck.attachments.iter().enumerate() {
-            let owner = Owner { what: format!("attachments.{index}"), span: &attachment.span };
+        for attachment in &self.deck.attachments {
+            let owner = Owner { what: "`[[attachments]]`".to_owned(), span: &attachment.span };
             let body = self.need(&owner, "body", &attachment.body).and_then(|name| self.body(name));
             let spots = self.spots(&owner, "nodes", &attachment.nodes, Reach::Nodes);
             if self.is_spoiled(owner.span, "dofs") {
@@ -81,7 +81,7 @@ impl<'d> Builder<'d> {
     /// Reports a point on which nothing acts at all, `what` being done to it.
     pub fn is_loose(&mut self, spot: &super::places::Spot, what: &str) -> bool {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
-        if loose {
+        if loose && self.sure {
             let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
             self.error_with::<()>(spot.span, message, "no beam, bar, link, mass or body");
         }
@@ -92,9 +92,5 @@ impl<'d> Builder<'d> {
 /// "ux, uy and rz".
 pub(super) fn directions(dofs: impl IntoIterator<Item = usize>) -> String {
     let words: Vec<&str> = dofs.into_iter().map(|dof| DIRECTIONS[dof]).collect();
-    match words.split_last() {
-        Some((last, [])) => (*last).to_owned(),
-        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
-        None => String::new(),
-    }
+    crate::names::joined(&words)
 }

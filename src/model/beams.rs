@@ -37,12 +37,7 @@ impl<'d> Builder<'d> {
         let section = self.beam_section(owner, beam, mass);
         let elements = self.need(owner, "elements", &beam.elements);
         let orientation = self.need(owner, "orientation", &beam.orientation);
-        let path = self.path(owner, &beam.path);
-        if let Some(path) = &path {
-            // What meets at these points is known even if the beam has errors.
-            path.iter().for_each(|&node| self.touch(node, true));
-        }
-        let mut path = path?;
+        let mut path = self.path(owner, &beam.path, true)?;
         let ends = [(0, "offset_start", &beam.offset_start), (path.len() - 1, "offset_end", &beam.offset_end)];
         for (at, key, offset) in ends {
             if let Some(offset) = offset
@@ -93,13 +88,16 @@ impl<'d> Builder<'d> {
         Some(())
     }
 
-    /// Nodes of a path of two or more points.
-    fn path(&mut self, owner: &Owner<'d>, path: &'d Maybe<OneOrMany<String>>) -> Option<Vec<usize>> {
+    /// Nodes of a path of two or more points; a beam also acts on their rotations.
+    fn path(&mut self, owner: &Owner<'d>, path: &'d Maybe<OneOrMany<String>>, rotations: bool) -> Option<Vec<usize>> {
         let path = self.need(owner, "path", path)?;
         if path.values.len() < 2 {
+            self.unsure = true;
             self.error_with::<()>(&path.span, "a path needs two points or more", "such as [\"foot\", \"knee\"]");
         }
         let nodes: Vec<Option<usize>> = path.values.iter().map(|point| self.point("path", point)).collect();
+        // What meets at these points is known even if the rest has errors.
+        nodes.iter().flatten().for_each(|&node| self.touch(node, rotations));
         nodes.into_iter().collect::<Option<Vec<usize>>>().filter(|nodes| nodes.len() >= 2)
     }
 
@@ -170,8 +168,7 @@ impl<'d> Builder<'d> {
     fn bar(&mut self, index: usize, name: String, owner: &Owner<'d>, bar: &'d deck::Bar) -> Option<()> {
         let mass = mass_kind(&bar.mass);
         let stiffness = self.bar_stiffness(owner, bar, mass);
-        let path = self.path(owner, &bar.path)?;
-        path.iter().for_each(|&node| self.touch(node, false));
+        let path = self.path(owner, &bar.path, false)?;
         let lengths = self.segments(owner, &bar.path.as_ref()?.values, &path);
         let counts = match &bar.elements {
             Some(elements) => self.counts(elements, path.len() - 1),

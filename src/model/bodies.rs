@@ -6,8 +6,10 @@ use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
 use super::places::{Place, Reach};
 use super::{Body, Mass, Shape};
 use crate::deck::bodies as deck;
+use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
 use crate::math::{Mat3, Vec3};
+use crate::names::short;
 
 /// Round-off in a principal moment, relative to the largest.
 const ROUND_OFF: f64 = 1e-9;
@@ -91,17 +93,17 @@ impl<'d> Builder<'d> {
         moments.as_mut_slice().sort_by(f64::total_cmp);
         if moments[0] <= 0.0 {
             let message = "`inertia` must have three positive principal moments";
-            return self.error_with(&values.span, message, format!("the smallest is {:.3e}", moments[0]));
+            return self.error_with(&values.span, message, format!("the smallest is {}", short(moments[0])));
         }
         if moments[2] > (moments[0] + moments[1]) * (1.0 + ROUND_OFF) {
-            let [a, b, c] = [moments[0], moments[1], moments[2]];
+            let [a, b, c] = [0, 1, 2].map(|i| short(moments[i]));
             let message = "no body has this inertia: a principal moment is larger than the sum of the other two";
-            return self.error_with(&values.span, message, format!("{c:.4} > {a:.4} + {b:.4}"));
+            return self.error_with(&values.span, message, format!("{c} > {a} + {b}"));
         }
         Some(inertia)
     }
 
-    fn solid(&mut self, shape: &'d At<deck::Shape>, body: &str) -> Option<Solid> {
+    fn solid(&mut self, shape: &'d At<Table<deck::Shape>>, body: &str) -> Option<Solid> {
         let owner = Owner { what: format!("the shape of {body}"), span: &shape.span };
         let kind = self.need(&owner, "kind", &shape.kind)?.value;
         let keys = [
@@ -176,8 +178,8 @@ impl<'d> Builder<'d> {
     }
 
     pub fn masses(&mut self) {
-        for (index, mass) in self.deck.masses.iter().enumerate() {
-            let owner = Owner { what: format!("masses.{index}"), span: &mass.span };
+        for mass in &self.deck.masses {
+            let owner = Owner { what: "`[[masses]]`".to_owned(), span: &mass.span };
             let spots = self.spots(&owner, "at", &mass.at, Reach::Nodes);
             let value = self.need_positive(&owner, "mass", &mass.mass);
             let inertia = match &mass.inertia {

@@ -6,13 +6,24 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::places::Place;
 use super::{Cadence, Damping, Iteration, Kind, Model, Node, Output, Update};
 use crate::deck::Deck;
+use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
-use crate::diagnostic::{At, Diagnostic, Span};
+use crate::diagnostic::{At, Diagnostic, Source, Span};
 use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use crate::math::Vec3;
-use crate::names::{listed, nearest};
+use crate::names::{nearest, quoted};
 
-/// The model the deck describes, and everything there is to say about the deck. `None` if any of it is an error.
+/// Reads a deck and builds its model; everything there is to say about it, in the order of the deck.
+pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
+    let (deck, mut problems) = crate::deck::read(source);
+    let (model, more) = deck.as_ref().map_or((None, Vec::new()), build);
+    let model = model.filter(|_| !problems.iter().any(Diagnostic::is_error));
+    problems.extend(more);
+    problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
+    (model, problems)
+}
+
+/// The model the deck describes, and everything there is to say about it. `None` if any of that is an error.
 pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     let mut b = Builder::new(deck);
     b.analysis();
@@ -26,6 +37,7 @@ pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     b.masses();
     b.links();
     b.attachments();
+    b.sure = !b.unsure;
     b.supports();
     b.loads();
     b.environment();
@@ -52,10 +64,14 @@ pub(super) struct Builder<'d> {
     /// Nodes of each beam and bar, in order along it.
     pub beam_nodes: Vec<Vec<usize>>,
     pub bar_nodes: Vec<Vec<usize>>,
-    /// Section and material → `model.stiffnesses`.
-    pub stiffnesses: HashMap<(usize, Option<usize>), Option<usize>>,
+    /// Section, material and whether it needs a mass → `model.stiffnesses`.
+    pub stiffnesses: HashMap<(usize, Option<usize>, bool), Option<usize>>,
     /// Directions held, by node and direction; who holds them, and whether they move.
     pub held: BTreeMap<(usize, usize), (super::Held, Span)>,
+    /// A part names something unknown, so what is connected to what is not known either.
+    pub unsure: bool,
+    /// Not so when all parts were read: a point that nothing touches is an error of its own.
+    pub sure: bool,
     /// Materials, sections and amplitudes that something names.
     pub used: HashSet<(&'static str, usize)>,
 }
@@ -116,6 +132,8 @@ impl<'d> Builder<'d> {
             bar_nodes: Vec::new(),
             stiffnesses: HashMap::new(),
             held: BTreeMap::new(),
+            unsure: deck.spoiled.iter().any(|entry| entry.table.as_ref().is_none_or(|table| *table == ROOT)),
+            sure: true,
             used: HashSet::new(),
         }
     }
@@ -138,6 +156,7 @@ impl<'d> Builder<'d> {
 
     /// The value of a key that must be there.
     pub fn need<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
+        self.unsure |= value.is_none() && ["path", "at", "nodes", "from", "to"].contains(&key);
         if value.is_none() && !self.is_spoiled(owner.span, key) {
             self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
         }
@@ -227,12 +246,17 @@ impl<'d> Builder<'d> {
         name: &At<String>,
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Option<T> {
+        self.unsure |= what.starts_with("point") || what == "body";
+        // It may be there, but too wrong to be read.
+        if self.deck.spoiled.iter().any(|entry| entry.key == name.value) {
+            return None;
+        }
         let message = format!("no {what} is named `{}`", name.value);
         match nearest(name, known.clone()) {
             Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
-            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck defines none"),
-            None if known.clone().count() <= 6 => {
-                self.error_with(&name.span, message, format!("there is {}", listed(known)))
+            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck has none"),
+            None if known.clone().count() <= 8 => {
+                self.error_with(&name.span, message, format!("known: {}", quoted(known)))
             }
             None => self.error(&name.span, message),
         }

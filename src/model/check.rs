@@ -1,8 +1,11 @@
 //! What is odd about a deck that is otherwise sound: nothing in it, things nothing uses, numbers of the wrong units.
 
-use super::build::Builder;
+use super::build::{Builder, span};
+use crate::deck::bodies::Body;
 use crate::deck::output::Units;
+use crate::deck::read::ROOT;
 use crate::diagnostic::{At, Diagnostic};
+use crate::names::short;
 
 impl Units {
     pub fn label(self) -> &'static str {
@@ -36,7 +39,13 @@ const GRAVITY: [f64; 2] = [1.6, 26.0];
 impl<'d> Builder<'d> {
     pub fn check(&mut self) {
         self.check_content();
-        self.check_use();
+        // What an error has left out may be all that used it.
+        if self.deck.spoiled.is_empty() && !self.problems.iter().any(Diagnostic::is_error) {
+            self.check_use();
+        }
+        if self.model.analysis.kind == super::Kind::Static {
+            self.check_static();
+        }
         if let Some(units) = &self.deck.units {
             self.check_units(units.value);
         }
@@ -45,7 +54,7 @@ impl<'d> Builder<'d> {
     fn check_content(&mut self) {
         let deck = self.deck;
         let parts = [deck.beams.len(), deck.bars.len(), deck.bodies.len(), deck.masses.len(), deck.links.len()];
-        let spoiled = ["beams", "bars", "bodies", "masses", "links"].iter().any(|key| self.is_spoiled(&(0..0), key));
+        let spoiled = ["beams", "bars", "bodies", "masses", "links"].iter().any(|key| self.is_spoiled(&ROOT, key));
         if parts[..4].iter().all(|&count| count == 0) && !spoiled {
             let message = "the deck has nothing that could move: no beams, bars, bodies or masses";
             self.problems.push(Diagnostic::error(message));
@@ -65,6 +74,16 @@ impl<'d> Builder<'d> {
         self.check_table("material", deck.materials.0.iter().map(|(name, _)| name));
         self.check_table("section", deck.sections.0.iter().map(|(name, _)| name));
         self.check_table("amplitude", deck.amplitudes.0.iter().map(|(name, _)| name));
+    }
+
+    fn check_static(&mut self) {
+        let deck = self.deck;
+        let velocity = |body: &'d Body| [span(&body.velocity), span(&body.angular_velocity)];
+        let velocities = deck.bodies.iter().flat_map(|body| velocity(body)).flatten();
+        let places = velocities.chain(deck.initial.iter().map(|initial| &initial.span)).chain(span(&deck.damping));
+        for place in places {
+            self.warn(place, "this has no effect in a static analysis", "nothing moves by itself");
+        }
     }
 
     fn check_table(&mut self, what: &'static str, names: impl Iterator<Item = &'d At<String>>) {
@@ -101,7 +120,7 @@ impl<'d> Builder<'d> {
         let value = at.value * scale;
         if value > 0.0 && !(low..=high).contains(&value) {
             let message = format!("`{key}` is not plausible in the units {}", units.label());
-            self.warn(&at.span, message, format!("that is {value:.3e} {si}"));
+            self.warn(&at.span, message, format!("that is {} {si}", short(value)));
         }
     }
 }

@@ -5,7 +5,7 @@ use super::places::{Place, Reach};
 use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Tolerance, When};
 use crate::deck::expect as deck;
 use crate::diagnostic::{At, Diagnostic};
-use crate::names::{listed, nearest};
+use crate::names::nearest;
 
 /// Columns of nodes.csv, apart from displacements and rotations.
 const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
@@ -34,8 +34,8 @@ const MOST_ROWS: f64 = 1e7;
 
 impl<'d> Builder<'d> {
     pub fn expects(&mut self) {
-        for (index, expect) in self.deck.expect.iter().enumerate() {
-            let owner = Owner { what: format!("expect.{index}"), span: &expect.span };
+        for expect in &self.deck.expect {
+            let owner = Owner { what: "`[[expect]]`".to_owned(), span: &expect.span };
             if let Some(read) = self.expect(&owner, expect) {
                 self.model.expects.push(read);
             }
@@ -102,7 +102,7 @@ impl<'d> Builder<'d> {
         let diagnostic = Diagnostic::error(message).at(&quantity.span);
         self.problems.push(match nearest(quantity, columns.iter().copied()) {
             Some(near) if quantity.chars().count() > 2 => diagnostic.hint(format!("did you mean `{near}`?")),
-            _ => diagnostic.hint("not a column").hint(format!("there are {}", listed(columns.iter().copied()))),
+            _ => diagnostic.hint("not a column").hint(format!("there are {}", columns.join(", "))),
         });
     }
 

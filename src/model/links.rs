@@ -3,7 +3,7 @@
 use super::build::{Builder, Owner, span, vec3};
 use super::{Held, Link, LinkKind};
 use crate::deck::links as deck;
-use crate::deck::words::{Maybe, Numbers};
+use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
 use crate::elements::link::Law;
 use crate::math::{Mat3, Vec3};
@@ -19,6 +19,14 @@ impl<'d> Builder<'d> {
             let to = self.end(&owner, "to", &link.to, &name, rotations);
             let ends = from.zip(to).map(|(from, to)| [from, to]);
             let kind = if link.bushing.is_some() { self.bushing(link) } else { self.line(&owner, link, ends) };
+            if let Some([from, to]) = ends
+                && from == to
+            {
+                self.error::<()>(
+                    owner.span,
+                    format!("{} joins `{}` to itself", owner.what, self.model.nodes[from].label),
+                );
+            }
             if let (Some(ends), Some(kind)) = (ends, kind) {
                 self.model.links.push(Link { name, ends, kind });
             }
@@ -30,7 +38,7 @@ impl<'d> Builder<'d> {
         &mut self,
         owner: &Owner<'d>,
         key: &str,
-        end: &'d Maybe<deck::End>,
+        end: &'d Maybe<Table<deck::End>>,
         name: &str,
         rotations: bool,
     ) -> Option<usize> {

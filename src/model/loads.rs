@@ -6,6 +6,7 @@ use super::places::Reach;
 use super::{BaseAcceleration, Damping, Load, NodalDamping};
 use crate::amplitude::Amplitude;
 use crate::deck::amplitudes as deck;
+use crate::deck::words::Table;
 use crate::diagnostic::At;
 
 impl<'d> Builder<'d> {
@@ -17,7 +18,7 @@ impl<'d> Builder<'d> {
         }
     }
 
-    fn read_amplitude(&mut self, name: &str, amplitude: &'d At<deck::Amplitude>) -> Option<Amplitude> {
+    fn read_amplitude(&mut self, name: &str, amplitude: &'d At<Table<deck::Amplitude>>) -> Option<Amplitude> {
         let a = amplitude;
         let owner = Owner { what: format!("amplitude `{name}`"), span: &a.span };
         let kind = self.need(&owner, "kind", &a.kind)?.value;
@@ -78,8 +79,8 @@ impl<'d> Builder<'d> {
     }
 
     pub fn loads(&mut self) {
-        for (index, load) in self.deck.loads.iter().enumerate() {
-            let owner = Owner { what: format!("loads.{index}"), span: &load.span };
+        for load in &self.deck.loads {
+            let owner = Owner { what: "`[[loads]]`".to_owned(), span: &load.span };
             let spots = self.spots(&owner, "at", &load.at, Reach::Nodes);
             let amplitude = load.amplitude.as_ref().map(|name| self.amplitude(name));
             let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
@@ -96,7 +97,7 @@ impl<'d> Builder<'d> {
                 for (first, part, place) in parts {
                     let lost = (0..3).filter(|&i| part[i] != 0.0 && !self.is_taken(spot.node, first + i));
                     let lost = directions(lost.map(|i| first + i));
-                    if let Some(place) = place.filter(|_| !lost.is_empty()) {
+                    if let Some(place) = place.filter(|_| self.sure && !lost.is_empty()) {
                         let message = format!("nothing connected to `{}` takes a load in {lost}", spot.name);
                         self.error_with::<()>(place, message, "bars, springs and point masses do not turn");
                     }
@@ -110,8 +111,8 @@ impl<'d> Builder<'d> {
     pub fn environment(&mut self) {
         let Some(environment) = &self.deck.environment else { return };
         self.model.gravity = vec3_or_zero(&environment.gravity);
-        for (index, base) in environment.base_acceleration.iter().enumerate() {
-            let owner = Owner { what: format!("base_acceleration.{index}"), span: &base.span };
+        for base in &environment.base_acceleration {
+            let owner = Owner { what: "an entry of `base_acceleration`".to_owned(), span: &base.span };
             let direction = self.need(&owner, "direction", &base.direction);
             let direction = direction.and_then(|direction| self.unit("direction", direction));
             let amplitude = self.need(&owner, "amplitude", &base.amplitude).and_then(|name| self.amplitude(name));
@@ -128,8 +129,8 @@ impl<'d> Builder<'d> {
         let mass_factor = self.not_negative("mass_factor", &damping.mass_factor, 0.0);
         let stiffness_factor = self.not_negative("stiffness_factor", &damping.stiffness_factor, 0.0);
         let mut nodal = Vec::new();
-        for (index, entry) in damping.nodal.iter().enumerate() {
-            let owner = Owner { what: format!("damping.nodal.{index}"), span: &entry.span };
+        for entry in &damping.nodal {
+            let owner = Owner { what: "an entry of `nodal`".to_owned(), span: &entry.span };
             let spots = self.spots(&owner, "at", &entry.at, Reach::Nodes);
             let translation = self.not_negative("translation", &entry.translation, 0.0);
             let rotation = self.not_negative("rotation", &entry.rotation, 0.0);
@@ -144,9 +145,9 @@ impl<'d> Builder<'d> {
 
     /// Motion at t = 0: as the tables say, then made to agree with supports and attachments.
     pub fn initial(&mut self) {
-        for (index, initial) in self.deck.initial.iter().enumerate() {
-            let owner = Owner { what: format!("initial.{index}"), span: &initial.span };
-            let everything = initial.at.as_ref().is_some_and(|at| at.single && at.values[0].value == "all");
+        for initial in &self.deck.initial {
+            let owner = Owner { what: "`[[initial]]`".to_owned(), span: &initial.span };
+            let everything = initial.at.as_ref().is_some_and(|at| at.values.iter().any(|name| name.value == "all"));
             let nodes: Vec<usize> = if everything {
                 (0..self.model.nodes.len()).collect()
             } else {

@@ -14,13 +14,12 @@ mod places;
 mod sections;
 mod supports;
 
-pub use build::build;
+pub use build::{build, read};
 
 use crate::amplitude::Amplitude;
 use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::math::{Mat3, Vec3};
-pub use crate::names::DIRECTIONS;
 use crate::sections::Stiffness;
 
 /// A scene, checked and ready to be planned.
@@ -332,3 +331,5 @@ pub enum Cadence {
     /// At multiples of this time; steps land on them.
     Interval(f64),
 }
+
+pub const DIRECTIONS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];

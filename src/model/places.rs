@@ -82,7 +82,7 @@ impl<'d> Builder<'d> {
             }
         }
         for (index, (_, members)) in deck.sets.0.iter().enumerate() {
-            for member in &members.value {
+            for member in &members.values {
                 self.lookup(member);
             }
             if self.holds_itself(index) {
@@ -95,7 +95,7 @@ impl<'d> Builder<'d> {
     fn holds_itself(&self, set: usize) -> bool {
         let (mut todo, mut seen) = (vec![set], vec![false; self.deck.sets.0.len()]);
         while let Some(index) = todo.pop() {
-            for member in &self.deck.sets.0[index].1.value {
+            for member in &self.deck.sets.0[index].1.values {
                 match self.places.get(member.as_str()) {
                     Some((Place::Set(inner), _)) if *inner == set => return true,
                     Some((Place::Set(inner), _)) if !seen[*inner] => {
@@ -114,7 +114,9 @@ impl<'d> Builder<'d> {
         if let Some((place, _)) = self.places.get(name.as_str()) {
             return Some(*place);
         }
-        let mut known: Vec<&str> = self.places.keys().copied().collect();
+        let is_link = |place: &Place| matches!(place, Place::Link(_));
+        let known = self.places.iter().filter(|(_, (place, _))| !is_link(place)).map(|(name, _)| *name);
+        let mut known: Vec<&str> = known.collect();
         known.sort_unstable();
         self.unknown("point, body or set", name, known.into_iter())
     }
@@ -156,7 +158,7 @@ impl<'d> Builder<'d> {
             if reach == Reach::Nodes && matches!(place, Place::Beam(_) | Place::Bar(_) | Place::Link(_)) {
                 let message =
                     format!("`{key}` wants points, bodies or sets, and `{}` is a {}", name.value, place.kind());
-                self.error::<()>(&name.span, message);
+                self.error_with::<()>(&name.span, message, "name its points");
                 continue;
             }
             let direct = matches!(place, Place::Point(_) | Place::Body(_));
@@ -188,7 +190,7 @@ impl<'d> Builder<'d> {
                 Place::Link(_) => {}
                 Place::Set(set) if std::mem::replace(&mut seen[set], true) => {}
                 Place::Set(set) => {
-                    let members = self.deck.sets.0[set].1.value.iter().rev();
+                    let members = self.deck.sets.0[set].1.values.iter().rev();
                     todo.extend(members.filter_map(|name| self.places.get(name.as_str())).map(|(place, _)| *place));
                 }
             }

@@ -5,7 +5,7 @@ use super::build::{Builder, Owner, span};
 use crate::deck::beams::Beam;
 use crate::deck::materials::Material;
 use crate::deck::sections as deck;
-use crate::deck::words::{Maybe, Numbers};
+use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Span};
 use crate::sections::{Section, Stiffness};
 
@@ -25,7 +25,13 @@ impl<'d> Builder<'d> {
     }
 
     /// The density of a material, which must be there if `part` has mass.
-    pub fn density(&mut self, name: &At<String>, material: &At<Material>, mass: MassKind, part: &str) -> Option<f64> {
+    pub fn density(
+        &mut self,
+        name: &At<String>,
+        material: &At<Table<Material>>,
+        mass: MassKind,
+        part: &str,
+    ) -> Option<f64> {
         match &material.density {
             Some(density) => Some(density.value),
             None if self.is_spoiled(&material.span, "density") => None,
@@ -68,11 +74,12 @@ impl<'d> Builder<'d> {
                 (Some(index), [material.youngs_modulus.as_ref()?.value, ratio?.value, density?])
             }
         };
-        let key = (section_index, material_index);
+        let heavy = self.needs_mass(mass);
+        let key = (section_index, material_index, heavy);
         if let Some(known) = self.stiffnesses.get(&key) {
             return *known;
         }
-        let stiffness = self.stiffness(&name.value, section, numbers);
+        let stiffness = self.stiffness(&name.value, section, numbers, heavy);
         let index = stiffness.map(|stiffness| {
             self.model.stiffnesses.push(stiffness);
             self.model.stiffnesses.len() - 1
@@ -84,12 +91,13 @@ impl<'d> Builder<'d> {
     fn stiffness(
         &mut self,
         name: &str,
-        section: &'d At<deck::Section>,
+        section: &'d At<Table<deck::Section>>,
         [modulus, ratio, density]: [f64; 3],
+        heavy: bool,
     ) -> Option<Stiffness> {
         let owner = Owner { what: format!("section `{name}`"), span: &section.span };
         if is_direct(section) {
-            return self.direct(&owner, section);
+            return self.direct(&owner, section, heavy);
         }
         let shape = self.need(&owner, "shape", &section.shape)?;
         let taken = taken(shape.value);
@@ -184,7 +192,8 @@ impl<'d> Builder<'d> {
         }
     }
 
-    fn direct(&mut self, owner: &Owner<'d>, s: &'d deck::Section) -> Option<Stiffness> {
+    /// Stiffnesses as given; masses may be left out where nothing needs them.
+    fn direct(&mut self, owner: &Owner<'d>, s: &'d deck::Section, heavy: bool) -> Option<Stiffness> {
         if let Some(shape) = self.need(owner, "shape", &s.shape)
             && shape.value != deck::Shape::General
         {
@@ -196,13 +205,18 @@ impl<'d> Builder<'d> {
         let shear = self.both_positive(owner, "shear_stiffness", &s.shear_stiffness);
         let torsion = self.need_positive(owner, "torsional_stiffness", &s.torsional_stiffness);
         let bending = self.both_positive(owner, "bending_stiffness", &s.bending_stiffness);
-        self.need(owner, "mass_per_length", &s.mass_per_length);
-        let mass = self.not_negative("mass_per_length", &s.mass_per_length, 0.0);
-        let inertia = self.need(owner, "inertia_per_length", &s.inertia_per_length)?;
-        if inertia.value.0.iter().any(|&j| j < 0.0) {
-            return self.error(&inertia.span, "`inertia_per_length` must not be negative");
+        if heavy {
+            self.need(owner, "mass_per_length", &s.mass_per_length);
+            self.need(owner, "inertia_per_length", &s.inertia_per_length);
         }
-        Some(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia.value.0))
+        let mass = self.not_negative("mass_per_length", &s.mass_per_length, 0.0);
+        let inertia = s.inertia_per_length.as_ref().map_or([0.0; 3], |inertia| inertia.value.0);
+        if let Some(place) = &s.inertia_per_length
+            && inertia.iter().any(|&j| j < 0.0)
+        {
+            return self.error(&place.span, "`inertia_per_length` must not be negative");
+        }
+        Some(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia))
     }
 
     /// One value for both flanges, or one for each.

@@ -5,24 +5,23 @@ use super::build::{Builder, Owner};
 use super::places::{Reach, Spot};
 use super::{DIRECTIONS, Held, History, Kind, Motion};
 use crate::deck::supports as deck;
-use crate::diagnostic::{At, Span};
+use crate::deck::words::Table;
+use crate::diagnostic::{At, Diagnostic, Span};
 
 impl<'d> Builder<'d> {
     pub fn supports(&mut self) {
-        for (index, support) in self.deck.supports.iter().enumerate() {
-            let owner = Owner { what: format!("supports.{index}"), span: &support.span };
+        for support in &self.deck.supports {
+            let owner = Owner { what: "`[[supports]]`".to_owned(), span: &support.span };
             let spots = self.spots(&owner, "at", &support.at, Reach::Nodes);
-            let motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(motions));
+            let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(motions));
             let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
             let unread = self.is_spoiled(owner.span, "fix") || self.is_spoiled(owner.span, "motion");
             if fixed == [false; 6] && motions.is_empty() && support.motion.is_none() && !unread {
                 let place = support.fix.as_ref().map_or(owner.span, |fix| &fix.span);
                 self.error_with::<()>(place, "this support holds nothing", "give it `fix` or `motion`");
             }
-            for (dof, _, place) in &motions {
-                if fixed[*dof] {
-                    self.error::<()>(place, format!("{} is both fixed and moved by this support", DIRECTIONS[*dof]));
-                }
+            for (dof, _, place) in motions.extract_if(.., |(dof, ..)| fixed[*dof]) {
+                self.error::<()>(place, format!("{} is both fixed and moved by this support", DIRECTIONS[dof]));
             }
             for spot in &spots {
                 if self.is_loose(spot, "this support") {
@@ -35,7 +34,7 @@ impl<'d> Builder<'d> {
                 for (dof, motion, place) in &motions {
                     if self.is_taken(spot.node, *dof) {
                         self.hold(spot, *dof, Some(motion.clone()), place);
-                    } else {
+                    } else if self.sure {
                         let message = format!("nothing connected to `{}` moves in {}", spot.name, DIRECTIONS[*dof]);
                         self.error::<()>(place, message);
                     }
@@ -45,7 +44,7 @@ impl<'d> Builder<'d> {
         self.model.held = self.held.values().map(|(held, _)| held.clone()).collect();
     }
 
-    fn motions(&mut self, motions: &'d At<deck::Motions>) -> Vec<(usize, Motion, &'d Span)> {
+    fn motions(&mut self, motions: &'d At<Table<deck::Motions>>) -> Vec<(usize, Motion, &'d Span)> {
         let given = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
         if given.iter().all(|motion| motion.is_none()) {
             self.error_with::<()>(&motions.span, "`motion` is empty", "such as { ux = { amplitude = \"quake\" } }");
@@ -84,12 +83,8 @@ impl<'d> Builder<'d> {
             directions(taken)
         );
         let hint = "that would need multipliers, which this version does not have";
-        self.problems.push(
-            crate::diagnostic::Diagnostic::error(message)
-                .at(spot.span)
-                .hint(hint)
-                .hint(format!("support `{master}`, or attach `{}` in fewer directions", spot.name)),
-        );
+        let way = format!("support `{master}`, or attach `{}` in fewer directions", spot.name);
+        self.problems.push(Diagnostic::error(message).at(spot.span).hint(hint).hint(way));
     }
 
     /// Two supports may fix the same direction; if one of them moves it, they contradict each other.

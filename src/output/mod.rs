@@ -18,8 +18,8 @@ mod steps_csv;
 mod table;
 mod vtu;
 
-use crate::model::Model;
-use crate::solve::{Frame, Observer};
+use crate::model::{ExpectAt, Model};
+use crate::solve::{Frame, Observer, Wanted};
 use fields::Fields;
 use std::fs;
 use std::io;
@@ -113,6 +113,17 @@ impl Observer for Files {
     fn see(&mut self, frame: &Frame) -> io::Result<()> {
         self.formats.iter_mut().try_for_each(|format| format.see(frame))?;
         if self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
+    }
+}
+
+/// What the files and expectations of a model need to be computed.
+pub fn wanted(model: &Model) -> Wanted {
+    let expects = |at: fn(&ExpectAt) -> bool| model.expects.iter().any(|expect| at(&expect.at));
+    Wanted {
+        energy: model.output.energy || expects(|at| matches!(at, ExpectAt::Energy)),
+        reactions: model.output.reactions,
+        links: model.output.links || expects(|at| matches!(at, ExpectAt::Link(_))),
+        sections: model.output.sections,
     }
 }
 

@@ -44,6 +44,9 @@ pub struct Report {
     pub plan: serde_json::Value,
     pub counts: Counts,
     pub timings: Timings,
+    /// Largest departure from orthogonality that a first- or second-order rotation update left to be mended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_drift: Option<f64>,
     /// `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     pub warnings: Vec<String>,
@@ -104,6 +107,7 @@ mod tests {
             plan: serde_json::json!({ "unknowns": 12 }),
             counts: Counts { steps: 3, ..Counts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },
+            rotation_drift: None,
             peak_memory_bytes: None,
             warnings: vec![],
             expectations: vec![],

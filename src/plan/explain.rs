@@ -6,6 +6,10 @@ use crate::linear::Kind;
 use crate::model::{Kind as Analysis, Model, Update};
 use std::fmt::Write;
 
+/// What the reader of a result must know of Wilson-θ.
+const WEAKNESS: &str = "Wilson-theta damps modes shorter than about 10 steps a period and overshoots their accelerations and \
+                        velocities in the first steps; equilibrium holds at t + theta dt, reactions are taken there";
+
 impl Plan {
     /// Lines of plain text: what will be computed, what is left out and why.
     pub fn explain(&self, model: &Model, system: &crate::system::System) -> String {
@@ -22,6 +26,7 @@ impl Plan {
                 let Scheme::WilsonTheta(scheme) = &model.scheme;
                 let time = format!("to t = {} in {steps} steps of {}", analysis.end_time, analysis.time_step);
                 line("analysis", format!("dynamic, {time}, wilson-theta with theta = {}", scheme.theta));
+                line("  note", WEAKNESS.to_string());
             }
         }
         let beams: usize = model.beams.iter().map(|b| b.elements.len()).sum();

@@ -116,9 +116,9 @@ impl<'a> Stepper<'a> {
             let unbalanced = contraction * taken.residual;
             // Where an exact matrix no longer brings the error down, only rounding is left; a far origin, a small load or a
             // stiff part may put that above the tolerance.
-            let stuck = taken.refactorizations > 0 && contraction > 0.5;
-            if contraction < 1.0 && left <= tolerance && unbalanced <= tolerance || self.is_rounding(correction, stuck)
-            {
+            let stalled = contraction > 0.5;
+            let converged = contraction < 1.0 && left <= tolerance && unbalanced <= tolerance;
+            if converged || stalled && self.is_rounding(correction, taken.refactorizations > 0) {
                 break;
             }
             if taken.iterations >= limit {
@@ -261,12 +261,14 @@ impl<'a> Stepper<'a> {
         translation.max(correction.rotation / motion.rotation.max(STILL))
     }
 
-    /// True for a correction that only stirs the last digits of the positions. The axial stiffness turns these digits into
-    /// forces, and bending answers them with corrections that are larger by the slenderness squared: where iteration is
-    /// `stuck`, four digits more are given for that, and rotations follow the positions over the model's length.
-    fn is_rounding(&self, correction: Size, stuck: bool) -> bool {
+    /// True for a correction that only stirs the last digits of the positions. (It must have stopped to contract as well:
+    /// increments, and the accelerations that follow from them, have more digits than positions.) The axial stiffness
+    /// turns these digits into forces, and bending answers them with corrections that are larger by the slenderness
+    /// squared: where even a `fresh` matrix does not help, four digits more are given for that, and rotations follow the
+    /// positions over the model's length.
+    fn is_rounding(&self, correction: Size, fresh: bool) -> bool {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
-        let (translation, rotation) = if stuck {
+        let (translation, rotation) = if fresh {
             (1e4 * ROUNDING * self.reach, 1e4 * ROUNDING * (self.reach / self.length).max(1.0))
         } else {
             (ROUNDING * self.reach, ROUNDING)
@@ -276,9 +278,13 @@ impl<'a> Stepper<'a> {
 
     /// State at the end of the step, written once.
     fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
+        let mut damping_power = 0.0;
         if self.wants_forces {
             self.move_trial(state, scheme);
             self.system.residual(&self.trial, &self.given[2], &mut self.forces);
+            if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
+                damping_power = self.system.damping_power(&self.trial);
+            }
         } else {
             for &node in &self.movers {
                 let start = &state.nodes[node];
@@ -307,28 +313,28 @@ impl<'a> Stepper<'a> {
             rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
         }
         if self.wants_forces {
-            self.account(state, scheme, dt);
+            self.account(state, scheme, dt, damping_power);
         }
         std::mem::swap(&mut state.nodes, &mut self.trial);
         state.time = to;
     }
 
-    /// Reactions, taken where equilibrium is written and carried to the end of the step; work and dissipation.
-    fn account(&mut self, state: &mut State, scheme: &Coefficients, dt: f64) {
+    /// Reactions and dissipation, taken where equilibrium is written and carried to the end of the step on a straight line
+    /// (at the end itself stiff parts are not at rest), and the work done.
+    fn account(&mut self, state: &mut State, scheme: &Coefficients, dt: f64, damping_power: f64) {
+        let carry = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
         for (i, held) in self.model.held.iter().enumerate() {
             let old = state.reactions[i];
-            let at_instant = -self.forces.on_nodes[held.node][held.dof];
-            let new = old + (at_instant - old) / scheme.instant;
+            let new = carry(old, -self.forces.on_nodes[held.node][held.dof]);
             let moved = self.held[1][i].u - self.held[0][i].u;
             state.work.external += 0.5 * (old + new) * moved;
             state.reactions[i] = new;
         }
         state.work.external += self.system.external_work((&state.nodes, &self.given[0]), (&self.trial, &self.given[1]));
-        if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
-            let power = self.system.damping_power(&self.trial);
-            state.work.damping += 0.5 * dt * (state.work.damping_power + power);
-            state.work.damping_power = power;
-        }
+        let old = state.work.damping_power;
+        let new = carry(old, damping_power);
+        state.work.damping += 0.5 * dt * (old + new);
+        state.work.damping_power = new;
     }
 
     fn not_converged(&mut self, taken: &Taken) -> Failure {

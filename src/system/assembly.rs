@@ -2,8 +2,9 @@
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
 use super::{Forces, Loading, System, follower_stiffness};
+use crate::elements::Block;
 use crate::linear::Solver;
-use crate::math::Mat6;
+use crate::math::{Mat3, Mat6};
 use crate::state::Node;
 use rayon::prelude::*;
 
@@ -18,13 +19,15 @@ const CHUNK: usize = 256;
 /// Below this many elements threads cost more than they save.
 const PARALLEL: usize = 1024;
 
-/// Where every matrix goes. Constant over a run.
+/// Where every matrix goes. All but `scratch` is constant over a run.
 pub struct Assembly {
-    groups: Vec<GroupSlots>,
-    /// Per node that has a matrix of its own: inertia, nodal damping, follower loads, arms of riders.
-    nodes: Vec<NodeSlots>,
-    masses: Vec<MassSlots>,
-    /// Per node: for riders, the nodes they end up on.
+    /// Per group, per element.
+    groups: Vec<Vec<Place>>,
+    /// Nodes that have a matrix of their own: inertia, nodal damping, follower loads, arms of riders.
+    nodes: Vec<(usize, Place)>,
+    masses: Vec<Place>,
+    scatter: Scatter,
+    /// Per node: the nodes it ends up on by riding, or itself.
     roots: Vec<Vec<usize>>,
     threads: usize,
     /// C(r) and other unsymmetric terms are kept.
@@ -32,40 +35,66 @@ pub struct Assembly {
     scratch: Scratch,
 }
 
-struct GroupSlots {
-    size: usize,
-    elements: Vec<ElementSlots>,
-    /// Slots of all direct elements, `size²` each.
-    slots: Vec<u32>,
-}
-
-enum ElementSlots {
-    /// No node rides: the matrix goes in as it is. Offset into [`GroupSlots::slots`].
-    Direct(usize),
-    /// Its matrix is carried over to these nodes first; slots of their 6×6 blocks.
-    Carried { targets: Vec<usize>, slots: Vec<u32> },
-}
-
-struct NodeSlots {
-    node: usize,
+/// What becomes of a local matrix.
+struct Place {
+    /// Nodes onto which it is carried first; empty where no node rides and it goes in as it is.
     targets: Vec<usize>,
-    slots: Vec<u32>,
+    entries: Entries,
 }
 
-struct MassSlots {
-    targets: Vec<usize>,
-    slots: Vec<u32>,
+/// Entries of a local matrix that reach the system's: ranges of [`Scatter`].
+#[derive(Clone, Copy)]
+struct Entries {
+    from: usize,
+    /// From here on, entries that meet their transposes in one slot of a symmetric matrix: each adds half.
+    halves: usize,
+    to: usize,
+}
+
+/// (position in the local matrix, slot in the system's).
+struct Scatter(Vec<[u32; 2]>);
+
+impl Scatter {
+    /// `entry(k)` gives the rows and columns of the local matrix's k-th number.
+    fn push(&mut self, solver: &Solver, length: usize, entry: impl Fn(usize) -> (u32, u32)) -> Entries {
+        let from = self.0.len();
+        let mut add = |half: bool| {
+            for k in 0..length {
+                let (i, j) = entry(k);
+                if i == NONE || j == NONE || (solver.symmetric() && i != j) != half {
+                    continue;
+                }
+                if let Some(slot) = solver.slot(i as usize, j as usize) {
+                    self.0.push([k as u32, slot as u32]);
+                }
+            }
+            self.0.len()
+        };
+        let halves = add(false);
+        let to = add(true);
+        Entries { from, halves, to }
+    }
+
+    #[inline]
+    fn add(&self, local: &[f64], entries: Entries, values: &mut [f64]) {
+        for &[k, slot] in &self.0[entries.from..entries.halves] {
+            values[slot as usize] += local[k as usize];
+        }
+        for &[k, slot] in &self.0[entries.halves..entries.to] {
+            values[slot as usize] += 0.5 * local[k as usize];
+        }
+    }
 }
 
 /// Written by every tangent.
 struct Scratch {
     /// Element matrices of a chunk.
     local: Vec<f64>,
-    /// Per node, row-major in the node's own directions.
     own: Vec<Mat6>,
     /// Per node: for each root, how its motion moves the node.
     carry: Vec<Vec<Mat6>>,
-    carried: Vec<Mat6>,
+    /// 6×6 blocks, each column-major.
+    carried: Vec<[f64; 36]>,
 }
 
 /// What a tangent is formed of.
@@ -113,96 +142,85 @@ impl Assembly {
     pub fn new(system: &System, rows: &Rows, solver: &Solver, threads: usize) -> Self {
         let nodes = rows.len();
         let roots = roots(system, nodes);
-        let spare = solver.spare() as u32;
-        let slot = |i: u32, j: u32| match (i, j) {
-            (NONE, _) | (_, NONE) => spare,
-            (i, j) => solver.slot(i as usize, j as usize).map_or(spare, |s| s as u32),
-        };
-        let block_slots = |targets: &[usize]| {
-            let mut slots = Vec::with_capacity(36 * targets.len() * targets.len());
-            for &a in targets {
-                for &b in targets {
-                    for i in 0..6 {
-                        slots.extend((0..6).map(|j| slot(rows[a][i], rows[b][j])));
-                    }
-                }
-            }
-            slots
-        };
-        let targets_of = |nodes: &[usize]| {
+        let mut scatter = Scatter(Vec::new());
+        let mut most = roots.iter().map(Vec::len).max().unwrap_or(0);
+        // A matrix over 6×6 blocks of targets, each column-major.
+        let mut carried = |scatter: &mut Scatter, of: &[usize], keep: &dyn Fn(usize, usize) -> bool| {
             let mut targets: Vec<usize> = Vec::new();
-            for root in nodes.iter().flat_map(|&n| &roots[n]) {
+            for root in of.iter().flat_map(|&n| &roots[n]) {
                 if !targets.contains(root) {
                     targets.push(*root);
                 }
             }
-            targets
+            let m = targets.len();
+            most = most.max(m);
+            let entry = |k: usize| {
+                let (block, i, j) = (k / 36, k % 6, k / 6 % 6);
+                if keep(i, j) { (rows[targets[block / m]][i], rows[targets[block % m]][j]) } else { (NONE, NONE) }
+            };
+            let entries = scatter.push(solver, 36 * m * m, entry);
+            Place { targets, entries }
         };
-        let direct = |nodes: &[usize]| nodes.iter().all(|&n| roots[n] == [n]);
-
-        let mut most = 0;
-        let groups = system
+        let groups: Vec<Vec<Place>> = system
             .groups
             .iter()
             .map(|group| {
                 let (block, d) = (&group.block, group.block.dofs());
-                let size = if block.is_empty() { 0 } else { d * block.nodes(0).len() };
-                let mut slots = Vec::new();
-                let elements = (0..block.len())
-                    .map(|e| {
-                        let nodes = block.nodes(e);
-                        if direct(nodes) {
-                            let at = slots.len();
-                            for i in 0..size {
-                                let row = rows[nodes[i / d]][i % d];
-                                slots.extend((0..size).map(|j| slot(row, rows[nodes[j / d]][j % d])));
-                            }
-                            return ElementSlots::Direct(at);
-                        }
-                        let targets = targets_of(nodes);
-                        most = most.max(targets.len());
-                        ElementSlots::Carried { slots: block_slots(&targets), targets }
-                    })
-                    .collect();
-                GroupSlots { size, elements, slots }
+                let place = |e: usize| {
+                    let of = block.nodes(e);
+                    if of.iter().any(|&n| roots[n] != [n]) {
+                        return carried(&mut scatter, of, &|_, _| true);
+                    }
+                    let size = d * of.len();
+                    let row = |i: usize| rows[of[i / d]][i % d];
+                    let entries = scatter.push(solver, size * size, |k| (row(k / size), row(k % size)));
+                    Place { targets: Vec::new(), entries }
+                };
+                (0..block.len()).map(place).collect()
             })
-            .collect::<Vec<_>>();
+            .collect();
 
-        let mut has_own = vec![false; nodes];
+        // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
+        let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
         system.inertias.iter().for_each(|i| has_own[i.node] = true);
         system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
-        system.loads.iter().filter(|l| l.follower).for_each(|l| has_own[l.node] = true);
-        system.attachments.iter().for_each(|r| has_own[r.master] = true);
-        let own = (0..nodes).filter(|&n| has_own[n]).map(|node| {
-            let targets = roots[node].clone();
-            NodeSlots { node, slots: block_slots(&targets), targets }
-        });
-        let own = own.collect();
-        let masses = system.consistent_masses().iter().map(|mass| {
-            let targets = targets_of(&mass.nodes);
-            MassSlots { slots: block_slots(&targets), targets }
-        });
-        let masses: Vec<MassSlots> = masses.collect();
-        let most = masses.iter().map(|m| m.targets.len()).chain(roots.iter().map(Vec::len)).fold(most, usize::max);
-        let local = groups.iter().map(|g| g.size * g.size * g.elements.len().min(CHUNK)).max().unwrap_or(0);
+        system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
+        system.attachments.iter().for_each(|r| is_full[r.master] = true);
+        let apart = |i: usize, j: usize| i == j || (i > 2 && j > 2);
+        let own: Vec<(usize, Place)> = (0..nodes)
+            .filter(|&n| has_own[n] || is_full[n])
+            .map(|n| {
+                let full = is_full[n] || roots[n] != [n];
+                let mut place = carried(&mut scatter, &[n], &|i, j| full || apart(i, j));
+                if roots[n] == [n] {
+                    place.targets.clear();
+                }
+                (n, place)
+            })
+            .collect();
+        let masses = system.consistent_masses().iter();
+        let masses: Vec<Place> = masses.map(|m| carried(&mut scatter, &m.nodes, &|_, _| true)).collect();
+        let size = |block: &dyn Block| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
+        let local = system.groups.iter().map(|g| size(&*g.block)).max().unwrap_or(0);
         Assembly {
             groups,
             nodes: own,
             masses,
+            scatter,
             threads,
             unsymmetric: !solver.symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
                 own: vec![Mat6::zeros(); nodes],
                 carry: roots.iter().map(|r| vec![Mat6::identity(); r.len()]).collect(),
-                carried: vec![Mat6::zeros(); most * most],
+                carried: vec![[0.0; 36]; most * most],
             },
             roots,
         }
     }
 
-    /// Forms the matrix of the step in `solver`: K + rate·C + acceleration·M at the motion of `nodes`, where
-    /// `forces` is the residual. A symmetric solver receives the symmetric part.
+    /// Forms the matrix of the step in `solver`: K + rate·C + acceleration·M at the motion of `nodes`, where `forces` is
+    /// the residual. A symmetric solver receives the symmetric part.
     pub fn tangent(
         &mut self,
         system: &System,
@@ -212,29 +230,15 @@ impl Assembly {
         weights: Weights,
         solver: &mut Solver,
     ) {
-        let unsymmetric = self.unsymmetric;
-        // Both triangles meet in one slot of a symmetric matrix.
-        let share = if unsymmetric { 1.0 } else { 0.5 };
         let values = solver.values();
         values.fill(0.0);
         self.carry_over(system, nodes);
         if weights.stiffness {
-            self.add_elements(system, nodes, weights.rate, share, unsymmetric, values);
+            self.add_elements(system, nodes, weights.rate, values);
         }
-        self.add_nodes(system, nodes, loading, forces, weights, share, values);
-        let mut local = [Mat6::zeros(); 25];
-        for (mass, slots) in system.consistent_masses().iter().zip(&self.masses) {
-            let n = mass.nodes.len();
-            let w = weights.acceleration + system.mass_damping * weights.rate;
-            for (block, m) in local.iter_mut().zip(&mass.m) {
-                *block = Mat6::zeros();
-                block.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-                *block *= w * m;
-            }
-            let carried = &mut self.scratch.carried;
-            carry(&mass.nodes, &slots.targets, &self.roots, &self.scratch.carry, |i, j| local[i * n + j], carried);
-            add_blocks(carried, &slots.slots, slots.targets.len(), share, unsymmetric, values);
-        }
+        self.form_nodes(system, nodes, loading, forces, weights);
+        self.add_nodes(values);
+        self.add_masses(system, weights, values);
     }
 
     /// How each rider moves with its roots, by the chain of arms.
@@ -252,17 +256,11 @@ impl Assembly {
         }
     }
 
-    fn add_elements(
-        &mut self,
-        system: &System,
-        nodes: &[Node],
-        rate: f64,
-        share: f64,
-        unsymmetric: bool,
-        values: &mut [f64],
-    ) {
-        for (group, slots) in system.groups.iter().zip(&self.groups) {
-            let (block, length) = (&group.block, slots.size * slots.size);
+    fn add_elements(&mut self, system: &System, nodes: &[Node], rate: f64, values: &mut [f64]) {
+        for (group, places) in system.groups.iter().zip(&self.groups) {
+            let (block, d) = (&group.block, group.block.dofs());
+            let n = block.nodes(0).len();
+            let length = (d * n).pow(2);
             for first in (0..block.len()).step_by(CHUNK) {
                 let last = (first + CHUNK).min(block.len());
                 let local = &mut self.scratch.local[..length * (last - first)];
@@ -275,56 +273,32 @@ impl Assembly {
                     local.chunks_mut(length).enumerate().for_each(|(k, K)| block.tangent(first + k, nodes, rate, K));
                 }
                 for (e, K) in (first..last).zip(local.chunks(length)) {
-                    match &slots.elements[e] {
-                        ElementSlots::Direct(at) => {
-                            let slots = &slots.slots[*at..at + length];
-                            if unsymmetric {
-                                for (k, &slot) in K.iter().zip(slots) {
-                                    values[slot as usize] += k;
-                                }
-                            } else {
-                                add_symmetric(K, slots, group.block.dofs() * block.nodes(e).len(), values);
-                            }
-                        }
-                        ElementSlots::Carried { targets, slots } => {
-                            let (d, carried) = (block.dofs(), &mut self.scratch.carried);
-                            let n = block.nodes(e).len();
-                            let pair = |a: usize, b: usize| {
-                                let mut k = Mat6::zeros();
-                                for i in 0..d {
-                                    for j in 0..d {
-                                        k[(i, j)] = K[(d * a + i) * d * n + d * b + j];
-                                    }
-                                }
-                                k
-                            };
-                            carry(block.nodes(e), targets, &self.roots, &self.scratch.carry, pair, carried);
-                            add_blocks(carried, slots, targets.len(), share, unsymmetric, values);
-                        }
+                    let place = &places[e];
+                    if place.targets.is_empty() {
+                        self.scatter.add(K, place.entries, values);
+                        continue;
                     }
+                    let pair = |a: usize, b: usize| {
+                        let at = |i: usize, j: usize| K[(d * a + i) * d * n + d * b + j];
+                        Mat6::from_fn(|i, j| if i < d && j < d { at(i, j) } else { 0.0 })
+                    };
+                    let carried = &mut self.scratch.carried;
+                    carry(block.nodes(e), &place.targets, &self.roots, &self.scratch.carry, pair, carried);
+                    self.scatter.add(carried.as_flattened(), place.entries, values);
                 }
             }
         }
     }
 
-    #[allow(clippy::too_many_arguments)]
-    fn add_nodes(
-        &mut self,
-        system: &System,
-        nodes: &[Node],
-        loading: &Loading,
-        forces: &Forces,
-        weights: Weights,
-        share: f64,
-        values: &mut [f64],
-    ) {
-        let (unsymmetric, own) = (self.unsymmetric, &mut self.scratch.own);
-        for slots in &self.nodes {
-            own[slots.node] = Mat6::zeros();
+    /// The matrices of nodes by themselves.
+    fn form_nodes(&mut self, system: &System, nodes: &[Node], loading: &Loading, forces: &Forces, weights: Weights) {
+        let own = &mut self.scratch.own;
+        for (node, _) in &self.nodes {
+            own[*node] = Mat6::zeros();
         }
         let of_motion = (weights.rate, weights.acceleration);
+        let gyroscopic = self.unsymmetric && weights.stiffness;
         for inertia in &system.inertias {
-            let gyroscopic = unsymmetric && weights.stiffness;
             own[inertia.node] += inertia.tangent(&nodes[inertia.node], of_motion, system.mass_damping, gyroscopic);
         }
         for damping in &system.nodal_damping {
@@ -333,27 +307,46 @@ impl Assembly {
                 own[damping.node][(3 + i, 3 + i)] += weights.rate * damping.rotation;
             }
         }
-        if weights.stiffness {
-            for (load, factor) in system.loads.iter().zip(&loading.factors).filter(|(l, _)| l.follower) {
-                let [f, m] = follower_stiffness(load, *factor, &nodes[load.node]);
-                let mut force = own[load.node].fixed_view_mut::<3, 3>(0, 3);
-                force += f;
-                let mut moment = own[load.node].fixed_view_mut::<3, 3>(3, 3);
-                moment += m;
-            }
-            for (rider, f) in system.attachments.iter().zip(&forces.on_riders) {
-                let mut moment = own[rider.master].fixed_view_mut::<3, 3>(3, 3);
-                moment -= rider.arm_stiffness(nodes, f);
+        if !weights.stiffness {
+            return;
+        }
+        let mut add = |node: usize, row: usize, k: Mat3| {
+            let mut block = own[node].fixed_view_mut::<3, 3>(row, 3);
+            block += k;
+        };
+        for (load, factor) in system.loads.iter().zip(&loading.factors).filter(|(l, _)| l.follower) {
+            let [f, m] = follower_stiffness(load, *factor, &nodes[load.node]);
+            add(load.node, 0, f);
+            add(load.node, 3, m);
+        }
+        for (rider, f) in system.attachments.iter().zip(&forces.on_riders) {
+            add(rider.master, 3, -rider.arm_stiffness(nodes, f));
+        }
+    }
+
+    fn add_nodes(&mut self, values: &mut [f64]) {
+        let Scratch { own, carry: maps, carried, .. } = &mut self.scratch;
+        for (node, place) in &self.nodes {
+            if place.targets.is_empty() {
+                self.scatter.add(own[*node].as_slice(), place.entries, values);
+            } else {
+                carry(&[*node], &place.targets, &self.roots, maps, |_, _| own[*node], carried);
+                self.scatter.add(carried.as_flattened(), place.entries, values);
             }
         }
-        for slots in &self.nodes {
-            if slots.targets == [slots.node] {
-                add_blocks(&own[slots.node..=slots.node], &slots.slots, 1, share, unsymmetric, values);
-                continue;
-            }
+    }
+
+    fn add_masses(&mut self, system: &System, weights: Weights, values: &mut [f64]) {
+        let w = weights.acceleration + system.mass_damping * weights.rate;
+        for (mass, place) in system.consistent_masses().iter().zip(&self.masses) {
+            let n = mass.nodes.len();
+            let pair = |a: usize, b: usize| {
+                let m = w * mass.m[a * n + b];
+                Mat6::from_diagonal(&[m, m, m, 0.0, 0.0, 0.0].into())
+            };
             let carried = &mut self.scratch.carried;
-            carry(&[slots.node], &slots.targets, &self.roots, &self.scratch.carry, |_, _| own[slots.node], carried);
-            add_blocks(carried, &slots.slots, slots.targets.len(), share, unsymmetric, values);
+            carry(&mass.nodes, &place.targets, &self.roots, &self.scratch.carry, pair, carried);
+            self.scatter.add(carried.as_flattened(), place.entries, values);
         }
     }
 }
@@ -365,41 +358,23 @@ fn carry(
     roots: &[Vec<usize>],
     maps: &[Vec<Mat6>],
     pair: impl Fn(usize, usize) -> Mat6,
-    carried: &mut [Mat6],
+    carried: &mut [[f64; 36]],
 ) {
     let m = targets.len();
-    carried[..m * m].fill(Mat6::zeros());
+    carried[..m * m].fill([0.0; 36]);
     let place = |root: usize| targets.iter().position(|&t| t == root).unwrap_or(0);
+    let stays = |node: usize| roots[node] == [node];
     for (a, &node_a) in nodes.iter().enumerate() {
         for (b, &node_b) in nodes.iter().enumerate() {
             let k = pair(a, b);
             for (&root_a, T_a) in roots[node_a].iter().zip(&maps[node_a]) {
-                let left = T_a.tr_mul(&k);
+                let left = if stays(node_a) { k } else { T_a.tr_mul(&k) };
                 for (&root_b, T_b) in roots[node_b].iter().zip(&maps[node_b]) {
-                    carried[place(root_a) * m + place(root_b)] += left * T_b;
+                    let block = if stays(node_b) { left } else { left * T_b };
+                    let sum = &mut carried[place(root_a) * m + place(root_b)];
+                    sum.iter_mut().zip(block.as_slice()).for_each(|(sum, k)| *sum += k);
                 }
             }
-        }
-    }
-}
-
-fn add_blocks(blocks: &[Mat6], slots: &[u32], m: usize, share: f64, unsymmetric: bool, values: &mut [f64]) {
-    for (pair, slots) in slots.chunks(36).enumerate() {
-        let (a, b) = (pair / m, pair % m);
-        for i in 0..6 {
-            for j in 0..6 {
-                let whole = unsymmetric || (a == b && i == j);
-                values[slots[6 * i + j] as usize] += if whole { 1.0 } else { share } * blocks[pair][(i, j)];
-            }
-        }
-    }
-}
-
-fn add_symmetric(K: &[f64], slots: &[u32], size: usize, values: &mut [f64]) {
-    for i in 0..size {
-        values[slots[i * size + i] as usize] += K[i * size + i];
-        for j in 0..i {
-            values[slots[i * size + j] as usize] += 0.5 * (K[i * size + j] + K[j * size + i]);
         }
     }
 }

@@ -1,8 +1,6 @@
 //! What must hold for whole scenes, whatever they are made of: the matrix is the derivative of the residual, answers turn
 //! with the scene, what is conserved stays, and one scene described in two ways has one answer.
 
-#![allow(non_snake_case)]
-
 mod scene;
 
 mod balance;

@@ -1,0 +1,120 @@
+//! Arguments in, exit code out.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+const DECK: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = 0.01
+
+[[bodies]]
+name = "ball"
+center = [0.0, 0.0, 0.0]
+mass = 1.0
+shape = { kind = "sphere", radius = 0.1 }
+"#;
+
+fn folder(deck: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ball.toml"), deck).unwrap();
+    folder
+}
+
+fn rdsolve(folder: &Path, arguments: &[&str]) -> assert_cmd::assert::Assert {
+    Command::cargo_bin("rdsolve").unwrap().current_dir(folder).args(arguments).assert()
+}
+
+fn said(assert: &assert_cmd::assert::Assert) -> String {
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+#[test]
+fn a_sound_deck_passes() {
+    let folder = folder(DECK);
+    let done = rdsolve(folder.path(), &["check", "ball.toml"]).code(0);
+    assert_eq!(said(&done), "");
+}
+
+#[test]
+fn usage_ends_with_2() {
+    let folder = folder(DECK);
+    for arguments in
+        [&[][..], &["--sett", "ball.toml"], &["ball.toml", "--threads", "0"], &["check"], &["ball.toml", "more"]]
+    {
+        rdsolve(folder.path(), arguments).code(2);
+    }
+}
+
+#[test]
+fn words_of_other_versions_are_not_advertised() {
+    let folder = folder(DECK);
+    let help = rdsolve(folder.path(), &["--help"]).code(0);
+    let help = String::from_utf8(help.get_output().stdout.clone()).unwrap();
+    for word in ["study", "sweep", "compare", "report", "--resume"] {
+        assert!(!help.contains(word), "{word}");
+    }
+    for word in ["run", "check", "schema", "--set", "--overwrite", "--threads", "--quiet", "--output"] {
+        assert!(help.contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_wrong_deck_ends_with_3_and_a_count() {
+    let folder = folder(&DECK.replace("mass = 1.0", "mas = -1.0").replace("end_time = 1.0", "end_time = 0.0"));
+    for arguments in [&["ball.toml"][..], &["run", "ball.toml"], &["check", "ball.toml"]] {
+        let failed = rdsolve(folder.path(), arguments).code(3);
+        let said = said(&failed);
+        assert!(said.contains("ball.toml:10:1"), "{said}");
+        assert!(said.contains("did you mean `mass`?"), "{said}");
+        assert!(said.ends_with("error: `ball.toml` has 2 errors\n"), "{said}");
+        assert!(!said.contains('\u{1b}'), "no colours in a pipe");
+        assert!(failed.get_output().stdout.is_empty());
+    }
+    assert!(!folder.path().join("ball.out").exists());
+}
+
+#[test]
+fn an_argument_can_mend_or_spoil_a_deck() {
+    let folder = folder(DECK);
+    rdsolve(folder.path(), &["check", "ball.toml", "--set", "bodies.ball.mass=0"]).code(3);
+    std::fs::write(folder.path().join("ball.toml"), DECK.replace("mass = 1.0", "mass = 0")).unwrap();
+    rdsolve(folder.path(), &["check", "ball.toml", "--set", "bodies.ball.mass=2"]).code(0);
+}
+
+#[test]
+fn files_that_cannot_be_read_end_with_6_and_bytes_that_are_no_text_with_3() {
+    let folder = folder(DECK);
+    assert!(said(&rdsolve(folder.path(), &["none.toml"]).code(6)).contains("none.toml"));
+    rdsolve(folder.path(), &["check", "."]).code(6);
+    std::fs::write(folder.path().join("ball.toml"), b"title = \"a\"\n# \xff\n").unwrap();
+    assert!(said(&rdsolve(folder.path(), &["ball.toml"]).code(3)).contains("line 2"));
+}
+
+#[test]
+fn results_are_not_overwritten_unasked() {
+    let folder = folder(DECK);
+    let results = folder.path().join("ball.out");
+    std::fs::create_dir(&results).unwrap();
+    std::fs::write(results.join("nodes.csv"), "kept").unwrap();
+    assert!(said(&rdsolve(folder.path(), &["ball.toml"]).code(2)).contains("--overwrite"));
+    rdsolve(folder.path(), &["ball.toml", "-o", "ball.toml"]).code(6);
+    assert_eq!(std::fs::read_to_string(results.join("nodes.csv")).unwrap(), "kept");
+}
+
+#[test]
+fn the_schema_is_a_schema_of_the_deck() {
+    let folder = folder(DECK);
+    let done = rdsolve(folder.path(), &["schema"]).code(0);
+    let schema: serde_json::Value = serde_json::from_slice(&done.get_output().stdout).unwrap();
+    assert_eq!(schema["title"], "Deck");
+    assert_eq!(schema["additionalProperties"], false);
+    assert_eq!(schema["required"], serde_json::json!(["analysis"]));
+    let beam = &schema["$defs"]["Beam"]["properties"];
+    assert_eq!(beam["rotary_inertia"]["type"], "boolean");
+    assert!(beam["orientation"]["description"].is_string());
+    assert!(!schema.to_string().contains("null"));
+}

@@ -1,0 +1,53 @@
+//! Every deck runs and meets the values it carries.
+
+mod support;
+
+use rdsolve::solve::Outcome;
+use std::fs;
+use std::path::Path;
+
+/// Folders below `decks/` that hold a deck, as names for [`support::read`], sorted.
+fn names(folder: &Path, prefix: &str, found: &mut Vec<String>) {
+    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    for entry in entries.map(Result::unwrap).filter(|entry| entry.path().is_dir()) {
+        let name = format!("{prefix}{}", entry.file_name().to_str().expect("a plain name"));
+        if entry.path().join("deck.toml").exists() {
+            found.push(name.clone());
+        }
+        names(&entry.path(), &format!("{name}/"), found);
+    }
+    found.sort();
+}
+
+#[test]
+fn every_deck_meets_its_values() {
+    let mut found = Vec::new();
+    names(&support::decks(), "", &mut found);
+    assert!(!found.is_empty(), "no decks");
+    let mut misses = Vec::new();
+    for name in &found {
+        let model = support::read(name, &[]);
+        let done = support::run(&model, &mut |_| Vec::new());
+        let c = done.counts;
+        println!(
+            "{name:40} {:3} values, {:7} steps, {:4.1} iterations a step, {:6} factorizations, {:3} cuts, {:8.4} s",
+            done.verdicts.len(),
+            c.steps,
+            c.iterations as f64 / c.steps as f64,
+            c.factorizations,
+            c.cuts,
+            done.seconds
+        );
+        match done.outcome {
+            Outcome::Done => {}
+            Outcome::Failed { time, failure } => misses.push(format!("{name}: at t = {time}: {failure}")),
+            other => misses.push(format!("{name}: {other:?}")),
+        }
+        if done.verdicts.is_empty() {
+            misses.push(format!("{name} carries no values"));
+        }
+        let missed = done.verdicts.iter().filter(|verdict| !verdict.passed);
+        misses.extend(missed.map(|v| format!("{name}: {}: {}", v.label, v.reason.as_deref().unwrap_or_default())));
+    }
+    assert!(misses.is_empty(), "\n{}", misses.join("\n"));
+}

@@ -1,0 +1,340 @@
+//! What the program says about wrong decks, compared as text with `tests/snapshots`.
+
+use insta::assert_snapshot;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use rdsolve::diagnostic::Source;
+
+/// A sound deck; each test spoils a part of it.
+const PORTAL: &str = r#"
+title = "Portal frame hit by a block"
+
+[analysis]
+kind = "dynamic"
+end_time = 0.3
+time_step = 1e-4
+
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+
+[sections.square]
+shape = "rectangle"
+width = 0.05
+height = 0.05
+
+[points]
+foot_left = [0.0, 0.0, 0.0]
+knee_left = [0.0, 0.0, 2.0]
+knee_right = [1.5, 0.0, 2.0]
+foot_right = [1.5, 0.0, 0.0]
+
+[sets]
+feet = ["foot_left", "foot_right"]
+
+[[beams]]
+name = "portal"
+path = ["foot_left", "knee_left", "knee_right", "foot_right"]
+elements = 12
+material = "steel"
+section = "square"
+orientation = [0.0, 1.0, 0.0]
+
+[[bodies]]
+name = "block"
+center = [-0.5, 0.0, 2.0]
+mass = 500.0
+inertia = [20.0, 20.0, 20.0]
+velocity = [4.0, 0.0, 0.0]
+
+[[supports]]
+at = "feet"
+fix = "all"
+
+[[links]]
+name = "bumper"
+from = { body = "block", point = [-0.1, 0.0, 2.0] }
+to = { node = "knee_left" }
+law = "compression-only"
+stiffness = 5e6
+
+[[loads]]
+at = "knee_right"
+force = [0.0, 0.0, -100.0]
+amplitude = "pulse"
+
+[amplitudes.pulse]
+kind = "table"
+points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]
+"#;
+
+/// Everything that is said about a deck.
+fn said(text: &str, sets: &[&str]) -> String {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let source = Source::new("portal.toml", text, &sets);
+    let (model, problems) = rdsolve::model::read(&source);
+    assert_eq!(model.is_none(), problems.iter().any(|problem| problem.is_error()), "a model without errors only");
+    let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
+    drawn.join("\n\n")
+}
+
+/// The portal with parts replaced.
+fn edited(edits: &[(&str, &str)]) -> String {
+    let mut text = PORTAL.to_owned();
+    for (old, new) in edits {
+        assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once in the deck");
+        text = text.replace(old, new);
+    }
+    text
+}
+
+fn portal(edits: &[(&str, &str)]) -> String {
+    said(&edited(edits), &[])
+}
+
+/// The portal with tables added.
+fn portal_and(more: &str) -> String {
+    said(&format!("{PORTAL}\n{more}"), &[])
+}
+
+fn portal_set(sets: &[&str]) -> String {
+    said(PORTAL, sets)
+}
+
+#[test]
+fn a_sound_deck_is_silent() {
+    assert_eq!(portal(&[]), "");
+}
+
+#[test]
+fn syntax() {
+    assert_snapshot!("broken_line", portal(&[("height = 0.05", "height = ")]));
+    assert_snapshot!("open_bracket", portal(&[("[amplitudes.pulse]", "[amplitudes.pulse")]));
+    assert_snapshot!("key_twice", portal(&[("elements = 12", "elements = 12\nelements = 13")]));
+    assert_snapshot!("empty_deck", said("", &[]));
+}
+
+#[test]
+fn keys_and_types() {
+    assert_snapshot!("unknown_key", portal(&[("elements = 12", "element = 12")]));
+    assert_snapshot!("unknown_key_without_neighbour", portal(&[("elements = 12", "elements = 12\nfriction = 0.3")]));
+    assert_snapshot!("unknown_table", portal_and("[[contacts]]\nfriction = 0.3"));
+    assert_snapshot!("text_for_number", portal(&[("youngs_modulus = 210e9", "youngs_modulus = \"210e9\"")]));
+    assert_snapshot!("number_for_text", portal(&[("material = \"steel\"", "material = 7")]));
+    assert_snapshot!("fraction_for_count", portal(&[("elements = 12", "elements = 1.5")]));
+    assert_snapshot!("two_coordinates", portal(&[("[0.0, 0.0, 2.0]", "[0.0, 2.0]")]));
+    assert_snapshot!("text_in_vector", portal(&[("[0.0, 0.0, -100.0]", "[0.0, 0.0, \"down\"]")]));
+    assert_snapshot!("table_for_list", portal(&[("[[supports]]", "[supports]")]));
+    assert_snapshot!("list_for_table", portal(&[("[analysis]", "[[analysis]]")]));
+    assert_snapshot!("not_finite", portal(&[("mass = 500.0", "mass = nan"), ("stiffness = 5e6", "stiffness = inf")]));
+    assert_snapshot!("unknown_word", portal(&[("kind = \"dynamic\"", "kind = \"dinamic\"")]));
+    assert_snapshot!(
+        "later_words",
+        portal_and("[integrator]\nscheme = \"newmark\"\n[iteration]\nmethod = \"initial-load\"")
+    );
+    assert_snapshot!("unknown_direction", portal(&[("fix = \"all\"", "fix = [\"ux\", \"uu\"]")]));
+    assert_snapshot!(
+        "missing_keys",
+        portal(&[("elements = 12\n", ""), ("mass = 500.0\n", ""), ("end_time = 0.3\n", "")])
+    );
+}
+
+#[test]
+fn many_at_once() {
+    let edits = [
+        ("title =", "titel ="),
+        ("end_time = 0.3", "end_time = \"long\""),
+        ("poisson_ratio = 0.3", "poisson_ratio = 0.7"),
+        ("height = 0.05", "height = "),
+        ("\"knee_right\", \"foot_right\"]\nelements", "\"knee_rihgt\", \"foot_right\"]\nelements"),
+        ("material = \"steel\"", "material = \"steal\""),
+        ("fix = \"all\"", "fix = \"everything\""),
+    ];
+    assert_snapshot!("many_at_once", portal(&edits));
+}
+
+#[test]
+fn overrides() {
+    assert_snapshot!("set_value", portal_set(&["beams.portal.elements=-3"]));
+    assert_snapshot!("set_zero", portal_set(&["materials.steel.density=0.0", "beams.portal.elements=0"]));
+    assert_snapshot!("set_item", portal_set(&["beams.portel.elements=3", "links.4.stiffness=1.0"]));
+    assert_snapshot!("set_name", portal_set(&["materials.stel.density=1.0"]));
+    assert_snapshot!("set_key", portal_set(&["analysis.endtime=1.0"]));
+    assert_snapshot!("set_table", portal_set(&["beems.portal.elements=3"]));
+    assert_snapshot!("set_no_value", portal_set(&["analysis.end_time"]));
+    assert_snapshot!("set_syntax", portal_set(&["points.knee_left=[0.0, 0.0"]));
+    assert_snapshot!("set_word", portal_set(&["integrator.scheme=wilson-thata"]));
+    assert_snapshot!("set_part", portal_set(&["beams.portal=3"]));
+    assert_snapshot!("set_name_in_file", portal_set(&["beams.portal.material=copper"]));
+    assert_eq!(
+        portal_set(&["integrator.scheme=wilson-theta", "points.knee_left.2=2.5", "damping.mass_factor=0.1"]),
+        ""
+    );
+    assert_eq!(portal_set(&["links.0.stiffness=1e6", "beams.portal.elements=[2, 3, 4]", "title=other"]), "");
+}
+
+#[test]
+fn quantities() {
+    assert_snapshot!("times", portal(&[("time_step = 1e-4", "time_step = 1.0\nleast_step = 2.0")]));
+    assert_snapshot!("negative_modulus", portal(&[("youngs_modulus = 210e9", "youngs_modulus = -210e9")]));
+    assert_snapshot!("thin_inertia", portal(&[("inertia = [20.0, 20.0, 20.0]", "inertia = [20.0, 20.0, 50.0]")]));
+    assert_snapshot!("indefinite_inertia", portal(&[("[20.0, 20.0, 20.0]", "[20.0, 20.0, 20.0, 0.0, 0.0, 30.0]")]));
+    assert_snapshot!("four_moments", portal(&[("[20.0, 20.0, 20.0]", "[20.0, 20.0, 20.0, 0.0]")]));
+    assert_snapshot!(
+        "mass_and_density",
+        portal(&[(
+            "inertia = [20.0, 20.0, 20.0]",
+            "shape = { kind = \"box\", size = [1.0, 1.0, 1.0], radius = 1.0, density = 500.0 }"
+        )])
+    );
+    assert_snapshot!("theta", portal_and("[integrator]\ntheta = 1.2"));
+    assert_snapshot!("low_theta", portal_and("[integrator]\ntheta = 0.9"));
+    assert_snapshot!(
+        "stray_keys",
+        portal(&[
+            ("height = 0.05", "height = 0.05\nradius = 0.1"),
+            ("stiffness = 5e6", "stiffness = 5e6\npreload = 1.0")
+        ])
+    );
+    assert_snapshot!("falling_times", portal(&[("[2.0, 0.0]", "[0.5, 0.0]")]));
+    assert_snapshot!("implausible_units", portal(&[("title =", "units = \"mm-t-s\"\ntitle =")]));
+}
+
+#[test]
+fn geometry() {
+    assert_snapshot!(
+        "parallel_orientation",
+        portal(&[("orientation = [0.0, 1.0, 0.0]", "orientation = [0.0, 0.0, 2.0]")])
+    );
+    assert_snapshot!("zero_orientation", portal(&[("orientation = [0.0, 1.0, 0.0]", "orientation = [0.0, 0.0, 0.0]")]));
+    assert_snapshot!("no_length", portal(&[("knee_right = [1.5, 0.0, 2.0]", "knee_right = [0.0, 0.0, 2.0]")]));
+    assert_snapshot!("elements_per_segment", portal(&[("elements = 12", "elements = [12, 0]")]));
+    assert_snapshot!(
+        "short_path",
+        portal(&[("path = [\"foot_left\", \"knee_left\", \"knee_right\", \"foot_right\"]", "path = \"foot_left\"")])
+    );
+    assert_snapshot!("coincident_ends", portal(&[("point = [-0.1, 0.0, 2.0]", "point = [0.0, 0.0, 2.0]")]));
+    assert_snapshot!(
+        "ambiguous_end",
+        portal(&[("to = { node = \"knee_left\" }", "to = { node = \"knee_left\", ground = [0.0, 0.0, 0.0] }")])
+    );
+}
+
+#[test]
+fn names() {
+    assert_snapshot!("unknown_point", portal(&[("at = \"knee_right\"", "at = \"knee_rihgt\"")]));
+    assert_snapshot!("unknown_amplitude", portal(&[("amplitude = \"pulse\"", "amplitude = \"pulses\"")]));
+    assert_snapshot!("name_taken", portal(&[("name = \"block\"", "name = \"portal\"")]));
+    assert_snapshot!("reserved_name", portal(&[("feet = [", "all = [\"foot_left\"]\nfeet = [")]));
+    assert_snapshot!("set_of_itself", portal(&[("feet = [", "feet = [\"feet\", ")]));
+    assert_snapshot!("beam_for_point", portal(&[("at = \"knee_right\"", "at = \"portal\"")]));
+    assert_snapshot!("point_for_body", portal_and("[[attachments]]\nbody = \"knee_left\"\nnodes = \"knee_right\""));
+    assert_snapshot!(
+        "unused",
+        portal(&[
+            ("foot_right = [1.5, 0.0, 0.0]", "foot_right = [1.5, 0.0, 0.0]\nlost = [0.0, 0.0, 9.0]"),
+            ("[sections.square]", "[materials.spare]\nmodel = \"elastic\"\nyoungs_modulus = 1e9\n\n[sections.square]"),
+        ])
+    );
+}
+
+#[test]
+fn constraints() {
+    let second = "[[bodies]]\nname = \"second\"\ncenter = [3.0, 0.0, 2.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n";
+    assert_snapshot!(
+        "attached_twice",
+        portal_and(&format!(
+            "{second}[[attachments]]\nbody = \"block\"\nnodes = \"knee_right\"\n
+[[attachments]]\nbody = \"second\"\nnodes = [\"knee_right\"]\ndofs = \"translations\""
+        ))
+    );
+    assert_snapshot!(
+        "attached_in_a_circle",
+        portal_and(&format!(
+            "{second}[[attachments]]\nbody = \"block\"\nnodes = \"second\"\n\n[[attachments]]\nbody = \"second\"\nnodes = \"block\""
+        ))
+    );
+    assert_snapshot!("attached_to_itself", portal_and("[[attachments]]\nbody = \"block\"\nnodes = \"block\""));
+    assert_snapshot!(
+        "attached_to_itself_by_a_set",
+        portal(&[
+            ("[sets]\n", "[sets]\nright = [\"block\", \"knee_right\"]\n"),
+            ("[[supports]]", "[[attachments]]\nbody = \"block\"\nnodes = \"right\"\n\n[[supports]]"),
+        ])
+    );
+    assert_snapshot!(
+        "attached_and_supported",
+        portal_and("[[attachments]]\nbody = \"block\"\nnodes = \"foot_left\"\ndofs = \"translations\"")
+    );
+    assert_snapshot!(
+        "multipliers",
+        portal_and("[[attachments]]\nbody = \"block\"\nnodes = \"knee_right\"\nmethod = \"multipliers\"")
+    );
+    assert_snapshot!(
+        "fixed_and_moved",
+        portal_and(
+            "[[supports]]\nat = \"foot_left\"\nmotion = { ux = { amplitude = \"pulse\" } }\n
+[[supports]]\nat = \"knee_right\"\nfix = [\"uz\"]\nmotion = { uz = { amplitude = \"pulse\" } }"
+        )
+    );
+    assert_snapshot!("support_of_nothing", portal_and("[[supports]]\nat = \"block\""));
+}
+
+#[test]
+fn loads_and_values() {
+    assert_snapshot!(
+        "load_on_nothing",
+        portal(&[
+            ("foot_right = [1.5, 0.0, 0.0]", "foot_right = [1.5, 0.0, 0.0]\nlost = [0.0, 0.0, 9.0]"),
+            ("at = \"knee_right\"", "at = \"lost\""),
+        ])
+    );
+    let bar = "[[bars]]\nname = \"stay\"\npath = [\"knee_left\", \"tip\"]\nmaterial = \"steel\"\narea = 1e-4\n";
+    assert_snapshot!(
+        "moment_on_a_bar",
+        portal(&[
+            ("foot_right = [1.5, 0.0, 0.0]", "foot_right = [1.5, 0.0, 0.0]\ntip = [0.0, 0.0, 9.0]"),
+            ("[[bodies]]", &format!("{bar}\n[[bodies]]")),
+            ("at = \"knee_right\"\nforce", "at = \"tip\"\nmoment"),
+        ])
+    );
+    assert_snapshot!("empty_load", portal_and("[[loads]]\nat = \"knee_left\""));
+    assert_snapshot!(
+        "expect",
+        portal_and(
+            "[[expect]]\nat = \"knee_right\"\nquantity = \"qw\"\ntime = 4.0\nvalue = 0.0\ntolerance = 0.1\n
+[[expect]]\nat = \"energy\"\nquantity = \"kinetik\"\npeak = \"max\"\nvalue = 1.0\n
+[[expect]]\nat = \"feet\"\nquantity = \"ux\"\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1"
+        )
+    );
+    assert_snapshot!(
+        "output",
+        portal_and("[output]\nnodes = [\"block\", \"knee_left\"]\nevery = 0\nfields = { every = 2 }")
+    );
+    assert_snapshot!("initial", portal_and("[[initial]]\nat = [\"portal\", \"everything\"]"));
+}
+
+/// Whatever is done to a deck, it is answered, by a model or by errors, and every answer can be drawn.
+#[test]
+fn no_text_is_too_wrong() {
+    let sound = include_str!("everything.toml");
+    let scraps =
+        ["[", "]", "{", "}", "=", "\"", "\n", ".", ",", "#", "0", "-1", "1e999", "nan", "true", "\u{e9}", "[[x]]\n"];
+    let mut random = StdRng::seed_from_u64(1993);
+    for _ in 0..1500 {
+        let mut text = sound.to_owned();
+        for _ in 0..random.random_range(1..4) {
+            let mut cut = [random.random_range(0..text.len()), random.random_range(0..text.len())];
+            cut.sort_unstable();
+            if cut[1] - cut[0] > 40 {
+                cut[1] = cut[0] + random.random_range(0..8);
+            }
+            if text.is_char_boundary(cut[0]) && text.is_char_boundary(cut[1]) {
+                text.replace_range(cut[0]..cut[1], scraps[random.random_range(0..scraps.len())]);
+            }
+        }
+        said(&text, &[]);
+    }
+}

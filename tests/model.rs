@@ -1,0 +1,150 @@
+//! What decks mean: the numbers of the model.
+
+use rdsolve::diagnostic::Source;
+use rdsolve::math::{Mat3, Vec3};
+use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, Model, Shape, Tolerance, When};
+
+/// Every table once.
+const ALL: &str = include_str!("everything.toml");
+
+fn everything() -> Model {
+    let (model, problems) = model::read(&Source::new("everything.toml", ALL, &[]));
+    let source = Source::new("everything.toml", ALL, &[]);
+    let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
+    assert!(drawn.is_empty(), "{}", drawn.join("\n\n"));
+    model.unwrap()
+}
+
+fn node(model: &Model, label: &str) -> usize {
+    model.nodes.iter().position(|node| node.label == label).unwrap_or_else(|| panic!("no node {label}"))
+}
+
+#[test]
+fn nodes_come_in_the_order_points_bodies_the_rest() {
+    let model = everything();
+    let labels: Vec<&str> = model.nodes.iter().map(|node| node.label.as_str()).collect();
+    assert_eq!(labels[..8], ["a", "b", "c", "d", "hook", "pin", "block", "wheel"]);
+    assert!(model.nodes[..8].iter().all(|node| node.named));
+    assert!(model.nodes[8..].iter().all(|node| !node.named));
+}
+
+#[test]
+fn beams_follow_their_path() {
+    let model = everything();
+    let beam = &model.beams[0];
+    assert_eq!((beam.order, beam.elements.len()), (2, 3));
+    let [a, b, c] = ["a", "b", "c"].map(|name| node(&model, name));
+    let start = node(&model, "frame.start");
+    assert_eq!(model.nodes[start].x, Vec3::new(0.0, 0.0, 0.5));
+    let rider = model.riders.iter().find(|rider| rider.node == start).unwrap();
+    assert_eq!((rider.master, rider.dofs), (a, [true; 6]));
+    let ends: Vec<[usize; 2]> = beam.elements.iter().map(|e| [e.nodes[0], e.nodes[2]]).collect();
+    assert_eq!((ends[0][0], ends[1][1], ends[2]), (start, b, [b, c]));
+    assert_eq!(ends[0][1], ends[1][0]);
+    // The Lobatto point of an element of degree two is its middle.
+    assert_eq!(model.nodes[beam.elements[2].nodes[1]].x, Vec3::new(0.5, 0.0, 2.0));
+    assert_eq!(model.nodes[beam.elements[0].nodes[1]].label, "frame[1]");
+    // x along the segment, y towards the orientation, z = x × y.
+    assert_eq!(beam.elements[0].frame, Mat3::from_columns(&[Vec3::z(), Vec3::y(), -Vec3::x()]));
+    assert_eq!(beam.elements[2].frame, Mat3::from_columns(&[Vec3::x(), Vec3::y(), Vec3::z()]));
+}
+
+#[test]
+fn beams_of_one_section_and_material_share_a_stiffness() {
+    let model = everything();
+    let index = |beam: usize| model.beams[beam].elements[0].section;
+    assert_eq!(index(0), index(1));
+    assert_ne!(index(0), index(2));
+    let given = &model.stiffnesses[index(2)];
+    assert_eq!((given.N[(0, 0)], given.mass_per_length), (1e8, 3.0));
+}
+
+#[test]
+fn bars_have_stiffness_and_mass() {
+    let model = everything();
+    let [stay, rope] = [&model.bars[0], &model.bars[1]];
+    assert_eq!((stay.axial_stiffness, stay.mass_per_length), (210e9 * 1e-4, 7850.0 * 1e-4));
+    assert_eq!((rope.axial_stiffness, rope.mass_per_length, rope.tension_only), (1e6, 0.5, true));
+    assert_eq!(rope.elements.len(), 2);
+}
+
+#[test]
+fn shapes_give_mass_and_inertia() {
+    let model = everything();
+    let wheel = &model.bodies[1];
+    // A ring of density 1000, radii 0.5 and 0.4, width 0.1, about y.
+    let mass = 1000.0 * std::f64::consts::PI * (0.25 - 0.16) * 0.1;
+    let along = mass * (0.25 + 0.16) / 2.0;
+    let across = mass * (0.25 + 0.16) / 4.0 + mass * 0.01 / 12.0;
+    // A few roundings of numbers of order one.
+    assert!((wheel.mass - mass).abs() < 1e-13);
+    assert!((wheel.inertia - Mat3::from_diagonal(&Vec3::new(across, along, across))).amax() < 1e-13);
+    assert!(matches!(wheel.shape, Shape::Cylinder { inner_radius, .. } if (inner_radius - 0.4).abs() < 1e-15));
+    let block = &model.bodies[0];
+    assert_eq!((block.mass, block.inertia[(0, 1)], block.inertia[(2, 0)]), (500.0, 1.0, 0.5));
+}
+
+#[test]
+fn supports_are_sorted_and_say_what_they_do() {
+    let model = everything();
+    let order: Vec<(usize, usize)> = model.held.iter().map(|held| (held.node, held.dof)).collect();
+    assert!(order.is_sorted_by(|a, b| a < b));
+    let moved = model.held.iter().find(|held| held.motion.is_some()).unwrap();
+    let motion = moved.motion.as_ref().unwrap();
+    assert_eq!((moved.node, moved.dof), (node(&model, "d"), 0));
+    assert_eq!((motion.scale, motion.history), (0.5, History::Acceleration));
+    let ground = node(&model, "anchor.to");
+    assert_eq!(order.iter().filter(|(held, _)| *held == ground).count(), 6);
+}
+
+#[test]
+fn links_measure_from_where_they_are() {
+    let model = everything();
+    let free = |index: usize| match &model.links[index].kind {
+        LinkKind::Line { free_length, direction, .. } => (*free_length, *direction),
+        LinkKind::Bushing { .. } => panic!("a bushing"),
+    };
+    assert_eq!(free(0), (0.25, None));
+    assert_eq!(free(1), (0.25, Some(-Vec3::x())));
+    assert_eq!(free(2), (2.0, None));
+    // At its centre a link acts on the body itself, elsewhere on a new node that rides on it.
+    assert_eq!(model.links[2].ends[0], model.bodies[0].node);
+    let rider = model.riders.iter().find(|rider| rider.node == model.links[0].ends[0]).unwrap();
+    assert_eq!((rider.master, rider.dofs), (model.bodies[0].node, [true; 6]));
+    let LinkKind::Bushing { stiffness, axes, .. } = &model.links[3].kind else { panic!("no bushing") };
+    assert_eq!((stiffness[5], axes.column(0).into_owned()), (6.0, Vec3::y()));
+    assert_eq!(axes.column(2).into_owned(), -Vec3::z());
+}
+
+#[test]
+fn initial_motion_is_that_of_a_rigid_body_where_it_should_be() {
+    let model = everything();
+    let omega = Vec3::new(0.0, 0.0, 2.0);
+    for element in &model.beams[1].elements {
+        let inner = &model.nodes[element.nodes[1]];
+        assert_eq!(inner.v, Vec3::new(1.0, 0.0, 0.0) + omega.cross(&(inner.x - Vec3::new(0.0, 0.0, 2.0))));
+        assert_eq!(inner.omega, omega);
+    }
+    // `hook` rides on the wheel, which turns.
+    let (hook, wheel) = (&model.nodes[node(&model, "hook")], &model.nodes[node(&model, "wheel")]);
+    assert_eq!(hook.v, wheel.v + wheel.omega.cross(&(hook.x - wheel.x)));
+    assert_eq!(model.nodes[node(&model, "a")].v, Vec3::zeros());
+}
+
+#[test]
+fn the_rest_is_taken_as_written() {
+    let model = everything();
+    assert_eq!(model.masses[0].inertia, Mat3::zeros());
+    assert_eq!(model.loads[0].node, node(&model, "c"));
+    assert_eq!(model.base_accelerations[0].direction, Vec3::new(0.0, 3.0, 0.0));
+    assert_eq!((model.damping.mass_factor, model.damping.nodal[0].translation), (0.1, 2.0));
+    let expect = &model.expects[0];
+    assert_eq!((expect.at, expect.when), (ExpectAt::Node(node(&model, "c")), When::Time(0.3)));
+    assert_eq!(expect.tolerance, Tolerance::Relative(0.02));
+    assert_eq!(expect.label, "ux of c at t = 0.3");
+    assert_eq!(model.expects[1].at, ExpectAt::Link(0));
+    assert_eq!(model.expects[2].tolerance, Tolerance::Absolute(1e-3));
+    assert_eq!(model.output.nodes, [node(&model, "a"), node(&model, "c"), node(&model, "d")]);
+    assert_eq!((model.output.cadence, model.output.fields), (Cadence::Interval(0.01), Some(20)));
+    assert_eq!(model.analysis.least_step, 1e-4 / 1048576.0);
+}

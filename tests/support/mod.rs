@@ -1,0 +1,136 @@
+//! Decks read with overrides and run in memory; references and the error against them.
+#![allow(dead_code)] // each test uses its part
+
+use rdsolve::diagnostic::Source;
+use rdsolve::model::{self, Model};
+use rdsolve::output::expect::{Expectations, Verdict};
+use rdsolve::output::wanted;
+use rdsolve::plan::Plan;
+use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run};
+use rdsolve::state::Node;
+use rdsolve::system::System;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+/// The folder of all decks.
+pub fn decks() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("decks")
+}
+
+fn source(name: &str, sets: &[String]) -> Source {
+    let path = decks().join(name).join("deck.toml");
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Source::new(format!("{name}/deck.toml"), text, sets)
+}
+
+/// What reading a deck says, messages alone.
+pub fn warnings(name: &str, sets: &[String]) -> Vec<String> {
+    model::read(&source(name, sets)).1.into_iter().map(|problem| problem.message).collect()
+}
+
+/// The model of a deck below `decks/`, with entries overridden as by `--set`.
+pub fn read(name: &str, sets: &[String]) -> Model {
+    let source = source(name, sets);
+    let (model, problems) = model::read(&source);
+    model
+        .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
+}
+
+/// A run that came to its end or not.
+pub struct Done {
+    pub outcome: Outcome,
+    /// What was asked for at every output time.
+    pub rows: Vec<Vec<f64>>,
+    pub verdicts: Vec<Verdict>,
+    pub counts: Counts,
+    pub unknowns: usize,
+    /// Wall-clock seconds of the time stepping alone.
+    pub seconds: f64,
+}
+
+struct Watchers<'p> {
+    probe: &'p mut dyn FnMut(&Frame) -> Vec<f64>,
+    rows: Vec<Vec<f64>>,
+    expectations: Expectations,
+}
+
+impl Observer for Watchers<'_> {
+    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        if frame.due {
+            self.rows.push((self.probe)(frame));
+        }
+        self.expectations.see(frame)
+    }
+}
+
+/// Runs a model, asking `probe` at every output time.
+pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
+    let system = System::new(model).expect("a system");
+    let plan = Plan::new(model, &system, 1);
+    let stop = AtomicBool::new(false);
+    let mut watchers = Watchers { probe, rows: Vec::new(), expectations: Expectations::new(model) };
+    let mut run = Run::new(model, &system, &plan, wanted(model), &stop);
+    let began = std::time::Instant::now();
+    let (outcome, _) = run.run(&mut watchers);
+    Done {
+        outcome,
+        seconds: (began.elapsed() - run.observing).as_secs_f64(),
+        counts: run.counts,
+        unknowns: plan.unknowns,
+        verdicts: watchers.expectations.verdicts(),
+        rows: watchers.rows,
+    }
+}
+
+/// As [`run`]; the run must reach its end.
+pub fn run_to_the_end(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
+    let done = run(model, probe);
+    assert!(matches!(done.outcome, Outcome::Done), "{}: {:?}", model.title, done.outcome);
+    done
+}
+
+/// Number of a node by the name of its point or body.
+pub fn node(model: &Model, label: &str) -> usize {
+    model.nodes.iter().position(|node| node.label == label).unwrap_or_else(|| panic!("no node `{label}`"))
+}
+
+pub fn position(node: &Node) -> [f64; 3] {
+    node.x.into()
+}
+
+/// Angular velocity in body axes.
+pub fn body_omega(node: &Node) -> [f64; 3] {
+    node.R().tr_mul(&node.omega).into()
+}
+
+/// Rows of reference.csv beside a deck, without the time.
+pub fn reference(name: &str) -> Vec<Vec<f64>> {
+    let path = decks().join(name).join("reference.csv");
+    let mut reader = csv::Reader::from_path(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    reader.records().map(|row| row.expect("a row").iter().skip(1).map(number).collect()).collect()
+}
+
+/// √(mean |q − q_ref|²)/max |q_ref| over the rows after the first `skip`.
+pub fn error(rows: &[Vec<f64>], reference: &[Vec<f64>], skip: usize) -> f64 {
+    assert_eq!(rows.len(), reference.len(), "times of the run and of the reference");
+    let square = |v: &mut dyn Iterator<Item = f64>| v.map(|x| x * x).sum::<f64>();
+    let (mut sum, mut largest) = (0.0, 0.0f64);
+    for (row, exact) in rows.iter().zip(reference).skip(skip) {
+        assert_eq!(row.len(), exact.len(), "columns of the run and of the reference");
+        sum += square(&mut row.iter().zip(exact).map(|(a, b)| a - b));
+        largest = largest.max(square(&mut exact.iter().copied()));
+    }
+    (sum / (rows.len() - skip) as f64 / largest).sqrt()
+}
+
+/// Slope of the straight line through (log x, log y), by least squares.
+pub fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logs: Vec<(f64, f64)> = points.iter().map(|&(x, y)| (x.ln(), y.ln())).collect();
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n;
+    let (mx, my) = (mean(&|p| p.0), mean(&|p| p.1));
+    mean(&|p| (p.0 - mx) * (p.1 - my)) / mean(&|p| (p.0 - mx).powi(2))
+}
