@@ -68,7 +68,7 @@ fn space_frame() -> String {
     }
     for axis in 0..3 {
         // Every other line, and every other sheet of lines, is walked backwards.
-        let back = |index: usize, turn: usize| if turn % 2 == 0 { index } else { N - 1 - index };
+        let back = |index: usize, turn: usize| if turn.is_multiple_of(2) { index } else { N - 1 - index };
         let path: Vec<String> = cells()
             .map(|[i, j, k]| {
                 let mut at = [back(k, i * N + j), back(j, i), i];
