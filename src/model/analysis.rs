@@ -11,6 +11,8 @@ use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
 const STABLE_THETA: f64 = 1.366;
 /// A step is halved at most so many times, unless the deck says otherwise.
 const HALVINGS: i32 = 20;
+/// More steps are a slip of the keyboard.
+const MOST_STEPS: f64 = 1e9;
 
 impl<'d> Builder<'d> {
     pub fn analysis(&mut self) {
@@ -43,6 +45,12 @@ impl<'d> Builder<'d> {
             && step > end
         {
             self.error::<()>(&at.span, format!("`time_step` is longer than the run, which ends at {end}"));
+        }
+        if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
+            && end / step > MOST_STEPS
+        {
+            let message = format!("`time_step` asks for {:.1e} steps", end / step);
+            self.error_with::<()>(&at.span, message, format!("at most {MOST_STEPS:.0e} are taken to be meant"));
         }
         if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
             && least > step

@@ -29,6 +29,9 @@ const ENERGY: [&str; 15] = [
     "lz",
 ];
 
+/// More output times are a slip of the keyboard, and would only exhaust memory.
+const MOST_ROWS: f64 = 1e7;
+
 impl<'d> Builder<'d> {
     pub fn expects(&mut self) {
         for expect in &self.deck.expect {
@@ -176,7 +179,19 @@ impl<'d> Builder<'d> {
                 self.error::<()>(&interval.span, "`[output]` takes `every` or `interval`, not both");
                 Cadence::Steps(1)
             }
-            (None, Some(_)) => self.positive("interval", &output.interval).map_or(Cadence::Steps(1), Cadence::Interval),
+            (None, Some(at)) => {
+                let interval = self.positive("interval", &output.interval);
+                let end = self.model.analysis.end_time;
+                // Where the end time is missing, that has been said.
+                if let Some(interval) = interval
+                    && end < f64::MAX
+                    && end / interval > MOST_ROWS
+                {
+                    let message = format!("`interval` asks for {:.1e} rows", end / interval);
+                    self.error_with::<()>(&at.span, message, format!("at most {MOST_ROWS:.0e} are taken to be meant"));
+                }
+                interval.map_or(Cadence::Steps(1), Cadence::Interval)
+            }
             _ => Cadence::Steps(self.count("every", &output.every, 1)),
         };
         let fields = output.fields.as_ref().map(|fields| {

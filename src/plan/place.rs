@@ -170,13 +170,14 @@ fn plane_normal(model: &Model, system: &System) -> Option<usize> {
 
 fn is_plane(model: &Model, system: &System, n: usize) -> bool {
     let small = 1e-12; // of the entries beside it: what rounding leaves of a zero
-    let out_of_plane = |v: &Vec3| v[n].abs() > small * v.norm();
-    let not_along = |v: &Vec3| (0..3).any(|i| i != n && v[i].abs() > small * v.norm());
+    // Against the largest entry: the norm of large numbers overflows, and nothing exceeds infinity.
+    let out_of_plane = |v: &Vec3| v[n].abs() > small * v.amax();
+    let not_along = |v: &Vec3| (0..3).any(|i| i != n && v[i].abs() > small * v.amax());
     // A symmetric tensor that keeps the normal and the plane apart.
-    let mixes = |J: &Mat3| (0..3).any(|i| i != n && J[(n, i)].abs().max(J[(i, n)].abs()) > small * J.norm());
+    let mixes = |J: &Mat3| (0..3).any(|i| i != n && J[(n, i)].abs().max(J[(i, n)].abs()) > small * J.amax());
     // A matrix that pairs a vector in the plane with a rotation along the normal, or the other way round.
     let pairs_wrongly =
-        |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.norm()));
+        |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.amax()));
 
     let Some(first) = model.nodes.first() else { return false };
     let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);

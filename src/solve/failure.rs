@@ -10,6 +10,8 @@ pub enum Failure {
     Singular { label: String, direction: &'static str },
     /// Iterations did not contract.
     NotConverged { iterations: usize, largest: Vec<Largest> },
+    /// A step of the deck needs too many pieces.
+    Crawling { pieces: usize, dt: f64 },
     /// A number stopped being one.
     NotFinite { largest: Vec<Largest> },
 }
@@ -55,6 +57,11 @@ impl fmt::Display for Failure {
                 write!(f, "no convergence in {iterations} iterations; the largest unbalanced forces are")?;
                 list(f, largest)
             }
+            Failure::Crawling { pieces, dt } => write!(
+                f,
+                "the step was cut into {pieces} pieces, the last of {dt:.1e}, and has not ended: the loads are too large or \
+                 `time_step` is too long for this motion"
+            ),
             Failure::NotFinite { largest } => {
                 write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;
                 list(f, largest)

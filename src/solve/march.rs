@@ -63,6 +63,8 @@ pub struct Run<'a> {
 
 /// Halvings of a step that are ever tried; the deck's least step may stop earlier.
 const DEEPEST: u32 = 40;
+/// Pieces in which a step of the deck may be taken: beyond that nobody waits for the end.
+const MOST_PIECES: usize = 4096;
 
 impl<'a> Run<'a> {
     pub fn new(model: &'a Model, system: &'a System, plan: &'a Plan, wanted: Wanted, stop: &'a AtomicBool) -> Self {
@@ -166,7 +168,7 @@ impl<'a> Run<'a> {
     ) -> Result<(), Outcome> {
         let (from, to) = (state.time, stretch.time(k));
         let whole = 1u64 << DEEPEST;
-        let (mut at, mut piece, mut cuts, mut successes) = (0u64, whole, 0, 0);
+        let (mut at, mut piece, mut cuts, mut successes, mut pieces) = (0u64, whole, 0, 0, 0);
         while at < whole {
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Outcome::Stopped { time: state.time });
@@ -178,10 +180,15 @@ impl<'a> Run<'a> {
                 Ok(taken) => {
                     at = next;
                     successes += 1;
+                    pieces += 1;
                     let last = at == whole;
                     let due = last && k == stretch.steps && stretch.due;
                     self.show(state, observer, balance, dt, &taken, cuts, due)?;
                     cuts = 0;
+                    if pieces >= MOST_PIECES && !last {
+                        let failure = Failure::Crawling { pieces, dt };
+                        return Err(Outcome::Failed { time: state.time, failure });
+                    }
                     // Two pieces taken and a longer one fits: try it.
                     if successes >= 2 && piece < whole && at.is_multiple_of(2 * piece) {
                         piece *= 2;

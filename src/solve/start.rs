@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::step::Stepper;
+use crate::linear::Singular;
 use crate::math::{Vec3, Vec6, rotation};
 use crate::model::Kind;
 use crate::state::{Increment, Node, State, Work};
@@ -109,20 +110,15 @@ impl Stepper<'_> {
 
     /// a ← a + M⁻¹ f. Directions without mass have no equation for their acceleration: it stays.
     fn accelerate(&mut self, state: &mut State) -> Result<(), Failure> {
-        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0 };
-        self.assembly.tangent(self.system, &state.nodes, &self.given[2], &self.forces, weights, &mut self.solver);
-        for row in 0..self.plan.unknowns {
-            let (node, dof) = self.plan.directions[row];
-            self.r[row] = self.forces.on_nodes[node][dof];
-            let Some(slot) = self.solver.slot(row, row) else { continue };
-            let diagonal = &mut self.solver.values()[slot];
-            if *diagonal == 0.0 {
-                *diagonal = 1.0;
-                self.r[row] = 0.0;
+        // Such a direction may lie aslant: a thin rod's axis, or that of an arm with a point mass at its end. It shows as a
+        // pivot that vanishes.
+        let mut massless: Vec<usize> = Vec::new();
+        while let Err(singular) = self.factor_mass(&state.nodes, &massless) {
+            if massless.contains(&singular.row) {
+                return Err(Failure::singular(self.model, self.plan.directions[singular.row]));
             }
+            massless.push(singular.row);
         }
-        self.factorizations += 1;
-        self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))?;
         self.solver.solve(&mut self.r);
         self.solves += 1;
         for (node, rows) in state.nodes.iter_mut().zip(&self.plan.rows) {
@@ -137,5 +133,30 @@ impl Stepper<'_> {
         }
         self.follow(state);
         Ok(())
+    }
+
+    /// Forms and factorises M, and puts the forces into `r`; what has no mass, on the diagonal or by `massless`, is held.
+    fn factor_mass(&mut self, nodes: &[Node], massless: &[usize]) -> Result<(), Singular> {
+        const HELD: f64 = 1e20; // times the mass: what is left of its acceleration is below rounding
+        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0 };
+        self.assembly.tangent(self.system, nodes, &self.given[2], &self.forces, weights, &mut self.solver);
+        for row in 0..self.plan.unknowns {
+            let (node, dof) = self.plan.directions[row];
+            self.r[row] = self.forces.on_nodes[node][dof];
+            let Some(slot) = self.solver.slot(row, row) else { continue };
+            let diagonal = &mut self.solver.values()[slot];
+            if *diagonal == 0.0 {
+                *diagonal = 1.0;
+                self.r[row] = 0.0;
+            }
+        }
+        for &row in massless {
+            if let Some(slot) = self.solver.slot(row, row) {
+                self.solver.values()[slot] *= HELD;
+                self.r[row] = 0.0;
+            }
+        }
+        self.factorizations += 1;
+        self.solver.factor()
     }
 }

@@ -1,0 +1,95 @@
+//! Once the first step is taken, the march allocates nothing.
+
+#![allow(non_snake_case)]
+
+#[allow(dead_code)]
+#[path = "properties/scene.rs"]
+mod scene;
+
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rdsolve::math::{Mat3, Vec3};
+use rdsolve::model::{BaseAcceleration, Cadence, Held, History, Kind, Motion, NodalDamping, Update};
+use rdsolve::plan::Plan;
+use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
+use rdsolve::system::System;
+use scene::*;
+use std::alloc::{GlobalAlloc, Layout};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: passes every call on to the system allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Relaxed);
+        unsafe { std::alloc::System.alloc(layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Relaxed);
+        unsafe { std::alloc::System.realloc(pointer, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { std::alloc::System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations made so far, by step; room for them is there beforehand.
+struct Counts(Vec<usize>);
+
+impl Observer for Counts {
+    fn see(&mut self, _: &Frame) -> std::io::Result<()> {
+        assert!(self.0.len() < self.0.capacity());
+        self.0.push(ALLOCATIONS.load(Relaxed));
+        Ok(())
+    }
+}
+
+/// Every update policy and both factorisations, with all that can be shown: one test, since the count is one for all
+/// threads.
+#[test]
+fn no_step_after_the_first_allocates() {
+    let mut rng = StdRng::seed_from_u64(71);
+    let mut m = zoo(&mut rng, Kind::Dynamic, 0.005);
+    m.analysis.end_time = 0.3;
+    m.iteration.tolerance = 1e-8;
+    let pulse = sine_squared(&mut m, 4.0);
+    m.loads[0].amplitude = Some(pulse);
+    m.base_accelerations.push(BaseAcceleration { direction: Vec3::x(), amplitude: pulse });
+    let foot = m.held[0].clone();
+    m.held[0] = Held { motion: Some(Motion { amplitude: pulse, scale: 0.1, history: History::Displacement }), ..foot };
+    m.damping.mass_factor = 0.1;
+    m.damping.stiffness_factor = 0.001;
+    m.damping.nodal.push(NodalDamping { node: 2, translation: 0.2, rotation: 0.1 });
+    let ball = body(&mut m, Vec3::new(5.0, 5.0, 5.0), 1.0, Mat3::identity());
+    m.nodes[ball].omega = Vec3::new(1.0, 2.0, 3.0);
+    m.held.sort_by_key(|h| (h.node, h.dof));
+    let system = System::new(&m).unwrap();
+    let stop = AtomicBool::new(false);
+    let wanted = Wanted { energy: true, reactions: true, links: true, sections: true };
+    for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
+        for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+            for cadence in [Cadence::Steps(1), Cadence::Interval(0.012)] {
+                m.iteration.update = update;
+                m.output.cadence = cadence;
+                let mut plan = Plan::new(&m, &system, 1);
+                plan.kind = kind;
+                let mut run = Run::new(&m, &system, &plan, wanted, &stop);
+                let mut counts = Counts(Vec::with_capacity(1000));
+                let (outcome, _) = run.run(&mut counts);
+                assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+                let Counts(counts) = counts;
+                assert!(counts.len() > 60, "t = 0 and sixty steps");
+                let made: Vec<usize> = counts.windows(2).skip(1).map(|pair| pair[1] - pair[0]).collect();
+                assert!(made.iter().all(|&n| n == 0), "{update:?}, {kind:?}, {cadence:?}: {made:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The same deck gives the same bytes, whatever the number of threads, and every time.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// All files a run leaves, but for those that tell the clock.
+fn files(deck: &Path, folder: &Path, threads: &str) -> BTreeMap<String, Vec<u8>> {
+    let output = Command::new(env!("CARGO_BIN_EXE_rdsolve"))
+        .args(["run", "--quiet", "--threads", threads, "-o"])
+        .args([folder, deck])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let named = entries.map(|path| (path.file_name().unwrap().to_str().unwrap().to_string(), path));
+    let lasting = named.filter(|(name, _)| !["result.json", "run.log"].contains(&name.as_str()));
+    lasting.map(|(name, path)| (name, std::fs::read(path).unwrap())).collect()
+}
+
+fn assert_same(text: &str, kinds: usize) -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    let deck = dir.path().join("deck.toml");
+    std::fs::write(&deck, text).unwrap();
+    let first = files(&deck, &dir.path().join("first"), "1");
+    assert!(first.len() >= kinds, "{:?}", first.keys());
+    assert!(first["nodes.csv"].len() > 1000);
+    for (run, threads) in [("again", "1"), ("two", "2"), ("three", "3")] {
+        let other = files(&deck, &dir.path().join(run), threads);
+        assert!(first.keys().eq(other.keys()));
+        for (name, bytes) in &first {
+            assert!(*bytes == other[name], "{name} differs on {threads} threads");
+        }
+    }
+    dir
+}
+
+const COMMON: &str = r#"
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+
+[sections.tube]
+shape = "tube"
+radius = 0.05
+thickness = 0.005
+
+[environment]
+gravity = [0.3, -1.0, -9.81]
+"#;
+
+/// A space frame of 9³ points. A beam of two elements per segment winds through all points along each axis: 1456 elements
+/// in a part, enough for threads to fill matrices, and a factorisation large enough for them.
+fn space_frame() -> String {
+    const N: usize = 9;
+    let mut deck = String::from(
+        "[analysis]\nkind = \"dynamic\"\nend_time = 0.02\ntime_step = 0.01\n\n[iteration]\nupdate = \"step\"\n",
+    );
+    deck += COMMON;
+    deck += "[points]\n";
+    let cells = || (0..N).flat_map(|i| (0..N).flat_map(move |j| (0..N).map(move |k| [i, j, k])));
+    for [i, j, k] in cells() {
+        let (x, y, z) = (i as f64 * 0.7, j as f64 * 0.8, k as f64 * 0.9);
+        let _ = writeln!(deck, "p{i}{j}{k} = [{x}, {y}, {}]", z + 0.02 * (x * 1.3).sin() * y);
+    }
+    for axis in 0..3 {
+        // Every other line, and every other sheet of lines, is walked backwards.
+        let back = |index: usize, turn: usize| if turn.is_multiple_of(2) { index } else { N - 1 - index };
+        let path: Vec<String> = cells()
+            .map(|[i, j, k]| {
+                let mut at = [back(k, i * N + j), back(j, i), i];
+                at.rotate_right(axis);
+                format!("\"p{}{}{}\"", at[0], at[1], at[2])
+            })
+            .collect();
+        let path = path.join(", ");
+        let _ = write!(
+            deck,
+            "\n[[beams]]\nname = \"beam{axis}\"\npath = [{path}]\nelements = 2\norder = 1\nmaterial = \"steel\"\n\
+             section = \"tube\"\norientation = [1.0, 1.1, 1.2]\n"
+        );
+    }
+    deck += "\n[[supports]]\nat = [\"p000\", \"p080\", \"p800\", \"p880\"]\nfix = \"all\"\n";
+    deck
+}
+
+#[test]
+fn a_large_frame() {
+    let folder = assert_same(&space_frame(), 3);
+    let plan = std::fs::read_to_string(folder.path().join("first/result.json")).unwrap();
+    assert!(plan.contains("Cholesky"), "threads take part in the factorisation too: {plan}");
+}
+
+#[test]
+fn a_small_scene_with_everything_written() {
+    let deck = r#"
+[analysis]
+kind = "dynamic"
+end_time = 0.2
+time_step = 0.002
+
+[points]
+clamp = [0.0, 0.0, 0.0]
+tip = [1.0, 0.2, 0.1]
+
+[[beams]]
+name = "beam"
+path = ["clamp", "tip"]
+elements = 3
+material = "steel"
+section = "tube"
+orientation = [0.0, 1.0, 0.0]
+
+[[bodies]]
+name = "block"
+center = [1.1, 0.05, 0.0]
+mass = 20.0
+inertia = [0.2, 0.1, 0.15]
+angular_velocity = [3.0, 1.0, 20.0]
+
+[[attachments]]
+body = "block"
+nodes = ["tip"]
+
+[[links]]
+name = "spring"
+from = { body = "block", point = [1.2, 0.0, 0.0] }
+to = { ground = [1.2, 0.0, -1.0] }
+stiffness = 1e4
+damping = 10.0
+
+[[supports]]
+at = "clamp"
+fix = "all"
+
+[output]
+nodes = "all"
+links = true
+reactions = true
+sections = true
+fields = { format = "vtu", every = 20 }
+"#;
+    // Tables of nodes, bodies, energy, links, reactions, sections, steps; the list of fields and six grids.
+    assert_same(&format!("{deck}{COMMON}"), 14);
+}
