@@ -51,7 +51,7 @@ impl fmt::Display for Failure {
             Failure::Singular { label, direction } => write!(
                 f,
                 "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
-                 a mechanism, or a bifurcation)"
+                 a mechanism, a bifurcation, or a motion beyond what the model can bear)"
             ),
             Failure::NotConverged { iterations, largest } => {
                 write!(f, "no convergence in {iterations} iterations; the largest unbalanced forces are")?;

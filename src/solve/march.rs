@@ -197,7 +197,12 @@ impl<'a> Run<'a> {
                 }
                 Err(failure) => {
                     let half = 0.5 * dt;
-                    if piece == 1 || half < self.stepper.model.analysis.least_step {
+                    // A structure that nothing holds is not helped by smaller loads.
+                    let analysis = &self.stepper.model.analysis;
+                    let unheld = analysis.kind == Kind::Static
+                        && state.time == 0.0
+                        && matches!(failure, Failure::Singular { .. });
+                    if piece == 1 || half < analysis.least_step || unheld {
                         return Err(Outcome::Failed { time: state.time, failure });
                     }
                     piece /= 2;

@@ -29,7 +29,7 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
     let mut out = vec![station(end, true, false)];
     if let Cadence::Interval(interval) = model.output.cadence {
         let count = (end / interval + 1e-9).floor() as usize;
-        out.extend((1..=count).map(|k| station(k as f64 * interval, true, false)));
+        out.extend((1..=count).map(|k| station(multiple(k, interval), true, false)));
     }
     for expect in &model.expects {
         if let When::Time(t) = expect.when {
@@ -62,4 +62,10 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
         from = stretch.to;
     }
     out
+}
+
+/// k times the interval, rounded once where the interval is one over a whole number: 0.009, not 0.009000000000000001.
+fn multiple(k: usize, interval: f64) -> f64 {
+    let per_unit = (1.0 / interval).round();
+    if (per_unit * interval - 1.0).abs() < 4.0 * f64::EPSILON { k as f64 / per_unit } else { k as f64 * interval }
 }
