@@ -248,6 +248,24 @@ fn r3() {
 }
 
 #[test]
+fn loads_that_jump_cost_no_order() {
+    // The two bodies on ground that is pushed from t = 1.03 to 2.17, off the grid of the steps. Against the finest steps.
+    let pushed = Scene {
+        sets: &[
+            "environment={base_acceleration=[{direction=[0.3,0.1,1.0],amplitude=\"push\",scale=5.0}]}",
+            "amplitudes={push={kind=\"step\",start=1.03,end=2.17}}",
+        ],
+        ..TWO_BODIES
+    };
+    println!("\n{} {}", pushed.deck, pushed.sets.join(" "));
+    let fine = pushed.model(pushed.interval / 512.0);
+    let fine = run_to_the_end(&fine, &mut (pushed.probe)(&fine)).rows;
+    let rungs = pushed.ladder_against(&fine, &[8, 16, 32, 64, 128]);
+    // As r3; carrying the old acceleration over the jump gives 1. The finest steps are a reference to 1/16 of the last rung.
+    assert_order(&rungs, 1.8, 2.3);
+}
+
+#[test]
 fn b1() {
     let rungs = RIGHT_ANGLE.ladder(&[1, 2, 4, 8, 16, 32]);
     // In the asymptotic range from the second rung on; the last one begins to see the mesh, which leaves 1e-5.
