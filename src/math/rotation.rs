@@ -32,18 +32,59 @@ impl RotationUpdate {
     }
 }
 
-/// Squared angle below which the coefficients come from their series; the terms kept leave 1e-16 there.
+/// Squared angle below which coefficients come from their series in θ². Every step of a resolved motion lies there.
 const SERIES: f64 = 0.25;
+
+/// Terms of the series: the first one left out is below 1e-16 of the sum.
+const TERMS: usize = 7;
+
+/// Coefficients of Σ (−x)^k/(2k + m)!.
+const fn alternating(m: usize) -> [f64; TERMS] {
+    let mut c = [0.0; TERMS];
+    let mut k = 0;
+    while k < TERMS {
+        let mut factorial = 1.0;
+        let mut i = 2;
+        while i <= 2 * k + m {
+            factorial *= i as f64;
+            i += 1;
+        }
+        c[k] = if k % 2 == 0 { 1.0 / factorial } else { -1.0 / factorial };
+        k += 1;
+    }
+    c
+}
+
+/// Coefficients of twice the derivative of Σ (−x)^k/(2k + m)!: its terms from the second on are those of m + 2, negative.
+const fn twice_derivative(m: usize) -> [f64; TERMS] {
+    let next = alternating(m + 2);
+    let mut c = [0.0; TERMS];
+    let mut k = 0;
+    while k < TERMS {
+        c[k] = -2.0 * (k + 1) as f64 * next[k];
+        k += 1;
+    }
+    c
+}
+
+const COSINE: [f64; TERMS] = alternating(0);
+const SINE: [f64; TERMS] = alternating(1);
+const C1: [f64; TERMS] = alternating(2);
+const C2: [f64; TERMS] = alternating(3);
+const D1: [f64; TERMS] = twice_derivative(2);
+const D2: [f64; TERMS] = twice_derivative(3);
+
+#[inline]
+fn polynomial<const N: usize>(c: &[f64; N], x: f64) -> f64 {
+    c.iter().rev().fold(0.0, |sum: f64, &c| sum.mul_add(x, c))
+}
 
 /// sin(θ/2)/θ and cos(θ/2) as functions of θ².
 #[inline]
 fn half_angle(t2: f64) -> (f64, f64) {
     if t2 < SERIES {
         let h = 0.25 * t2; // (θ/2)²
-        let s = 1.0 - h / 6.0 * (1.0 - h / 20.0 * (1.0 - h / 42.0 * (1.0 - h / 72.0 * (1.0 - h / 110.0))));
-        let c = 1.0
-            - h / 2.0 * (1.0 - h / 12.0 * (1.0 - h / 30.0 * (1.0 - h / 56.0 * (1.0 - h / 90.0 * (1.0 - h / 132.0)))));
-        (0.5 * s, c)
+        (0.5 * polynomial(&SINE, h), polynomial(&COSINE, h))
     } else {
         let t = t2.sqrt();
         let (s, c) = (0.5 * t).sin_cos();
@@ -99,21 +140,7 @@ pub fn renormalise(q: &Quaternion<f64>) -> Quaternion<f64> {
 #[inline]
 fn coefficients(t2: f64) -> (f64, f64, f64, f64) {
     if t2 < SERIES {
-        let c1 =
-            0.5 * (1.0 - t2 / 12.0 * (1.0 - t2 / 30.0 * (1.0 - t2 / 56.0 * (1.0 - t2 / 90.0 * (1.0 - t2 / 132.0)))));
-        let c2 = 1.0 / 6.0
-            * (1.0 - t2 / 20.0 * (1.0 - t2 / 42.0 * (1.0 - t2 / 72.0 * (1.0 - t2 / 110.0 * (1.0 - t2 / 156.0)))));
-        let d1 = -1.0 / 12.0
-            * (1.0
-                - t2 / 15.0
-                    * (1.0
-                        - t2 * 3.0 / 112.0
-                            * (1.0 - t2 * 2.0 / 135.0 * (1.0 - t2 * 5.0 / 528.0 * (1.0 - t2 * 3.0 / 455.0)))));
-        let d2 = -1.0 / 60.0
-            * (1.0
-                - t2 / 21.0
-                    * (1.0 - t2 / 48.0 * (1.0 - t2 * 2.0 / 165.0 * (1.0 - t2 * 5.0 / 624.0 * (1.0 - t2 / 175.0)))));
-        (c1, c2, d1, d2)
+        (polynomial(&C1, t2), polynomial(&C2, t2), polynomial(&D1, t2), polynomial(&D2, t2))
     } else {
         let t = t2.sqrt();
         let (s, c) = t.sin_cos();
@@ -148,20 +175,22 @@ pub fn inverse_tangent(theta: &Vec3, dtheta: &Vec3) -> Vec3 {
     dtheta - 0.5 * txd + inverse_coefficient(theta.norm_squared()) * theta.cross(&txd)
 }
 
+/// Coefficients of (1 − (θ/2) cot(θ/2))/θ² = Σ |B₂ₙ|/(2n)! θ²ⁿ⁻², B the Bernoulli numbers.
+const INVERSE: [f64; TERMS] = [
+    1.0 / 12.0,
+    1.0 / 720.0,
+    1.0 / 30_240.0,
+    1.0 / 1_209_600.0,
+    1.0 / 47_900_160.0,
+    691.0 / 1_307_674_368_000.0,
+    1.0 / 74_724_249_600.0,
+];
+
 /// (1 − (θ/2) cot(θ/2))/θ².
 #[inline]
 fn inverse_coefficient(t2: f64) -> f64 {
     if t2 < SERIES {
-        1.0 / 12.0
-            * (1.0
-                + t2 / 60.0
-                    * (1.0
-                        + t2 / 42.0
-                            * (1.0
-                                + t2 / 40.0
-                                    * (1.0
-                                        + t2 * 5.0 / 198.0
-                                            * (1.0 + t2 * 691.0 / 27300.0 * (1.0 + t2 * 35.0 / 1382.0))))))
+        polynomial(&INVERSE, t2)
     } else {
         let h = 0.5 * t2.sqrt();
         (1.0 - h / h.tan()) / t2
@@ -181,12 +210,8 @@ pub fn inverse_tangent_transpose_derivative(theta: &Vec3, m: &Vec3) -> Mat3 {
     let c = inverse_coefficient(t2);
     // dc/d(½θ²), by its series or from c = (1 − h cot h)/θ², h = θ/2.
     let dc = if t2 < SERIES {
-        1.0 / 360.0
-            * (1.0
-                + t2 / 21.0
-                    * (1.0
-                        + t2 * 3.0 / 80.0
-                            * (1.0 + t2 * 10.0 / 297.0 * (1.0 + t2 * 691.0 / 21840.0 * (1.0 + t2 * 21.0 / 691.0)))))
+        let terms: [f64; TERMS - 1] = std::array::from_fn(|k| 2.0 * (k + 1) as f64 * INVERSE[k + 1]);
+        polynomial(&terms, t2)
     } else {
         let h = 0.5 * t2.sqrt();
         let (s, cos) = h.sin_cos();
