@@ -4,8 +4,29 @@
 //!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
 //!           words     meaning    machine   motion     files
 //!  below them, used by them, knowing nothing of them:
-//!  constraints  elements  integrators  │  state  sections  amplitude  linear  │  math  names  diagnostic
+//!  system │ constraints  elements  integrators │ state  sections  amplitude  linear │ math  names  diagnostic
 //! ```
+//!
+//! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
+//! changes when a step is accepted; all else that is written to lives in the step's own scratch. Everything moves as
+//! nodes: a rigid body is a node with inertia, an element sees nodes only, and what it does to a node that rides on a body
+//! is handed to the body in one place, [`system::assembly`]. A scheme is a handful of numbers,
+//! [`integrators::Coefficients`].
+//!
+//! Formulas and code share their symbols; "(58)" is equation 58 of Rojek & Kleiber, Nonlinear dynamic FE analysis of
+//! structures consisting of rigid and deformable parts, Part I (1993).
+//!
+//! | Thing | In formulas | In code |
+//! |---|---|---|
+//! | position, rotation vector of a step | x, Θ | `x`, `theta` |
+//! | rotation from the undeformed state | R, quaternion q | `R()`, `q` |
+//! | velocity, angular; accelerations | v, ω; a, α | `v`, `omega`; `a`, `alpha` |
+//! | increment of a step and its rates | q, q̇, q̈ | `q`, `d`, `dd` |
+//! | tangent, mass, inertia in the body and now | K, m, J₀, J | `K`, `mass`, `J0`, `J` |
+//! | arm, constraint map | S, D | `S`, `D` |
+//! | strains, stress resultants, section stiffness | Γ, κ; n, m; C | `gamma`, `kappa`; `n`, `m`; `C` |
+//!
+//! A vector without a suffix is global.
 
 pub mod amplitude;
 pub mod command;
