@@ -104,13 +104,13 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
             acts[damping.node][dof] |= if dof < 3 { damping.translation > 0.0 } else { damping.rotation > 0.0 };
         }
     }
-    let masses = system.inertias.iter().map(|i| (i.node, i.rotary));
-    let massive: Vec<(usize, bool)> = masses.collect();
+    // Per node: whether it has mass, and whether that has inertia.
+    let mut massive = vec![None; n];
+    system.inertias.iter().for_each(|i| massive[i.node] = Some(i.rotary));
     // What acts on a rider acts on its master; a force at an arm turns it.
     for rider in system.attachments.iter().rev() {
-        let carries = massive.iter().find(|(node, _)| *node == rider.node);
         for dof in (0..6).filter(|&d| rider.dofs[d]) {
-            let heavy = carries.is_some_and(|&(_, rotary)| dof < 3 || rotary);
+            let heavy = massive[rider.node].is_some_and(|rotary| dof < 3 || rotary);
             if !(acts[rider.node][dof] || heavy) {
                 continue;
             }
