@@ -102,3 +102,21 @@ fn spin_is_no_cause_in_statics() {
     let sunk = run(&m).last().nodes[block].x.z;
     assert!((sunk + 0.1).abs() < 1e-14, "{sunk}");
 }
+
+/// Driven about x, free about y: J turns, so the scene is not linear. A follower of 1e-13 makes it iterate in any case.
+#[test]
+fn a_driven_body_with_one_free_rotation_is_iterated() {
+    let scene = |moment: f64| {
+        let mut rng = StdRng::seed_from_u64(73);
+        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        let block = body(&mut m, Vec3::zeros(), 1.0, inertia(&mut rng, 1.0));
+        fix(&mut m, block, [0, 1, 2, 5]);
+        drive(&mut m, block, 3, SWING, 2.0);
+        if moment > 0.0 {
+            push(&mut m, block, Vec3::zeros(), Vec3::y() * moment, true, None);
+        }
+        run(&m).last().nodes[block]
+    };
+    let (plain, pushed) = (scene(0.0), scene(1e-13));
+    assert!((plain.omega - pushed.omega).norm() < 1e-9, "{} for {}", plain.omega, pushed.omega);
+}
