@@ -246,6 +246,10 @@ fn decks_that_make_no_sense_are_errors_in_their_own_words() {
     let load = "\n[[loads]]\nat = \"lone\"\nforce = [1.0, 0.0, 0.0]\n";
     run(format!("{time}{lone}{CLAMP}{load}"))
         .assert(3, &["nothing is connected to `lone`, so this load acts on nothing"]);
+    let shake = "\n[environment]\nbase_acceleration = [{ direction = [0.0, 0.0, 1.0], amplitude = \"one\" }]\n\
+                 [amplitudes.one]\nkind = \"constant\"\n";
+    let light = strip("").replace("density = 7850.0\n", "");
+    run(format!("{STATIC}{light}{CLAMP}{shake}")).assert(3, &["material `steel` has no density"]);
     run(format!("{}{}{CLAMP}", dynamic(0.1, 1e-300), strip(""))).assert(3, &["`time_step` asks for 1.0e299 steps"]);
     let often = "\n[output]\ninterval = 1e-12\n";
     run(format!("{time}{}{CLAMP}{often}", strip(""))).assert(3, &["`interval` asks for 1.0e11 rows"]);

@@ -223,9 +223,13 @@ impl<'d> Builder<'d> {
         Some((modulus * area?, density * area?))
     }
 
-    /// Whether a deformable part must have a mass: in dynamics, and where gravity pulls.
+    /// Whether a deformable part must have a mass: in dynamics, and where gravity pulls or the ground accelerates.
     pub fn needs_mass(&self, mass: MassKind) -> bool {
-        let pulled = self.deck.environment.as_ref().is_some_and(|environment| environment.gravity.is_some());
+        let pulled = self
+            .deck
+            .environment
+            .as_ref()
+            .is_some_and(|environment| environment.gravity.is_some() || !environment.base_acceleration.is_empty());
         mass != MassKind::None && (self.model.analysis.kind == Kind::Dynamic || pulled)
     }
 }

@@ -61,8 +61,14 @@ impl Plan {
         let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect() };
         let kind = choose::kind(&structure);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
-        let turns = |node: usize| (3..6).filter(|&d| nodes[node][d] == place::Why::Unknown).count() > 1;
-        let linear = system.is_linear() && !system.inertias.iter().any(|i| turns(i.node));
+        let mut driven = vec![[false; 6]; nodes.len()];
+        model.held.iter().filter(|held| held.motion.is_some()).for_each(|held| driven[held.node][held.dof] = true);
+        let count = |of: &dyn Fn(usize) -> bool| (3..6).filter(|&dof| of(dof)).count();
+        let turns = |node: usize| {
+            let unknown = count(&|dof| nodes[node][dof] == place::Why::Unknown);
+            unknown > 0 && unknown + count(&|dof| driven[node][dof]) > 1
+        };
+        let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
         Plan {
             unknowns: directions.len(),
             refresh_cost: choose::refresh_cost(kind),

@@ -3,7 +3,7 @@
 use super::Omission;
 use crate::elements::Block;
 use crate::math::{Mat3, Vec3, skew};
-use crate::model::{LinkKind, Model};
+use crate::model::{Kind, LinkKind, Model};
 use crate::system::System;
 
 /// Why a direction is what it is.
@@ -104,13 +104,13 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
             acts[damping.node][dof] |= if dof < 3 { damping.translation > 0.0 } else { damping.rotation > 0.0 };
         }
     }
-    let masses = system.inertias.iter().map(|i| (i.node, i.rotary));
-    let massive: Vec<(usize, bool)> = masses.collect();
+    // Per node: whether it has mass, and whether that has inertia.
+    let mut massive = vec![None; n];
+    system.inertias.iter().for_each(|i| massive[i.node] = Some(i.rotary));
     // What acts on a rider acts on its master; a force at an arm turns it.
     for rider in system.attachments.iter().rev() {
-        let carries = massive.iter().find(|(node, _)| *node == rider.node);
         for dof in (0..6).filter(|&d| rider.dofs[d]) {
-            let heavy = carries.is_some_and(|&(_, rotary)| dof < 3 || rotary);
+            let heavy = massive[rider.node].is_some_and(|rotary| dof < 3 || rotary);
             if !(acts[rider.node][dof] || heavy) {
                 continue;
             }
@@ -137,6 +137,7 @@ fn reach(block: &dyn Block, e: usize) -> [bool; 6] {
 
 /// Directions of masses that something can set moving.
 fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 6]> {
+    let dynamic = model.analysis.kind == Kind::Dynamic;
     let mut moved = resisted.to_vec();
     for load in &model.loads {
         for i in 0..3 {
@@ -144,20 +145,49 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
             moved[load.node][3 + i] |= load.follower || load.moment[i] != 0.0;
         }
     }
+    for held in model.held.iter().filter(|held| held.motion.is_some()) {
+        moved[held.node][held.dof] = true;
+    }
     let mut field = model.gravity.map(f64::abs);
     for base in &model.base_accelerations {
         field += base.direction.map(f64::abs);
     }
+    // Rotations of a mass about the three axes act on one another; in statics there is no inertia to do so.
+    let turn = |moved: &mut [bool; 6]| {
+        if dynamic && moved[3..6].contains(&true) {
+            moved[3..6].fill(true);
+        }
+    };
     for inertia in &system.inertias {
         let node = &model.nodes[inertia.node];
         let moved = &mut moved[inertia.node];
         for i in 0..3 {
-            moved[i] |= field[i] != 0.0 || node.v[i] != 0.0;
-            moved[3 + i] |= node.omega[i] != 0.0;
+            moved[i] |= field[i] != 0.0 || dynamic && node.v[i] != 0.0;
+            moved[3 + i] |= dynamic && node.omega[i] != 0.0;
         }
-        // Rotations about the three axes act on one another.
-        if moved[3..6].contains(&true) {
-            moved[3..6].fill(true);
+    }
+    // What moves a rider moves its master; at an arm it turns it.
+    for rider in system.attachments.iter().rev() {
+        let of_rider = moved[rider.node];
+        for dof in (0..6).filter(|&d| rider.dofs[d] && of_rider[d]) {
+            moved[rider.master][dof] = true;
+            if dof < 3 && rider.S0 != Vec3::zeros() {
+                moved[rider.master][3..6].fill(true);
+            }
+        }
+    }
+    let mut rotary = vec![false; moved.len()];
+    for inertia in &system.inertias {
+        rotary[inertia.node] = inertia.rotary;
+        turn(&mut moved[inertia.node]);
+    }
+    // A master that turns takes along what rides, and by inertia the rotations that this one has of its own.
+    for rider in &system.attachments {
+        for dof in (3..6).filter(|&d| rider.dofs[d]) {
+            moved[rider.node][dof] |= moved[rider.master][dof];
+        }
+        if rotary[rider.node] {
+            turn(&mut moved[rider.node]);
         }
     }
     moved

@@ -85,7 +85,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// At a jump of the loads velocities go on and accelerations jump by M Δa = Δf; without this the scheme would carry
+    /// At a jump of the loads velocities go on, accelerations jump by M Δa = Δf and reactions with them; without this the scheme would carry
     /// the old acceleration into the next step and lose an order.
     ///
     /// # Errors
@@ -105,6 +105,13 @@ impl Stepper<'_> {
         }
         self.accelerate(state)?;
         self.refresh.rejected();
+        if self.wants_forces {
+            // Reactions jump too, by what the new accelerations leave of the new loads.
+            self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+            for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
+                *reaction -= self.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
+            }
+        }
         Ok(())
     }
 

@@ -65,12 +65,17 @@ impl<'a> Drive<'a> {
         }
     }
 
-    /// Motion of the held directions at time t, in the model's order.
+    /// Motion of the held directions at time t, in the model's order. A static analysis has places but no rates, or
+    /// dampers would act in it.
     pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {
+        let dynamic = self.model.analysis.kind == Kind::Dynamic;
         out.clear();
         out.extend(self.model.held.iter().map(|held: &Held| match &held.motion {
             None => Prescribed::default(),
-            Some(motion) => prescribed(motion, &self.model.amplitudes[motion.amplitude], t),
+            Some(motion) => {
+                let given = prescribed(motion, &self.model.amplitudes[motion.amplitude], t);
+                if dynamic { given } else { Prescribed { u: given.u, ..Prescribed::default() } }
+            }
         }));
     }
 }

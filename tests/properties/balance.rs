@@ -3,6 +3,7 @@
 use crate::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
+use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{Kind, LinkKind, MassKind, Model, Update};
 use rdsolve::system::energy::Energy;
@@ -109,5 +110,20 @@ fn static_reactions_balance_the_loads() {
         }
         eprintln!("force {:e} moment {:e}", force.norm() / size, moment.norm() / size);
         assert!(force.norm() < 1e-12 * size && moment.norm() < 1e-12 * size, "{force} {moment}");
+    }
+}
+
+/// A body on a rail is pushed sideways and along from one instant on: from then on the rail carries the whole push.
+#[test]
+fn reactions_jump_with_the_loads() {
+    let mut m = empty(Kind::Dynamic, 0.5, 0.05);
+    let block = body(&mut m, Vec3::zeros(), 2.0, Mat3::identity());
+    fix(&mut m, block, [0, 1]);
+    m.amplitudes.push(Amplitude::Step { start: 0.2, end: f64::INFINITY });
+    push(&mut m, block, Vec3::new(0.0, 10.0, 1.0), Vec3::zeros(), false, Some(0));
+    for state in run(&m).states {
+        // At the jump itself the step before it ends.
+        let push = if state.time > 0.21 { 10.0 } else { 0.0 };
+        assert!((state.reactions[1] + push).abs() < 1e-12, "{} at t = {}", state.reactions[1], state.time);
     }
 }

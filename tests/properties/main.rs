@@ -8,5 +8,6 @@ mod energy;
 mod equivalence;
 mod motion;
 mod objectivity;
+mod omission;
 mod spinning;
 mod tangent;

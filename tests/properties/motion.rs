@@ -128,3 +128,20 @@ fn a_driven_hub_carries_its_arm() {
     eprintln!("reactions of the driven hub: {errors:?}");
     assert!(errors[1] < 1e-3 && order(errors[0], errors[1]) > 1.8, "{errors:?}");
 }
+
+/// A support moves one end of a chain of two equal springs, one with a damper: the point between goes half the way.
+#[test]
+fn dampers_do_not_act_in_statics() {
+    let mut m = empty(Kind::Static, 1.0, 0.25);
+    let [a, b, c] = [0.0, 1.0, 2.0].map(|x| node(&mut m, Vec3::x() * x));
+    spring(&mut m, [a, b], 100.0, 0.0);
+    spring(&mut m, [b, c], 100.0, 50.0);
+    fix(&mut m, a, 0..3);
+    fix(&mut m, b, 1..3);
+    fix(&mut m, c, 1..3);
+    drive(&mut m, c, 0, Amplitude::Ramp { start: 0.0, end: 1.0 }, 0.1, History::Displacement);
+    for state in run(&m).states {
+        let [b, c] = [b, c].map(|n| state.nodes[n].x.x);
+        assert!((b - 0.5 * c).abs() < 1e-13, "{b} for {}", 0.5 * c);
+    }
+}
