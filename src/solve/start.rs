@@ -57,6 +57,13 @@ impl Stepper<'_> {
                 node.alpha[held.dof - 3] = given.a;
             }
         }
+        // Where a given motion starts turned, riders start turned in the directions that ride.
+        for rider in &self.system.attachments {
+            let turn = rotation::log(&state.nodes[rider.master].q);
+            let riding = Vec3::from_fn(|i, _| if rider.dofs[3 + i] { turn[i] } else { 0.0 });
+            let node = &mut state.nodes[rider.node];
+            node.q = rotation::exp(&riding) * node.q;
+        }
         self.follow(&mut state);
         self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
         if dynamic {

@@ -49,8 +49,12 @@ impl System {
             }
             Watched::Bushing(bushing) => {
                 let (d, rate, f, m) = bushing.state(nodes);
-                let B = nodes[bushing.nodes[0]].R() * bushing.axes;
-                LinkState { elongation: d.x, rate, force: f.x, f: B * f, m: B * m }
+                let [first, second] = bushing.nodes.map(|n| &nodes[n]);
+                let B = first.R() * bushing.axes;
+                // Force and moment act at the second end; across the distance of the ends the force turns the first.
+                let f_global = B * f;
+                let m = B * m + (second.x - first.x).cross(&f_global);
+                LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
             }
         }));
     }

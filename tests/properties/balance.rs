@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Kind, LinkKind, MassKind, Model, Update};
+use rdsolve::model::{Kind, Link, LinkKind, MassKind, Model, Update};
 use rdsolve::system::energy::Energy;
 use rdsolve::system::{Forces, Loading, System};
 
@@ -125,5 +125,26 @@ fn reactions_jump_with_the_loads() {
         // At the jump itself the step before it ends.
         let push = if state.time > 0.21 { 10.0 } else { 0.0 };
         assert!((state.reactions[1] + push).abs() < 1e-12, "{} at t = {}", state.reactions[1], state.time);
+    }
+}
+
+/// What links.csv says a bushing does to its first end is what the ground there must bear, also across a distance.
+#[test]
+fn bushings_tell_the_moment_at_their_first_end() {
+    let mut m = empty(Kind::Static, 1.0, 0.5);
+    let ground = node(&mut m, Vec3::zeros());
+    let block = body(&mut m, Vec3::new(1.0, 0.5, 0.0), 1.0, Mat3::identity());
+    fix(&mut m, ground, 0..6);
+    let stiffness = [1e3, 2e3, 3e3, 100.0, 200.0, 300.0];
+    let kind = LinkKind::Bushing { stiffness, damping: [0.0; 6], axes: Mat3::identity() };
+    m.links.push(Link { name: "mount".into(), ends: [ground, block], kind });
+    push(&mut m, block, Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.1, 0.2, 0.3), false, None);
+    let state = run(&m).last().clone();
+    let mut links = Vec::new();
+    System::new(&m).unwrap().link_states(&state.nodes, &mut links);
+    let link = links[0];
+    let felt = [link.f.x, link.f.y, link.f.z, link.m.x, link.m.y, link.m.z];
+    for (reaction, felt) in state.reactions.iter().zip(felt) {
+        assert!((reaction + felt).abs() < 1e-10, "{reaction} for {felt}");
     }
 }

@@ -145,3 +145,22 @@ fn dampers_do_not_act_in_statics() {
         assert!((b - 0.5 * c).abs() < 1e-13, "{b} for {}", 0.5 * c);
     }
 }
+
+/// A hub that is turned from the start on turns what rides on it in that direction, whether the rest rides or not.
+#[test]
+fn riders_start_turned_with_their_masters() {
+    let mut m = empty(Kind::Dynamic, 0.02, 0.01);
+    let hub = body(&mut m, Vec3::zeros(), 1.0, Mat3::identity());
+    fix(&mut m, hub, [0, 1, 2, 3, 5]);
+    drive(&mut m, hub, 4, Amplitude::Constant, 0.5, History::Displacement);
+    for dofs in [ALL, [true, true, true, true, true, false]] {
+        let p = body(&mut m, Vec3::x(), 1.0, Mat3::identity());
+        ride(&mut m, p, hub, dofs);
+    }
+    for state in run(&m).states {
+        for node in &state.nodes {
+            let turn = rotation::log(&node.q);
+            assert!((turn - Vec3::y() * 0.5).norm() < 1e-14, "{turn}");
+        }
+    }
+}
