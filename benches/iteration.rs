@@ -140,7 +140,16 @@ fn main() {
     let decks: Vec<String> = std::env::args().skip(1).filter(|argument| argument.ends_with(".toml")).collect();
     println!(
         "{:24} {:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11} matrix   (microseconds)",
-        "scene", "unknowns", "force", "tangent", "factor", "solve", "all four", "force+solve", "run, new K", "run, old K"
+        "scene",
+        "unknowns",
+        "force",
+        "tangent",
+        "factor",
+        "solve",
+        "all four",
+        "force+solve",
+        "run, new K",
+        "run, old K"
     );
     if decks.is_empty() {
         for order in 1..=4 {

@@ -1,5 +1,7 @@
 //! Dense blocks of fixed size, column by column, written so that the compiler keeps them in vector registers.
 
+use crate::math::fma;
+
 use super::VANISHED;
 
 /// `block[col][row]`.
@@ -11,7 +13,7 @@ pub(super) type Column<const B: usize> = [f64; B];
 pub(super) fn subtract_times<const B: usize>(y: &mut Column<B>, A: &Block<B>, x: &Column<B>) {
     for k in 0..B {
         for i in 0..B {
-            y[i] = A[k][i].mul_add(-x[k], y[i]);
+            y[i] = fma(A[k][i], -x[k], y[i]);
         }
     }
 }
@@ -22,7 +24,7 @@ pub(super) fn times<const B: usize>(A: &Block<B>, x: &Column<B>) -> Column<B> {
     let mut y = [0.0; B];
     for k in 0..B {
         for i in 0..B {
-            y[i] = A[k][i].mul_add(x[k], y[i]);
+            y[i] = fma(A[k][i], x[k], y[i]);
         }
     }
     y
@@ -35,7 +37,7 @@ pub(super) fn product<const B: usize>(A: &Block<B>, X: &Block<B>) -> Block<B> {
     for k in 0..B {
         for j in 0..B {
             for i in 0..B {
-                Y[j][i] = A[k][i].mul_add(X[j][k], Y[j][i]);
+                Y[j][i] = fma(A[k][i], X[j][k], Y[j][i]);
             }
         }
     }
@@ -113,7 +115,7 @@ fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) 
     for column in M.iter_mut() {
         let t = column[k] * inverse;
         for i in 0..LANES {
-            column[i] = factor[i].mul_add(t, column[i] * others[i]);
+            column[i] = fma(factor[i], t, column[i] * others[i]);
         }
     }
     M[k] = factor.map(|a| a * inverse);

@@ -8,6 +8,12 @@ pub type Mat3 = nalgebra::Matrix3<f64>;
 pub type Vec6 = nalgebra::Vector6<f64>;
 pub type Mat6 = nalgebra::Matrix6<f64>;
 
+/// a b + c, in one instruction where the processor has it and never by a library call where it has not.
+#[inline(always)]
+pub fn fma(a: f64, b: f64, c: f64) -> f64 {
+    if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
+}
+
 /// The matrix of the vector product: `skew(a) b = a × b` (20).
 #[inline]
 pub fn skew(a: &Vec3) -> Mat3 {

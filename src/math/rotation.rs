@@ -3,7 +3,7 @@
 //! A rotation vector Θ stands for R = exp(Θ~). Along a motion Θ(t) the spatial angular velocity and acceleration are
 //! ω = T Θ̇ and α = T Θ̈ + Ṫ Θ̇ with T = I + c₁ Θ~ + c₂ Θ~Θ~.
 
-use super::{Mat3, Vec3};
+use super::{Mat3, Vec3, fma};
 use nalgebra::Quaternion;
 
 /// How a node's rotation follows from the rotation vector of a step.
@@ -76,7 +76,7 @@ const D2: [f64; TERMS] = twice_derivative(3);
 
 #[inline]
 fn polynomial<const N: usize>(c: &[f64; N], x: f64) -> f64 {
-    c.iter().rev().fold(0.0, |sum: f64, &c| sum.mul_add(x, c))
+    c.iter().rev().fold(0.0, |sum, &c| fma(sum, x, c))
 }
 
 /// sin(θ/2)/θ and cos(θ/2) as functions of θ².

@@ -22,7 +22,8 @@ use crate::sections::Stiffness;
 use crate::state::Node;
 use quaternion::{Quat, dot, left, right, right_unit, rotation, times_conjugate};
 
-/// Degree of the elements where the deck does not say. See scripts/beam_order.sh for the measurements behind it.
+/// Degree of the elements where the deck does not say. `scripts/speed.py --orders` measures it: orders 3 and 4 reach a given
+/// error in about the same time, within a factor of two either way, and leave 1 and 2 far behind below an error of 1e-2.
 pub const DEFAULT_ORDER: usize = 3;
 
 /// Lagrange polynomials of the Lobatto points at the Gauss points: `value[g][a]`, `slope[g][a]` (per unit of ξ).

@@ -3,7 +3,7 @@
 
 use super::quaternion::{dot, left, multiply, right, right_unit, rotation_columns, times_conjugate};
 use super::{Beams, Point, Rate, Section, StrainMatrix, strain_matrix};
-use crate::math::{Mat3, Vec3, skew};
+use crate::math::{Mat3, Vec3, fma, skew};
 use crate::state::Node;
 
 /// A row over z: p in 0..4, p′ in 4..8, r′ in 8..11, one place unused.
@@ -14,7 +14,7 @@ type Pair = [[f64; 8]; 7];
 #[inline(always)]
 fn add<const L: usize>(y: &mut [f64; L], s: f64, x: &[f64; L]) {
     for k in 0..L {
-        y[k] += s * x[k];
+        y[k] = fma(s, x[k], y[k]);
     }
 }
 
@@ -33,8 +33,8 @@ fn spread<const N: usize>(h: &[Row; 11], w: f64, value: &[f64; N], slope: &[f64;
         for b in 0..N {
             for (out, row) in pairs[a][b].iter_mut().zip(&half) {
                 for k in 0..4 {
-                    out[k] += value[b] * row[k] + slope[b] * row[4 + k];
-                    out[4 + k] += slope[b] * row[8 + k];
+                    out[k] = fma(value[b], row[k], fma(slope[b], row[4 + k], out[k]));
+                    out[4 + k] = fma(slope[b], row[8 + k], out[4 + k]);
                 }
             }
         }
@@ -44,13 +44,14 @@ fn spread<const N: usize>(h: &[Row; 11], w: f64, value: &[f64; N], slope: &[f64;
 /// BᵀX for strain rows B and X.
 #[inline(always)]
 fn transpose_product(B: &[Row; 6], X: &[Row; 6]) -> [Row; 11] {
-    let mut h = [[0.0; 12]; 11];
-    for i in 0..6 {
-        for k in 0..11 {
-            add(&mut h[k], B[i][k], &X[i]);
+    // Row by row: a row stays in registers while it is summed.
+    std::array::from_fn(|k| {
+        let mut row = [0.0; 12];
+        for i in 0..6 {
+            add(&mut row, B[i][k], &X[i]);
         }
-    }
-    h
+        row
+    })
 }
 
 impl Section {
@@ -212,6 +213,8 @@ impl<const N: usize> Beams<N> {
             }
         }
         let E = q.map(|q| rotation_columns(&q));
+        // The same with δθ along the row, one place unused.
+        let columns = E.map(|e| std::array::from_fn::<[f64; 4], 4, _>(|k| [e[0][k], e[1][k], e[2][k], 0.0]));
         for a in 0..N {
             for b in 0..N {
                 let P = &pairs[a][b];
@@ -224,11 +227,13 @@ impl<const N: usize> Beams<N> {
                     }
                 }
                 for (i, row) in rows.iter().enumerate() {
-                    let at = (6 * a + i) * 6 * N + 6 * b;
-                    for j in 0..3 {
-                        K[at + j] = row[4 + j];
-                        K[at + 3 + j] = dot(&[row[0], row[1], row[2], row[3]], &E[b][j]);
+                    let mut turn = [0.0; 4];
+                    for k in 0..4 {
+                        add(&mut turn, row[k], &columns[b][k]);
                     }
+                    let at = (6 * a + i) * 6 * N + 6 * b;
+                    K[at..at + 3].copy_from_slice(&row[4..7]);
+                    K[at + 3..at + 6].copy_from_slice(&turn[..3]);
                 }
             }
             // δ(½ vec(G q̄_a)) at fixed G = −¼ (s₀ δθ + s × δθ), s = G q̄_a.
