@@ -28,7 +28,8 @@ pub struct Link {
     pub preload: Maybe<f64>,
     /// Length without force, or projection without force along `direction`. Default: as the ends lie at t = 0.
     pub free_length: Maybe<f64>,
-    /// Fixed global direction from `from` to `to`, for coincident points; otherwise along the line between them.
+    /// Fixed global direction from `from` to `to`, for coincident points and for bumpers; otherwise along the line between
+    /// them, which turns round when one point passes the other.
     pub direction: Maybe<Vector>,
     /// [[elongation, force], ...]: table.
     pub points: Maybe<Vec<At<Numbers<2>>>>,

@@ -81,6 +81,9 @@ impl Files {
     /// Creates the folder and its files; with `keep_to`, goes on with those of a run interrupted after that step.
     pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Files> {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
+        if keep_to.is_none() {
+            remove_stale(dir)?;
+        }
         let asked = &model.output;
         let mut formats = Vec::new();
         let mut table = |asked: bool, format: fn(Table) -> Format, name: &str, header: String| {
@@ -127,6 +130,30 @@ pub fn wanted(model: &Model) -> Wanted {
     }
 }
 
+/// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.
+fn remove_stale(dir: &Path) -> io::Result<()> {
+    const OURS: [&str; 10] = [
+        "nodes.csv",
+        "bodies.csv",
+        "energy.csv",
+        "links.csv",
+        "reactions.csv",
+        "sections.csv",
+        "steps.csv",
+        "fields.csv",
+        "fields.pvd",
+        "result.json",
+    ];
+    for entry in fs::read_dir(dir).map_err(|e| at(dir, e))? {
+        let path = entry.map_err(|e| at(dir, e))?.path();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        if OURS.contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu")) {
+            fs::remove_file(&path).map_err(|e| at(&path, e))?;
+        }
+    }
+    Ok(())
+}
+
 /// The error with the file it is about.
 fn at(path: &Path, error: io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
@@ -137,4 +164,21 @@ fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
     let mut name = path.as_os_str().to_owned();
     name.push(".tmp");
     fs::write(&name, text).and_then(|()| fs::rename(&name, path)).map_err(|e| at(path, e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_results_of_an_earlier_run_go() {
+        let dir = tempfile::tempdir().unwrap();
+        for name in ["links.csv", "fields_000010.vtu", "notes.txt", "my_nodes.csv"] {
+            fs::write(dir.path().join(name), "old").unwrap();
+        }
+        remove_stale(dir.path()).unwrap();
+        let mut left: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+        left.sort();
+        assert_eq!(left, ["my_nodes.csv", "notes.txt"]);
+    }
 }
