@@ -145,7 +145,12 @@ fn remove_stale(dir: &Path) -> io::Result<()> {
         "result.json",
     ];
     for entry in fs::read_dir(dir).map_err(|e| at(dir, e))? {
-        let path = entry.map_err(|e| at(dir, e))?.path();
+        let entry = entry.map_err(|e| at(dir, e))?;
+        let path = entry.path();
+        // A link was put there by somebody.
+        if !entry.file_type().map_err(|e| at(&path, e))?.is_file() {
+            continue;
+        }
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         if OURS.contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu")) {
             fs::remove_file(&path).map_err(|e| at(&path, e))?;

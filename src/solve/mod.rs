@@ -1,5 +1,6 @@
 //! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 
+mod convergence;
 mod failure;
 mod march;
 mod refresh;

@@ -1,5 +1,6 @@
 //! When the matrix is formed and factorised anew.
 
+use super::convergence::Judgement;
 use crate::model::Update;
 
 /// Decides from counts and contraction alone, never from the clock, so that the same deck takes the same path.
@@ -66,9 +67,9 @@ impl Refresh {
         self.wanted = false;
     }
 
-    /// After a correction whose size is `contraction` times that of the last one, with `remaining` iterations to go at
-    /// that rate. `fresh`: the matrix was formed in this step.
-    pub fn watch(&mut self, fresh: bool, contraction: f64, remaining: f64) -> Advice {
+    /// After a correction that was judged against another of the same step. `fresh`: the matrix was formed in this step.
+    pub fn watch(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
+        let contraction = judgement.contraction;
         if self.update == Update::Never && contraction < 1.0 {
             return Advice::GoOn;
         }
@@ -78,7 +79,7 @@ impl Refresh {
             self.patience = (2 * self.patience).min(64);
             return Advice::Restart;
         }
-        self.wanted = contraction > 0.9 || (self.update == Update::Auto && remaining > 1.0 + self.cost);
+        self.wanted = contraction > 0.9 || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
         Advice::GoOn
     }
 

@@ -1,5 +1,6 @@
 //! One step: predict, then residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
 
+use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::refresh::{Advice, Refresh};
 use crate::integrators::{Coefficients, Scheme, load_steps};
@@ -76,9 +77,8 @@ impl<'a> Stepper<'a> {
         let scheme = self.coefficients(dt);
         self.give(state.time, to, scheme.instant);
         self.predict(state, &scheme);
-        let tolerance = self.model.iteration.tolerance;
         let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
-        let mut last = (f64::INFINITY, f64::INFINITY);
+        let mut convergence = Convergence::new(self.model.iteration.tolerance, self.plan.linear);
         let mut limit = self.model.iteration.limit;
         loop {
             self.move_trial(state, &scheme);
@@ -88,7 +88,7 @@ impl<'a> Stepper<'a> {
                 if !self.once_more(state, &scheme) {
                     return Err(self.not_finite());
                 }
-                last = (f64::INFINITY, f64::INFINITY);
+                convergence.forget();
                 continue;
             }
             if self.refresh.due(taken.iterations, dt) {
@@ -100,45 +100,25 @@ impl<'a> Stepper<'a> {
             self.solves += 1;
             let (correction, motion) = self.correct();
             taken.iterations += 1;
-            // Error left after this correction, relative to the motion of the step, from the contraction seen so far.
             let size = self.relative(correction, motion);
             if !size.is_finite() {
                 return Err(self.not_finite());
             }
-            // The first correction shows no contraction yet; a linear scene has nothing left after it.
-            let contraction = match taken.iterations {
-                _ if self.plan.linear => 0.0,
-                _ if last.0.is_infinite() => 0.5,
-                _ => (size / last.0).max(taken.residual / last.1),
-            };
-            // Error and residual left after this correction, each relative. Positions cannot be told apart below rounding.
-            let left = contraction / (1.0 - contraction) * size;
-            let unbalanced = contraction * taken.residual;
-            // Where an exact matrix no longer brings the error down, only rounding is left; a far origin, a small load or a
-            // stiff part may put that above the tolerance.
-            let stalled = contraction > 0.5;
-            let converged = contraction < 1.0 && left <= tolerance && unbalanced <= tolerance;
-            if converged || stalled && self.is_rounding(correction, taken.refactorizations > 0) {
+            let fresh = taken.refactorizations > 0;
+            let judgement = convergence.judge(size, taken.residual);
+            if judgement.converged() || judgement.stalled() && self.is_rounding(correction, fresh) {
                 break;
             }
             if taken.iterations >= limit {
                 if !self.once_more(state, &scheme) {
                     return Err(self.not_converged(&taken));
                 }
-                last = (f64::INFINITY, f64::INFINITY);
+                convergence.forget();
                 limit += self.model.iteration.limit;
-                continue;
+            } else if judgement.seen && self.refresh.watch(fresh, &judgement) == Advice::Restart {
+                self.predict(state, &scheme);
+                convergence.forget();
             }
-            if last.0.is_finite() {
-                let remaining = (tolerance / left.max(unbalanced)).ln() / contraction.ln();
-                let remaining = if contraction < 1.0 { remaining } else { f64::INFINITY };
-                if self.refresh.watch(taken.refactorizations > 0, contraction, remaining) == Advice::Restart {
-                    self.predict(state, &scheme);
-                    last = (f64::INFINITY, f64::INFINITY);
-                    continue;
-                }
-            }
-            last = (size, taken.residual);
         }
         self.refresh.accepted(taken.iterations);
         self.accept(state, &scheme, to);
