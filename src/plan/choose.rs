@@ -7,7 +7,7 @@ pub fn kind(structure: &Structure) -> Kind {
 }
 
 /// Residuals-with-solves that one forming and factorising is worth: measured on chains of beams and on space frames (see
-/// scripts/speed.sh). A number of the plan, not of the clock, so that the same deck takes the same path.
+/// benches/iteration.rs). A number of the plan, not of the clock, so that the same deck takes the same path.
 pub fn refresh_cost(kind: Kind) -> f64 {
     match kind {
         Kind::Block => 3.0,

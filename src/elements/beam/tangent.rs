@@ -18,9 +18,15 @@ fn add<const L: usize>(y: &mut [f64; L], s: f64, x: &[f64; L]) {
     }
 }
 
-/// H += w · ∂z/∂(nodes)ᵀ h ∂z/∂(nodes) for every pair of nodes.
+/// H += w · ∂z/∂(nodes)ᵀ h ∂z/∂(nodes) for every pair of nodes; without `ALL`, for those with a ≤ b alone.
 #[inline(always)]
-fn spread<const N: usize>(h: &[Row; 11], w: f64, value: &[f64; N], slope: &[f64; N], pairs: &mut [[Pair; N]; N]) {
+fn spread<const N: usize, const ALL: bool>(
+    h: &[Row; 11],
+    w: f64,
+    value: &[f64; N],
+    slope: &[f64; N],
+    pairs: &mut [[Pair; N]; N],
+) {
     for a in 0..N {
         let mut half = [[0.0; 12]; 7];
         for k in 0..4 {
@@ -30,7 +36,7 @@ fn spread<const N: usize>(h: &[Row; 11], w: f64, value: &[f64; N], slope: &[f64;
         for k in 0..3 {
             add(&mut half[4 + k], w * slope[a], &h[8 + k]);
         }
-        for b in 0..N {
+        for b in if ALL { 0 } else { a }..N {
             for (out, row) in pairs[a][b].iter_mut().zip(&half) {
                 for k in 0..4 {
                     out[k] = fma(value[b], row[k], fma(slope[b], row[4 + k], out[k]));
@@ -171,7 +177,7 @@ impl<const N: usize> Beams<N> {
             let value = &self.shape.value[g];
             let slope = self.shape.slope[g].map(|s| s * per_length);
             if DAMPED {
-                spread(&h, self.damping * w, value, &slope, &mut viscous);
+                spread::<N, DAMPED>(&h, self.damping * w, value, &slope, &mut viscous);
                 let (gamma, kappa, rate) = self.rates(element, g, &point, q, nodes);
                 let strain_rates = [gamma.x, gamma.y, gamma.z, kappa.x, kappa.y, kappa.z];
                 let D = rate_rows(&point, &element.tangent, &B, &rate, &strain_rates);
@@ -184,7 +190,7 @@ impl<const N: usize> Beams<N> {
                 m += self.damping * md;
             }
             add_geometric(&mut h, &point, &element.tangent, &B, &n, &m);
-            spread(&h, w, value, &slope, &mut pairs);
+            spread::<N, DAMPED>(&h, w, value, &slope, &mut pairs);
             // ∂U/∂q_a, for the change of direction of δq_a = ½ δθ q_a itself.
             for i in 0..3 {
                 for a in 0..N {
@@ -216,7 +222,8 @@ impl<const N: usize> Beams<N> {
         // The same with δθ along the row, one place unused.
         let columns = E.map(|e| std::array::from_fn::<[f64; 4], 4, _>(|k| [e[0][k], e[1][k], e[2][k], 0.0]));
         for a in 0..N {
-            for b in 0..N {
+            // Without damping the Hessian is symmetric: the other half is a copy.
+            for b in if DAMPED { 0 } else { a }..N {
                 let P = &pairs[a][b];
                 // Rows: x, then ½ vec(row q̄_a).
                 let mut rows = [[0.0; 8]; 6];
@@ -234,6 +241,11 @@ impl<const N: usize> Beams<N> {
                     let at = (6 * a + i) * 6 * N + 6 * b;
                     K[at..at + 3].copy_from_slice(&row[4..7]);
                     K[at + 3..at + 6].copy_from_slice(&turn[..3]);
+                    if !DAMPED && b != a {
+                        for j in 0..6 {
+                            K[(6 * b + j) * 6 * N + 6 * a + i] = K[at + j];
+                        }
+                    }
                 }
             }
             // δ(½ vec(G q̄_a)) at fixed G = −¼ (s₀ δθ + s × δθ), s = G q̄_a.
