@@ -101,15 +101,16 @@ impl Law {
         match &answer.yielding {
             None => (0..N).for_each(|i| C[i][i] = e[i]),
             Some(y) => {
-                // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
-                let b: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * answer.relative[i] / (y.T(i) * y.T(i)));
+                // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S),  bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ².
+                let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
+                let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
                 // At the very onset nothing changes with the unknown yet.
-                let turn = if y.slope > 0.0 { y.turn / y.slope } else { 0.0 };
+                let turn = if y.slope > 0.0 { y.turn / (y.slope * y.S) } else { 0.0 };
                 for i in 0..N {
                     for j in 0..N {
-                        C[i][j] = -turn * b[i] * b[j];
+                        C[i][j] = -turn * Sb[i] * Sb[j];
                     }
-                    C[i][i] += e[i] * (y.S / y.T(i));
+                    C[i][i] += e[i] * ratio[i];
                 }
             }
         }

@@ -40,8 +40,8 @@ pub(super) struct Return {
     pub T: [f64; 2],
     /// R + k.
     pub S: f64,
-    /// S ∂Δλ − Δλ ∂S, where ∂ is the change per relative change of the unknown: it stays finite where Δλ, v or γ leave
-    /// the range of the others.
+    /// ∂Δλ − Δλ ∂S/S, where ∂ is the change per relative change of the unknown, which stays in range where Δλ, v and γ are
+    /// hundreds of decades apart.
     pub turn: f64,
     /// Σ pᵢ (ξᵢ*/Tᵢ)², and Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ.
     pub sum: f64,
@@ -105,7 +105,7 @@ impl Law {
             back,
             T,
             S,
-            turn: S * dmultiplier - multiplier * dS,
+            turn: dmultiplier - multiplier * (dS / S),
             sum: part[0] + part[1],
             slope: slope[0] + slope[1],
         }
