@@ -4,7 +4,7 @@
 //!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
 //!           words     meaning    machine   motion     files
 //!  below them, used by them, knowing nothing of them:
-//!  system │ constraints  elements  integrators │ state  sections  amplitude  linear │ math  names  diagnostic
+//!  system │ constraints  elements  integrators │ state  sections  materials  amplitude  linear │ math  names  diagnostic
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
@@ -24,6 +24,7 @@
 //! | increment of a step and its rates | q, q̇, q̈ | `q`, `d`, `dd` |
 //! | tangent, mass, inertia in the body and now | K, m, J₀, J | `K`, `mass`, `J0`, `J` |
 //! | arm, constraint map | S, D | `S`, `D` |
+//! | stress, relative to the back stress X; plastic multiplier | σ, ξ; Δλ | `stress`, `relative`, `back`; `multiplier` |
 //! | strains, stress resultants, section stiffness | Γ, κ; n, m; C | `gamma`, `kappa`; `n`, `m`; `C` |
 //!
 //! A vector without a suffix is global.
@@ -36,6 +37,7 @@ pub mod diagnostic;
 pub mod elements;
 pub mod integrators;
 pub mod linear;
+pub mod materials;
 pub mod math;
 pub mod model;
 pub mod names;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 9] = [
     &["math", "names", "diagnostic"],
-    &["state", "sections", "amplitude", "linear"],
+    &["state", "sections", "materials", "amplitude", "linear"],
     &["elements", "constraints", "integrators"],
     &["deck"],
     &["model", "system"],
@@ -19,7 +19,7 @@ const ROWS: [&[&str]; 9] = [
 const NAMED: [(&str, &str); 2] = [("system", "model"), ("output", "solve")];
 
 /// What has no business with how a scene is written down or computed.
-const KINDS: [&str; 5] = ["elements", "constraints", "integrators", "sections", "amplitude"];
+const KINDS: [&str; 6] = ["elements", "constraints", "integrators", "sections", "materials", "amplitude"];
 
 fn row(room: &str) -> usize {
     ROWS.iter().position(|row| row.contains(&room)).unwrap_or_else(|| panic!("`{room}` has no row in tests/layers.rs"))

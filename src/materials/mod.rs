@@ -1,0 +1,224 @@
+//! Stress from strain at a point: J2 plasticity with isotropic and kinematic hardening, rate-independent or viscous.
+//!
+//! One law serves three stress states; it answers and does not remember. Backward Euler over the step, with the tangent of
+//! exactly that (13)-(18); any increment converges. History is numbers that the caller owns, zeros at the start, and
+//! always that of the last accepted state. Strains are small or co-rotated; thickness change is left out.
+
+pub mod hardening;
+pub mod overstress;
+mod plastic;
+pub mod stress_state;
+
+pub use hardening::Hardening;
+pub use overstress::{Overstress, Viscosity};
+pub use stress_state::{Bar, Fibre, PlaneStress, StressState};
+
+use plastic::{Return, Trial};
+
+/// Elastic constants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    pub E: f64,
+    /// E/(2 (1 + ν)).
+    pub G: f64,
+    /// E/(1 − ν): equal stresses per equal strains in two directions.
+    pub biaxial: f64,
+}
+
+/// An elastic-plastic or elastic-viscoplastic material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Law {
+    elastic: Elastic,
+    hardening: Hardening,
+    /// β: how much of the hardening shifts the yield surface (Prager) instead of widening it.
+    kinematic_share: f64,
+    viscosity: Option<Viscosity>,
+}
+
+/// What a step did with the plastic work, per volume.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work {
+    /// Dissipated by yielding, ∫ i dε̄ᵖ: exact where hardening is linear over the step.
+    pub plastic: f64,
+    /// Dissipated by viscosity, ∫ i v dε̄ᵖ, to second order in the step.
+    pub viscous: f64,
+    /// Kept by kinematic hardening, ∫ X dεᵖ: energy that comes back, so its sign is free.
+    pub stored: f64,
+}
+
+/// Stress at the end of a step by modes: the trial, and the return if it yields.
+struct Answer<const N: usize> {
+    /// ξ*.
+    relative: [f64; N],
+    /// X at the beginning of the step.
+    back: [f64; N],
+    /// i there.
+    radius: f64,
+    yielding: Option<Return>,
+}
+
+impl<const N: usize> Answer<N> {
+    /// σᵢ = Xᵢ + ξᵢ* (R + k)/Tᵢ.
+    #[inline(always)]
+    fn stress(&self) -> [f64; N] {
+        let ratio = |i| self.yielding.as_ref().map_or(1.0, |y| y.S / y.T(i));
+        std::array::from_fn(|i| self.back[i] + self.relative[i] * ratio(i))
+    }
+}
+
+impl Law {
+    /// E > 0, −1 < ν ≤ ½, a kinematic share from 0 to 1, and numbers that do not fall or turn negative are the caller's
+    /// care.
+    pub fn new(E: f64, nu: f64, hardening: Hardening, kinematic_share: f64, viscosity: Option<Viscosity>) -> Law {
+        let elastic = Elastic { E, G: 0.5 * E / (1.0 + nu), biaxial: E / (1.0 - nu) };
+        Law { elastic, hardening, kinematic_share, viscosity }
+    }
+
+    /// Numbers of history per point: plastic strains, accumulated plastic strain, back stresses if there is a kinematic
+    /// share, overstress of the last state if viscous.
+    pub fn history<const N: usize, S: StressState<N>>(&self, _: S) -> usize {
+        N + 1 + if self.is_kinematic() { N } else { 0 } + usize::from(self.viscosity.is_some())
+    }
+
+    /// Stress at `strain`, `dt` after the state in `old`. Not finite where the strain or its elastic stress is not.
+    #[inline]
+    pub fn stress<const N: usize, S: StressState<N>>(&self, _: S, strain: &[f64; N], dt: f64, old: &[f64]) -> [f64; N] {
+        S::modes(self.answer::<N, S>(strain, dt, old).stress())
+    }
+
+    /// Stress, and its symmetric derivative with respect to the strain at the end of the step.
+    #[inline]
+    pub fn stress_and_tangent<const N: usize, S: StressState<N>>(
+        &self,
+        _: S,
+        strain: &[f64; N],
+        dt: f64,
+        old: &[f64],
+    ) -> ([f64; N], [[f64; N]; N]) {
+        let e = S::moduli(&self.elastic);
+        let answer = self.answer::<N, S>(strain, dt, old);
+        let mut C = [[0.0; N]; N];
+        match &answer.yielding {
+            None => (0..N).for_each(|i| C[i][i] = e[i]),
+            Some(y) => {
+                // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S),  bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ².
+                let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
+                let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
+                // At the very onset nothing changes with the unknown yet.
+                let turn = if y.slope > 0.0 { y.turn / (y.slope * y.S) } else { 0.0 };
+                for i in 0..N {
+                    for j in 0..N {
+                        C[i][j] = -turn * Sb[i] * Sb[j];
+                    }
+                    C[i][i] += e[i] * ratio[i];
+                }
+            }
+        }
+        (S::modes(answer.stress()), from_modes::<N, S>(C))
+    }
+
+    /// Writes the history `dt` after the state in `old`; answers with the stress and what became of the plastic work.
+    #[inline]
+    pub fn advance<const N: usize, S: StressState<N>>(
+        &self,
+        _: S,
+        strain: &[f64; N],
+        dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> ([f64; N], Work) {
+        let answer = self.answer::<N, S>(strain, dt, old);
+        let stress = S::modes(answer.stress());
+        new.copy_from_slice(old);
+        let viscous = self.viscosity.and_then(|_| new.last_mut());
+        let Some(y) = answer.yielding else {
+            if let Some(v) = viscous {
+                *v = 0.0;
+            }
+            return (stress, Work::default());
+        };
+        let mut work = Work { plastic: 0.5 * (answer.radius + y.radius) * y.multiplier, ..Work::default() };
+        if let Some(v) = viscous {
+            work.viscous = 0.5 * (*v * answer.radius + y.overstress * y.radius) * y.multiplier;
+            *v = y.overstress;
+        }
+        // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
+        let direction: [f64; N] = std::array::from_fn(|i| answer.relative[i] / y.T(i));
+        let plastic: [f64; N] = std::array::from_fn(|i| S::P[i] * y.multiplier * direction[i]);
+        add(&mut new[..N], &S::modes(plastic));
+        new[N] += y.multiplier;
+        if self.is_kinematic() {
+            add(&mut new[N + 1..], &S::modes(direction.map(|n| y.back * n)));
+            let mean = |i: usize| answer.back[i] + 0.5 * y.back * direction[i];
+            work.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
+        }
+        (stress, work)
+    }
+
+    /// Accumulated plastic strain ε̄ᵖ.
+    pub fn accumulated<const N: usize, S: StressState<N>>(&self, _: S, history: &[f64]) -> f64 {
+        history[N]
+    }
+
+    /// ½ (ε − εᵖ)·C (ε − εᵖ), per volume.
+    pub fn elastic_energy<const N: usize, S: StressState<N>>(&self, _: S, strain: &[f64; N], history: &[f64]) -> f64 {
+        let e = S::moduli(&self.elastic);
+        let elastic: [f64; N] = elastic_strain::<N, S>(strain, history);
+        0.5 * (0..N).map(|i| e[i] * elastic[i] * elastic[i]).sum::<f64>()
+    }
+
+    fn is_kinematic(&self) -> bool {
+        self.kinematic_share > 0.0
+    }
+
+    #[inline(always)]
+    fn answer<const N: usize, S: StressState<N>>(&self, strain: &[f64; N], dt: f64, old: &[f64]) -> Answer<N> {
+        let e = S::moduli(&self.elastic);
+        let elastic = elastic_strain::<N, S>(strain, old);
+        let back = if self.is_kinematic() { S::modes(std::array::from_fn(|i| old[N + 1 + i])) } else { [0.0; N] };
+        let relative: [f64; N] = std::array::from_fn(|i| e[i] * elastic[i] - back[i]);
+        let squares: [f64; N] = std::array::from_fn(|i| S::P[i] * relative[i] * relative[i]);
+        let rise = self.hardening.rise(old[N]).0;
+        let radius = self.hardening.initial() + (1.0 - self.kinematic_share) * rise;
+        let yields = squares.iter().sum::<f64>() > radius * radius;
+        let yielding = if yields { self.returned::<N, S>(&relative, radius, rise, dt, old[N]) } else { None };
+        Answer { relative, back, radius, yielding }
+    }
+
+    /// None where the trial stress is not finite: it is the answer then.
+    fn returned<const N: usize, S: StressState<N>>(
+        &self,
+        relative: &[f64; N],
+        radius: f64,
+        rise: f64,
+        dt: f64,
+        accumulated: f64,
+    ) -> Option<Return> {
+        // Squares of ratios: the trial may be as large as a number can be.
+        let largest = relative.iter().fold(0.0, |m: f64, xi| m.max(xi.abs()));
+        let square = |i: usize| S::P[i] * (relative[i] / largest).powi(2);
+        let (first, others) = (square(0), (1..N).map(square).sum::<f64>());
+        let rho = largest * (first + others).sqrt();
+        let share = [first, others].map(|part| part / (first + others));
+        let c = [S::P[0] * S::moduli(&self.elastic)[0], 3.0 * self.elastic.G];
+        rho.is_finite().then(|| self.solve(&Trial { rho, share, c, accumulated, rise, radius }, dt))
+    }
+}
+
+/// ε − εᵖ by modes.
+#[inline(always)]
+fn elastic_strain<const N: usize, S: StressState<N>>(strain: &[f64; N], history: &[f64]) -> [f64; N] {
+    S::modes(std::array::from_fn(|i| strain[i] - history[i]))
+}
+
+/// A stiffness from modes to components: rows, then columns.
+#[inline(always)]
+fn from_modes<const N: usize, S: StressState<N>>(C: [[f64; N]; N]) -> [[f64; N]; N] {
+    let transposed = |C: [[f64; N]; N]| std::array::from_fn(|i| std::array::from_fn(|j| C[j][i]));
+    transposed(transposed(C.map(S::modes)).map(S::modes))
+}
+
+#[inline(always)]
+fn add(sum: &mut [f64], v: &[f64]) {
+    sum.iter_mut().zip(v).for_each(|(s, v)| *s += v);
+}

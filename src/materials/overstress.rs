@@ -1,0 +1,48 @@
+//! Perzyna's viscosity: how fast plastic strain grows when the stress lies above the hardened yield stress.
+
+/// ε̄̇ᵖ = γ φ(v) (17), v = ρ/i − 1 the relative overstress over the hardened yield stress i.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Viscosity {
+    /// γ, per time.
+    pub fluidity: f64,
+    pub overstress: Overstress,
+}
+
+/// φ(v), rising from φ(0) = 0 (18).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Overstress {
+    /// vⁿ; with γ = D and n = q the law of Cowper and Symonds.
+    Power { exponent: f64 },
+    /// v.
+    Linear,
+    /// eᵛ − 1.
+    Exponential,
+}
+
+impl Overstress {
+    /// φ and v φ′, which unlike φ′ stays finite at v = 0 for any exponent.
+    #[inline]
+    pub fn phi(&self, v: f64) -> (f64, f64) {
+        match self {
+            Overstress::Power { exponent } => {
+                let phi = v.powf(*exponent);
+                (phi, exponent * phi)
+            }
+            Overstress::Linear => (v, v),
+            Overstress::Exponential => {
+                let phi = v.exp_m1();
+                (phi, v * (phi + 1.0))
+            }
+        }
+    }
+
+    /// The overstress at which φ has a value.
+    #[inline]
+    pub fn inverse(&self, phi: f64) -> f64 {
+        match self {
+            Overstress::Power { exponent } => phi.powf(exponent.recip()),
+            Overstress::Linear => phi,
+            Overstress::Exponential => phi.ln_1p(),
+        }
+    }
+}

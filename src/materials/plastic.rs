@@ -1,0 +1,148 @@
+//! The return to the yield surface: one equation for all stress states, with and without viscosity.
+//!
+//! With ξ = σ − X the stress relative to the back stress, backward Euler gives in the modes of [`super::stress_state`]
+//!
+//! ```text
+//!  ξᵢ = ξᵢ* R/Tᵢ,   Tᵢ = R + k + cᵢ Δλ,   Σ pᵢ (ξᵢ*/Tᵢ)² = 1,
+//! ```
+//!
+//! ξ* the trial, R = i (1 + v) the radius to return to, i its part without overstress, k the growth of the back stress
+//! (Xᵢ += k ξᵢ/R). R, k and T follow from the multiplier Δλ, and viscosity ties Δλ to v: Δλ = γΔt φ(v). Without it v = 0.
+//! After Simo & Hughes, Computational Inelasticity (1998), 3.3 and 3.4.
+
+use super::{Law, Viscosity};
+
+/// What the multiplier depends on of a trial stress that yields.
+pub(super) struct Trial {
+    /// ρ*.
+    pub rho: f64,
+    /// Shares of ρ*² in the first mode and in the others.
+    pub share: [f64; 2],
+    /// c of the first mode and of the others.
+    pub c: [f64; 2],
+    /// State at the beginning of the step: ε̄ᵖ, its rise of the yield stress, i.
+    pub accumulated: f64,
+    pub rise: f64,
+    pub radius: f64,
+}
+
+/// A point of the return.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Return {
+    /// Δλ.
+    pub multiplier: f64,
+    pub overstress: f64,
+    /// i.
+    pub radius: f64,
+    /// k.
+    pub back: f64,
+    /// T of the first mode and of the others.
+    pub T: [f64; 2],
+    /// R + k.
+    pub S: f64,
+    /// ∂Δλ − Δλ ∂S/S, where ∂ is the change per relative change of the unknown, which stays in range where Δλ, v and γ are
+    /// hundreds of decades apart.
+    pub turn: f64,
+    /// Σ pᵢ (ξᵢ*/Tᵢ)², and Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ.
+    pub sum: f64,
+    pub slope: f64,
+}
+
+/// A number and its change per relative change of the unknown.
+type Varied = [f64; 2];
+
+impl Return {
+    /// T of a mode.
+    #[inline(always)]
+    pub fn T(&self, mode: usize) -> f64 {
+        self.T[usize::from(mode > 0)]
+    }
+}
+
+impl Law {
+    /// Where the yield condition holds at the end of the step.
+    pub(super) fn solve(&self, trial: &Trial, dt: f64) -> Return {
+        // Newton's first step, from Δλ = 0. A single mode with linear hardening has arrived there.
+        let slope = self.hardening.rise(trial.accumulated).1;
+        let first = (trial.rho - trial.radius).max(0.0)
+            / (trial.share[0] * (trial.c[0] + slope) + trial.share[1] * (trial.c[1] + slope));
+        let plastic = root(first, |dl| self.point(trial, [dl, dl], [0.0; 2]));
+        match self.viscosity {
+            None => plastic,
+            Some(Viscosity { fluidity, overstress }) => {
+                // From the larger side, where the equation is steep: φ grows no further than the rate-independent return
+                // and v no further than the elastic stress. Beyond 1e300 nothing but rounding is left of v.
+                let rate = (fluidity * dt).min(1e300);
+                let most = plastic.multiplier;
+                let elastic = (trial.rho / trial.radius - 1.0).max(0.0);
+                root(elastic.min(overstress.inverse(most / rate)), |v| {
+                    let (phi, change) = overstress.phi(v);
+                    // The bounds cost rounding where φ is in range and answer where it is not.
+                    let multiplier =
+                        if rate > 0.0 { [(rate * phi).min(most), (rate * change).min(f64::MAX)] } else { [0.0; 2] };
+                    self.point(trial, multiplier, [v, v])
+                })
+            }
+        }
+    }
+
+    #[inline]
+    fn point(&self, trial: &Trial, [multiplier, dmultiplier]: Varied, [v, dv]: Varied) -> Return {
+        let (rise, slope) = self.hardening.rise(trial.accumulated + multiplier);
+        let (back_share, drise) = (self.kinematic_share, slope * dmultiplier);
+        let radius = self.hardening.initial() + (1.0 - back_share) * rise;
+        let back = back_share * (rise - trial.rise);
+        let S = radius * (1.0 + v) + back;
+        let dS = (1.0 - back_share) * drise * (1.0 + v) + radius * dv + back_share * drise;
+        let T = trial.c.map(|c| S + c * multiplier);
+        // Ratios to T, never powers of stresses: nothing overflows before the trial stress does.
+        let part = [0, 1].map(|j| trial.share[j] * (trial.rho / T[j]).powi(2));
+        let slope = [0, 1].map(|j| part[j] * (dS + trial.c[j] * dmultiplier) / T[j]);
+        Return {
+            multiplier,
+            overstress: v,
+            radius,
+            back,
+            T,
+            S,
+            turn: dmultiplier - multiplier * (dS / S),
+            sum: part[0] + part[1],
+            slope: slope[0] + slope[1],
+        }
+    }
+}
+
+/// How well the yield condition holds in the end, relative to the stress; rounding leaves some 1e-15.
+const TOLERANCE: f64 = 1e-14;
+
+/// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection takes over
+/// where a step leaves the bracket or has not halved the misfit.
+#[inline]
+fn root(mut x: f64, at: impl Fn(f64) -> Return) -> Return {
+    let (mut low, mut high, mut last) = (0.0, f64::INFINITY, f64::INFINITY);
+    loop {
+        let point = at(x);
+        let misfit = 1.0 - point.sum.sqrt();
+        if misfit.abs() <= TOLERANCE {
+            return point;
+        }
+        if misfit > 0.0 {
+            high = x
+        } else {
+            low = x
+        }
+        let newton = x * (1.0 - point.sum * misfit / point.slope);
+        let next = if misfit.abs() <= 0.5 * last && low < newton && newton < high {
+            newton
+        } else if high < f64::INFINITY {
+            0.5 * (low + high)
+        } else {
+            2.0 * x
+        };
+        // Also ends when nothing is comparable any more: neighbours in a bracket, or no numbers.
+        if !((next - x).abs() > f64::EPSILON * x) {
+            return point;
+        }
+        (x, last) = (next, misfit.abs());
+    }
+}
