@@ -5,6 +5,7 @@
 //! iteration costs in a run, time loop over iterations, with the matrix renewed in every iteration and only once.
 
 use rdsolve::diagnostic::Source;
+use rdsolve::elements::Moduli;
 use rdsolve::integrators::Scheme;
 use rdsolve::model::{self, Model, Update};
 use rdsolve::plan::Plan;
@@ -115,18 +116,18 @@ fn measure(name: &str, mut model: Model) {
     let mut forces = Forces::new(&system, model.nodes.len());
     let Scheme::WilsonTheta(scheme) = &model.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.time_step).weights();
-    let weights = Weights { stiffness: true, rate, acceleration };
+    let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 
-    let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.nodes, &loading, f)));
+    let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.now(), &loading, f)));
     let tangent = least(
         &mut (&mut assembly, &mut solver),
         |_| (),
-        |(assembly, solver)| assembly.tangent(&system, &state.nodes, &loading, &forces, weights, solver),
+        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &forces, weights, solver),
     );
     // A factorisation overwrites the matrix.
     let factor = least(
         &mut (&mut assembly, &mut solver),
-        |(assembly, solver)| assembly.tangent(&system, &state.nodes, &loading, &forces, weights, solver),
+        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &forces, weights, solver),
         |(_, solver)| solver.factor().expect("a regular matrix"),
     );
     let solve =

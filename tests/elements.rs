@@ -7,10 +7,10 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::elements::beam::{Beams, Description};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Law, Link, Links};
-use rdsolve::elements::{Block, Force};
+use rdsolve::elements::{Block, Force, Moduli};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::sections::Stiffness;
-use rdsolve::state::Node;
+use rdsolve::state::{Node, Now};
 
 fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
     Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
@@ -103,7 +103,7 @@ fn moved(rng: &mut StdRng, x: &[Vec3], strain: f64) -> Vec<Node> {
 
 fn forces(block: &dyn Block, nodes: &[Node]) -> Vec<Force> {
     let mut F = vec![[0.0; 6]; nodes.len()];
-    block.subtract_forces(nodes, &mut F);
+    block.subtract_forces(&Now::of(nodes), &mut F);
     F.iter().map(|f| f.map(|c| -c)).collect()
 }
 
@@ -122,8 +122,8 @@ fn tangent_is_the_derivative_of_the_force() {
             let d = block.dofs();
             let size = d * nodes.len();
             let (mut K0, mut K1) = (vec![0.0; size * size], vec![0.0; size * size]);
-            block.tangent(0, &nodes, 0.0, &mut K0);
-            block.tangent(0, &nodes, 1.0, &mut K1);
+            block.tangent(0, &Now::of(&nodes), 0.0, Moduli::Algorithmic, &mut K0);
+            block.tangent(0, &Now::of(&nodes), 1.0, Moduli::Algorithmic, &mut K1);
             let scale = K0.iter().fold(0.0f64, |m, k| m.max(k.abs()));
             let h = 1e-5; // truncation h² ~ 1e-10 and cancellation 1e-16/h ~ 1e-11, relative
             for column in 0..size {
@@ -222,7 +222,7 @@ fn forces_balance_turn_with_the_element_and_have_a_potential() {
                     let energy = |h: f64| {
                         let mut nodes = nodes.clone();
                         nudge(&mut nodes[a], dof, h);
-                        block.energy(&nodes)
+                        block.energy(&Now::of(&nodes))
                     };
                     let slope = (energy(h) - energy(-h)) / (2.0 * h);
                     assert!((F[a][dof] - slope).abs() < 1e-7 * size.max(1.0), "{name}: {} {slope}", F[a][dof]);
@@ -246,7 +246,7 @@ fn damping_takes_power() {
                 power += (f[i] - f0[i]) * node.v[i] + (f[3 + i] - f0[3 + i]) * node.omega[i];
             }
         }
-        let taken = block.damping_power(&nodes);
+        let taken = block.damping_power(&Now::of(&nodes));
         assert!((power - taken).abs() < 1e-11 * (1.0 + taken), "{name}: {power} {taken}"); // rounding of ~100 terms
         assert!(taken >= 0.0 && (taken > 0.0) == block.is_damped(), "{name}: {taken}");
     }
@@ -262,7 +262,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let beam = Beams::<2>::new(one.into_iter(), &x, 0.0);
     let nodes = x.map(Node::at_rest);
     let mut K = [0.0; 144];
-    beam.tangent(0, &nodes, 0.0, &mut K);
+    beam.tangent(0, &Now::of(&nodes), 0.0, Moduli::Algorithmic, &mut K);
     // Free end under a unit wrench: strains ε(x) = C⁻¹ σ(x), tip motion by integrating them (three Gauss points: exact).
     let mut C6 = nalgebra::Matrix6::zeros();
     C6.fixed_view_mut::<3, 3>(0, 0).copy_from(&C.N);

@@ -15,8 +15,8 @@ const ROWS: [&[&str]; 9] = [
     &["main"],
 ];
 
-/// Siblings that are allowed: equations are set up from the model, and files are written from what the march shows.
-const NAMED: [(&str, &str); 2] = [("system", "model"), ("output", "solve")];
+/// Siblings that are allowed: a state keeps the account of what materials spent, equations are set up from the model, and files are written from what the march shows.
+const NAMED: [(&str, &str); 3] = [("state", "materials"), ("system", "model"), ("output", "solve")];
 
 /// What has no business with how a scene is written down or computed.
 const KINDS: [&str; 6] = ["elements", "constraints", "integrators", "sections", "materials", "amplitude"];

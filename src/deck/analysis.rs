@@ -71,20 +71,25 @@ pub enum RotationUpdate {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Iteration {
-    /// Default: "tangent-stiffness".
+    /// Which moduli the matrix is formed with where material yields. Default: "tangent-stiffness".
     pub method: Maybe<Method>,
     /// When the matrix is formed and factorised anew. Default: "auto".
     pub update: Maybe<Update>,
     /// Relative, on residual and increment. Default: 1e-8.
     pub tolerance: Maybe<f64>,
-    /// Iterations in a step before it is cut. Default: 20.
+    /// Iterations in a step before it is cut. Default: 20; 200 with initial-load.
     pub limit: Maybe<u64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
+    /// Newton's method with the derivative of the stress.
     TangentStiffness,
+    /// The elastic matrix is kept; plastic stresses go to the right-hand side.
+    InitialLoad,
+    /// Whichever costs less.
+    Auto,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -31,6 +31,14 @@ pub struct Beam {
     pub mass: Maybe<Mass>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
+    /// Rule along an element. Default: "gauss". Beams whose material yields.
+    pub integration: Maybe<Rule>,
+    /// Points of the rule, order to 5. Default: order, which lets the moment be straight along an element. Beams whose material
+    /// yields.
+    pub points: Maybe<u64>,
+    /// Shear stress counts in the yield condition; false: shear and torsion stay elastic. Default: true. Beams whose material
+    /// yields.
+    pub shear_yields: Maybe<bool>,
     /// From the path's first point to the beam's end, rigid, global components at t = 0.
     pub offset_start: Maybe<Vector>,
     /// From the path's last point to the beam's end, rigid, global components at t = 0.
@@ -60,6 +68,14 @@ pub struct Bar {
     pub tension_only: Maybe<bool>,
     /// Default: "lumped".
     pub mass: Maybe<Mass>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    Gauss,
+    /// With points at the ends of the element.
+    Lobatto,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -9,10 +9,10 @@ use super::words::Maybe;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Name of a point, body or link, or "energy".
+    /// Name of a point, body, beam, bar or link, or "energy".
     #[schemars(required)]
     pub at: Maybe<String>,
-    /// A column of nodes.csv, bodies.csv, links.csv or energy.csv.
+    /// A column of nodes.csv, bodies.csv, links.csv or energy.csv; "plastic_strain" of a beam or bar, the largest anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,
     /// When the value is taken.

@@ -34,6 +34,9 @@ pub struct Section {
     pub top_flange_thickness: Maybe<f64>,
     /// Lower flange, if the flanges differ: i.
     pub bottom_flange_thickness: Maybe<f64>,
+    /// Fibres where the material yields, one or two numbers: rectangle [along y, along z], tube [around, through the wall],
+    /// box, i, c, l [along each wall, through it].
+    pub fibres: Maybe<OneOrMany<u64>>,
     /// general.
     pub area: Maybe<f64>,
     /// Second moments of area [about y, about z]: general.

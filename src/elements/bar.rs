@@ -1,18 +1,196 @@
-//! Bar or cable: a straight two-node element that only resists stretching, N = EA (l − L)/L.
+//! Bar or cable: a straight two-node element that only resists stretching, N = A σ(ε) with ε = (l − L)/L.
 
-use super::link::{Law, Link, Links};
-use crate::math::Vec3;
+use super::link::{Law as LinkLaw, Link, Links};
+use super::{Block, Force, Moduli, subtract};
+use crate::materials::{Bar, Law, Spent};
+use crate::math::{Mat3, Vec3};
+use crate::state::{Node, Now};
 
-/// A bar is a line spring of stiffness EA/L; `damping` is the factor of stiffness-proportional damping (time).
+/// An elastic bar is a line spring of stiffness EA/L; `damping` is the factor of stiffness-proportional damping (time).
 pub fn links(elements: &[[usize; 2]], axial_stiffness: f64, tension_only: bool, x: &[Vec3], damping: f64) -> Links {
     let link = |&nodes: &[usize; 2]| {
         let length = (x[nodes[1]] - x[nodes[0]]).norm();
         let stiffness = axial_stiffness / length;
         let law = match tension_only {
-            true => Law::TensionOnly { stiffness, gap: 0.0 },
-            false => Law::Linear { stiffness, preload: 0.0 },
+            true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
+            false => LinkLaw::Linear { stiffness, preload: 0.0 },
         };
         Link { nodes, law, damping: damping * stiffness, direction: None, free_length: length }
     };
     Links(elements.iter().map(link).collect())
+}
+
+/// Bars whose material yields. A bar that only takes tension goes slack where its elastic strain would be compressive, and
+/// keeps the length to which it has yielded.
+pub struct YieldingBars {
+    elements: Vec<([usize; 2], f64)>,
+    area: f64,
+    law: Law,
+    tension_only: bool,
+    /// Factor of stiffness-proportional damping (time).
+    damping: f64,
+    /// Numbers a bar remembers.
+    memory: usize,
+}
+
+struct Stretch {
+    /// Unit vector from the first node to the second.
+    e: Vec3,
+    length: f64,
+    strain: f64,
+    strain_rate: f64,
+    /// Relative velocity.
+    dv: Vec3,
+}
+
+impl YieldingBars {
+    /// `x`: initial positions of all nodes.
+    pub fn new(
+        elements: &[[usize; 2]],
+        axial_stiffness: f64,
+        law: &Law,
+        tension_only: bool,
+        x: &[Vec3],
+        damping: f64,
+    ) -> Self {
+        YieldingBars {
+            elements: elements.iter().map(|&nodes| (nodes, (x[nodes[1]] - x[nodes[0]]).norm())).collect(),
+            area: axial_stiffness / law.elastic().E,
+            law: law.clone(),
+            tension_only,
+            damping,
+            memory: law.history(Bar),
+        }
+    }
+
+    fn stretch(&self, e: usize, nodes: &[Node]) -> Stretch {
+        let ([a, b], free) = &self.elements[e];
+        let (dx, dv) = (nodes[*b].x - nodes[*a].x, nodes[*b].v - nodes[*a].v);
+        let length = dx.norm();
+        // Points that have met leave the direction open: no force until they part.
+        let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
+        Stretch { e, length, strain: (length - free) / free, strain_rate: e.dot(&dv) / free, dv }
+    }
+
+    fn share(&self, e: usize) -> std::ops::Range<usize> {
+        e * self.memory..(e + 1) * self.memory
+    }
+
+    /// Nothing pulls: the elastic strain is compressive in a bar that only takes tension.
+    fn is_slack(&self, strain: f64, past: &[f64]) -> bool {
+        self.tension_only && self.law.stress(Bar, &[strain], 0.0, past)[0] <= 0.0 && strain <= past[0]
+    }
+
+    /// Tension, of which the first part is the material's, and ∂/∂strain, ∂/∂(strain rate).
+    fn tension(&self, at: &Stretch, since: f64, past: &[f64], moduli: Moduli) -> Tension {
+        if self.is_slack(at.strain, past) {
+            return Tension::default();
+        }
+        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Bar, &[at.strain], since, past);
+        let viscosity = self.damping * self.law.elastic().E;
+        let damping = viscosity * at.strain_rate;
+        if self.tension_only && stress + damping < 0.0 {
+            return Tension::default();
+        }
+        let modulus = if moduli == Moduli::Elastic { self.law.elastic().E } else { modulus };
+        Tension { material: self.area * stress, damping: self.area * damping, modulus, viscosity }
+    }
+}
+
+#[derive(Default)]
+struct Tension {
+    material: f64,
+    damping: f64,
+    modulus: f64,
+    viscosity: f64,
+}
+
+impl Block for YieldingBars {
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        &self.elements[e].0
+    }
+
+    fn dofs(&self) -> usize {
+        3
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn history(&self) -> usize {
+        self.memory * self.elements.len()
+    }
+
+    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+        for (e, ([a, b], _)) in self.elements.iter().enumerate() {
+            let at = self.stretch(e, now.nodes);
+            let tension = self.tension(&at, now.since, &now.past[self.share(e)], Moduli::Algorithmic);
+            let f = (tension.material + tension.damping) * at.e;
+            subtract(&mut F[*a], 0, &-f);
+            subtract(&mut F[*b], 0, &f);
+        }
+    }
+
+    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let at = self.stretch(e, now.nodes);
+        let free = self.elements[e].1;
+        let tension = self.tension(&at, now.since, &now.past[self.share(e)], moduli);
+        let along = at.e * at.e.transpose();
+        let mut k = self.area / free * (tension.modulus + rate_weight * tension.viscosity) * along;
+        if at.length > 0.0 {
+            let across = (Mat3::identity() - along) / at.length;
+            let force = tension.material + tension.damping;
+            k += force * across + (self.area / free * tension.viscosity) * at.e * (across * at.dv).transpose();
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                K[6 * i + j] = k[(i, j)];
+                K[6 * i + 3 + j] = -k[(i, j)];
+                K[6 * (3 + i) + j] = -k[(i, j)];
+                K[6 * (3 + i) + 3 + j] = k[(i, j)];
+            }
+        }
+    }
+
+    fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+        let mut sum = Spent::default();
+        for (e, new) in history.chunks_exact_mut(self.memory).enumerate() {
+            let at = self.stretch(e, now.nodes);
+            let past = &now.past[self.share(e)];
+            if self.is_slack(at.strain, past) {
+                new.copy_from_slice(past);
+                continue;
+            }
+            sum += self.law.advance(Bar, &[at.strain], now.since, past, new).1 * (self.area * self.elements[e].1);
+        }
+        sum
+    }
+
+    fn energy(&self, now: &Now) -> f64 {
+        let energy = |e: usize| {
+            let (at, past) = (self.stretch(e, now.nodes), &now.past[self.share(e)]);
+            let slack = self.is_slack(at.strain, past);
+            let density = if slack { 0.0 } else { self.law.elastic_energy(Bar, &[at.strain], past) };
+            self.area * self.elements[e].1 * density
+        };
+        (0..self.len()).map(energy).sum()
+    }
+
+    fn damping_power(&self, now: &Now) -> f64 {
+        let power = |e: usize| {
+            let at = self.stretch(e, now.nodes);
+            let past = &now.past[self.share(e)];
+            self.tension(&at, now.since, past, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].1
+        };
+        if self.damping > 0.0 { (0..self.len()).map(power).sum() } else { 0.0 }
+    }
+
+    fn plastic_strain(&self, e: usize, past: &[f64]) -> f64 {
+        self.law.accumulated(Bar, &past[self.share(e)])
+    }
 }

@@ -3,9 +3,9 @@
 //! d = Bᵀ(x₂ − x₁) − d₀ and φ = log(Bᵀ R₂ A), with B = R₁ A the frame. Energy ½ d·k d + ½ φ·k_φ φ, so the force is
 //! B k d and the moment B T⁻ᵀ(φ) k_φ φ; dampers act on ḋ and on the relative angular velocity in the frame.
 
-use super::{Block, Force, subtract};
+use super::{Block, Force, Moduli, subtract};
 use crate::math::{Mat3, Vec3, rotation, skew};
-use crate::state::Node;
+use crate::state::{Node, Now};
 
 #[derive(Debug, Clone)]
 pub struct Bushing {
@@ -88,9 +88,9 @@ impl Block for Bushings {
         self.0.iter().any(|b| b.damping.iter().any(|&c| c > 0.0))
     }
 
-    fn subtract_forces(&self, nodes: &[Node], F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
         for bushing in &self.0 {
-            let motion = bushing.motion(nodes);
+            let motion = bushing.motion(now.nodes);
             let (f, m) = bushing.forces(&motion);
             let [a, b] = bushing.nodes;
             subtract(&mut F[a], 0, &-f);
@@ -100,11 +100,11 @@ impl Block for Bushings {
         }
     }
 
-    fn tangent(&self, e: usize, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, _: Moduli, K: &mut [f64]) {
         let bushing = &self.0[e];
-        let motion = bushing.motion(nodes);
+        let motion = bushing.motion(now.nodes);
         let (F, M) = bushing.forces(&motion);
-        let omega = nodes[bushing.nodes[0]].omega;
+        let omega = now.nodes[bushing.nodes[0]].omega;
         let (k, k_phi) = Bushing::coefficients(&bushing.stiffness);
         let (c, c_phi) = Bushing::coefficients(&bushing.damping);
         let B = motion.B;
@@ -144,18 +144,18 @@ impl Block for Bushings {
         }
     }
 
-    fn energy(&self, nodes: &[Node]) -> f64 {
+    fn energy(&self, now: &Now) -> f64 {
         let energy = |b: &Bushing| {
-            let motion = b.motion(nodes);
+            let motion = b.motion(now.nodes);
             let (k, k_phi) = Bushing::coefficients(&b.stiffness);
             0.5 * (k.component_mul(&motion.d).dot(&motion.d) + k_phi.component_mul(&motion.phi).dot(&motion.phi))
         };
         self.0.iter().map(energy).sum()
     }
 
-    fn damping_power(&self, nodes: &[Node]) -> f64 {
+    fn damping_power(&self, now: &Now) -> f64 {
         let power = |b: &Bushing| {
-            let motion = b.motion(nodes);
+            let motion = b.motion(now.nodes);
             let (c, c_phi) = Bushing::coefficients(&b.damping);
             let (u, w) = (motion.B.tr_mul(&motion.u), motion.B.tr_mul(&motion.w));
             c.component_mul(&u).dot(&u) + c_phi.component_mul(&w).dot(&w)

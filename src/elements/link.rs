@@ -1,8 +1,8 @@
 //! Springs and dampers between two points: a force N(δ) + c δ̇ along the line of the points or along a fixed direction.
 
-use super::{Block, Force, subtract};
+use super::{Block, Force, Moduli, subtract};
 use crate::math::Vec3;
-use crate::state::Node;
+use crate::state::{Node, Now};
 
 /// Force against elongation; positive is tension.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,18 +152,18 @@ impl Block for Links {
         self.0.iter().any(|l| l.damping > 0.0)
     }
 
-    fn subtract_forces(&self, nodes: &[Node], F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
         for link in &self.0 {
-            let line = link.line(nodes);
+            let line = link.line(now.nodes);
             let f = link.law.damped_force(line.delta, line.rate, link.damping).force * line.e;
             subtract(&mut F[link.nodes[0]], 0, &-f);
             subtract(&mut F[link.nodes[1]], 0, &f);
         }
     }
 
-    fn tangent(&self, e: usize, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, _: Moduli, K: &mut [f64]) {
         let link = &self.0[e];
-        let line = link.line(nodes);
+        let line = link.line(now.nodes);
         let r = link.law.damped_force(line.delta, line.rate, link.damping);
         let along = line.e * line.e.transpose();
         let mut k = (r.stiffness + rate_weight * r.damping) * along;
@@ -181,13 +181,13 @@ impl Block for Links {
         }
     }
 
-    fn energy(&self, nodes: &[Node]) -> f64 {
-        self.0.iter().map(|link| link.law.energy(link.line(nodes).delta)).sum()
+    fn energy(&self, now: &Now) -> f64 {
+        self.0.iter().map(|link| link.law.energy(link.line(now.nodes).delta)).sum()
     }
 
-    fn damping_power(&self, nodes: &[Node]) -> f64 {
+    fn damping_power(&self, now: &Now) -> f64 {
         let power = |link: &Link| {
-            let line = link.line(nodes);
+            let line = link.line(now.nodes);
             let r = link.law.damped_force(line.delta, line.rate, link.damping);
             (r.force - r.elastic) * line.rate
         };

@@ -6,11 +6,21 @@ pub mod beam;
 pub mod bushing;
 pub mod link;
 
+use crate::materials::Spent;
 use crate::math::{Mat3, Vec3};
-use crate::state::Node;
+use crate::state::Now;
 
 /// Generalised force on a node: force and moment, global components.
 pub type Force = [f64; 6];
+
+/// Which moduli of the material a tangent is formed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Moduli {
+    /// The derivative of the stress that the step arrives at: K(ep) + K(σ).
+    Algorithmic,
+    /// K(e) + K(σ), whatever has yielded (11).
+    Elastic,
+}
 
 /// A group of like elements. Matrices are row-major over the element's nodes, [`Block::dofs`] directions each.
 pub trait Block: Send + Sync {
@@ -22,20 +32,36 @@ pub trait Block: Send + Sync {
     fn nodes(&self, e: usize) -> &[usize];
     /// 3: translations only; 6: translations and rotations.
     fn dofs(&self) -> usize;
+    /// Numbers that the material points of all elements remember.
+    fn history(&self) -> usize {
+        0
+    }
     /// Subtracts the internal forces of all elements from `F`, which is indexed by node.
-    fn subtract_forces(&self, nodes: &[Node], F: &mut [Force]);
+    fn subtract_forces(&self, now: &Now, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
-    fn tangent(&self, e: usize, nodes: &[Node], rate_weight: f64, K: &mut [f64]);
+    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
+    /// Writes what the material points will remember of `now`, and returns what became of the work of plastic strains
+    /// since the last state.
+    fn remember(&self, _now: &Now, _history: &mut [f64]) -> Spent {
+        Spent::default()
+    }
     /// Elastic energy stored.
-    fn energy(&self, nodes: &[Node]) -> f64;
+    fn energy(&self, now: &Now) -> f64;
     /// Power that the damping of the elements takes (≥ 0), where there is any.
-    fn damping_power(&self, _nodes: &[Node]) -> f64 {
+    fn damping_power(&self, _now: &Now) -> f64 {
         0.0
     }
-    /// Stress resultants (N, Q_y, Q_z, T, M_y, M_z) in the axes of `frame` (columns, global at t = 0) at an integration
-    /// point, and its distance from the element's start.
-    fn resultants(&self, _e: usize, _point: usize, _frame: &Mat3, _nodes: &[Node]) -> Option<(f64, [f64; 6])> {
+    /// Integration points of an element at which [`Block::point`] has an answer.
+    fn points(&self) -> usize {
+        0
+    }
+    /// The state of an integration point, stress resultants in the axes of `frame` (columns, global at t = 0).
+    fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Now) -> Option<Point> {
         None
+    }
+    /// Largest accumulated plastic strain in element `e`.
+    fn plastic_strain(&self, _e: usize, _past: &[f64]) -> f64 {
+        0.0
     }
     /// True when the tangent never changes, whatever the motion.
     fn is_linear(&self) -> bool {
@@ -49,6 +75,17 @@ pub trait Block: Send + Sync {
     fn is_damped(&self) -> bool {
         false
     }
+}
+
+/// An integration point of an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Distance from the element's start.
+    pub s: f64,
+    /// N, Q_y, Q_z, T, M_y, M_z.
+    pub forces: [f64; 6],
+    /// Largest accumulated plastic strain in the section.
+    pub plastic_strain: f64,
 }
 
 #[inline]

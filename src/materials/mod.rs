@@ -14,6 +14,7 @@ pub use overstress::{Overstress, Viscosity};
 pub use stress_state::{Bar, Fibre, PlaneStress, StressState};
 
 use plastic::{Return, Trial};
+use std::ops::{AddAssign, Mul};
 
 /// Elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,15 +36,31 @@ pub struct Law {
     viscosity: Option<Viscosity>,
 }
 
-/// What a step did with the plastic work, per volume.
+/// What became of the plastic work, per volume or of a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Work {
+pub struct Spent {
     /// Dissipated by yielding, ∫ i dε̄ᵖ: exact where hardening is linear over the step.
     pub plastic: f64,
     /// Dissipated by viscosity, ∫ i v dε̄ᵖ, to second order in the step.
     pub viscous: f64,
     /// Kept by kinematic hardening, ∫ X dεᵖ: energy that comes back, so its sign is free.
     pub stored: f64,
+}
+
+impl AddAssign for Spent {
+    fn add_assign(&mut self, more: Spent) {
+        self.plastic += more.plastic;
+        self.viscous += more.viscous;
+        self.stored += more.stored;
+    }
+}
+
+impl Mul<f64> for Spent {
+    type Output = Spent;
+
+    fn mul(self, by: f64) -> Spent {
+        Spent { plastic: self.plastic * by, viscous: self.viscous * by, stored: self.stored * by }
+    }
 }
 
 /// Stress at the end of a step by modes: the trial, and the return if it yields.
@@ -72,6 +89,10 @@ impl Law {
     pub fn new(E: f64, nu: f64, hardening: Hardening, kinematic_share: f64, viscosity: Option<Viscosity>) -> Law {
         let elastic = Elastic { E, G: 0.5 * E / (1.0 + nu), biaxial: E / (1.0 - nu) };
         Law { elastic, hardening, kinematic_share, viscosity }
+    }
+
+    pub fn elastic(&self) -> &Elastic {
+        &self.elastic
     }
 
     /// Numbers of history per point: plastic strains, accumulated plastic strain, back stresses if there is a kinematic
@@ -126,7 +147,7 @@ impl Law {
         dt: f64,
         old: &[f64],
         new: &mut [f64],
-    ) -> ([f64; N], Work) {
+    ) -> ([f64; N], Spent) {
         let answer = self.answer::<N, S>(strain, dt, old);
         let stress = S::modes(answer.stress());
         new.copy_from_slice(old);
@@ -135,11 +156,11 @@ impl Law {
             if let Some(v) = viscous {
                 *v = 0.0;
             }
-            return (stress, Work::default());
+            return (stress, Spent::default());
         };
-        let mut work = Work { plastic: 0.5 * (answer.radius + y.radius) * y.multiplier, ..Work::default() };
+        let mut spent = Spent { plastic: 0.5 * (answer.radius + y.radius) * y.multiplier, ..Spent::default() };
         if let Some(v) = viscous {
-            work.viscous = 0.5 * (*v * answer.radius + y.overstress * y.radius) * y.multiplier;
+            spent.viscous = 0.5 * (*v * answer.radius + y.overstress * y.radius) * y.multiplier;
             *v = y.overstress;
         }
         // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
@@ -150,9 +171,9 @@ impl Law {
         if self.is_kinematic() {
             add(&mut new[N + 1..], &S::modes(direction.map(|n| y.back * n)));
             let mean = |i: usize| answer.back[i] + 0.5 * y.back * direction[i];
-            work.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
+            spent.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
         }
-        (stress, work)
+        (stress, spent)
     }
 
     /// Accumulated plastic strain ε̄ᵖ.

@@ -7,7 +7,7 @@
 use super::Elastic;
 
 /// N components of stress, and strains work-conjugate to them (shear strains are engineering strains).
-pub trait StressState<const N: usize>: Copy {
+pub trait StressState<const N: usize>: Copy + Send + Sync {
     /// p of each mode.
     const P: [f64; N];
 

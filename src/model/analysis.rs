@@ -1,7 +1,7 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
 use super::build::{Builder, Owner};
-use super::{Analysis, Kind, Update};
+use super::{Analysis, Kind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::diagnostic::Diagnostic;
@@ -91,8 +91,16 @@ impl<'d> Builder<'d> {
         {
             self.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
         }
-        let limit = self.count("limit", &iteration.limit, self.model.iteration.limit);
+        let method = match iteration.method.as_ref().map(|method| method.value) {
+            Some(deck::Method::InitialLoad) => Method::InitialLoad,
+            Some(deck::Method::Auto) => Method::Auto,
+            Some(deck::Method::TangentStiffness) | None => Method::TangentStiffness,
+        };
+        // An elastic matrix converges slowly while material yields, at little cost per iteration.
+        let default = if method == Method::InitialLoad { 10 } else { 1 } * self.model.iteration.limit;
+        let limit = self.count("limit", &iteration.limit, default);
         let own = &mut self.model.iteration;
+        own.method = method;
         own.limit = limit;
         own.tolerance = iteration.tolerance.as_ref().map_or(own.tolerance, |at| at.value);
         own.update = match iteration.update.as_ref().map(|update| update.value) {

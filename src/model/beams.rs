@@ -5,7 +5,7 @@ use super::{Bar, Beam, BeamElement, Kind, MassKind};
 use crate::deck::beams as deck;
 use crate::deck::words::{Maybe, OneOrMany, Vector};
 use crate::diagnostic::At;
-use crate::elements::beam::DEFAULT_ORDER;
+use crate::elements::beam::{DEFAULT_ORDER, MOST_POINTS, Rule, Yielding};
 use crate::math::quadrature::lobatto;
 use crate::math::{Mat3, Vec3};
 
@@ -35,6 +35,7 @@ impl<'d> Builder<'d> {
         }
         let mass = mass_kind(&beam.mass);
         let section = self.beam_section(owner, beam, mass);
+        let yielding = self.yielding(owner, beam, order);
         let elements = self.need(owner, "elements", &beam.elements);
         let orientation = self.need(owner, "orientation", &beam.orientation);
         let mut path = self.path(owner, &beam.path, true)?;
@@ -54,7 +55,7 @@ impl<'d> Builder<'d> {
         let frames = orientation.and_then(|orientation| self.frames(points, &path, orientation));
         let counts = elements.and_then(|elements| self.counts(elements, path.len() - 1))?;
         lengths?;
-        let (section, frames) = (section?, frames?);
+        let (section, yielding, frames) = (section?, yielding?, frames?);
         if order > 4 {
             return None;
         }
@@ -84,8 +85,41 @@ impl<'d> Builder<'d> {
         }
         self.beam_nodes[index] = nodes;
         let rotary_inertia = beam.rotary_inertia.as_ref().is_none_or(|keep| keep.value);
-        self.model.beams.push(Beam { name, order, mass, rotary_inertia, elements: made });
+        self.model.beams.push(Beam { name, order, mass, rotary_inertia, yielding, elements: made });
         Some(())
+    }
+
+    /// How the beam yields, `Some(None)` where its material is elastic.
+    fn yielding(&mut self, owner: &Owner<'d>, beam: &'d deck::Beam, order: usize) -> Option<Option<Yielding>> {
+        let strays = [
+            ("integration", span(&beam.integration)),
+            ("points", span(&beam.points)),
+            ("shear_yields", span(&beam.shear_yields)),
+        ];
+        let law = beam.material.as_ref().and_then(|name| self.deck.materials.position(name));
+        let Some(law) = law.and_then(|index| self.laws[index].clone()) else {
+            // Where the material is wrong, that has been said.
+            self.stray(&format!("{}, whose material is elastic", owner.what), &strays);
+            return Some(None);
+        };
+        let points = self.count("points", &beam.points, order);
+        if let Some(at) = &beam.points
+            && !(order..=MOST_POINTS).contains(&points)
+        {
+            let message = format!("`points` must lie between the order of the elements, {order}, and {MOST_POINTS}");
+            return self.error(&at.span, message);
+        }
+        let rule = match &beam.integration {
+            Some(at) if at.value == deck::Rule::Lobatto && points < 3 => {
+                let message = "a Lobatto rule needs three points: give `points`, or elements of order 3";
+                return self.error(&at.span, message);
+            }
+            Some(at) if at.value == deck::Rule::Lobatto => Rule::Lobatto,
+            Some(_) | None => Rule::Gauss,
+        };
+        let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
+        let fibres = self.fibres(owner, beam)?;
+        Some(Some(Yielding { law, fibres, shear, rule, points }))
     }
 
     /// Nodes of a path of two or more points; a beam also acts on their rotations.
@@ -191,7 +225,12 @@ impl<'d> Builder<'d> {
         let elements = nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         self.bar_nodes[index] = nodes;
         let tension_only = bar.tension_only.as_ref().is_some_and(|only| only.value);
-        self.model.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, elements });
+        let yielding = bar
+            .material
+            .as_ref()
+            .and_then(|name| self.deck.materials.position(name))
+            .and_then(|m| self.laws[m].clone());
+        self.model.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, yielding, elements });
         Some(())
     }
 

@@ -4,12 +4,13 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::places::Place;
-use super::{Cadence, Damping, Iteration, Kind, Model, Node, Output, Update};
+use super::{Cadence, Damping, Iteration, Kind, Method, Model, Node, Output, Update};
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
 use crate::diagnostic::{At, Diagnostic, Source, Span};
 use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use crate::materials::Law;
 use crate::math::Vec3;
 use crate::names::{nearest, quoted};
 
@@ -64,6 +65,8 @@ pub(super) struct Builder<'d> {
     /// Nodes of each beam and bar, in order along it.
     pub beam_nodes: Vec<Vec<usize>>,
     pub bar_nodes: Vec<Vec<usize>>,
+    /// By material: how it yields.
+    pub laws: Vec<Option<Law>>,
     /// Section, material and whether it needs a mass → `model.stiffnesses`.
     pub stiffnesses: HashMap<(usize, Option<usize>, bool), Option<usize>>,
     /// Directions held, by node and direction; who holds them, and whether they move.
@@ -95,7 +98,7 @@ impl<'d> Builder<'d> {
                 plane: true,
             },
             scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-            iteration: Iteration { update: Update::Auto, tolerance: 1e-8, limit: 20 },
+            iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-8, limit: 20 },
             nodes: Vec::new(),
             bodies: Vec::new(),
             masses: Vec::new(),
@@ -130,6 +133,7 @@ impl<'d> Builder<'d> {
             rides: HashMap::new(),
             beam_nodes: Vec::new(),
             bar_nodes: Vec::new(),
+            laws: Vec::new(),
             stiffnesses: HashMap::new(),
             held: BTreeMap::new(),
             unsure: deck.spoiled.iter().any(|entry| entry.table.as_ref().is_none_or(|table| *table == ROOT)),

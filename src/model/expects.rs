@@ -82,16 +82,40 @@ impl<'d> Builder<'d> {
                 Some((ExpectAt::Node(self.model.bodies[body].node), columns))
             }
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
+            Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
             Some(place) => {
                 let message = format!("`{}` is a {}", name.value, place.kind());
-                self.error_with(&name.span, message, "values are at points, bodies, links or \"energy\"")
+                self.error_with(&name.span, message, "values are at points, bodies, parts, links or \"energy\"")
             }
             None => {
                 let mut known: Vec<&str> = self.places.keys().copied().chain(["energy"]).collect();
                 known.sort_unstable();
-                self.unknown("point, body or link", name, known.into_iter())
+                self.unknown("point, body, part or link", name, known.into_iter())
             }
         }
+    }
+
+    /// A part that yields; counted as [`ExpectAt::Elements`] counts.
+    fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
+        let beams = self.model.beams.iter().map(|beam| (beam.elements.len(), beam.yielding.is_some()));
+        let bars = self.model.bars.iter().map(|bar| (bar.elements.len(), bar.yielding.is_some()));
+        let index = match place {
+            Place::Bar(bar) => self.deck.beams.len() + bar,
+            Place::Beam(beam) => beam,
+            _ => return None,
+        };
+        let parts: Vec<(usize, bool)> = beams.chain(bars).collect();
+        // Where a part has errors, these have been said, and the count is off.
+        if parts.len() < self.deck.beams.len() + self.deck.bars.len() {
+            return None;
+        }
+        let (count, yields) = parts[index];
+        if !yields {
+            let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
+            return self.error(&name.span, message);
+        }
+        let from = parts[..index].iter().map(|(count, _)| count).sum();
+        Some((ExpectAt::Elements(from, from + count), vec!["plastic_strain"]))
     }
 
     fn column(&mut self, columns: &[&str], quantity: &At<String>, name: &At<String>) {

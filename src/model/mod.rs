@@ -10,6 +10,7 @@ mod check;
 mod expects;
 mod links;
 mod loads;
+mod materials;
 mod places;
 mod sections;
 mod supports;
@@ -17,6 +18,7 @@ mod supports;
 pub use build::{build, read};
 
 use crate::amplitude::Amplitude;
+use crate::elements::beam::Yielding;
 use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::math::{Mat3, Vec3};
@@ -72,11 +74,21 @@ pub struct Analysis {
 
 #[derive(Debug, Clone)]
 pub struct Iteration {
+    pub method: Method,
     pub update: Update,
     /// Relative, on residual and increment.
     pub tolerance: f64,
     /// Iterations in a step before it is cut.
     pub limit: usize,
+}
+
+/// Which moduli the matrix is formed with where material yields (8)-(12).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    TangentStiffness,
+    InitialLoad,
+    /// Whichever costs less, by counts and contraction.
+    Auto,
 }
 
 /// When the matrix is formed and factorised anew.
@@ -160,6 +172,8 @@ pub struct Beam {
     pub mass: MassKind,
     /// Keep the rotary inertia of the section.
     pub rotary_inertia: bool,
+    /// `None`: the material is elastic.
+    pub yielding: Option<Yielding>,
     pub elements: Vec<BeamElement>,
 }
 
@@ -181,6 +195,8 @@ pub struct Bar {
     pub mass_per_length: f64,
     pub mass: MassKind,
     pub tension_only: bool,
+    /// `None`: the material is elastic.
+    pub yielding: Option<crate::materials::Law>,
     pub elements: Vec<[usize; 2]>,
 }
 
@@ -294,6 +310,8 @@ pub enum ExpectAt {
     Energy,
     /// Columns of links.csv.
     Link(usize),
+    /// The largest plastic strain of elements, from one to before another, counted through all beams and then all bars.
+    Elements(usize, usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,46 +1,18 @@
-//! `[materials.x]` and `[sections.x]` → section stiffnesses.
+//! `[sections.x]`, of the material of a beam: section stiffnesses, and fibres where it yields.
 
 use super::MassKind;
 use super::build::{Builder, Owner, span};
 use crate::deck::beams::Beam;
-use crate::deck::materials::Material;
 use crate::deck::sections as deck;
 use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Span};
 use crate::sections::{Section, Stiffness};
 
 impl<'d> Builder<'d> {
-    pub fn materials(&mut self) {
-        for (name, material) in &self.deck.materials.0 {
-            let owner = Owner { what: format!("material `{}`", name.value), span: &material.span };
-            self.need(&owner, "model", &material.model);
-            self.need_positive(&owner, "youngs_modulus", &material.youngs_modulus);
-            self.positive("density", &material.density);
-            if let Some(ratio) = &material.poisson_ratio
-                && !(ratio.value > -1.0 && ratio.value <= 0.5)
-            {
-                self.error::<()>(&ratio.span, "`poisson_ratio` must lie above -1 and not above 0.5");
-            }
-        }
-    }
-
-    /// The density of a material, which must be there if `part` has mass.
-    pub fn density(
-        &mut self,
-        name: &At<String>,
-        material: &At<Table<Material>>,
-        mass: MassKind,
-        part: &str,
-    ) -> Option<f64> {
-        match &material.density {
-            Some(density) => Some(density.value),
-            None if self.is_spoiled(&material.span, "density") => None,
-            None if self.needs_mass(mass) => {
-                let message = format!("material `{}` has no density, which the mass of {part} needs", name.value);
-                self.error_with(&name.span, message, "give it one, or `mass = \"none\"` to the part")
-            }
-            None => Some(0.0),
-        }
+    pub fn fibres(&mut self, _owner: &Owner<'d>, beam: &'d Beam) -> Option<Vec<crate::sections::Fibre>> {
+        let (_, s) = self.find("section", &self.deck.sections, beam.section.as_ref()?)?;
+        let n = s.fibres.as_ref().map_or(vec![4, 12], |f| f.value.values.iter().map(|v| v.value as usize).collect());
+        Some(crate::sections::fibres::rectangle(s.width.as_ref()?.value, s.height.as_ref()?.value, [n[0], *n.last()?]))
     }
 
     /// Index of the stiffness of a beam's section and material.
@@ -258,7 +230,7 @@ fn is_direct(section: &deck::Section) -> bool {
     keys(section).iter().any(|(key, place)| place.is_some() && DIRECT.contains(key))
 }
 
-fn keys(s: &deck::Section) -> [(&'static str, Option<&Span>); 22] {
+fn keys(s: &deck::Section) -> [(&'static str, Option<&Span>); 23] {
     [
         ("width", span(&s.width)),
         ("height", span(&s.height)),
@@ -271,6 +243,7 @@ fn keys(s: &deck::Section) -> [(&'static str, Option<&Span>); 22] {
         ("flange_thickness", span(&s.flange_thickness)),
         ("top_flange_thickness", span(&s.top_flange_thickness)),
         ("bottom_flange_thickness", span(&s.bottom_flange_thickness)),
+        ("fibres", span(&s.fibres)),
         ("area", span(&s.area)),
         ("moments", span(&s.moments)),
         ("product_moment", span(&s.product_moment)),
@@ -288,7 +261,7 @@ fn keys(s: &deck::Section) -> [(&'static str, Option<&Span>); 22] {
 fn taken(shape: deck::Shape) -> &'static [&'static str] {
     use deck::Shape;
     match shape {
-        Shape::Rectangle => &["width", "height"],
+        Shape::Rectangle => &["width", "height", "fibres"],
         Shape::Tube => &["radius", "diameter", "thickness"],
         Shape::Box | Shape::L => &["width", "height", "thickness"],
         Shape::I => &[

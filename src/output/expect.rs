@@ -1,6 +1,6 @@
 //! Values the deck expects, taken while the run goes and judged at its end.
 //!
-//! Peaks of motion look at every accepted step, those of energies and links at the steps where these are formed.
+//! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
 
 use super::{bodies_csv, energy_csv, links_csv, nodes_csv};
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
@@ -14,6 +14,7 @@ pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
         ExpectAt::Node(_) => [&nodes_csv::COLUMNS[..], &bodies_csv::COLUMNS[QUATERNION]].concat(),
         ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
         ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
+        ExpectAt::Elements(..) => vec!["plastic_strain"],
     }
 }
 
@@ -108,6 +109,7 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
         }
         ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
         ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
+        ExpectAt::Elements(from, to) => frame.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
     }
 }
 

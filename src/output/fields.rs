@@ -104,9 +104,12 @@ pub struct Fields {
     dir: PathBuf,
     every: usize,
     places: Vec<Place>,
-    /// What is the same in every grid: the opening of its one piece, and what follows the points.
+    /// What is the same in every grid: the opening of its one piece, the parts of its cells, the cells.
     piece: String,
+    parts: String,
     cells: String,
+    /// Of cells.
+    count: usize,
     /// Lines of fields.pvd so far.
     listed: String,
     text: String,
@@ -119,18 +122,28 @@ impl Fields {
         let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
         replace(&dir.join("fields.csv"), &names(model)?)?;
         let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
-        let (mut cells, mut bytes) = (String::from("<CellData>\n"), Vec::new());
-        vtu::array(&mut cells, &mut bytes, "part", 1, parts.into_iter());
-        cells.push_str("</CellData>\n<Cells>\n");
+        let (mut part_array, mut cells, mut bytes) = (String::new(), String::from("<Cells>\n"), Vec::new());
+        vtu::array(&mut part_array, &mut bytes, "part", 1, parts.into_iter());
         vtu::array(&mut cells, &mut bytes, "connectivity", 1, connectivity.into_iter());
-        vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.into_iter());
+        vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.iter().copied());
         vtu::array(&mut cells, &mut bytes, "types", 1, types.into_iter());
         cells.push_str("</Cells>\n</Piece>\n");
         let listed = match keep_to {
             Some(step) => kept(&dir.join("fields.pvd"), step)?,
             None => String::new(),
         };
-        Ok(Fields { dir: dir.into(), every, places, piece, cells, listed, text: String::new(), bytes })
+        Ok(Fields {
+            dir: dir.into(),
+            every,
+            places,
+            piece,
+            parts: part_array,
+            cells,
+            count: offsets.len(),
+            listed,
+            text: String::new(),
+            bytes,
+        })
     }
 
     /// Every so many steps, and the first and the last.
@@ -165,6 +178,14 @@ impl Fields {
         text.push_str("</PointData>\n<Points>\n");
         vectors(text, "Points", &|p| now[p.node].x + arm(p));
         text.push_str("</Points>\n");
+        text.push_str("<CellData>\n");
+        text.push_str(&self.parts);
+        if !frame.plastic_strains.is_empty() {
+            // Cells of beams and bars come first; links and bodies do not yield.
+            let strains = frame.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
+            vtu::array(text, bytes, "plastic_strain", 1, strains);
+        }
+        text.push_str("</CellData>\n");
         text.push_str(&self.cells);
         text.push_str(vtu::CLOSE);
 

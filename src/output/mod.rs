@@ -127,7 +127,14 @@ pub fn wanted(model: &Model) -> Wanted {
         reactions: model.output.reactions,
         links: model.output.links || expects(|at| matches!(at, ExpectAt::Link(_))),
         sections: model.output.sections,
+        plastic_strains: yields(model)
+            && (model.output.fields.is_some() || expects(|at| matches!(at, ExpectAt::Elements(..)))),
     }
+}
+
+/// Whether the material of any part yields.
+fn yields(model: &Model) -> bool {
+    model.beams.iter().any(|beam| beam.yielding.is_some()) || model.bars.iter().any(|bar| bar.yielding.is_some())
 }
 
 /// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.

@@ -1,9 +1,10 @@
 //! The plan in words, for `rdsolve check` and the log.
 
 use super::Plan;
+use crate::elements::beam::Rule;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
-use crate::model::{Kind as Analysis, Model, Update};
+use crate::model::{Kind as Analysis, Method, Model, Update};
 use std::fmt::Write;
 
 /// What the reader of a result must know of Wilson-θ.
@@ -49,6 +50,33 @@ impl Plan {
         for what in self.unneeded(model, system) {
             line("  left out", what.to_string());
         }
+        for beam in &model.beams {
+            let Some(yielding) = &beam.yielding else { continue };
+            let (fibres, points) = (yielding.fibres.len(), yielding.points);
+            let rule = if yielding.rule == Rule::Gauss { "Gauss" } else { "Lobatto" };
+            let shear =
+                if yielding.shear { "yield under normal and shear stress" } else { "yield under normal stress alone" };
+            line(
+                "yields",
+                format!("beam `{}`: {fibres} fibres at {points} {rule} points an element, {shear}", beam.name),
+            );
+            if system.merges_fibres(beam) {
+                line("  left out", "fibres beside one another: the motion is plane, they strain alike".to_string());
+            }
+        }
+        for bar in model.bars.iter().filter(|bar| bar.yielding.is_some()) {
+            line("yields", format!("bar `{}`", bar.name));
+        }
+        if system.history > 0 {
+            let method = match model.iteration.method {
+                Method::TangentStiffness => "tangent stiffness: the matrix is the derivative of the stress",
+                Method::InitialLoad => {
+                    "initial load: the matrix is elastic, plastic stress stands on the right-hand side (11)"
+                }
+                Method::Auto => "auto: a matrix is kept while corrections mixed with earlier ones contract well enough",
+            };
+            line("method", method.to_string());
+        }
         let matrix = match self.kind {
             Kind::Block => "exact unsymmetric tangent, sparse LU by blocks of nodes",
             Kind::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
@@ -86,7 +114,9 @@ impl Plan {
                 out.push("damping: none is given");
             }
         }
-        out.push("history of material points: all materials are elastic");
+        if system.history == 0 {
+            out.push("history of material points: all materials are elastic");
+        }
         out
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Omission;
 use crate::elements::Block;
-use crate::math::{Mat3, Vec3, skew};
-use crate::model::{Kind, LinkKind, Model};
+use crate::math::Vec3;
+use crate::model::{Kind, Model};
 use crate::system::System;
 
 /// Why a direction is what it is.
@@ -26,7 +26,7 @@ pub fn place(model: &Model, system: &System) -> (Vec<Place>, Vec<Omission>) {
     let n = model.nodes.len();
     let resisted = resistance(system, n);
     let moved = causes(model, system, &resisted);
-    let normal = if model.analysis.plane { plane_normal(model, system) } else { None };
+    let normal = system.plane;
     let mut places = vec![[Why::Nothing; 6]; n];
     for inertia in &system.inertias {
         for dof in 0..6 {
@@ -191,57 +191,4 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
         }
     }
     moved
-}
-
-/// The global axis normal to the plane of a scene in which nothing can move out of it.
-fn plane_normal(model: &Model, system: &System) -> Option<usize> {
-    (0..3).rev().find(|&n| is_plane(model, system, n))
-}
-
-fn is_plane(model: &Model, system: &System, n: usize) -> bool {
-    let small = 1e-12; // of the entries beside it: what rounding leaves of a zero
-    // Against the largest entry: the norm of large numbers overflows, and nothing exceeds infinity.
-    let out_of_plane = |v: &Vec3| v[n].abs() > small * v.amax();
-    let not_along = |v: &Vec3| (0..3).any(|i| i != n && v[i].abs() > small * v.amax());
-    // A symmetric tensor that keeps the normal and the plane apart.
-    let mixes = |J: &Mat3| (0..3).any(|i| i != n && J[(n, i)].abs().max(J[(i, n)].abs()) > small * J.amax());
-    // A matrix that pairs a vector in the plane with a rotation along the normal, or the other way round.
-    let pairs_wrongly =
-        |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.amax()));
-
-    let Some(first) = model.nodes.first() else { return false };
-    let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
-    let flat = |p: &crate::model::Node| (p.x[n] - first.x[n]).abs() <= small * size;
-    let still = |p: &crate::model::Node| !out_of_plane(&p.v) && !not_along(&p.omega);
-    if !model.nodes.iter().all(|p| flat(p) && still(p)) {
-        return false;
-    }
-    if model.loads.iter().any(|l| out_of_plane(&l.force) || not_along(&l.moment)) {
-        return false;
-    }
-    if out_of_plane(&model.gravity) || model.base_accelerations.iter().any(|b| out_of_plane(&b.direction)) {
-        return false;
-    }
-    let in_plane = |dof: usize| if dof < 3 { dof != n } else { dof - 3 == n };
-    if model.held.iter().any(|h| h.motion.is_some() && !in_plane(h.dof)) {
-        return false;
-    }
-    if system.inertias.iter().any(|i| mixes(&i.J0)) {
-        return false;
-    }
-    let beams = model.beams.iter().flat_map(|b| &b.elements).all(|e| {
-        let C = &model.stiffnesses[e.section];
-        let turn = |K: &Mat3| e.frame * K * e.frame.transpose();
-        !mixes(&turn(&C.N)) && !mixes(&turn(&C.M)) && !pairs_wrongly(&turn(&C.NM))
-    });
-    let links = model.links.iter().all(|link| match &link.kind {
-        LinkKind::Line { direction, .. } => direction.is_none_or(|d| !out_of_plane(&d)),
-        LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {
-            let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
-            !mixes(&turn(&k[..3])) && !mixes(&turn(&k[3..]))
-        }),
-    });
-    // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
-    let arms = system.attachments.iter().all(|a| !pairs_wrongly(&skew(&a.S0)) || a.S0 == Vec3::zeros());
-    beams && links && arms
 }

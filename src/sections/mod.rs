@@ -4,6 +4,8 @@
 //! about its centroid, or with what is wrong in the deck's words.
 
 mod closed;
+pub mod fibres;
+pub use fibres::{Fibre, flattened};
 mod open;
 mod solid;
 mod wall;

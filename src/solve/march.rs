@@ -1,11 +1,12 @@
 //! From 0 to the end time: steps land on the times asked for, are cut where they fail and grow again.
 
+use super::accelerate::Anderson;
 use super::failure::Failure;
 use super::refresh::Refresh;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{Frame, LinkState, Observer, SectionPoint};
-use crate::model::{Cadence, Kind, Model, Update};
+use crate::model::{Cadence, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
@@ -20,6 +21,7 @@ pub struct Wanted {
     pub reactions: bool,
     pub links: bool,
     pub sections: bool,
+    pub plastic_strains: bool,
 }
 
 /// How a run ended.
@@ -58,6 +60,7 @@ pub struct Run<'a> {
     pub observing: Duration,
     energy: Option<Energy>,
     links: Vec<LinkState>,
+    plastic_strains: Vec<f64>,
     sections: Vec<SectionPoint>,
 }
 
@@ -82,10 +85,13 @@ impl<'a> Run<'a> {
         let moves = |i: &usize| !rides[*i] && (driven[*i] || (0..6).any(|d| plan.is_unknown(*i, d)));
         let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
         // Load steps are long and few, and there is no mass to steady an old matrix.
+        let method = model.iteration.method;
         let update = match (model.analysis.kind, model.iteration.update) {
-            (Kind::Static, Update::Auto) => Update::Iteration,
+            (Kind::Static, Update::Auto) if method == Method::TangentStiffness => Update::Iteration,
             (_, update) => update,
         };
+        let length = extent(&at_rest);
+        let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
         let stepper = Stepper {
             model,
             plan,
@@ -93,11 +99,13 @@ impl<'a> Run<'a> {
             drive: Drive::new(model),
             solver,
             assembly,
-            refresh: Refresh::new(update, plan.linear, plan.refresh_cost),
-            length: extent(&at_rest),
-            reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(extent(&at_rest)),
+            refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
+            anderson: (system.history > 0 && method != Method::TangentStiffness).then(|| Anderson::new(weights)),
+            length,
+            reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
             trial: at_rest,
             increments: vec![Increment::ZERO; n],
+            history: vec![0.0; system.history],
             forces: Forces::new(system, n),
             r: vec![0.0; plan.unknowns],
             given: [Loading::default(), Loading::default(), Loading::default()],
@@ -116,6 +124,7 @@ impl<'a> Run<'a> {
             observing: Duration::ZERO,
             energy: None,
             links: Vec::new(),
+            plastic_strains: Vec::new(),
             sections: Vec::new(),
         }
     }
@@ -251,6 +260,7 @@ impl<'a> Run<'a> {
             energy: self.energy.as_ref(),
             reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
             links: &self.links,
+            plastic_strains: &self.plastic_strains,
             sections: &self.sections,
         };
         observer.see(&frame).map_err(Outcome::Io)?;
@@ -262,6 +272,7 @@ impl<'a> Run<'a> {
     fn derive(&mut self, state: &State, due: bool, balance: Option<f64>) {
         self.energy = None;
         self.links.clear();
+        self.plastic_strains.clear();
         self.sections.clear();
         if !due {
             return;
@@ -273,8 +284,11 @@ impl<'a> Run<'a> {
         if self.wanted.links {
             system.link_states(&state.nodes, &mut self.links);
         }
+        if self.wanted.plastic_strains {
+            system.plastic_strains(&state.now(), &mut self.plastic_strains);
+        }
         if self.wanted.sections {
-            system.section_points(self.stepper.model, &state.nodes, &mut self.sections);
+            system.section_points(self.stepper.model, &state.now(), &mut self.sections);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 
+mod accelerate;
 mod convergence;
 mod failure;
 mod march;
@@ -38,6 +39,9 @@ pub struct Frame<'a> {
     pub reactions: &'a [f64],
     /// In the order of [`Model::links`]. Empty unless `due` and wanted.
     pub links: &'a [LinkState],
+    /// Largest accumulated plastic strain of each element of all beams, then of all bars, in deck order. Empty unless `due` and
+    /// wanted.
+    pub plastic_strains: &'a [f64],
     /// Empty unless `due` and wanted.
     pub sections: &'a [SectionPoint],
 }

@@ -1,11 +1,13 @@
 //! When the matrix is formed and factorised anew.
 
 use super::convergence::Judgement;
-use crate::model::Update;
+use crate::elements::Moduli;
+use crate::model::{Method, Update};
 
 /// Decides from counts and contraction alone, never from the clock, so that the same deck takes the same path.
 #[derive(Debug, Clone)]
 pub struct Refresh {
+    method: Method,
     update: Update,
     /// Iterations that a fresh matrix costs.
     cost: f64,
@@ -31,9 +33,10 @@ pub enum Advice {
 }
 
 impl Refresh {
-    pub fn new(update: Update, linear: bool, cost: f64) -> Self {
+    pub fn new(method: Method, update: Update, linear: bool, cost: f64) -> Self {
         let update = if linear { Update::Never } else { update };
         Refresh {
+            method,
             update,
             cost,
             dt: None,
@@ -43,6 +46,14 @@ impl Refresh {
             eager: 0,
             patience: 1,
             insisting: false,
+        }
+    }
+
+    /// What the matrix is to be formed with.
+    pub fn moduli(&self) -> Moduli {
+        match self.method {
+            Method::InitialLoad => Moduli::Elastic,
+            Method::TangentStiffness | Method::Auto => Moduli::Algorithmic,
         }
     }
 
@@ -70,7 +81,9 @@ impl Refresh {
     /// After a correction that was judged against another of the same step. `fresh`: the matrix was formed in this step.
     pub fn watch(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
         let contraction = judgement.contraction;
-        if self.update == Update::Never && contraction < 1.0 {
+        // An elastic matrix contracts slowly where material yields, and a new one no faster.
+        let patient = self.update == Update::Never || self.method == Method::InitialLoad;
+        if patient && (contraction < 1.0 || fresh) {
             return Advice::GoOn;
         }
         if !fresh && contraction > 0.5 && !self.insisting {
@@ -106,7 +119,8 @@ impl Refresh {
     /// After a step that did not converge: whether it is to be tried with a fresh matrix in every iteration, which it has
     /// not been so far.
     pub fn insist(&mut self) -> bool {
-        let more = !self.insisting && matches!(self.update, Update::Auto | Update::Step);
+        let helps = self.method != Method::InitialLoad && matches!(self.update, Update::Auto | Update::Step);
+        let more = !self.insisting && helps;
         self.insisting |= more;
         more
     }

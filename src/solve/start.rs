@@ -2,10 +2,11 @@
 
 use super::failure::Failure;
 use super::step::Stepper;
+use crate::elements::Moduli;
 use crate::linear::Singular;
 use crate::math::{Vec3, Vec6, rotation};
 use crate::model::Kind;
-use crate::state::{Increment, Node, State, Work};
+use crate::state::{Increment, Node, Now, State, Work};
 use crate::system::Side;
 use crate::system::assembly::{NONE, Weights};
 
@@ -37,6 +38,7 @@ impl Stepper<'_> {
         let mut state = State {
             time: 0.0,
             nodes,
+            history: vec![0.0; self.system.history],
             jerk: vec![Vec6::zeros(); n],
             reactions: vec![0.0; self.model.held.len()],
             work: Work::default(),
@@ -65,10 +67,10 @@ impl Stepper<'_> {
             node.q = rotation::exp(&riding) * node.q;
         }
         self.follow(&mut state);
-        self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+        self.system.residual(&state.now(), &self.given[2], &mut self.forces);
         if dynamic {
             self.accelerate(&mut state)?;
-            self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+            self.system.residual(&state.now(), &self.given[2], &mut self.forces);
         }
         for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
             *reaction = -self.forces.on_nodes[held.node][held.dof];
@@ -103,7 +105,7 @@ impl Stepper<'_> {
         }
         let mut force = |side: Side| {
             self.drive.loading(state.time, side, &mut self.given[2]);
-            self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+            self.system.residual(&state.now(), &self.given[2], &mut self.forces);
             self.forces.on_nodes.clone()
         };
         let (before, after) = (force(Side::Before), force(Side::After));
@@ -114,7 +116,7 @@ impl Stepper<'_> {
         self.refresh.rejected();
         if self.wants_forces {
             // Reactions jump too, by what the new accelerations leave of the new loads.
-            self.system.residual(&state.nodes, &self.given[2], &mut self.forces);
+            self.system.residual(&state.now(), &self.given[2], &mut self.forces);
             for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
                 *reaction -= self.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
             }
@@ -127,7 +129,7 @@ impl Stepper<'_> {
         // Such a direction may lie aslant: a thin rod's axis, or that of an arm with a point mass at its end. It shows as a
         // pivot that vanishes.
         let mut massless: Vec<usize> = Vec::new();
-        while let Err(singular) = self.factor_mass(&state.nodes, &massless) {
+        while let Err(singular) = self.factor_mass(&state.now(), &massless) {
             if massless.contains(&singular.row) {
                 return Err(Failure::singular(self.model, self.plan.directions[singular.row]));
             }
@@ -150,10 +152,10 @@ impl Stepper<'_> {
     }
 
     /// Forms and factorises M, and puts the forces into `r`; what has no mass, on the diagonal or by `massless`, is held.
-    fn factor_mass(&mut self, nodes: &[Node], massless: &[usize]) -> Result<(), Singular> {
+    fn factor_mass(&mut self, now: &Now, massless: &[usize]) -> Result<(), Singular> {
         const HELD: f64 = 1e20; // times the mass: what is left of its acceleration is below rounding
-        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0 };
-        self.assembly.tangent(self.system, nodes, &self.given[2], &self.forces, weights, &mut self.solver);
+        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+        self.assembly.tangent(self.system, now, &self.given[2], &self.forces, weights, &mut self.solver);
         for row in 0..self.plan.unknowns {
             let (node, dof) = self.plan.directions[row];
             self.r[row] = self.forces.on_nodes[node][dof];

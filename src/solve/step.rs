@@ -1,5 +1,6 @@
 //! One step: predict, then residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
 
+use super::accelerate::Anderson;
 use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::refresh::{Advice, Refresh};
@@ -9,7 +10,7 @@ use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, Vec6, bottom, join};
 use crate::model::{Kind, Model};
 use crate::plan::Plan;
-use crate::state::{Increment, Node, State};
+use crate::state::{Increment, Node, Now, State};
 use crate::system::assembly::{Assembly, NONE, Weights};
 use crate::system::{Drive, Forces, Loading, Prescribed, Scale, Side, System, between};
 
@@ -22,9 +23,13 @@ pub struct Stepper<'a> {
     pub solver: Solver,
     pub assembly: Assembly,
     pub refresh: Refresh,
+    /// Where the matrix may be far from the derivative because material yields.
+    pub anderson: Option<Anderson>,
     /// Motion at the instant of equilibrium.
     pub trial: Vec<Node>,
     pub increments: Vec<Increment>,
+    /// Room for what material points will remember at the end of the step.
+    pub history: Vec<f64>,
     pub forces: Forces,
     /// Residual, then correction, per unknown.
     pub r: Vec<f64>,
@@ -75,6 +80,7 @@ impl<'a> Stepper<'a> {
     pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
         let dt = to - state.time;
         let scheme = self.coefficients(dt);
+        let since = scheme.instant * dt;
         self.give(state.time, to, scheme.instant);
         self.predict(state, &scheme);
         let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
@@ -82,7 +88,8 @@ impl<'a> Stepper<'a> {
         let mut limit = self.model.iteration.limit;
         loop {
             self.move_trial(state, &scheme);
-            let scale = self.system.residual(&self.trial, &self.given[2], &mut self.forces);
+            let now = Now { nodes: &self.trial, past: &state.history, since };
+            let scale = self.system.residual(&now, &self.given[2], &mut self.forces);
             taken.residual = self.gather(&scale);
             if !taken.residual.is_finite() {
                 if !self.once_more(state, &scheme) {
@@ -92,12 +99,16 @@ impl<'a> Stepper<'a> {
                 continue;
             }
             if self.refresh.due(taken.iterations, dt) {
-                self.form_matrix(&scheme)?;
+                self.form_matrix(state, &scheme, since)?;
                 self.refresh.done(dt);
+                self.forget_corrections();
                 taken.refactorizations += 1;
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
+            if let Some(anderson) = &mut self.anderson {
+                anderson.mix(&mut self.r);
+            }
             let (correction, motion) = self.correct();
             taken.iterations += 1;
             let size = self.relative(correction, motion);
@@ -151,7 +162,14 @@ impl<'a> Stepper<'a> {
         again
     }
 
+    fn forget_corrections(&mut self) {
+        if let Some(anderson) = &mut self.anderson {
+            anderson.forget();
+        }
+    }
+
     fn predict(&mut self, state: &State, scheme: &Coefficients) {
+        self.forget_corrections();
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
@@ -195,10 +213,11 @@ impl<'a> Stepper<'a> {
         ratio(largest[0], force).max(ratio(largest[1], moment))
     }
 
-    fn form_matrix(&mut self, scheme: &Coefficients) -> Result<(), Failure> {
+    fn form_matrix(&mut self, state: &State, scheme: &Coefficients, since: f64) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
-        let weights = Weights { stiffness: true, rate, acceleration };
-        self.assembly.tangent(self.system, &self.trial, &self.given[2], &self.forces, weights, &mut self.solver);
+        let weights = Weights { stiffness: true, rate, acceleration, moduli: self.refresh.moduli() };
+        let now = Now { nodes: &self.trial, past: &state.history, since };
+        self.assembly.tangent(self.system, &now, &self.given[2], &self.forces, weights, &mut self.solver);
         self.factorizations += 1;
         self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))
     }
@@ -258,10 +277,12 @@ impl<'a> Stepper<'a> {
 
     /// State at the end of the step, written once.
     fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
+        let dt = to - state.time;
         let mut damping_power = 0.0;
         if self.wants_forces {
             self.move_trial(state, scheme);
-            self.system.residual(&self.trial, &self.given[2], &mut self.forces);
+            let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
+            self.system.residual(&now, &self.given[2], &mut self.forces);
             if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
                 damping_power = self.system.damping_power(&self.trial);
             }
@@ -272,7 +293,6 @@ impl<'a> Stepper<'a> {
                 scheme.differentiate(&mut self.increments[node], &v, &a);
             }
         }
-        let dt = to - state.time;
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
@@ -294,6 +314,11 @@ impl<'a> Stepper<'a> {
         }
         if self.wants_forces {
             self.account(state, scheme, dt, damping_power);
+        }
+        if self.system.history > 0 {
+            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+            state.work.material += self.system.remember(&now, &mut self.history);
+            std::mem::swap(&mut state.history, &mut self.history);
         }
         std::mem::swap(&mut state.nodes, &mut self.trial);
         state.time = to;

@@ -1,5 +1,6 @@
 //! What changes when a step is accepted, and nothing else: time, the motion of every node, work done so far.
 
+use crate::materials::Spent;
 use crate::math::rotation::{self, RotationUpdate};
 use crate::math::{Mat3, Vec3, Vec6, bottom, top};
 use nalgebra::Quaternion;
@@ -53,6 +54,13 @@ pub struct Increment {
     pub dd: Vec6,
 }
 
+impl State {
+    /// The state itself as elements see it.
+    pub fn now(&self) -> Now<'_> {
+        Now { nodes: &self.nodes, past: &self.history, since: 0.0 }
+    }
+}
+
 impl Increment {
     pub const ZERO: Increment = {
         let zero = Vec6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -60,11 +68,30 @@ impl Increment {
     };
 }
 
+/// The motion at an instant, as elements see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Now<'a> {
+    pub nodes: &'a [Node],
+    /// What the material points remember of the last accepted state; an element's share of [`State::history`].
+    pub past: &'a [f64],
+    /// Time since that state.
+    pub since: f64,
+}
+
+impl<'a> Now<'a> {
+    /// Without a past: all materials are elastic.
+    pub fn of(nodes: &'a [Node]) -> Self {
+        Now { nodes, past: &[], since: 0.0 }
+    }
+}
+
 /// Time and nodes at the end of an accepted step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     pub time: f64,
     pub nodes: Vec<Node>,
+    /// What the material points remember: plastic strains and their kin, a range for each group of elements. Zero at t = 0.
+    pub history: Vec<f64>,
     /// Change of (a, α) per time over the last step, for the prediction of the next.
     pub jerk: Vec<Vec6>,
     /// Forces on the held directions, in the order of the model's list.
@@ -81,4 +108,6 @@ pub struct Work {
     pub damping: f64,
     /// Power of the damping at the end of the step.
     pub damping_power: f64,
+    /// Of the material points.
+    pub material: Spent,
 }

@@ -2,10 +2,10 @@
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
 use super::{Forces, Loading, System, follower_stiffness};
-use crate::elements::Block;
+use crate::elements::{Block, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
-use crate::state::Node;
+use crate::state::{Node, Now};
 use rayon::prelude::*;
 
 /// A direction of a node that is no unknown.
@@ -105,6 +105,7 @@ pub struct Weights {
     /// ∂q̇/∂q, ∂q̈/∂q.
     pub rate: f64,
     pub acceleration: f64,
+    pub moduli: Moduli,
 }
 
 /// Which nodes a node's motion depends on: itself, or the roots it rides on (and itself for directions of its own).
@@ -224,17 +225,18 @@ impl Assembly {
     pub fn tangent(
         &mut self,
         system: &System,
-        nodes: &[Node],
+        now: &Now,
         loading: &Loading,
         forces: &Forces,
         weights: Weights,
         solver: &mut Solver,
     ) {
+        let nodes = now.nodes;
         let values = solver.values();
         values.fill(0.0);
         self.carry_over(system, nodes);
         if weights.stiffness {
-            self.add_elements(system, nodes, weights.rate, values);
+            self.add_elements(system, now, weights, values);
         }
         self.form_nodes(system, nodes, loading, forces, weights);
         self.add_nodes(values);
@@ -256,9 +258,10 @@ impl Assembly {
         }
     }
 
-    fn add_elements(&mut self, system: &System, nodes: &[Node], rate: f64, values: &mut [f64]) {
+    fn add_elements(&mut self, system: &System, now: &Now, Weights { rate, moduli, .. }: Weights, values: &mut [f64]) {
         for (group, places) in system.groups.iter().zip(&self.groups) {
             let (block, d) = (&group.block, group.block.dofs());
+            let now = &group.share(now);
             let n = block.nodes(0).len();
             let length = (d * n).pow(2);
             for first in (0..block.len()).step_by(CHUNK) {
@@ -268,9 +271,12 @@ impl Assembly {
                     local
                         .par_chunks_mut(length)
                         .enumerate()
-                        .for_each(|(k, K)| block.tangent(first + k, nodes, rate, K));
+                        .for_each(|(k, K)| block.tangent(first + k, now, rate, moduli, K));
                 } else {
-                    local.chunks_mut(length).enumerate().for_each(|(k, K)| block.tangent(first + k, nodes, rate, K));
+                    local
+                        .chunks_mut(length)
+                        .enumerate()
+                        .for_each(|(k, K)| block.tangent(first + k, now, rate, moduli, K));
                 }
                 for (e, K) in (first..last).zip(local.chunks(length)) {
                     let place = &places[e];

@@ -8,7 +8,7 @@ use crate::state::State;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy {
     pub kinetic: f64,
-    /// Elastic energy of beams and bars.
+    /// Elastic energy of beams and bars, and what kinematic hardening keeps.
     pub strain: f64,
     /// Dissipated so far by plastic flow.
     pub plastic: f64,
@@ -33,9 +33,12 @@ pub struct Energy {
 impl System {
     /// `initial`: the total at t = 0, against which the balance is drawn.
     pub fn energy(&self, state: &State, initial: Option<f64>) -> Energy {
-        let nodes = &state.nodes;
-        let stored = |kind| self.groups.iter().filter(|g| g.kind == kind).map(|g| g.block.energy(nodes)).sum::<f64>();
-        let (strain, links) = (stored(GroupKind::Structure), stored(GroupKind::Link));
+        let (nodes, now, work) = (&state.nodes, state.now(), state.work);
+        let stored = |kind| -> f64 {
+            let groups = self.groups.iter().filter(|g| g.kind == kind);
+            groups.map(|g| g.block.energy(&g.share(&now))).sum()
+        };
+        let (strain, links) = (stored(GroupKind::Structure) + work.material.stored, stored(GroupKind::Link));
         let mut kinetic = 0.0;
         let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
         for inertia in &self.inertias {
@@ -58,16 +61,19 @@ impl System {
             (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
         }
         let total = kinetic + strain + links;
-        let work = state.work;
         Energy {
             kinetic,
             strain,
-            plastic: 0.0,
-            viscous: 0.0,
+            plastic: work.material.plastic,
+            viscous: work.material.viscous,
             damping: work.damping,
             links,
             external: work.external,
-            numerical: initial.unwrap_or(total) + work.external - work.damping - total,
+            numerical: initial.unwrap_or(total) + work.external
+                - work.damping
+                - work.material.plastic
+                - work.material.viscous
+                - total,
             total,
             p,
             l,

@@ -2,9 +2,11 @@
 //! the first time: what an element does to a node that rides on a body is handed to the body.
 
 pub mod assembly;
+mod build;
 pub mod energy;
 mod inertia;
 mod motion;
+mod plane;
 pub mod results;
 
 pub use inertia::Inertia;
@@ -12,19 +14,28 @@ pub use motion::{Drive, Prescribed, Side, between};
 pub use results::{LinkState, SectionPoint};
 
 use crate::constraints::attachment::{self, Attachment};
-use crate::elements::beam::{Beams, Description};
-use crate::elements::bushing::{Bushing, Bushings};
-use crate::elements::link::{Link, Links};
-use crate::elements::{Block, Force, bar};
-use crate::math::{Mat3, Vec3, quadrature, rotation, skew};
+use crate::elements::{Block, Force};
+use crate::materials::Spent;
+use crate::math::{Mat3, Vec3, rotation, skew};
 use crate::model::{self, Model};
-use crate::state::Node;
+use crate::state::{Node, Now};
 use inertia::ConsistentMass;
+use std::ops::Range;
 
 /// A group of like elements and where its energy is booked.
 pub struct Group {
     pub block: Box<dyn Block>,
     pub kind: GroupKind,
+    /// Its share of [`crate::state::State::history`].
+    pub history: Range<usize>,
+}
+
+impl Group {
+    /// The motion with this group's past alone.
+    #[inline]
+    pub fn share<'a>(&self, now: &Now<'a>) -> Now<'a> {
+        Now { past: &now.past[self.history.clone()], ..*now }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +47,8 @@ pub enum GroupKind {
 /// Everything that acts on the nodes. Constant over a run.
 pub struct System {
     pub groups: Vec<Group>,
+    /// Numbers that material points remember.
+    pub history: usize,
     /// At most one per node, by node.
     pub inertias: Vec<Inertia>,
     consistent: Vec<ConsistentMass>,
@@ -45,6 +58,8 @@ pub struct System {
     loads: Vec<model::Load>,
     nodal_damping: Vec<model::NodalDamping>,
     mass_damping: f64,
+    /// The global axis normal to the motion, where the scene is plane.
+    pub plane: Option<usize>,
     /// Inertia does not act in a static analysis; weight does.
     dynamic: bool,
 }
@@ -101,90 +116,19 @@ impl System {
     /// A cycle among attachments, which [`crate::model`] excludes.
     pub fn new(model: &Model) -> Result<System, String> {
         let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
-        let beta = model.damping.stiffness_factor;
-        let mut groups = Vec::new();
-        let mut consistent = Vec::new();
-        let mut lumped = inertia::Lumped::new(x.len());
-        for body in &model.bodies {
-            lumped.add(body.node, body.mass, &body.inertia);
-        }
-        for mass in &model.masses {
-            lumped.add(mass.node, mass.mass, &mass.inertia);
-        }
-        for beam in &model.beams {
-            groups.push(Group { block: beams(beam, model, &x, beta), kind: GroupKind::Structure });
-            let (_, weights) = quadrature::lobatto(beam.order + 1);
-            for element in &beam.elements {
-                let nodes = &element.nodes[..=beam.order];
-                let section = &model.stiffnesses[element.section];
-                let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
-                let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
-                for (&node, w) in nodes.iter().zip(weights) {
-                    let share = 0.5 * w * length;
-                    let mass = match beam.mass {
-                        model::MassKind::Lumped => share * section.mass_per_length,
-                        _ => 0.0,
-                    };
-                    let keep = beam.rotary_inertia && beam.mass != model::MassKind::None;
-                    lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
-                }
-                if beam.mass == model::MassKind::Consistent {
-                    consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
-                }
-            }
-        }
-        for part in &model.bars {
-            let links = bar::links(&part.elements, part.axial_stiffness, part.tension_only, &x, beta);
-            groups.push(Group { block: Box::new(links), kind: GroupKind::Structure });
-            for nodes in &part.elements {
-                let mass = part.mass_per_length * (x[nodes[1]] - x[nodes[0]]).norm();
-                match part.mass {
-                    model::MassKind::Lumped => nodes.iter().for_each(|&n| lumped.add(n, 0.5 * mass, &Mat3::zeros())),
-                    model::MassKind::Consistent => consistent.push(ConsistentMass::new(nodes, mass)),
-                    model::MassKind::None => {}
-                }
-            }
-        }
-        let mut lines = Vec::new();
-        let mut bushings = Vec::new();
-        let mut watched = Vec::new();
-        for link in &model.links {
-            match &link.kind {
-                model::LinkKind::Line { law, damping, direction, free_length } => {
-                    let line = Link {
-                        nodes: link.ends,
-                        law: law.clone(),
-                        damping: *damping,
-                        direction: *direction,
-                        free_length: *free_length,
-                    };
-                    watched.push(results::Watched::Line(line.clone()));
-                    lines.push(line);
-                }
-                model::LinkKind::Bushing { stiffness, damping, axes } => {
-                    let bushing = Bushing {
-                        nodes: link.ends,
-                        axes: *axes,
-                        stiffness: *stiffness,
-                        damping: *damping,
-                        offset: axes.tr_mul(&(x[link.ends[1]] - x[link.ends[0]])),
-                    };
-                    watched.push(results::Watched::Bushing(bushing.clone()));
-                    bushings.push(bushing);
-                }
-            }
-        }
-        let blocks: [Box<dyn Block>; 2] = [Box::new(Links(lines)), Box::new(Bushings(bushings))];
-        groups.extend(blocks.into_iter().map(|block| Group { block, kind: GroupKind::Link }));
-        groups.retain(|g| !g.block.is_empty());
-
         let attachments =
             model.riders.iter().map(|r| Attachment::new(r.node, r.master, x[r.node] - x[r.master], r.dofs)).collect();
+        let attachments = attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?;
+        let (inertias, consistent) = build::masses(model, &x);
+        let plane = plane::normal(model, &inertias, &attachments);
+        let (groups, watched) = build::groups(model, &x, plane);
         Ok(System {
+            history: groups.last().map_or(0, |group| group.history.end),
             groups,
-            inertias: lumped.finish(),
+            inertias,
             consistent,
-            attachments: attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?,
+            attachments,
+            plane,
             watched,
             loads: model.loads.clone(),
             nodal_damping: model.damping.nodal.clone(),
@@ -195,12 +139,13 @@ impl System {
 
     /// Sums f_ext − f_int − C v − M a per node and hands the forces on constrained directions to their masters (58).
     /// Returns the magnitude of what was summed.
-    pub fn residual(&self, nodes: &[Node], loading: &Loading, forces: &mut Forces) -> Scale {
+    pub fn residual(&self, now: &Now, loading: &Loading, forces: &mut Forces) -> Scale {
+        let nodes = now.nodes;
         let F = &mut forces.on_nodes[..];
         F.fill([0.0; 6]);
         let mut scale = Scale::default();
         for group in &self.groups {
-            group.block.subtract_forces(nodes, F);
+            group.block.subtract_forces(&group.share(now), F);
         }
         for f in F.iter() {
             scale.meet(f);
@@ -259,9 +204,20 @@ impl System {
         work
     }
 
+    /// Writes what material points will remember of `now` into `history`; returns what became of the work of plastic
+    /// strains since the last state.
+    pub fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+        let mut spent = Spent::default();
+        for group in self.groups.iter().filter(|group| !group.history.is_empty()) {
+            spent += group.block.remember(&group.share(now), &mut history[group.history.clone()]);
+        }
+        spent
+    }
+
     /// Power that dampers take.
     pub fn damping_power(&self, nodes: &[Node]) -> f64 {
-        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(nodes)).sum();
+        let now = Now::of(nodes);
+        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(&now)).sum();
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
@@ -272,6 +228,11 @@ impl System {
             power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
         }
         power
+    }
+
+    /// True where fibres that strain alike in a plane motion are one.
+    pub fn merges_fibres(&self, part: &model::Beam) -> bool {
+        part.yielding.is_some() && build::in_plane(part, self.plane).is_some()
     }
 
     pub fn nodal_damping(&self) -> &[model::NodalDamping] {
@@ -307,18 +268,4 @@ fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Vec3) {
 fn follower_stiffness(load: &model::Load, factor: f64, node: &Node) -> [Mat3; 2] {
     let (f, m) = load_on(load, factor, node);
     [skew(&f), skew(&m)]
-}
-
-fn beams(beam: &model::Beam, model: &Model, x: &[Vec3], beta: f64) -> Box<dyn Block> {
-    let elements = beam.elements.iter().map(|e| Description {
-        nodes: &e.nodes,
-        frame: &e.frame,
-        stiffness: &model.stiffnesses[e.section],
-    });
-    match beam.order {
-        1 => Box::new(Beams::<2>::new(elements, x, beta)),
-        2 => Box::new(Beams::<3>::new(elements, x, beta)),
-        3 => Box::new(Beams::<4>::new(elements, x, beta)),
-        _ => Box::new(Beams::<5>::new(elements, x, beta)),
-    }
 }

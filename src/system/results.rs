@@ -1,11 +1,12 @@
 //! What elements feel, for output: forces of links, stress resultants of beams.
 
-use super::System;
+use super::{GroupKind, System};
+use crate::elements::Point;
 use crate::elements::bushing::Bushing;
 use crate::elements::link::Link;
 use crate::math::{Mat3, Vec3};
 use crate::model::Model;
-use crate::state::Node;
+use crate::state::{Node, Now};
 
 /// A link at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,16 +21,14 @@ pub struct LinkState {
     pub m: Vec3,
 }
 
-/// Stress resultants at a Gauss point of a beam.
+/// An integration point of a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionPoint {
     pub beam: usize,
     pub element: usize,
     pub point: usize,
-    /// Arc length from the beam's start.
-    pub s: f64,
-    /// N, Q_y, Q_z, T, M_y, M_z in section axes.
-    pub forces: [f64; 6],
+    /// At arc length `s` from the beam's start.
+    pub at: Point,
 }
 
 /// A link as the deck lists it, apart from the blocks that integrate it.
@@ -59,18 +58,29 @@ impl System {
         }));
     }
 
-    /// Stress resultants at all Gauss points of all beams in deck order.
-    pub fn section_points(&self, model: &Model, nodes: &[Node], out: &mut Vec<SectionPoint>) {
+    /// Largest accumulated plastic strain of each element of all beams, then of all bars, in deck order.
+    pub fn plastic_strains(&self, now: &Now, out: &mut Vec<f64>) {
+        out.clear();
+        for group in self.groups.iter().filter(|group| group.kind == GroupKind::Structure) {
+            let past = group.share(now).past;
+            out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
+        }
+    }
+
+    /// Stress resultants at all integration points of all beams in deck order.
+    pub fn section_points(&self, model: &Model, now: &Now, out: &mut Vec<SectionPoint>) {
         out.clear();
         // Beams are the first groups, one per part, in deck order.
         let groups = model.beams.iter().filter(|b| !b.elements.is_empty()).enumerate().zip(&self.groups);
         for ((beam, part), group) in groups {
             let mut start = 0.0;
+            let now = group.share(now);
             for (element, spec) in part.elements.iter().enumerate() {
                 let frame: &Mat3 = &spec.frame;
-                for point in 0..part.order {
-                    let Some((s, forces)) = group.block.resultants(element, point, frame, nodes) else { continue };
-                    out.push(SectionPoint { beam, element, point, s: start + s, forces });
+                for point in 0..group.block.points() {
+                    let Some(mut at) = group.block.point(element, point, frame, &now) else { continue };
+                    at.s += start;
+                    out.push(SectionPoint { beam, element, point, at });
                 }
                 let ends = (spec.nodes[0], spec.nodes[part.order]);
                 start += (model.nodes[ends.1].x - model.nodes[ends.0].x).norm();

@@ -44,7 +44,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         units: None,
         analysis: Analysis { kind, end_time, time_step, least_step: time_step * 1e-3, plane: false },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-        iteration: Iteration { update: Update::Auto, tolerance: 1e-12, limit: 30 },
+        iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-12, limit: 30 },
         nodes: vec![],
         bodies: vec![],
         masses: vec![],
@@ -123,7 +123,7 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
         made.push(BeamElement { nodes, frame, section: m.stiffnesses.len() - 1 });
     }
     let name = format!("beam{}", m.beams.len());
-    m.beams.push(Beam { name, order, mass, rotary_inertia: true, elements: made });
+    m.beams.push(Beam { name, order, mass, rotary_inertia: true, yielding: None, elements: made });
 }
 
 pub fn line(m: &mut Model, ends: [usize; 2], law: Law, damping: f64, direction: Option<Vec3>) {
@@ -139,7 +139,15 @@ pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
 
 pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_length: f64, mass: MassKind) {
     let name = format!("bar{}", m.bars.len());
-    m.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only: false, elements: vec![ends] });
+    m.bars.push(Bar {
+        name,
+        axial_stiffness,
+        mass_per_length,
+        mass,
+        tension_only: false,
+        yielding: None,
+        elements: vec![ends],
+    });
 }
 
 pub fn fix(m: &mut Model, node: usize, dofs: impl IntoIterator<Item = usize>) {

@@ -4,13 +4,14 @@ use crate::scene::*;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
+use rdsolve::elements::Moduli;
 use rdsolve::integrators::{Coefficients, RotationUpdate, Scheme, load_steps};
 use rdsolve::linear;
 use rdsolve::math::rotation::{exp, inverse_tangent};
 use rdsolve::math::{Vec3, Vec6, bottom, join};
 use rdsolve::model::{Kind, MassKind, Model, NodalDamping};
 use rdsolve::plan::Plan;
-use rdsolve::state::{Increment, Node};
+use rdsolve::state::{Increment, Node, Now};
 use rdsolve::system::assembly::Weights;
 use rdsolve::system::{Drive, Forces, Loading, System};
 
@@ -84,7 +85,7 @@ impl Instant {
     fn residual(&self, q: &[Vec6]) -> Vec<f64> {
         let nodes = self.nodes(q);
         let mut forces = Forces::new(&self.system, nodes.len());
-        self.system.residual(&nodes, &self.loading, &mut forces);
+        self.system.residual(&Now::of(&nodes), &self.loading, &mut forces);
         self.plan.directions.iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
     }
 
@@ -119,11 +120,11 @@ impl Instant {
         self.plan.kind = kind;
         let nodes = self.nodes(&self.q);
         let mut forces = Forces::new(&self.system, nodes.len());
-        self.system.residual(&nodes, &self.loading, &mut forces);
+        self.system.residual(&Now::of(&nodes), &self.loading, &mut forces);
         let (mut solver, mut assembly) = self.plan.build(&self.system);
         let (rate, acceleration) = self.scheme.weights();
-        let weights = Weights { stiffness: true, rate, acceleration };
-        assembly.tangent(&self.system, &nodes, &self.loading, &forces, weights, &mut solver);
+        let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
+        assembly.tangent(&self.system, &Now::of(&nodes), &self.loading, &forces, weights, &mut solver);
         let n = self.plan.unknowns;
         DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))
     }

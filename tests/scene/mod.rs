@@ -1,6 +1,7 @@
 //! A small scene of one of each, and a made-up motion for it: what observers are shown in their tests.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
+use rdsolve::elements::Point;
 use rdsolve::elements::link::Law;
 use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
@@ -27,6 +28,7 @@ pub fn model() -> Model {
         order,
         mass: MassKind::Consistent,
         rotary_inertia: true,
+        yielding: None,
         elements,
     };
     let axis = Vec3::new(1.0, 1.0, 0.0);
@@ -44,7 +46,7 @@ pub fn model() -> Model {
         units: None,
         analysis: Analysis { kind: Kind::Dynamic, end_time: 1.0, time_step: 0.1, least_step: 1e-6, plane: false },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-        iteration: Iteration { update: Update::Auto, tolerance: 1e-8, limit: 20 },
+        iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-8, limit: 20 },
         nodes,
         bodies: shapes.into_iter().enumerate().map(body).collect(),
         masses: vec![],
@@ -59,6 +61,7 @@ pub fn model() -> Model {
             mass_per_length: 0.0,
             mass: MassKind::None,
             tension_only: false,
+            yielding: None,
             elements: vec![[5, 0]],
         }],
         links: vec![Link {
@@ -99,7 +102,7 @@ pub fn state(model: &Model, time: f64) -> State {
             state::Node { x: node.x + swing, q, v: swing / 7.0, omega: 5.0 * *axis, a: -swing, alpha: swing * 1e-9 }
         })
         .collect();
-    State { time, nodes, jerk: vec![], reactions: vec![], work: Default::default() }
+    State { time, nodes, history: vec![], jerk: vec![], reactions: vec![], work: Default::default() }
 }
 
 /// What goes with a state in a frame.
@@ -113,8 +116,12 @@ pub struct Extras {
 impl Extras {
     pub fn at(time: f64) -> Extras {
         let p = Vec3::new(time, 1.0 / 3.0, -time);
-        let point =
-            |point| SectionPoint { beam: 1, element: 0, point, s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0] };
+        let point = |point| SectionPoint {
+            beam: 1,
+            element: 0,
+            point,
+            at: Point { s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0], plastic_strain: 0.25 },
+        };
         Extras {
             energy: Energy {
                 kinetic: time * time,

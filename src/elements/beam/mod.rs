@@ -13,32 +13,61 @@
 //! spatial rotation δθ of node a changes its quaternion by ½ δθ q_a.
 //! Left out: warping of the section, initial curvature.
 
+mod fibres;
 mod quaternion;
+mod section;
 mod tangent;
 
-use super::{Block, Force, subtract};
+use super::{Block, Force, Moduli, subtract};
+use crate::materials::{self, Bar, Law, Spent, StressState};
 use crate::math::{Mat3, Vec3, quadrature};
-use crate::sections::Stiffness;
-use crate::state::Node;
+use crate::sections::{Fibre, Stiffness};
+use crate::state::{Node, Now};
+use fibres::{Fibred, Profile};
 use quaternion::{Quat, dot, left, right, right_unit, rotation, times_conjugate};
+pub use section::Elastic;
+use section::Section;
+use std::sync::Arc;
 
 /// Degree of the elements where the deck does not say. `scripts/speed.py --orders` measures it: orders 3 and 4 reach a given
 /// error in about the same time, within a factor of two either way, and leave 1 and 2 far behind below an error of 1e-2.
 pub const DEFAULT_ORDER: usize = 3;
 
-/// Lagrange polynomials of the Lobatto points at the Gauss points: `value[g][a]`, `slope[g][a]` (per unit of ξ).
+/// Integration points of an element at most.
+pub const MOST_POINTS: usize = 5;
+
+/// Where an element is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    Gauss,
+    /// With points at the ends, where clamped beams yield first.
+    Lobatto,
+}
+
+impl Rule {
+    fn points(self, n: usize) -> (&'static [f64], &'static [f64]) {
+        match self {
+            Rule::Gauss => quadrature::gauss(n),
+            Rule::Lobatto => quadrature::lobatto(n),
+        }
+    }
+}
+
+/// Lagrange polynomials of the nodes, which are Lobatto points, at the integration points: `value[g][a]`, `slope[g][a]` (per
+/// unit of ξ).
 #[derive(Debug, Clone)]
 struct Shape<const N: usize> {
-    value: [[f64; N]; 4],
-    slope: [[f64; N]; 4],
-    weight: [f64; 4],
+    value: [[f64; N]; MOST_POINTS],
+    slope: [[f64; N]; MOST_POINTS],
+    weight: [f64; MOST_POINTS],
+    xi: &'static [f64],
 }
 
 impl<const N: usize> Shape<N> {
-    fn new() -> Self {
+    fn new((points, weights): (&'static [f64], &[f64])) -> Self {
         let (nodes, _) = quadrature::lobatto(N);
-        let (points, weights) = quadrature::gauss(N - 1);
-        let mut shape = Shape { value: [[0.0; N]; 4], slope: [[0.0; N]; 4], weight: [0.0; 4] };
+        let zero = [[0.0; N]; MOST_POINTS];
+        let mut shape = Shape { value: zero, slope: zero, weight: [0.0; MOST_POINTS], xi: points };
         for (g, (&xi, &w)) in points.iter().zip(weights).enumerate() {
             shape.weight[g] = w;
             for a in 0..N {
@@ -56,39 +85,16 @@ impl<const N: usize> Shape<N> {
 
 /// One element.
 #[derive(Debug, Clone)]
-struct Beam<const N: usize> {
+struct Beam<const N: usize, S> {
     nodes: [usize; N],
     /// dx/dξ: half the length.
     jacobian: f64,
     /// Unit tangent of the undeformed axis.
     tangent: Vec3,
-    /// Stiffness of the section in global axes at t = 0.
-    C: Section,
+    section: S,
 }
 
-/// σ = C ε with ε = (Γ, κ).
-#[derive(Debug, Clone)]
-struct Section {
-    N: Mat3,
-    M: Mat3,
-    NM: Mat3,
-    /// NM is not zero.
-    coupled: bool,
-}
-
-impl Section {
-    #[inline]
-    fn stress(&self, gamma: &Vec3, kappa: &Vec3) -> (Vec3, Vec3) {
-        let (mut n, mut m) = (self.N * gamma, self.M * kappa);
-        if self.coupled {
-            n += self.NM * kappa;
-            m += self.NM.tr_mul(gamma);
-        }
-        (n, m)
-    }
-}
-
-/// What a Gauss point needs of the nodes.
+/// Motion of an integration point.
 struct Point {
     p: Quat,
     dp: Quat,
@@ -101,9 +107,9 @@ struct Point {
 }
 
 /// Beams of N nodes.
-pub struct Beams<const N: usize> {
+pub struct Beams<const N: usize, S = Elastic> {
     shape: Shape<N>,
-    elements: Vec<Beam<N>>,
+    elements: Vec<Beam<N, S>>,
     /// Rayleigh factor on the stiffness: stress += factor · C · strain rate.
     damping: f64,
 }
@@ -116,35 +122,85 @@ pub struct Description<'a> {
 }
 
 impl<const N: usize> Beams<N> {
-    /// `x`: initial positions of all nodes; `damping`: factor of stiffness-proportional damping (time).
+    /// Elastic beams. `x`: initial positions of all nodes; `damping`: factor of stiffness-proportional damping (time).
     pub fn new<'a>(elements: impl Iterator<Item = Description<'a>>, x: &[Vec3], damping: f64) -> Self {
+        let section = |e: &Description, length: f64| match N {
+            2 => Elastic::new(&with_bending_flexibility(e.stiffness, length), e.frame),
+            _ => Elastic::new(e.stiffness, e.frame),
+        };
+        Beams::build(elements, x, damping, Rule::Gauss.points(N - 1), section)
+    }
+}
+
+/// How the material of a beam yields.
+#[derive(Debug, Clone)]
+pub struct Yielding {
+    pub law: Law,
+    pub fibres: Vec<Fibre>,
+    /// Shear stress counts in the yield condition; otherwise shear and torsion stay elastic.
+    pub shear: bool,
+    pub rule: Rule,
+    /// Integration points of an element, as many as its order at least.
+    pub points: usize,
+}
+
+impl Yielding {
+    /// Beams of N nodes, all of one section. The two-node element goes without the correction of its shear stiffness, which
+    /// is that of an elastic beam.
+    pub fn beams<'a, const N: usize>(
+        &self,
+        elements: impl Iterator<Item = Description<'a>>,
+        x: &[Vec3],
+        damping: f64,
+    ) -> Box<dyn Block> {
+        match self.shear {
+            true => self.fibred::<N, _, 3>(materials::Fibre, elements, x, damping),
+            false => self.fibred::<N, _, 1>(Bar, elements, x, damping),
+        }
+    }
+
+    fn fibred<'a, const N: usize, S: StressState<C> + 'static, const C: usize>(
+        &self,
+        state: S,
+        elements: impl Iterator<Item = Description<'a>>,
+        x: &[Vec3],
+        damping: f64,
+    ) -> Box<dyn Block> {
+        let (mut profile, mut first) = (None, 0);
+        let section = |e: &Description, _| {
+            let of = || Arc::new(Profile::new(&self.law, state, &self.fibres, e.stiffness));
+            let section = Fibred::new(profile.get_or_insert_with(of), e.stiffness, e.frame, first, self.points);
+            first += section.history();
+            section
+        };
+        Box::new(Beams::<N, Fibred<S, C>>::build(elements, x, damping, self.rule.points(self.points), section))
+    }
+}
+
+impl<const N: usize, S: Section> Beams<N, S> {
+    /// `section` makes the sections of an element of given length.
+    fn build<'a>(
+        elements: impl Iterator<Item = Description<'a>>,
+        x: &[Vec3],
+        damping: f64,
+        rule: (&'static [f64], &[f64]),
+        mut section: impl FnMut(&Description, f64) -> S,
+    ) -> Self {
         let elements = elements
             .map(|e| {
                 let mut nodes = [0; N];
                 nodes.copy_from_slice(&e.nodes[..N]);
                 let axis = x[nodes[N - 1]] - x[nodes[0]];
                 let length = axis.norm();
-                let section = if N == 2 { with_bending_flexibility(e.stiffness, length) } else { e.stiffness.clone() };
-                let turn = |C: &Mat3| e.frame * C * e.frame.transpose();
-                Beam {
-                    nodes,
-                    jacobian: 0.5 * length,
-                    tangent: axis / length,
-                    C: Section {
-                        N: turn(&section.N),
-                        M: turn(&section.M),
-                        NM: turn(&section.NM),
-                        coupled: section.NM != Mat3::zeros(),
-                    },
-                }
+                Beam { nodes, jacobian: 0.5 * length, tangent: axis / length, section: section(&e, length) }
             })
             .collect();
-        Beams { shape: Shape::new(), elements, damping }
+        Beams { shape: Shape::new(rule), elements, damping }
     }
 
     /// Quaternions of the nodes, all in the half-space of the first (q and −q are the same rotation).
     #[inline(always)]
-    fn gather(&self, element: &Beam<N>, nodes: &[Node]) -> ([Quat; N], [Vec3; N]) {
+    fn gather(&self, element: &Beam<N, S>, nodes: &[Node]) -> ([Quat; N], [Vec3; N]) {
         let mut q = [[0.0; 4]; N];
         let mut x = [Vec3::zeros(); N];
         for a in 0..N {
@@ -159,7 +215,7 @@ impl<const N: usize> Beams<N> {
     }
 
     #[inline(always)]
-    fn point(&self, element: &Beam<N>, g: usize, (q, x): &([Quat; N], [Vec3; N])) -> Point {
+    fn locate(&self, element: &Beam<N, S>, g: usize, (q, x): &([Quat; N], [Vec3; N])) -> Point {
         let per_length = 1.0 / element.jacobian;
         let mut p = [0.0; 4];
         let mut dp = [0.0; 4];
@@ -184,7 +240,14 @@ impl<const N: usize> Beams<N> {
 
     /// Strain rates, the direction ż they come from, for nodal velocities.
     #[inline(always)]
-    fn rates(&self, element: &Beam<N>, g: usize, point: &Point, q: &[Quat; N], nodes: &[Node]) -> (Vec3, Vec3, Rate) {
+    fn rates(
+        &self,
+        element: &Beam<N, S>,
+        g: usize,
+        point: &Point,
+        q: &[Quat; N],
+        nodes: &[Node],
+    ) -> (Vec3, Vec3, Rate) {
         let per_length = 1.0 / element.jacobian;
         let mut rate = Rate { p: [0.0; 4], dp: [0.0; 4], dr: Vec3::zeros() };
         for a in 0..N {
@@ -224,7 +287,7 @@ struct StrainMatrix {
 
 /// |p|² Γ_i + … = vec(p̄ r′ p)·e_i and |p|² κ_i = 2 vec(p̄ p′)·e_i, differentiated with their common divisor |p|².
 #[inline(always)]
-fn strain_matrix<const N: usize>(element: &Beam<N>, point: &Point) -> StrainMatrix {
+fn strain_matrix<const N: usize, S>(element: &Beam<N, S>, point: &Point) -> StrainMatrix {
     let e = point.gamma + element.tangent;
     let rp = left(&point.dr, &point.p);
     let inv2 = 2.0 * point.inv;
@@ -240,7 +303,7 @@ fn strain_matrix<const N: usize>(element: &Beam<N>, point: &Point) -> StrainMatr
     B
 }
 
-impl<const N: usize> Block for Beams<N> {
+impl<const N: usize, S: Section> Block for Beams<N, S> {
     fn len(&self) -> usize {
         self.elements.len()
     }
@@ -257,18 +320,23 @@ impl<const N: usize> Block for Beams<N> {
         self.damping > 0.0
     }
 
-    fn subtract_forces(&self, nodes: &[Node], F: &mut [Force]) {
+    fn history(&self) -> usize {
+        self.elements.iter().map(|e| e.section.history()).sum()
+    }
+
+    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+        let nodes = now.nodes;
         for element in &self.elements {
             let motion = self.gather(element, nodes);
             let q = &motion.0;
             let mut gradient = [[0.0; 4]; N]; // ∂U/∂q_a
             let mut force = [Vec3::zeros(); N];
-            for g in 0..N - 1 {
-                let point = self.point(element, g, &motion);
-                let (mut n, mut m) = element.C.stress(&point.gamma, &point.kappa);
+            for g in 0..self.points() {
+                let point = self.locate(element, g, &motion);
+                let (mut n, mut m) = element.section.stress(g, &point.gamma, &point.kappa, now);
                 if self.damping > 0.0 {
                     let (gamma_rate, kappa_rate, _) = self.rates(element, g, &point, q, nodes);
-                    let (nd, md) = element.C.stress(&gamma_rate, &kappa_rate);
+                    let (nd, md) = element.section.elastic().stress(&gamma_rate, &kappa_rate);
                     n += self.damping * nd;
                     m += self.damping * md;
                 }
@@ -297,47 +365,73 @@ impl<const N: usize> Block for Beams<N> {
         }
     }
 
-    fn tangent(&self, e: usize, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         if self.damping > 0.0 {
-            self.tangent_of::<true>(e, nodes, rate_weight, K);
+            self.tangent_of::<true>(e, now, rate_weight, moduli, K);
         } else {
-            self.tangent_of::<false>(e, nodes, rate_weight, K);
+            self.tangent_of::<false>(e, now, rate_weight, moduli, K);
         }
     }
 
-    fn energy(&self, nodes: &[Node]) -> f64 {
-        let mut sum = 0.0;
+    fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+        let mut sum = Spent::default();
         for element in &self.elements {
-            let motion = self.gather(element, nodes);
-            for g in 0..N - 1 {
-                let point = self.point(element, g, &motion);
-                let (n, m) = element.C.stress(&point.gamma, &point.kappa);
-                sum += 0.5 * self.shape.weight[g] * element.jacobian * (n.dot(&point.gamma) + m.dot(&point.kappa));
+            let motion = self.gather(element, now.nodes);
+            for g in 0..self.points() {
+                let point = self.locate(element, g, &motion);
+                let spent = element.section.remember(g, (&point.gamma, &point.kappa), now, history);
+                sum += spent * (self.shape.weight[g] * element.jacobian);
             }
         }
         sum
     }
 
-    fn resultants(&self, e: usize, g: usize, frame: &Mat3, nodes: &[Node]) -> Option<(f64, [f64; 6])> {
-        let element = &self.elements[e];
-        let point = self.point(element, g, &self.gather(element, nodes));
-        let (n, m) = element.C.stress(&point.gamma, &point.kappa);
-        let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
-        let xi = quadrature::gauss(N - 1).0[g];
-        Some((element.jacobian * (1.0 + xi), [n.x, n.y, n.z, m.x, m.y, m.z]))
+    fn energy(&self, now: &Now) -> f64 {
+        let mut sum = 0.0;
+        for element in &self.elements {
+            let motion = self.gather(element, now.nodes);
+            for g in 0..self.points() {
+                let point = self.locate(element, g, &motion);
+                let energy = element.section.energy(g, &point.gamma, &point.kappa, now);
+                sum += self.shape.weight[g] * element.jacobian * energy;
+            }
+        }
+        sum
     }
 
-    fn damping_power(&self, nodes: &[Node]) -> f64 {
+    #[inline(always)]
+    fn points(&self) -> usize {
+        S::points(N, self.shape.xi.len())
+    }
+
+    fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Now) -> Option<super::Point> {
+        let element = &self.elements[e];
+        let point = self.locate(element, g, &self.gather(element, now.nodes));
+        let (n, m) = element.section.stress(g, &point.gamma, &point.kappa, now);
+        let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
+        Some(super::Point {
+            s: element.jacobian * (1.0 + self.shape.xi[g]),
+            forces: [n.x, n.y, n.z, m.x, m.y, m.z],
+            plastic_strain: element.section.plastic_strain(g, now.past),
+        })
+    }
+
+    fn plastic_strain(&self, e: usize, past: &[f64]) -> f64 {
+        (0..self.points()).map(|g| self.elements[e].section.plastic_strain(g, past)).fold(0.0, f64::max)
+    }
+
+    fn damping_power(&self, now: &Now) -> f64 {
+        let nodes = now.nodes;
         if self.damping == 0.0 {
             return 0.0;
         }
         let mut sum = 0.0;
         for element in &self.elements {
             let motion = self.gather(element, nodes);
-            for g in 0..N - 1 {
-                let point = self.point(element, g, &motion);
+            for g in 0..self.points() {
+                let point = self.locate(element, g, &motion);
                 let (gamma, kappa, _) = self.rates(element, g, &point, &motion.0, nodes);
-                let (n, m) = element.C.stress(&gamma, &kappa);
+                let (n, m) = element.section.elastic().stress(&gamma, &kappa);
                 sum += self.damping * self.shape.weight[g] * element.jacobian * (n.dot(&gamma) + m.dot(&kappa));
             }
         }

@@ -2,9 +2,10 @@
 //! on rotations.
 
 use super::quaternion::{dot, left, multiply, right, right_unit, rotation_columns, times_conjugate};
-use super::{Beams, Point, Rate, Section, StrainMatrix, strain_matrix};
+use super::{Beams, Elastic, Point, Rate, Section, StrainMatrix, strain_matrix};
+use crate::elements::{Block, Moduli};
 use crate::math::{Mat3, Vec3, fma, skew};
-use crate::state::Node;
+use crate::state::Now;
 
 /// A row over z: p in 0..4, p′ in 4..8, r′ in 8..11, one place unused.
 type Row = [f64; 12];
@@ -60,7 +61,7 @@ fn transpose_product(B: &[Row; 6], X: &[Row; 6]) -> [Row; 11] {
     })
 }
 
-impl Section {
+impl Elastic {
     /// C times six strain rows.
     #[inline(always)]
     fn times(&self, B: &[Row; 6]) -> [Row; 6] {
@@ -158,8 +159,16 @@ fn rate_rows(point: &Point, tangent: &Vec3, B: &[Row; 6], rate: &Rate, strain_ra
     D
 }
 
-impl<const N: usize> Beams<N> {
-    pub(super) fn tangent_of<const DAMPED: bool>(&self, e: usize, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
+impl<const N: usize, S: Section> Beams<N, S> {
+    pub(super) fn tangent_of<const DAMPED: bool>(
+        &self,
+        e: usize,
+        now: &Now,
+        rate_weight: f64,
+        moduli: Moduli,
+        K: &mut [f64],
+    ) {
+        let nodes = now.nodes;
         let element = &self.elements[e];
         let motion = self.gather(element, nodes);
         let q = &motion.0;
@@ -167,17 +176,22 @@ impl<const N: usize> Beams<N> {
         let mut viscous = [[[[0.0; 8]; 7]; N]; N];
         let mut gradient = [[0.0; 4]; N];
         let per_length = 1.0 / element.jacobian;
-        for g in 0..N - 1 {
-            let point = self.point(element, g, &motion);
-            let (mut n, mut m) = element.C.stress(&point.gamma, &point.kappa);
+        for g in 0..self.points() {
+            let point = self.locate(element, g, &motion);
+            let mut room = Elastic::ZERO;
+            let strain = (&point.gamma, &point.kappa);
+            let (mut n, mut m, C) = element.section.linearise(g, strain, now, moduli, &mut room);
             let B = strain_matrix(element, &point).rows(&point.R);
-            let CB = element.C.times(&B);
+            let CB = C.times(&B);
             let mut h = transpose_product(&B, &CB);
             let w = self.shape.weight[g] * element.jacobian;
             let value = &self.shape.value[g];
             let slope = self.shape.slope[g].map(|s| s * per_length);
             if DAMPED {
-                spread::<N, DAMPED>(&h, self.damping * w, value, &slope, &mut viscous);
+                let elastic = element.section.elastic();
+                let CB = if std::ptr::eq(C, elastic) { CB } else { elastic.times(&B) };
+                let c = if std::ptr::eq(C, elastic) { h } else { transpose_product(&B, &CB) };
+                spread::<N, DAMPED>(&c, self.damping * w, value, &slope, &mut viscous);
                 let (gamma, kappa, rate) = self.rates(element, g, &point, q, nodes);
                 let strain_rates = [gamma.x, gamma.y, gamma.z, kappa.x, kappa.y, kappa.z];
                 let D = rate_rows(&point, &element.tangent, &B, &rate, &strain_rates);
@@ -185,7 +199,7 @@ impl<const N: usize> Beams<N> {
                 for k in 0..11 {
                     add(&mut h[k], self.damping, &BCD[k]);
                 }
-                let (nd, md) = element.C.stress(&gamma, &kappa);
+                let (nd, md) = elastic.stress(&gamma, &kappa);
                 n += self.damping * nd;
                 m += self.damping * md;
             }

@@ -1,0 +1,124 @@
+//! Anderson's acceleration of an iteration with a matrix that is not the derivative: the correction is mixed with those
+//! before it so that what is left is least. For a linear problem it is GMRES on the preconditioned residual.
+//! D. G. Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
+
+/// Earlier corrections that are mixed in.
+const DEPTH: usize = 5;
+/// Part of a difference that must be new for it to count.
+const NEW: f64 = 1e-6;
+
+/// Corrections of a step, and what each did to the next. Allocated once.
+pub struct Anderson {
+    /// Per remembered iteration, oldest first: change of the correction, and of the point it leads to.
+    differences: Vec<[Vec<f64>; 2]>,
+    used: usize,
+    /// The last correction and the change that was made with it.
+    last: [Vec<f64>; 2],
+    seen: bool,
+    /// Orthonormalised differences.
+    basis: Vec<Vec<f64>>,
+    /// Squares of what an unknown counts for.
+    weights: Vec<f64>,
+}
+
+impl Anderson {
+    /// `weights`: what makes the unknowns comparable, a length for rotations.
+    pub fn new(weights: impl Iterator<Item = f64>) -> Self {
+        let weights: Vec<f64> = weights.map(|w| w * w).collect();
+        let zeros = || vec![0.0; weights.len()];
+        Anderson {
+            differences: (0..DEPTH).map(|_| [zeros(), zeros()]).collect(),
+            used: 0,
+            last: [zeros(), zeros()],
+            seen: false,
+            basis: (0..DEPTH).map(|_| zeros()).collect(),
+            weights,
+        }
+    }
+
+    /// A new step, or a new matrix.
+    pub fn forget(&mut self) {
+        self.used = 0;
+        self.seen = false;
+    }
+
+    /// Replaces a correction by the mixed one.
+    pub fn mix(&mut self, correction: &mut [f64]) {
+        if self.seen {
+            if self.used == DEPTH {
+                self.differences.rotate_left(1);
+                self.used -= 1;
+            }
+            let [last, made] = &self.last;
+            let [change, move_] = &mut self.differences[self.used];
+            for (i, f) in correction.iter().enumerate() {
+                change[i] = f - last[i];
+                move_[i] = made[i] + change[i];
+            }
+            self.used += 1;
+        }
+        self.last[0].copy_from_slice(correction);
+        self.subtract_explained(correction);
+        self.last[1].copy_from_slice(correction);
+        self.seen = true;
+    }
+
+    /// x += f − Σ γ_j (Δx_j + Δf_j), with γ the least squares solution of f ≈ Σ γ_j Δf_j: newest first, by Gram and Schmidt, so
+    /// that an old difference counts for what it adds.
+    fn subtract_explained(&mut self, correction: &mut [f64]) {
+        let Anderson { differences, basis, used, weights, .. } = self;
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&*weights).map(|((a, b), w)| w * a * b).sum::<f64>();
+        let mut triangle = [[0.0; DEPTH]; DEPTH];
+        let mut target = [0.0; DEPTH];
+        let mut rank = 0;
+        let mut source = [0; DEPTH];
+        for j in (0..*used).rev() {
+            let (done, rest) = basis.split_at_mut(rank);
+            let q = &mut rest[0];
+            q.copy_from_slice(&differences[j][0]);
+            let before = dot(q, q);
+            for (i, earlier) in done.iter().enumerate() {
+                let along = dot(earlier, q);
+                triangle[i][rank] = along;
+                q.iter_mut().zip(earlier).for_each(|(q, e)| *q -= along * e);
+            }
+            let size = dot(q, q).sqrt();
+            if size.is_nan() || size <= NEW * before.sqrt() {
+                continue;
+            }
+            q.iter_mut().for_each(|q| *q /= size);
+            triangle[rank][rank] = size;
+            target[rank] = dot(q, correction);
+            source[rank] = j;
+            rank += 1;
+        }
+        let mut gamma = [0.0; DEPTH];
+        for i in (0..rank).rev() {
+            let known: f64 = (i + 1..rank).map(|k| triangle[i][k] * gamma[k]).sum();
+            gamma[i] = (target[i] - known) / triangle[i][i];
+        }
+        for (gamma, &j) in gamma.iter().zip(&source).take(rank) {
+            correction.iter_mut().zip(&differences[j][1]).for_each(|(c, d)| *c -= gamma * d);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As many mixed corrections as unknowns solve a linear problem; those of the plain iteration would shrink by 0.9 each.
+    #[test]
+    fn a_linear_problem_ends_after_as_many_corrections_as_unknowns() {
+        let rates = [0.9, 0.5, -0.8, 0.1];
+        let mut x = [1.0, -2.0, 0.5, 3.0];
+        let mut anderson = Anderson::new([1.0, 10.0, 1.0, 0.1].into_iter());
+        for _ in 0..6 {
+            let mut f: Vec<f64> = x.iter().zip(&rates).map(|(x, rate)| (rate - 1.0) * x).collect();
+            anderson.mix(&mut f);
+            x.iter_mut().zip(&f).for_each(|(x, f)| *x += f);
+        }
+        // Rounding, times the condition of the differences.
+        assert!(x.iter().all(|x| x.abs() < 1e-10), "{x:?}");
+    }
+}

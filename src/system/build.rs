@@ -1,0 +1,150 @@
+//! From the model's parts to blocks of like elements and to masses at nodes.
+
+use super::inertia::{ConsistentMass, Lumped};
+use super::results::Watched;
+use super::{Group, GroupKind, Inertia};
+use crate::elements::Block;
+use crate::elements::bar::{self, YieldingBars};
+use crate::elements::beam::{Beams, Description, Yielding};
+use crate::elements::bushing::{Bushing, Bushings};
+use crate::elements::link::{Link, Links};
+use crate::math::{Mat3, Vec3, quadrature};
+use crate::model::{self, MassKind, Model};
+use crate::sections;
+
+/// Inertia of bodies, point masses and elements, at their nodes or spread over them.
+pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
+    let mut lumped = Lumped::new(x.len());
+    let mut consistent = Vec::new();
+    model.bodies.iter().for_each(|body| lumped.add(body.node, body.mass, &body.inertia));
+    model.masses.iter().for_each(|mass| lumped.add(mass.node, mass.mass, &mass.inertia));
+    for beam in &model.beams {
+        let (_, weights) = quadrature::lobatto(beam.order + 1);
+        for element in &beam.elements {
+            let nodes = &element.nodes[..=beam.order];
+            let section = &model.stiffnesses[element.section];
+            let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
+            let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
+            let keep = beam.rotary_inertia && beam.mass != MassKind::None;
+            for (&node, w) in nodes.iter().zip(weights) {
+                let share = 0.5 * w * length;
+                let mass = if beam.mass == MassKind::Lumped { share * section.mass_per_length } else { 0.0 };
+                lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
+            }
+            if beam.mass == MassKind::Consistent {
+                consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
+            }
+        }
+    }
+    for part in &model.bars {
+        for nodes in &part.elements {
+            let mass = part.mass_per_length * (x[nodes[1]] - x[nodes[0]]).norm();
+            match part.mass {
+                MassKind::Lumped => nodes.iter().for_each(|&n| lumped.add(n, 0.5 * mass, &Mat3::zeros())),
+                MassKind::Consistent => consistent.push(ConsistentMass::new(nodes, mass)),
+                MassKind::None => {}
+            }
+        }
+    }
+    (lumped.finish(), consistent)
+}
+
+/// Elements by part, beams first, and the links as the deck lists them. `plane`: the normal of a plane motion.
+pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, Vec<Watched>) {
+    let beta = model.damping.stiffness_factor;
+    let structure = |block| Group { block, kind: GroupKind::Structure, history: 0..0 };
+    let beams = model.beams.iter().map(|part| structure(beams(part, model, x, beta, plane)));
+    let bars = model.bars.iter().map(|part| structure(bars(part, x, beta)));
+    let (links, watched) = links(model, x);
+    let links = links.into_iter().map(|block| Group { block, kind: GroupKind::Link, history: 0..0 });
+    let mut groups: Vec<Group> = beams.chain(bars).chain(links).filter(|group| !group.block.is_empty()).collect();
+    let mut end = 0;
+    for group in &mut groups {
+        group.history = end..end + group.block.history();
+        end = group.history.end;
+    }
+    (groups, watched)
+}
+
+fn beams(part: &model::Beam, model: &Model, x: &[Vec3], beta: f64, plane: Option<usize>) -> Box<dyn Block> {
+    match part.order {
+        1 => beams_of::<2>(part, model, x, beta, plane),
+        2 => beams_of::<3>(part, model, x, beta, plane),
+        3 => beams_of::<4>(part, model, x, beta, plane),
+        _ => beams_of::<5>(part, model, x, beta, plane),
+    }
+}
+
+fn beams_of<const N: usize>(
+    part: &model::Beam,
+    model: &Model,
+    x: &[Vec3],
+    beta: f64,
+    plane: Option<usize>,
+) -> Box<dyn Block> {
+    let elements = part.elements.iter().map(|e| Description {
+        nodes: &e.nodes,
+        frame: &e.frame,
+        stiffness: &model.stiffnesses[e.section],
+    });
+    match &part.yielding {
+        None => Box::new(Beams::<N>::new(elements, x, beta)),
+        Some(yielding) => {
+            let fibres = match in_plane(part, plane) {
+                Some(along_z) => sections::flattened(&yielding.fibres, along_z),
+                None => yielding.fibres.clone(),
+            };
+            Yielding { fibres, ..yielding.clone() }.beams::<N>(elements, x, beta)
+        }
+    }
+}
+
+/// Whether a plane motion bends all elements of a part along local z (or y); `None` if it does neither.
+pub fn in_plane(part: &model::Beam, plane: Option<usize>) -> Option<bool> {
+    let normal = plane?;
+    let across = |axis: usize| part.elements.iter().all(|e| e.frame[(normal, axis)].abs() > 1.0 - 1e-12);
+    if across(1) { Some(true) } else { across(2).then_some(false) }
+}
+
+fn bars(part: &model::Bar, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+    match &part.yielding {
+        None => Box::new(bar::links(&part.elements, part.axial_stiffness, part.tension_only, x, beta)),
+        Some(law) => {
+            let stiffness = part.axial_stiffness;
+            Box::new(YieldingBars::new(&part.elements, stiffness, law, part.tension_only, x, beta))
+        }
+    }
+}
+
+fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn Block>; 2], Vec<Watched>) {
+    let mut lines = Vec::new();
+    let mut bushings = Vec::new();
+    let mut watched = Vec::new();
+    for link in &model.links {
+        match &link.kind {
+            model::LinkKind::Line { law, damping, direction, free_length } => {
+                let line = Link {
+                    nodes: link.ends,
+                    law: law.clone(),
+                    damping: *damping,
+                    direction: *direction,
+                    free_length: *free_length,
+                };
+                watched.push(Watched::Line(line.clone()));
+                lines.push(line);
+            }
+            model::LinkKind::Bushing { stiffness, damping, axes } => {
+                let bushing = Bushing {
+                    nodes: link.ends,
+                    axes: *axes,
+                    stiffness: *stiffness,
+                    damping: *damping,
+                    offset: axes.tr_mul(&(x[link.ends[1]] - x[link.ends[0]])),
+                };
+                watched.push(Watched::Bushing(bushing.clone()));
+                bushings.push(bushing);
+            }
+        }
+    }
+    ([Box::new(Links(lines)), Box::new(Bushings(bushings))], watched)
+}
