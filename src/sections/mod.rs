@@ -4,9 +4,15 @@
 //! about its centroid, or with what is wrong in the deck's words.
 
 mod closed;
+mod fibres;
 mod open;
+mod profile;
+mod shape;
 mod solid;
 mod wall;
+
+pub use fibres::{Fibre, flattened};
+pub use shape::Shape;
 
 use crate::math::Mat3;
 
