@@ -7,7 +7,7 @@ use crate::deck::materials::Material;
 use crate::deck::sections as deck;
 use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Span};
-use crate::sections::{Section, Stiffness};
+use crate::sections::{Shape, Stiffness};
 
 impl<'d> Builder<'d> {
     pub fn materials(&mut self) {
@@ -104,23 +104,17 @@ impl<'d> Builder<'d> {
         let stray: Vec<(&str, Option<&Span>)> =
             keys(section).into_iter().filter(|(key, _)| !taken.contains(key)).collect();
         self.stray(&format!("a section of shape \"{}\"", word(shape.value)), &stray);
-        let made = self.section(&owner, section, shape.value)?;
-        match made {
+        match self.shape(&owner, section, shape.value)?.section() {
             Ok(made) => Some(made.stiffness(modulus, ratio, density)),
             Err(reason) => self.error(&shape.span, format!("{}: {reason}", owner.what)),
         }
     }
 
-    fn section(
-        &mut self,
-        owner: &Owner<'d>,
-        section: &'d deck::Section,
-        shape: deck::Shape,
-    ) -> Option<Result<Section, String>> {
-        use deck::Shape;
+    fn shape(&mut self, owner: &Owner<'d>, section: &'d deck::Section, shape: deck::Shape) -> Option<Shape> {
+        use deck::Shape as Word;
         let s = section;
         if let Some(walls) = &s.thickness {
-            let most = if matches!(shape, Shape::Box | Shape::L) { 2 } else { 1 };
+            let most = if matches!(shape, Word::Box | Word::L) { 2 } else { 1 };
             if walls.values.is_empty() || walls.values.len() > most {
                 let message = format!("`thickness` has {} values here; it takes {most}", walls.values.len());
                 return self.error(&walls.span, message);
@@ -130,12 +124,12 @@ impl<'d> Builder<'d> {
             }
         }
         match shape {
-            Shape::Rectangle => {
+            Word::Rectangle => {
                 let width = self.need_positive(owner, "width", &s.width);
                 let height = self.need_positive(owner, "height", &s.height);
-                Some(Section::rectangle(width?, height?))
+                Some(Shape::Rectangle { width: width?, height: height? })
             }
-            Shape::Tube => {
+            Word::Tube => {
                 let radius = match (&s.radius, &s.diameter) {
                     (Some(_), Some(diameter)) => {
                         return self.error(&diameter.span, "a tube takes `radius` or `diameter`, not both");
@@ -144,19 +138,19 @@ impl<'d> Builder<'d> {
                     _ => self.need_positive(owner, "radius", &s.radius),
                 };
                 let walls = self.need(owner, "thickness", &s.thickness)?;
-                Some(Section::tube(radius?, walls.values[0].value))
+                Some(Shape::Tube { radius: radius?, thickness: walls.values[0].value })
             }
-            Shape::Box | Shape::L => {
+            Word::Box | Word::L => {
                 let width = self.need_positive(owner, "width", &s.width);
                 let height = self.need_positive(owner, "height", &s.height);
                 let walls = &self.need(owner, "thickness", &s.thickness)?.values;
-                let (first, second) = (walls.first()?.value, walls.last()?.value);
+                let (width, height, first, second) = (width?, height?, walls.first()?.value, walls.last()?.value);
                 Some(match shape {
-                    Shape::Box => Section::box_(width?, height?, first, second),
-                    _ => Section::l(height?, width?, first, second),
+                    Word::Box => Shape::Box { width, height, web: first, flange: second },
+                    _ => Shape::L { height, width, vertical: first, horizontal: second },
                 })
             }
-            Shape::I => {
+            Word::I => {
                 let height = self.need_positive(owner, "height", &s.height);
                 let web = self.need_positive(owner, "web_thickness", &s.web_thickness);
                 let widths =
@@ -166,28 +160,28 @@ impl<'d> Builder<'d> {
                     ["flange_thickness", "top_flange_thickness", "bottom_flange_thickness"],
                     [&s.flange_thickness, &s.top_flange_thickness, &s.bottom_flange_thickness],
                 );
-                let ([top, bottom], [upper, lower]) = (widths?, flanges?);
-                Some(Section::i(height?, top, bottom, web?, upper, lower))
+                let ([top_width, bottom_width], [top_flange, bottom_flange]) = (widths?, flanges?);
+                Some(Shape::I { height: height?, top_width, bottom_width, web: web?, top_flange, bottom_flange })
             }
-            Shape::C => {
+            Word::C => {
                 let height = self.need_positive(owner, "height", &s.height);
                 let width = self.need_positive(owner, "width", &s.width);
                 let web = self.need_positive(owner, "web_thickness", &s.web_thickness);
                 let flange = self.need_positive(owner, "flange_thickness", &s.flange_thickness);
-                Some(Section::c(height?, width?, web?, flange?))
+                Some(Shape::C { height: height?, width: width?, web: web?, flange: flange? })
             }
-            Shape::General => {
+            Word::General => {
                 let area = self.need_positive(owner, "area", &s.area);
                 let moments = self.both_positive(owner, "moments", &s.moments);
                 let torsion = self.need_positive(owner, "torsion_constant", &s.torsion_constant);
                 let shear = self.both_positive(owner, "shear_areas", &s.shear_areas);
                 let product = s.product_moment.as_ref().map_or(0.0, |product| product.value);
-                let [iy, iz] = moments?;
-                if product * product >= iy * iz {
+                let moments = moments?;
+                if product * product >= moments[0] * moments[1] {
                     let place = &s.product_moment.as_ref()?.span;
                     return self.error(place, "`product_moment` is larger than the moments allow");
                 }
-                Some(Section::general(area?, [iy, iz], product, torsion?, shear?))
+                Some(Shape::General { area: area?, moments, Iyz: product, torsion: torsion?, shear_areas: shear? })
             }
         }
     }
