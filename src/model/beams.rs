@@ -35,7 +35,7 @@ impl<'d> Builder<'d> {
         }
         let mass = mass_kind(&beam.mass);
         let section = self.beam_section(owner, beam, mass);
-        let yielding = self.yielding(owner, beam, order);
+        let yielding = self.yielding(owner, beam, order, section.is_some());
         let elements = self.need(owner, "elements", &beam.elements);
         let orientation = self.need(owner, "orientation", &beam.orientation);
         let mut path = self.path(owner, &beam.path, true)?;
@@ -89,8 +89,14 @@ impl<'d> Builder<'d> {
         Some(())
     }
 
-    /// How the beam yields, `Some(None)` where its material is elastic.
-    fn yielding(&mut self, owner: &Owner<'d>, beam: &'d deck::Beam, order: usize) -> Option<Option<Yielding>> {
+    /// How the beam yields, `Some(None)` where its material is elastic. `section`: its section is sound.
+    fn yielding(
+        &mut self,
+        owner: &Owner<'d>,
+        beam: &'d deck::Beam,
+        order: usize,
+        section: bool,
+    ) -> Option<Option<Yielding>> {
         let strays = [
             ("integration", span(&beam.integration)),
             ("points", span(&beam.points)),
@@ -118,7 +124,8 @@ impl<'d> Builder<'d> {
             Some(_) | None => Rule::Gauss,
         };
         let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
-        let fibres = self.fibres(owner, beam)?;
+        // Where the section is wrong, that has been said.
+        let fibres = if section { self.fibres(beam)? } else { return None };
         Some(Some(Yielding { law, fibres, shear, rule, points }))
     }
 

@@ -6,13 +6,22 @@ use crate::deck::beams::Beam;
 use crate::deck::sections as deck;
 use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Span};
-use crate::sections::{Section, Stiffness};
+use crate::sections::{Fibre, Shape, Stiffness};
 
 impl<'d> Builder<'d> {
-    pub fn fibres(&mut self, _owner: &Owner<'d>, beam: &'d Beam) -> Option<Vec<crate::sections::Fibre>> {
-        let (_, s) = self.find("section", &self.deck.sections, beam.section.as_ref()?)?;
-        let n = s.fibres.as_ref().map_or(vec![4, 12], |f| f.value.values.iter().map(|v| v.value as usize).collect());
-        Some(crate::sections::fibres::rectangle(s.width.as_ref()?.value, s.height.as_ref()?.value, [n[0], *n.last()?]))
+    /// Fibres of a beam's section, which is sound.
+    pub fn fibres(&mut self, beam: &'d Beam) -> Option<Vec<Fibre>> {
+        let name = beam.section.as_ref()?;
+        let (_, section) = self.find("section", &self.deck.sections, name)?;
+        let owner = Owner { what: format!("section `{}`", name.value), span: &section.span };
+        let counts = section.fibres.as_ref();
+        let numbers: Vec<usize> = counts.iter().flat_map(|c| &c.value.values).map(|n| n.value as usize).collect();
+        match self.shape(&owner, section, section.shape.as_ref()?.value)?.fibres(&numbers) {
+            Ok(fibres) => Some(fibres),
+            Err(reason) => {
+                self.error(counts.map_or(&name.span, |counts| &counts.span), format!("{}: {reason}", owner.what))
+            }
+        }
     }
 
     /// Index of the stiffness of a beam's section and material.
@@ -76,23 +85,17 @@ impl<'d> Builder<'d> {
         let stray: Vec<(&str, Option<&Span>)> =
             keys(section).into_iter().filter(|(key, _)| !taken.contains(key)).collect();
         self.stray(&format!("a section of shape \"{}\"", word(shape.value)), &stray);
-        let made = self.section(&owner, section, shape.value)?;
-        match made {
+        match self.shape(&owner, section, shape.value)?.section() {
             Ok(made) => Some(made.stiffness(modulus, ratio, density)),
             Err(reason) => self.error(&shape.span, format!("{}: {reason}", owner.what)),
         }
     }
 
-    fn section(
-        &mut self,
-        owner: &Owner<'d>,
-        section: &'d deck::Section,
-        shape: deck::Shape,
-    ) -> Option<Result<Section, String>> {
-        use deck::Shape;
+    fn shape(&mut self, owner: &Owner<'d>, section: &'d deck::Section, shape: deck::Shape) -> Option<Shape> {
+        use deck::Shape as Word;
         let s = section;
         if let Some(walls) = &s.thickness {
-            let most = if matches!(shape, Shape::Box | Shape::L) { 2 } else { 1 };
+            let most = if matches!(shape, Word::Box | Word::L) { 2 } else { 1 };
             if walls.values.is_empty() || walls.values.len() > most {
                 let message = format!("`thickness` has {} values here; it takes {most}", walls.values.len());
                 return self.error(&walls.span, message);
@@ -102,12 +105,12 @@ impl<'d> Builder<'d> {
             }
         }
         match shape {
-            Shape::Rectangle => {
+            Word::Rectangle => {
                 let width = self.need_positive(owner, "width", &s.width);
                 let height = self.need_positive(owner, "height", &s.height);
-                Some(Section::rectangle(width?, height?))
+                Some(Shape::Rectangle { width: width?, height: height? })
             }
-            Shape::Tube => {
+            Word::Tube => {
                 let radius = match (&s.radius, &s.diameter) {
                     (Some(_), Some(diameter)) => {
                         return self.error(&diameter.span, "a tube takes `radius` or `diameter`, not both");
@@ -116,19 +119,19 @@ impl<'d> Builder<'d> {
                     _ => self.need_positive(owner, "radius", &s.radius),
                 };
                 let walls = self.need(owner, "thickness", &s.thickness)?;
-                Some(Section::tube(radius?, walls.values[0].value))
+                Some(Shape::Tube { radius: radius?, thickness: walls.values[0].value })
             }
-            Shape::Box | Shape::L => {
+            Word::Box | Word::L => {
                 let width = self.need_positive(owner, "width", &s.width);
                 let height = self.need_positive(owner, "height", &s.height);
                 let walls = &self.need(owner, "thickness", &s.thickness)?.values;
-                let (first, second) = (walls.first()?.value, walls.last()?.value);
+                let (width, height, first, second) = (width?, height?, walls.first()?.value, walls.last()?.value);
                 Some(match shape {
-                    Shape::Box => Section::box_(width?, height?, first, second),
-                    _ => Section::l(height?, width?, first, second),
+                    Word::Box => Shape::Box { width, height, web: first, flange: second },
+                    _ => Shape::L { height, width, vertical: first, horizontal: second },
                 })
             }
-            Shape::I => {
+            Word::I => {
                 let height = self.need_positive(owner, "height", &s.height);
                 let web = self.need_positive(owner, "web_thickness", &s.web_thickness);
                 let widths =
@@ -138,28 +141,28 @@ impl<'d> Builder<'d> {
                     ["flange_thickness", "top_flange_thickness", "bottom_flange_thickness"],
                     [&s.flange_thickness, &s.top_flange_thickness, &s.bottom_flange_thickness],
                 );
-                let ([top, bottom], [upper, lower]) = (widths?, flanges?);
-                Some(Section::i(height?, top, bottom, web?, upper, lower))
+                let ([top_width, bottom_width], [top_flange, bottom_flange]) = (widths?, flanges?);
+                Some(Shape::I { height: height?, top_width, bottom_width, web: web?, top_flange, bottom_flange })
             }
-            Shape::C => {
+            Word::C => {
                 let height = self.need_positive(owner, "height", &s.height);
                 let width = self.need_positive(owner, "width", &s.width);
                 let web = self.need_positive(owner, "web_thickness", &s.web_thickness);
                 let flange = self.need_positive(owner, "flange_thickness", &s.flange_thickness);
-                Some(Section::c(height?, width?, web?, flange?))
+                Some(Shape::C { height: height?, width: width?, web: web?, flange: flange? })
             }
-            Shape::General => {
+            Word::General => {
                 let area = self.need_positive(owner, "area", &s.area);
                 let moments = self.both_positive(owner, "moments", &s.moments);
                 let torsion = self.need_positive(owner, "torsion_constant", &s.torsion_constant);
                 let shear = self.both_positive(owner, "shear_areas", &s.shear_areas);
                 let product = s.product_moment.as_ref().map_or(0.0, |product| product.value);
-                let [iy, iz] = moments?;
-                if product * product >= iy * iz {
+                let moments = moments?;
+                if product * product >= moments[0] * moments[1] {
                     let place = &s.product_moment.as_ref()?.span;
                     return self.error(place, "`product_moment` is larger than the moments allow");
                 }
-                Some(Section::general(area?, [iy, iz], product, torsion?, shear?))
+                Some(Shape::General { area: area?, moments, Iyz: product, torsion: torsion?, shear_areas: shear? })
             }
         }
     }
@@ -262,8 +265,8 @@ fn taken(shape: deck::Shape) -> &'static [&'static str] {
     use deck::Shape;
     match shape {
         Shape::Rectangle => &["width", "height", "fibres"],
-        Shape::Tube => &["radius", "diameter", "thickness"],
-        Shape::Box | Shape::L => &["width", "height", "thickness"],
+        Shape::Tube => &["radius", "diameter", "thickness", "fibres"],
+        Shape::Box | Shape::L => &["width", "height", "thickness", "fibres"],
         Shape::I => &[
             "width",
             "height",
@@ -273,8 +276,9 @@ fn taken(shape: deck::Shape) -> &'static [&'static str] {
             "flange_thickness",
             "top_flange_thickness",
             "bottom_flange_thickness",
+            "fibres",
         ],
-        Shape::C => &["width", "height", "web_thickness", "flange_thickness"],
+        Shape::C => &["width", "height", "web_thickness", "flange_thickness", "fibres"],
         Shape::General => &["area", "moments", "product_moment", "torsion_constant", "shear_areas"],
     }
 }

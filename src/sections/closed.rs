@@ -1,7 +1,8 @@
 //! Closed thin-walled shapes.
 
-use super::wall::{Wall, shear};
-use super::{Section, positive, rectangles, smaller};
+use super::profile::Profile;
+use super::wall::Wall;
+use super::{Section, positive, smaller};
 
 impl Section {
     /// Rectangular hollow section; `web` is the thickness of the two walls normal to y, `flange` of those normal to z.
@@ -9,30 +10,30 @@ impl Section {
     /// Area and moments are exact, with sharp corners. Torsion: Bredt's cell plus the walls' own, J = 4 A_m²/∮ds/t + Σ b t³/3
     /// over middle lines (EN 10210-2, annex A, with no corner radius). Shear areas: energy of the shear flow.
     pub fn box_(width: f64, height: f64, web: f64, flange: f64) -> Result<Section, String> {
-        positive(&[("width", width), ("height", height), ("thickness", web), ("thickness", flange)])?;
-        smaller(("thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
-        smaller(("thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;
-        let (b, h) = (width - web, height - flange); // of the middle line
-        let (area, _, [Iy, Iz, Iyz]) = rectangles(&[
-            ([-0.5 * b, 0.0], web, height),
-            ([0.5 * b, 0.0], web, height),
-            ([0.0, -0.5 * h], width - 2.0 * web, flange),
-            ([0.0, 0.5 * h], width - 2.0 * web, flange),
-        ]);
-        let (y, z) = (0.5 * b, 0.5 * h);
-        let corners = [[-y, -z], [y, -z], [y, z], [-y, z], [-y, -z]];
-        let walls = [0, 1, 2, 3].map(|i| Wall { ends: [i, i + 1], thickness: if i % 2 == 0 { flange } else { web } });
-        let cell = 4.0 * (b * h).powi(2) / (2.0 * (b / flange + h / web));
-        Ok(Section {
-            area,
-            Iy,
-            Iz,
-            Iyz,
-            torsion: cell + 2.0 / 3.0 * (b * flange.powi(3) + h * web.powi(3)),
-            shear: shear(&corners, &walls, true).areas,
-            shear_center: [0.0; 2],
-        })
+        Ok(cell(width, height, web, flange)?.section())
     }
+}
+
+/// The walls of a box, counter-clockwise; the webs take the corners.
+pub fn cell(width: f64, height: f64, web: f64, flange: f64) -> Result<Profile, String> {
+    positive(&[("width", width), ("height", height), ("thickness", web), ("thickness", flange)])?;
+    smaller(("thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
+    smaller(("thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;
+    let (b, h) = (width - web, height - flange); // of the middle line
+    let (y, z) = (0.5 * b, 0.5 * h);
+    let bredt = 4.0 * (b * h).powi(2) / (2.0 * (b / flange + h / web));
+    Ok(Profile {
+        points: vec![[-y, -z], [y, -z], [y, z], [-y, z], [-y, -z]],
+        walls: (0..4).map(|i| Wall { ends: [i, i + 1], thickness: if i % 2 == 0 { flange } else { web } }).collect(),
+        plates: vec![
+            ([0.0, -z], width - 2.0 * web, flange),
+            ([y, 0.0], web, height),
+            ([0.0, z], width - 2.0 * web, flange),
+            ([-y, 0.0], web, height),
+        ],
+        cell: true,
+        torsion: bredt + 2.0 / 3.0 * (b * flange.powi(3) + h * web.powi(3)),
+    })
 }
 
 #[cfg(test)]

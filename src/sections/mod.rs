@@ -4,11 +4,15 @@
 //! about its centroid, or with what is wrong in the deck's words.
 
 mod closed;
-pub mod fibres;
-pub use fibres::{Fibre, flattened};
+mod fibres;
 mod open;
+mod profile;
+mod shape;
 mod solid;
 mod wall;
+
+pub use fibres::{Fibre, flattened};
+pub use shape::Shape;
 
 use crate::math::Mat3;
 

@@ -5,8 +5,9 @@
 //! 203-227; 0.21 t⁴ is the exact loss of a narrow rectangle's two ends). The bulge where walls meet is left out, and so are
 //! fillets: the constant is up to 3 % low for sharp corners.
 
-use super::wall::{Wall, shear};
-use super::{Section, positive, rectangles, smaller};
+use super::profile::Profile;
+use super::wall::Wall;
+use super::{Section, positive, smaller};
 
 impl Section {
     /// I section: web along z on the axis y = 0, flanges of any two sizes; also a T in the limit of a small flange.
@@ -18,72 +19,87 @@ impl Section {
         flange_top: f64,
         flange_bottom: f64,
     ) -> Result<Section, String> {
-        positive(&[
-            ("height", height),
-            ("width", width_top),
-            ("width", width_bottom),
-            ("web_thickness", web),
-            ("flange_thickness", flange_top),
-            ("flange_thickness", flange_bottom),
-        ])?;
-        smaller(
-            ("web_thickness", web),
-            ("width", width_top.min(width_bottom)),
-            "the flanges must be wider than the web:",
-        )?;
-        let clear = height - flange_top - flange_bottom;
-        smaller(
-            ("flange_thickness", flange_top + flange_bottom),
-            ("height", height),
-            "both together must be less than",
-        )?;
-        let parts = [
-            ([0.0, 0.5 * (height - flange_top)], width_top, flange_top),
-            ([0.0, 0.5 * (flange_bottom - flange_top)], web, clear),
-            ([0.0, 0.5 * (flange_bottom - height)], width_bottom, flange_bottom),
-        ];
-        let (top, bottom) = (parts[0].0[1], parts[2].0[1]);
-        let (a, b) = (0.5 * width_top, 0.5 * width_bottom);
-        let points = [[-a, top], [a, top], [0.0, top], [-b, bottom], [b, bottom], [0.0, bottom]];
-        let walls = [(0, 2, flange_top), (1, 2, flange_top), (2, 5, web), (3, 5, flange_bottom), (4, 5, flange_bottom)];
-        thin(&parts, &points, &walls, &[flange_top, flange_top, flange_bottom, flange_bottom])
+        Ok(i(height, width_top, width_bottom, web, flange_top, flange_bottom)?.section())
     }
 
     /// Channel: web along z at the side of −y, flanges pointing to +y.
     pub fn c(height: f64, width: f64, web: f64, flange: f64) -> Result<Section, String> {
-        positive(&[("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)])?;
-        smaller(("web_thickness", web), ("width", width), "the web must leave a flange: less than")?;
-        smaller(("flange_thickness", flange), ("height/2", 0.5 * height), "two flanges must leave a web: less than")?;
-        let (out, z) = (0.5 * (width + web), 0.5 * (height - flange));
-        let parts =
-            [([0.5 * web, 0.0], web, height), ([out, z], width - web, flange), ([out, -z], width - web, flange)];
-        let points = [[width, z], [0.5 * web, z], [0.5 * web, -z], [width, -z]];
-        let walls = [(0, 1, flange), (1, 2, web), (3, 2, flange)];
-        thin(&parts, &points, &walls, &[flange, flange])
+        Ok(c(height, width, web, flange)?.section())
     }
 
     /// Angle: corner at −y, −z; one leg of thickness `vertical` up along z, one of thickness `horizontal` out along y.
     pub fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Section, String> {
-        positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
-        smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
-        smaller(("thickness", horizontal), ("height", height), "the flat leg must leave an upright one: less than")?;
-        let (y, z) = (0.5 * vertical, 0.5 * horizontal);
-        let parts =
-            [([y, 0.5 * height], vertical, height), ([0.5 * (width + vertical), z], width - vertical, horizontal)];
-        let points = [[y, height], [y, z], [width, z]];
-        let walls = [(0, 1, vertical), (1, 2, horizontal)];
-        thin(&parts, &points, &walls, &[vertical, horizontal])
+        Ok(l(height, width, vertical, horizontal)?.section())
     }
 }
 
-/// A section of rectangles whose middle lines are `walls`; `free` lists the thickness at each free end.
+/// Walls of [`Section::i`], flanges in halves from their free ends to the web.
+pub fn i(
+    height: f64,
+    width_top: f64,
+    width_bottom: f64,
+    web: f64,
+    flange_top: f64,
+    flange_bottom: f64,
+) -> Result<Profile, String> {
+    positive(&[
+        ("height", height),
+        ("width", width_top),
+        ("width", width_bottom),
+        ("web_thickness", web),
+        ("flange_thickness", flange_top),
+        ("flange_thickness", flange_bottom),
+    ])?;
+    smaller(("web_thickness", web), ("width", width_top.min(width_bottom)), "the flanges must be wider than the web:")?;
+    let clear = height - flange_top - flange_bottom;
+    smaller(("flange_thickness", flange_top + flange_bottom), ("height", height), "both together must be less than")?;
+    let (top, bottom) = (0.5 * (height - flange_top), 0.5 * (flange_bottom - height));
+    let (a, b) = (0.5 * width_top, 0.5 * width_bottom);
+    let points = vec![[-a, top], [a, top], [0.0, top], [-b, bottom], [b, bottom], [0.0, bottom]];
+    let walls = [(0, 2, flange_top), (1, 2, flange_top), (2, 5, web), (3, 5, flange_bottom), (4, 5, flange_bottom)];
+    let plates = vec![
+        ([-0.5 * a, top], a, flange_top),
+        ([0.5 * a, top], a, flange_top),
+        ([0.0, 0.5 * (flange_bottom - flange_top)], web, clear),
+        ([-0.5 * b, bottom], b, flange_bottom),
+        ([0.5 * b, bottom], b, flange_bottom),
+    ];
+    thin(points, &walls, plates, &[flange_top, flange_top, flange_bottom, flange_bottom])
+}
+
+/// Walls of [`Section::c`]; the web takes the corners.
+pub fn c(height: f64, width: f64, web: f64, flange: f64) -> Result<Profile, String> {
+    positive(&[("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)])?;
+    smaller(("web_thickness", web), ("width", width), "the web must leave a flange: less than")?;
+    smaller(("flange_thickness", flange), ("height/2", 0.5 * height), "two flanges must leave a web: less than")?;
+    let (out, z) = (0.5 * (width + web), 0.5 * (height - flange));
+    let plates =
+        vec![([out, z], width - web, flange), ([0.5 * web, 0.0], web, height), ([out, -z], width - web, flange)];
+    let points = vec![[width, z], [0.5 * web, z], [0.5 * web, -z], [width, -z]];
+    let walls = [(0, 1, flange), (1, 2, web), (3, 2, flange)];
+    thin(points, &walls, plates, &[flange, flange])
+}
+
+/// Walls of [`Section::l`]; the upright leg takes the corner.
+pub fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Profile, String> {
+    positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
+    smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
+    smaller(("thickness", horizontal), ("height", height), "the flat leg must leave an upright one: less than")?;
+    let (y, z) = (0.5 * vertical, 0.5 * horizontal);
+    let plates =
+        vec![([y, 0.5 * height], vertical, height), ([0.5 * (width + vertical), z], width - vertical, horizontal)];
+    let points = vec![[y, height], [y, z], [width, z]];
+    let walls = [(0, 1, vertical), (1, 2, horizontal)];
+    thin(points, &walls, plates, &[vertical, horizontal])
+}
+
+/// A profile of open walls, each with its plate; `free` lists the thickness at each free end.
 fn thin(
-    parts: &[([f64; 2], f64, f64)],
-    points: &[[f64; 2]],
+    points: Vec<[f64; 2]>,
     walls: &[(usize, usize, f64)],
+    plates: Vec<([f64; 2], f64, f64)>,
     free: &[f64],
-) -> Result<Section, String> {
-    let (area, center, [Iy, Iz, Iyz]) = rectangles(parts);
+) -> Result<Profile, String> {
     let length = |a: usize, b: usize| (points[a][0] - points[b][0]).hypot(points[a][1] - points[b][1]);
     if let Some(&(a, b, t)) = walls.iter().find(|&&(a, b, t)| length(a, b) < t) {
         let length = length(a, b);
@@ -93,23 +109,14 @@ fn thin(
     }
     let strips: f64 = walls.iter().map(|&(a, b, t)| length(a, b) * t.powi(3) / 3.0).sum();
     let ends: f64 = free.iter().map(|t| 0.105 * t.powi(4)).sum();
-    let walls: Vec<Wall> = walls.iter().map(|&(a, b, thickness)| Wall { ends: [a, b], thickness }).collect();
-    let shear = shear(points, &walls, false);
-    Ok(Section {
-        area,
-        Iy,
-        Iz,
-        Iyz,
-        torsion: strips - ends,
-        shear: shear.areas,
-        shear_center: [shear.center[0] - center[0], shear.center[1] - center[1]],
-    })
+    let walls = walls.iter().map(|&(a, b, thickness)| Wall { ends: [a, b], thickness }).collect();
+    Ok(Profile { points, walls, plates, cell: false, torsion: strips - ends })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sections::tests::close;
+    use crate::sections::{rectangles, tests::close};
 
     /// Textbook formula, middle-line dimensions: e = 3 b² t_f / (6 b t_f + h t_w) outside the web (Timoshenko, Strength of
     /// Materials II, art. 53). The flow is integrated exactly, so only round-off remains.

@@ -1,7 +1,8 @@
 //! Full shapes: rectangle and circle; the circle with a hole of any size lies between the full one and the thin tube.
 
+use super::fibres::{Fibre, pairs};
 use super::{Section, positive};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 impl Section {
     /// Solid rectangle.
@@ -57,6 +58,68 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
     let rest: f64 =
         [1.0, 3.0, 5.0, 7.0, 9.0].map(|n: f64| 2.0 / (n.powi(5) * ((n * PI * a / b).exp() + 1.0))).iter().sum();
     a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * (b / a) * (31.0 / 32.0 * ZETA_5 - rest))
+}
+
+/// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), which no fibre at the edges feels; twist is
+/// Saint-Venant's.
+pub fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
+    let parabola = |x: f64| 1.25 * (1.0 - x * x);
+    let mut fibres = Vec::new();
+    for (x, w_y) in pairs(along_y) {
+        for (x_z, w_z) in pairs(along_z) {
+            let (y, z) = (0.5 * width * x, 0.5 * height * x_z);
+            let [t_y, t_z] = rectangle_twist(width, height, y, z);
+            let shear = [[parabola(x), 0.0, t_y], [0.0, parabola(x_z), t_z]];
+            fibres.push(Fibre { area: 0.25 * w_y * w_z * width * height, y, z, shear });
+        }
+    }
+    fibres
+}
+
+/// (∂φ/∂z, −∂φ/∂y) of Prandtl's function, ∇²φ = −2 (Timoshenko & Goodier, art. 109): with c across the rectangle, |c| < b,
+/// and p along it, |p| < a, φ = b² − c² − 32 b²/π³ Σ_{n odd} (−1)^((n−1)/2) n⁻³ cosh(kp)/cosh(ka) cos(kc), k = nπ/2b.
+fn rectangle_twist(width: f64, height: f64, y: f64, z: f64) -> [f64; 2] {
+    let flat = width >= height;
+    let (a, b, p, c) = if flat { (width, height, y, z) } else { (height, width, z, y) };
+    let (a, b) = (0.5 * a, 0.5 * b);
+    let (mut along, mut across) = (0.0, -2.0 * c);
+    // Inside, the terms fall like exp(−k (a − |p|)); at the very edge the rest is 0.3 % of the greatest stress.
+    for i in 0..64 {
+        let n = f64::from(2 * i + 1);
+        let k = 0.5 * n * PI / b;
+        let factor = 16.0 * b / (PI * n).powi(2) * if i % 2 == 0 { 1.0 } else { -1.0 };
+        let (near, far) = ((k * (p.abs() - a)).exp(), (-k * (p.abs() + a)).exp());
+        let end = 1.0 + (-2.0 * k * a).exp();
+        across += factor * (near + far) / end * (k * c).sin();
+        along -= factor * (near - far) / end * p.signum() * (k * c).cos();
+    }
+    if flat { [across, -along] } else { [along, -across] }
+}
+
+/// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free
+/// surfaces, Saint-Venant's flexure at ν = 0, whose energy gives Cowper's factor; twist is r along the circle.
+pub fn tube_fibres(outer: f64, inner: f64, shear_area: f64, [around, through]: [usize; 2]) -> Vec<Fibre> {
+    let (R2, r2) = (outer * outer, inner * inner);
+    let factor = shear_area / (0.25 * PI * (R2 * R2 - r2 * r2));
+    let mut fibres = Vec::new();
+    for (x, w) in pairs(through) {
+        let r = 0.5 * (outer + inner + x * (outer - inner));
+        let square = r * r;
+        // f′ vanishes at both radii.
+        let slope = 0.375 * factor * (R2 + r2 - R2 * r2 / square - square);
+        let ratio = 0.375 * factor * (R2 + r2 + R2 * r2 / square - square / 3.0); // f/r
+        let area = 0.5 * w * (outer - inner) * r * TAU / around as f64;
+        for i in 0..around {
+            let (sin, cos) = ((i as f64 + 0.5) * TAU / around as f64).sin_cos();
+            let mixed = (slope - ratio) * sin * cos;
+            let shear = [
+                [slope * cos * cos + ratio * sin * sin, mixed, -r * sin],
+                [mixed, slope * sin * sin + ratio * cos * cos, r * cos],
+            ];
+            fibres.push(Fibre { area, y: r * cos, z: r * sin, shear });
+        }
+    }
+    fibres
 }
 
 #[cfg(test)]

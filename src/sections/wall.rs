@@ -19,6 +19,18 @@ pub struct Wall {
 pub struct Shear {
     pub areas: [f64; 3],
     pub center: [f64; 2],
+    /// Of a unit force along y, along z, both through the shear centre.
+    pub flows: [Flow; 2],
+    /// Round the cell, for a unit twist and a unit shear modulus (Bredt); 0 without a cell.
+    pub circulation: f64,
+}
+
+/// Flow in each wall, positive from its first end to its second: q(s) = c₀ + c₁ s + c₂ s², s from 0 to 1.
+pub type Flow = Vec<[f64; 3]>;
+
+/// q(s) of one wall.
+pub fn flow_at([c0, c1, c2]: [f64; 3], s: f64) -> f64 {
+    c0 + s * (c1 + s * c2)
 }
 
 /// Shear areas and shear centre of walls that form a tree, or of one cell.
@@ -28,22 +40,25 @@ pub struct Shear {
 pub fn shear(points: &[[f64; 2]], walls: &[Wall], cell: bool) -> Shear {
     let section = Middle::of(points, walls);
     let mut flows = [section.flow(Vector2::x()), section.flow(Vector2::y())];
+    let mut circulation = 0.0;
     if cell {
-        // ∮ q/t ds = 0
+        // ∮ q/t ds = 0; Bredt: ∮ q/t ds = 2 A_m G κ₁
         let flexibility: f64 = section.lines.iter().map(|line| line.length / line.thickness).sum();
         for flow in &mut flows {
-            let twist: f64 = section.integrate(|line, i| flow[i] / line.thickness);
-            flow.iter_mut().for_each(|q| *q -= twist / flexibility);
+            let twist: f64 = section.integrate(|line, i, s| flow_at(flow[i], s) / line.thickness);
+            flow.iter_mut().for_each(|q| q[0] -= twist / flexibility);
         }
+        circulation = section.integrate(|line, _, _| line.arm) / flexibility;
     }
     // Energy of unit forces i and j: F = ∫ q_i q_j / t ds; the shear areas are its inverse.
-    let F = |i: usize, j: usize| section.integrate(|line, k| flows[i][k] * flows[j][k] / line.thickness);
+    let q = |i: usize, k: usize, s: f64| flow_at(flows[i][k], s);
+    let F = |i: usize, j: usize| section.integrate(|line, k, s| q(i, k, s) * q(j, k, s) / line.thickness);
     let (yy, zz, yz) = (F(0, 0), F(1, 1), F(0, 1));
     let det = yy * zz - yz * yz;
     // A unit force along z has the moment y_s about the centroid, one along y the moment −z_s.
-    let moment = |i: usize| section.integrate(|line, k| flows[i][k] * line.arm);
+    let moment = |i: usize| section.integrate(|line, k, s| q(i, k, s) * line.arm);
     let center = section.center + Vector2::new(moment(1), -moment(0));
-    Shear { areas: [zz / det, yy / det, -yz / det], center: center.into() }
+    Shear { areas: [zz / det, yy / det, -yz / det], center: center.into(), flows, circulation }
 }
 
 /// The middle lines about their own centroid.
@@ -64,10 +79,6 @@ struct Line {
     /// Of a unit flow about the centroid.
     arm: f64,
 }
-
-/// Flow at the three Gauss points of every line: exact for its square, of degree four.
-type Flow = Vec<f64>;
-const POINTS: usize = 3;
 
 impl Middle {
     fn of(points: &[[f64; 2]], walls: &[Wall]) -> Middle {
@@ -106,22 +117,23 @@ impl Middle {
     fn flow(&self, force: Vector2<f64>) -> Flow {
         let g = self.moments.try_inverse().unwrap_or_else(Matrix2::zeros) * force;
         let mut arriving = vec![0.0; self.points];
-        let mut flow = Vec::with_capacity(POINTS * self.lines.len());
+        let mut flow = Vec::with_capacity(self.lines.len());
         for line in &self.lines {
-            let start = arriving[line.ends[0]];
-            let (g0, g1) = (g.dot(&line.from), g.dot(&line.along));
-            let at = |s: f64| start - line.thickness * line.length * s * (g0 + 0.5 * s * g1);
-            flow.extend(gauss(POINTS).0.iter().map(|x| at(0.5 * (1.0 + x))));
-            arriving[line.ends[1]] += at(1.0);
+            let slope = line.thickness * line.length;
+            let q = [arriving[line.ends[0]], -slope * g.dot(&line.from), -0.5 * slope * g.dot(&line.along)];
+            arriving[line.ends[1]] += flow_at(q, 1.0);
+            flow.push(q);
         }
         flow
     }
 
-    /// ∫ f ds over all lines; `f` gets the line and the index of the point.
-    fn integrate(&self, f: impl Fn(&Line, usize) -> f64) -> f64 {
-        let weights = gauss(POINTS).1;
+    /// ∫ f ds over all lines; `f` gets the line, its index and s from 0 to 1. Three Gauss points: exact for the square of a
+    /// flow, of degree four.
+    fn integrate(&self, f: impl Fn(&Line, usize, f64) -> f64) -> f64 {
+        let (points, weights) = gauss(3);
         let on = |(i, line): (usize, &Line)| -> f64 {
-            weights.iter().enumerate().map(|(k, w)| 0.5 * line.length * w * f(line, POINTS * i + k)).sum()
+            let rule = points.iter().zip(weights);
+            rule.map(|(x, w)| 0.5 * line.length * w * f(line, i, 0.5 * (1.0 + x))).sum()
         };
         self.lines.iter().enumerate().map(on).sum()
     }
