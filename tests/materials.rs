@@ -587,7 +587,9 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
             close(E * multiplier, E * asked, 1e-10 * (E * multiplier + scale + E * old[N] * 1e-5), &at);
         }
         let dissipation: f64 = (0..N).map(|i| relative[i] * (new[i] - old[i])).sum();
-        assert!(work.plastic >= 0.0 && work.viscous >= 0.0 && dissipation >= -1e-12 * R * multiplier, "{at}");
+        // Plastic strains differ by a few units in their last place where nothing flows.
+        let rounding = 1e-14 * R * (multiplier + old[N]);
+        assert!(work.plastic >= 0.0 && work.viscous >= 0.0 && dissipation >= -rounding, "{at}");
         // The stress and the plastic strain each have the error of the yield condition.
         close(dissipation, R * multiplier, 3e-10 * scale * (multiplier + old[N] + EY), &at);
         old = new;

@@ -124,11 +124,13 @@ const STEEP: f64 = 1e-6;
 #[inline]
 fn root(mut x: f64, at: impl Fn(f64) -> Return) -> Return {
     let (mut low, mut high, mut last) = (0.0, f64::INFINITY, f64::INFINITY);
-    loop {
-        let point = at(x);
+    let mut point = at(x);
+    // Bisection from the greatest number to the least takes 2100 steps; Newton takes 3 to 7.
+    for _ in 0..2100 {
         let misfit = 1.0 - point.sum.sqrt();
         let step = point.sum * misfit / point.slope;
-        let moves = step.abs() > f64::EPSILON;
+        // Less than a few units in the last place is no step.
+        let moves = step.abs() > 8.0 * f64::EPSILON;
         if misfit.abs() <= if moves { TOLERANCE } else { STEEP } {
             return point;
         }
@@ -150,5 +152,7 @@ fn root(mut x: f64, at: impl Fn(f64) -> Return) -> Return {
             return point;
         }
         (x, last) = (next, misfit.abs());
+        point = at(x);
     }
+    point
 }
