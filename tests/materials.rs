@@ -571,9 +571,12 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
         let v = if viscosity.is_some() { new[new.len() - 1] } else { 0.0 };
         let (rho, R) = (S::mises(&relative), radius * (1.0 + v));
         let multiplier = new[N] - old[N];
-        // Back stresses may be greater than the radius and hide it in their rounding.
-        let scale = R + S::mises(&back) * 1e-4;
-        if multiplier > 0.0 {
+        // Back stresses greater than the radius hide it in their rounding, and exponential overstress in the hundreds
+        // multiplies that of v by as much, times the slope of the hardening.
+        let change = viscosity.map_or(0.0, |y| y.fluidity * y.overstress.phi(v).1);
+        let last_digit = 1e-15 * (1.0 + v) * (E + hardening.rise(new[N]).1) * change;
+        let scale = R + S::mises(&back) * 1e-4 + last_digit * 1e10;
+        if multiplier > 0.0 || v > 0.0 {
             close(rho, R, 1e-10 * scale, &at);
         } else {
             assert!(rho <= R + 1e-10 * scale, "{at}");
@@ -584,8 +587,11 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
             close(E * multiplier, E * asked, 1e-10 * (E * multiplier + scale + E * old[N] * 1e-5), &at);
         }
         let dissipation: f64 = (0..N).map(|i| relative[i] * (new[i] - old[i])).sum();
-        assert!(work.plastic >= 0.0 && work.viscous >= 0.0 && dissipation >= -1e-12 * R * multiplier, "{at}");
-        close(dissipation, R * multiplier, 1e-10 * (scale * (multiplier + old[N] + EY)), &at);
+        // Plastic strains differ by a few units in their last place where nothing flows.
+        let rounding = 1e-14 * R * (multiplier + old[N]);
+        assert!(work.plastic >= 0.0 && work.viscous >= 0.0 && dissipation >= -rounding, "{at}");
+        // The stress and the plastic strain each have the error of the yield condition.
+        close(dissipation, R * multiplier, 3e-10 * scale * (multiplier + old[N] + EY), &at);
         old = new;
     }
 }

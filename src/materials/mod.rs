@@ -198,32 +198,41 @@ impl Law {
         let elastic = elastic_strain::<N, S>(strain, old);
         let back = if self.is_kinematic() { S::modes(std::array::from_fn(|i| old[N + 1 + i])) } else { [0.0; N] };
         let relative: [f64; N] = std::array::from_fn(|i| e[i] * elastic[i] - back[i]);
-        let squares: [f64; N] = std::array::from_fn(|i| S::P[i] * relative[i] * relative[i]);
+        let square = squares::<N, S>(&relative).iter().sum::<f64>();
         let rise = self.hardening.rise(old[N]).0;
         let radius = self.hardening.initial() + (1.0 - self.kinematic_share) * rise;
-        let yields = squares.iter().sum::<f64>() > radius * radius;
-        let yielding = if yields { self.returned::<N, S>(&relative, radius, rise, dt, old[N]) } else { None };
+        let yielding = if square > radius * radius {
+            trial_stress::<N, S>(&relative).map(|(rho, share)| {
+                let c = [S::P[0] * e[0], 3.0 * self.elastic.G];
+                self.solve(&Trial { rho, share, c, accumulated: old[N], rise, radius }, dt)
+            })
+        } else {
+            None
+        };
         Answer { relative, back, radius, yielding }
     }
+}
 
-    /// None where the trial stress is not finite: it is the answer then.
-    fn returned<const N: usize, S: StressState<N>>(
-        &self,
-        relative: &[f64; N],
-        radius: f64,
-        rise: f64,
-        dt: f64,
-        accumulated: f64,
-    ) -> Option<Return> {
-        // Squares of ratios: the trial may be as large as a number can be.
-        let largest = relative.iter().fold(0.0, |m: f64, xi| m.max(xi.abs()));
-        let square = |i: usize| S::P[i] * (relative[i] / largest).powi(2);
-        let (first, others) = (square(0), (1..N).map(square).sum::<f64>());
-        let rho = largest * (first + others).sqrt();
-        let share = [first, others].map(|part| part / (first + others));
-        let c = [S::P[0] * S::moduli(&self.elastic)[0], 3.0 * self.elastic.G];
-        rho.is_finite().then(|| self.solve(&Trial { rho, share, c, accumulated, rise, radius }, dt))
+/// pᵢ ξᵢ².
+#[inline(always)]
+fn squares<const N: usize, S: StressState<N>>(relative: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| S::P[i] * relative[i] * relative[i])
+}
+
+/// ρ, and the shares of ρ² in the first mode and the others. None where ρ is not finite: then the trial is the answer.
+#[inline(always)]
+fn trial_stress<const N: usize, S: StressState<N>>(relative: &[f64; N]) -> Option<(f64, [f64; 2])> {
+    let parts = squares::<N, S>(relative);
+    let sum = parts.iter().sum::<f64>();
+    if sum < f64::INFINITY {
+        return Some((sum.sqrt(), [parts[0] / sum, 1.0 - parts[0] / sum]));
     }
+    // Only squares are out of range, or the stresses too.
+    let largest = relative.iter().fold(0.0, |m: f64, xi| m.max(xi.abs()));
+    let parts = squares::<N, S>(&relative.map(|xi| xi / largest));
+    let sum = parts.iter().sum::<f64>();
+    let rho = largest * sum.sqrt();
+    rho.is_finite().then(|| (rho, [parts[0] / sum, 1.0 - parts[0] / sum]))
 }
 
 /// ε − εᵖ by modes.
