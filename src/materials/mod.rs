@@ -111,31 +111,48 @@ impl Law {
     #[inline]
     pub fn stress_and_tangent<const N: usize, S: StressState<N>>(
         &self,
-        _: S,
+        state: S,
         strain: &[f64; N],
         dt: f64,
         old: &[f64],
     ) -> ([f64; N], [[f64; N]; N]) {
-        let e = S::moduli(&self.elastic);
+        let (stress, C) = self.linearise(state, strain, dt, old);
+        (stress, C.unwrap_or_else(|| self.stiffness(state)))
+    }
+
+    /// As [`Law::stress_and_tangent`], with `None` for the elastic stiffness.
+    #[inline]
+    pub fn linearise<const N: usize, S: StressState<N>>(
+        &self,
+        _: S,
+        strain: &[f64; N],
+        dt: f64,
+        old: &[f64],
+    ) -> ([f64; N], Option<[[f64; N]; N]>) {
         let answer = self.answer::<N, S>(strain, dt, old);
-        let mut C = [[0.0; N]; N];
-        match &answer.yielding {
-            None => (0..N).for_each(|i| C[i][i] = e[i]),
-            Some(y) => {
-                // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S),  bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ².
-                let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
-                let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
-                // At the very onset nothing changes with the unknown yet.
-                let turn = if y.slope > 0.0 { y.turn / (y.slope * y.S) } else { 0.0 };
-                for i in 0..N {
-                    for j in 0..N {
-                        C[i][j] = -turn * Sb[i] * Sb[j];
-                    }
-                    C[i][i] += e[i] * ratio[i];
+        let C = answer.yielding.as_ref().map(|y| {
+            // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S),  bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ².
+            let e = S::moduli(&self.elastic);
+            let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
+            let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
+            // At the very onset nothing changes with the unknown yet.
+            let turn = if y.slope > 0.0 { y.turn / (y.slope * y.S) } else { 0.0 };
+            let mut C = [[0.0; N]; N];
+            for i in 0..N {
+                for j in 0..N {
+                    C[i][j] = -turn * Sb[i] * Sb[j];
                 }
+                C[i][i] += e[i] * ratio[i];
             }
-        }
-        (S::modes(answer.stress()), from_modes::<N, S>(C))
+            from_modes::<N, S>(C)
+        });
+        (S::modes(answer.stress()), C)
+    }
+
+    /// Derivative of the stress while nothing yields.
+    pub fn stiffness<const N: usize, S: StressState<N>>(&self, _: S) -> [[f64; N]; N] {
+        let e = S::moduli(&self.elastic);
+        from_modes::<N, S>(std::array::from_fn(|i| std::array::from_fn(|j| if i == j { e[i] } else { 0.0 })))
     }
 
     /// Writes the history `dt` after the state in `old`; answers with the stress and what became of the plastic work.

@@ -8,6 +8,7 @@ use super::{Moduli, Now};
 use crate::materials::{Law, Spent, StressState};
 use crate::math::{Mat3, Mat6, Vec3};
 use crate::sections::{Fibre, Stiffness};
+use std::array::from_fn;
 use std::sync::Arc;
 
 /// The fibres of a section and their law; shared by all elements of a beam.
@@ -15,23 +16,25 @@ pub struct Profile<S, const N: usize> {
     law: Law,
     state: S,
     fibres: Vec<Fibre>,
-    /// Elastic section less elastic fibres, section axes.
-    rest: Elastic,
     /// Numbers a fibre remembers.
     memory: usize,
+    /// Of a fibre that does not yield.
+    stiffness: [[f64; N]; N],
+    /// The elastic section, and that less its elastic fibres; section axes.
+    whole: Elastic,
+    rest: Elastic,
 }
 
 impl<S: StressState<N>, const N: usize> Profile<S, N> {
     /// `state` says which stresses a fibre has; `section` is the elastic answer of the whole.
     pub fn new(law: &Law, state: S, fibres: &[Fibre], section: &Stiffness) -> Self {
-        let memory = law.history(state);
-        let mut profile = Profile { law: law.clone(), state, fibres: fibres.to_vec(), rest: Elastic::ZERO, memory };
-        let virgin = vec![0.0; memory * fibres.len()];
-        let zero = Vec3::zeros();
-        let now = Now { nodes: &[], past: &virgin, since: 0.0 };
-        let (_, _, C) = profile.linearise((&zero, &zero), &now);
-        profile.rest = Elastic { N: section.N - C.N, M: section.M - C.M, NM: section.NM - C.NM, coupled: true };
-        profile
+        let stiffness = law.stiffness(state);
+        let mut own = Sum::default();
+        fibres.iter().for_each(|fibre| own.add(fibre, &stiffness));
+        let own = own.section();
+        let whole = Elastic { N: section.N, M: section.M, NM: section.NM, coupled: true };
+        let rest = Elastic { N: whole.N - own.N, M: whole.M - own.M, NM: whole.NM - own.NM, coupled: true };
+        Profile { law: law.clone(), state, fibres: fibres.to_vec(), memory: law.history(state), stiffness, whole, rest }
     }
 
     /// Strains of a fibre.
@@ -77,41 +80,61 @@ impl<S: StressState<N>, const N: usize> Profile<S, N> {
         }
     }
 
-    /// Stress and its algorithmic derivative, section axes.
+    /// Stress and its algorithmic derivative, section axes: the elastic one, less what fibres lose that yield.
     fn linearise(&self, (gamma, kappa): (&Vec3, &Vec3), now: &Now) -> (Vec3, Vec3, Elastic) {
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
-        // Over (Γ₁, κ₂, κ₃), over (Γ₂, Γ₃, κ₁), and between them.
-        let (mut axial, mut shear, mut mixed) = (Mat3::zeros(), Mat3::zeros(), Mat3::zeros());
+        let mut loss = Sum::default();
         for (fibre, past) in self.memories(now.past) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let (stress, C) = self.law.stress_and_tangent(self.state, &strain, now.since, past);
+            let (stress, C) = self.law.linearise(self.state, &strain, now.since, past);
             Self::add(fibre, &stress, &mut n, &mut m);
-            let u = Vec3::new(1.0, fibre.z, -fibre.y);
-            let weighted = fibre.area * u;
-            axial += C[0][0] * weighted * u.transpose();
-            for a in 1..N {
-                let s_a = Vec3::from(fibre.shear[a - 1]);
-                mixed += C[0][a] * weighted * s_a.transpose();
-                for b in 1..N {
-                    shear += (fibre.area * C[a][b]) * s_a * Vec3::from(fibre.shear[b - 1]).transpose();
-                }
+            if let Some(C) = C {
+                loss.add::<N>(fibre, &from_fn(|i| from_fn(|j| self.stiffness[i][j] - C[i][j])));
             }
         }
+        let (whole, loss) = (&self.whole, loss.section());
+        let C = Elastic { N: whole.N - loss.N, M: whole.M - loss.M, NM: whole.NM - loss.NM, coupled: true };
+        (n, m, C)
+    }
+}
+
+/// Stiffnesses of fibres added up over (Γ₁, κ₂, κ₃), over (Γ₂, Γ₃, κ₁), and between them.
+#[derive(Default)]
+struct Sum {
+    axial: Mat3,
+    shear: Mat3,
+    mixed: Mat3,
+}
+
+impl Sum {
+    #[inline(always)]
+    fn add<const N: usize>(&mut self, fibre: &Fibre, C: &[[f64; N]; N]) {
+        let u = Vec3::new(1.0, fibre.z, -fibre.y);
+        let weighted = fibre.area * u;
+        self.axial += C[0][0] * weighted * u.transpose();
+        for a in 1..N {
+            let s_a = Vec3::from(fibre.shear[a - 1]);
+            self.mixed += C[0][a] * weighted * s_a.transpose();
+            for b in 1..N {
+                self.shear += (fibre.area * C[a][b]) * s_a * Vec3::from(fibre.shear[b - 1]).transpose();
+            }
+        }
+    }
+
+    fn section(&self) -> Elastic {
         const AXIAL: [usize; 3] = [0, 4, 5];
         const SHEAR: [usize; 3] = [1, 2, 3];
         let mut C = Mat6::zeros();
         for i in 0..3 {
             for j in 0..3 {
-                C[(AXIAL[i], AXIAL[j])] = axial[(i, j)];
-                C[(SHEAR[i], SHEAR[j])] = shear[(i, j)];
-                C[(AXIAL[i], SHEAR[j])] = mixed[(i, j)];
-                C[(SHEAR[j], AXIAL[i])] = mixed[(i, j)];
+                C[(AXIAL[i], AXIAL[j])] = self.axial[(i, j)];
+                C[(SHEAR[i], SHEAR[j])] = self.shear[(i, j)];
+                C[(AXIAL[i], SHEAR[j])] = self.mixed[(i, j)];
+                C[(SHEAR[j], AXIAL[i])] = self.mixed[(i, j)];
             }
         }
         let part = |i, j| C.fixed_view::<3, 3>(i, j).into_owned();
-        let rest = &self.rest;
-        let C = Elastic { N: rest.N + part(0, 0), M: rest.M + part(3, 3), NM: rest.NM + part(0, 3), coupled: true };
-        (n, m, C)
+        Elastic { N: part(0, 0), M: part(3, 3), NM: part(0, 3), coupled: true }
     }
 }
 
