@@ -7,6 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::elements::beam::{Beams, Description};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Law, Link, Links};
+use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
 use rdsolve::elements::{Block, Force, Moduli};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::sections::Stiffness;
@@ -80,7 +81,23 @@ fn kinds(rng: &mut StdRng) -> Vec<(&'static str, Box<dyn Block>, Vec<Vec3>)> {
         offset: frame.tr_mul(&axis),
     };
     kinds.push(("bushing", Box::new(Bushings(vec![bushing])), ends));
+    shells(rng, &mut kinds);
     kinds
+}
+
+/// Warped and curved ones, with and without damping.
+fn shells(rng: &mut StdRng, kinds: &mut Vec<(&'static str, Box<dyn Block>, Vec<Vec3>)>) {
+    let plate = Plate { thickness: 0.4, E: 60.0, nu: 0.3, drilling: 0.1 };
+    let frame = rotation::matrix(&turn(rng));
+    let corners = [[0.0, 0.0], [1.2, 0.1], [1.3, 0.9], [-0.2, 1.1]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let x: Vec<Vec3> = corners.iter().map(|c| frame * (c + vector(rng, 0.1))).collect();
+    let normals: Vec<Vec3> = x.iter().map(|_| frame * (Vec3::z() + vector(rng, 0.1)).normalize()).collect();
+    let four = || [shell::Description { nodes: &[0, 1, 2, 3], normals: &normals }].into_iter();
+    let three = || [shell::Description { nodes: &[0, 1, 2], normals: &normals[..3] }].into_iter();
+    kinds.push(("quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.0)), x.clone()));
+    kinds.push(("damped quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.2)), x.clone()));
+    kinds.push(("triangle", Box::new(Triangles::new(three(), &x, &plate, 0.0)), x[..3].to_vec()));
+    kinds.push(("damped triangle", Box::new(Triangles::new(three(), &x, &plate, 0.2)), x[..3].to_vec()));
 }
 
 /// Nodes moved far as a whole and strained and rotated against each other.
