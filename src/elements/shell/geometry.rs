@@ -119,12 +119,33 @@ fn places<K: Kind<N, V>, const N: usize, const V: usize>(v: &[Vec3; V], axes: &[
 
 /// Parts of the area that belong to the nodes: ∫ N_a dA.
 pub fn shares(x: &[Vec3]) -> [f64; 4] {
-    fn of<K: Kind<N, V>, const N: usize, const V: usize>(x: &[Vec3]) -> [f64; 4] {
+    products(x).map(|row| row.iter().sum())
+}
+
+/// What a unit of pressure along the normal does to the nodes: ∫ N_a n dA.
+pub fn faces(x: &[Vec3]) -> [Vec3; 4] {
+    fn of<K: Kind<N, V>, const N: usize, const V: usize>(x: &[Vec3]) -> [Vec3; 4] {
+        let x: [Vec3; N] = from_fn(|a| x[a]);
+        let v = Motion::slopes::<K, V>(&x);
+        let normals = K::POINTS.map(|at| {
+            let [a, b] = K::slopes(at).map(|s| super::sum(&s, &v));
+            K::AREA / N as f64 * a.cross(&b)
+        });
+        let face = |a: usize| normals.iter().zip(&K::VALUES).map(|(n, value)| value[a] * n).sum();
+        from_fn(|a| if a < N { face(a) } else { Vec3::zeros() })
+    }
+    if x.len() == 3 { of::<Triangle, 3, 2>(x) } else { of::<Quadrilateral, 4, 3>(x) }
+}
+
+/// ∫ N_a N_b dA over an element with its three or four corners at `x`.
+pub fn products(x: &[Vec3]) -> [[f64; 4]; 4] {
+    fn of<K: Kind<N, V>, const N: usize, const V: usize>(x: &[Vec3]) -> [[f64; 4]; 4] {
         let x: [Vec3; N] = from_fn(|a| x[a]);
         let v = Motion::slopes::<K, V>(&x);
         let places = places::<K, N, V>(&v, &axes::<K, N, V>(&v));
-        let share = |a: usize| places.iter().zip(&K::VALUES).map(|(p, value)| p.weight * value[a]).sum();
-        from_fn(|a| if a < N { share(a) } else { 0.0 })
+        let entry =
+            |a: usize, b: usize| places.iter().zip(&K::VALUES).map(|(p, value)| p.weight * value[a] * value[b]).sum();
+        from_fn(|a| from_fn(|b| if a < N && b < N { entry(a, b) } else { 0.0 }))
     }
     if x.len() == 3 { of::<Triangle, 3, 2>(x) } else { of::<Quadrilateral, 4, 3>(x) }
 }

@@ -9,6 +9,9 @@ use std::array::from_fn;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Gauss points through the thickness at most.
+pub const MOST_LAYERS: usize = 7;
+
 /// How the material of a shell yields.
 #[derive(Debug, Clone)]
 pub struct Yielding {
