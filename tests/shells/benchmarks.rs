@@ -86,3 +86,276 @@ fn cantilever_rolled_up() {
         println!("{kind} tip: {:?}", rows.last().unwrap());
     }
 }
+
+/// A static deck of one elastic material; `e_nu_h`, then points, shells, supports and loads as text.
+fn deck(title: &str, steps: usize, [e, nu, h]: [f64; 3], body: &str) -> String {
+    format!(
+        "title = \"{title}\"\n[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = {}\n[iteration]\nlimit = 40\n\
+         [materials.m]\nmodel = \"elastic\"\nyoungs_modulus = {e:?}\npoisson_ratio = {nu:?}\n{}",
+        1.0 / steps as f64,
+        body.replace("PLATE", &format!("thickness = {h:?}\nmaterial = \"m\""))
+    )
+}
+
+fn point(name: &str, [x, y, z]: [f64; 3]) -> String {
+    format!("{name} = [{x:?}, {y:?}, {z:?}]\n")
+}
+
+fn shell(name: &str, corners: &str, elements: [usize; 2], kind: &str, surface: &str) -> String {
+    let corners: Vec<String> = corners.split_whitespace().map(|c| format!("{c:?}")).collect();
+    let surface = if surface.is_empty() { String::new() } else { format!("surface = {{ {surface} }}\n") };
+    format!(
+        "[[shells]]\nname = \"{name}\"\ncorners = [{}]\nelements = {elements:?}\nkind = \"{kind}\"\n{surface}PLATE\n",
+        corners.join(", ")
+    )
+}
+
+fn fix(at: &str, dofs: &str) -> String {
+    let dofs: Vec<String> = dofs.split_whitespace().map(|c| format!("{c:?}")).collect();
+    format!("[[supports]]\nat = \"{at}\"\nfix = [{}]\n", dofs.join(", "))
+}
+
+fn load(at: &str, key: &str, f: [f64; 3]) -> String {
+    format!("[[loads]]\nat = \"{at}\"\n{key} = {f:?}\n")
+}
+
+pub fn annulus(kind: &str, radial: usize, around: usize) -> String {
+    let mut body = String::from("[points]\n");
+    for k in 0..5 {
+        let (sin, cos) = (k as f64 * std::f64::consts::FRAC_PI_2).sin_cos();
+        body += &point(&format!("i{k}"), [6.0 * cos, 6.0 * sin, 0.0]);
+        body += &point(&format!("o{k}"), [10.0 * cos, 10.0 * sin, 0.0]);
+    }
+    for k in 0..4 {
+        let corners = format!("i{k} o{k} o{} i{}", k + 1, k + 1);
+        let ring = "kind = \"cylinder\", axis = [0.0, 0.0, 1.0]";
+        body += &shell(&format!("q{k}"), &corners, [radial, around / 4], kind, ring);
+    }
+    body += &fix("q0.edge1", "ux uy uz rx ry rz");
+    body += &load("q3.edge3", "force_per_length", [0.0, 0.0, 0.8]);
+    deck("slit annulus", 40, [21e6, 0.0, 0.03], &body)
+}
+
+#[test]
+fn slit_annulus() {
+    for (kind, mesh) in [("quadrilateral", [6, 32]), ("quadrilateral", [10, 80]), ("triangle", [10, 80])] {
+        let rows = displacements(&read(&annulus(kind, mesh[0], mesh[1])), &[("i4", 2), ("o4", 2)]);
+        println!("annulus {kind} {mesh:?}: {:?} (13.891 17.528) half {:?} (10.468 13.768)", rows[40], rows[20]);
+    }
+}
+
+pub fn hemisphere(kind: &str, n: usize, thickness: f64, force: f64, steps: usize) -> String {
+    let top = 72f64.to_radians();
+    let (r, z) = (10.0 * top.cos(), 10.0 * top.sin());
+    let mut body = String::from("[points]\n");
+    body += &point("a", [10.0, 0.0, 0.0]);
+    body += &point("b", [0.0, 10.0, 0.0]);
+    body += &point("c", [0.0, r, z]);
+    body += &point("d", [r, 0.0, z]);
+    body += &shell("cap", "a b c d", [n, n], kind, "kind = \"sphere\", axis = [0.0, 0.0, 1.0]");
+    body += &fix("cap.edge4", "uy rx rz");
+    body += &fix("cap.edge2", "ux ry rz");
+    body += &fix("a", "uz");
+    body += &load("a", "force", [-force, 0.0, 0.0]);
+    body += &load("b", "force", [0.0, force, 0.0]);
+    deck("hemisphere", steps, [6.825e7, 0.3, thickness], &body)
+}
+
+#[test]
+fn hemisphere_with_a_hole() {
+    for (kind, n) in [("quadrilateral", 8), ("quadrilateral", 16), ("triangle", 16)] {
+        let rows = displacements(&read(&hemisphere(kind, n, 0.04, 200.0, 20)), &[("b", 1), ("a", 0)]);
+        println!("hemisphere {kind} {n}: {:?} (4.067 8.178) half {:?} (3.406 5.902)", rows[20], rows[10]);
+    }
+}
+
+fn quarter_cylinder(radius: f64, length: f64, kind: &str, n: usize) -> String {
+    let mut body = String::from("[points]\n");
+    body += &point("crown", [0.0, 0.0, radius]);
+    body += &point("side", [radius, 0.0, 0.0]);
+    body += &point("far_side", [radius, length, 0.0]);
+    body += &point("far_crown", [0.0, length, radius]);
+    body + &shell("cylinder", "crown far_crown far_side side", [n, n], kind, "kind = \"cylinder\", axis = [0.0, 1.0, 0.0]")
+}
+
+pub fn pinched_cylinder(kind: &str, n: usize, steps: usize) -> String {
+    let mut body = quarter_cylinder(100.0, 100.0, kind, n);
+    // Load at mid-length y = 0; diaphragm at the far end.
+    body += &fix("cylinder.edge1", "ux ry rz");
+    body += &fix("cylinder.edge3", "uz ry rx");
+    body += &fix("cylinder.edge4", "uy rx rz");
+    body += &fix("cylinder.edge2", "ux uz");
+    body += &load("crown", "force", [0.0, 0.0, -3000.0]);
+    deck("pinched cylinder", steps, [30e3, 0.3, 1.0], &body)
+}
+
+#[test]
+fn pinched_cylinder_on_diaphragms() {
+    for (kind, n) in [("quadrilateral", 40)] {
+        let rows = displacements(&read(&pinched_cylinder(kind, n, 40)), &[("crown", 2), ("side", 0)]);
+        println!("cylinder {kind} {n}: {:?} (83.102 34.272) half {:?} (73.790 25.381)", rows[40], rows[20]);
+    }
+}
+
+pub fn semi_cylinder(kind: &str, n: usize, steps: usize) -> String {
+    let mut body = quarter_cylinder(101.6, 304.8, kind, n);
+    body += &fix("cylinder.edge2", "ux uy uz rx ry rz");
+    body += &fix("cylinder.edge1", "ux ry rz");
+    body += &fix("cylinder.edge3", "uz ry");
+    body += &load("crown", "force", [0.0, 0.0, -1000.0]);
+    deck("semi-cylinder", steps, [2068.5, 0.3, 3.0], &body)
+}
+
+#[test]
+fn pinched_semi_cylinder() {
+    for (kind, n) in [("quadrilateral", 40), ("triangle", 40)] {
+        let rows = displacements(&read(&semi_cylinder(kind, n, 40)), &[("crown", 2)]);
+        println!("semi-cylinder {kind} {n}: {:?} (171.505) half {:?} (132.653)", rows[40], rows[20]);
+    }
+}
+
+/// Linear: a small load, the answer scaled back.
+#[test]
+fn linear_set() {
+    use std::f64::consts::PI;
+    for kind in ["quadrilateral", "triangle"] {
+        for n in [4, 8, 16] {
+            // Scordelis-Lo roof, a quarter.
+            let half = 40f64.to_radians();
+            let (s, c) = half.sin_cos();
+            let mut body = String::from("[points]\n");
+            body += &point("crown", [0.0, 0.0, 25.0]);
+            body += &point("end_crown", [0.0, 25.0, 25.0]);
+            body += &point("end", [25.0 * s, 25.0, 25.0 * c]);
+            body += &point("edge", [25.0 * s, 0.0, 25.0 * c]);
+            let round = "kind = \"cylinder\", axis = [0.0, 1.0, 0.0]";
+            body += &shell("roof", "crown end_crown end edge", [n, n], kind, round);
+            body += &fix("roof.edge1", "ux ry rz");
+            body += &fix("roof.edge4", "uy rx rz");
+            body += &fix("roof.edge2", "ux uz");
+            body += &load("roof", "force_per_area", [0.0, 0.0, -90e-3]);
+            let u = displacements(&read(&deck("Scordelis-Lo", 1, [4.32e8, 0.0, 0.25], &body)), &[("edge", 2)])[1][0];
+            println!("Scordelis-Lo {kind} {n}: {:.4} of .3024", -u * 1e3);
+
+            let u = displacements(&read(&hemisphere(kind, n, 0.04, 1e-3, 1)), &[("a", 0)])[1][0];
+            println!("hemisphere {kind} {n}: {:.4} of .0930", -u * 1e3);
+
+            let mut body = quarter_cylinder(300.0, 300.0, kind, 2 * n);
+            body += &fix("cylinder.edge1", "ux ry rz");
+            body += &fix("cylinder.edge3", "uz ry rx");
+            body += &fix("cylinder.edge4", "uy rx rz");
+            body += &fix("cylinder.edge2", "ux uz");
+            body += &load("crown", "force", [0.0, 0.0, -0.25e-3]);
+            let u = displacements(&read(&deck("cylinder", 1, [3e6, 0.3, 3.0], &body)), &[("crown", 2)])[1][0];
+            println!("pinched cylinder {kind} {}: {:.4} of 1.8249e-5", 2 * n, -u * 1e3 / 1e-5);
+
+            for (h, p) in [(0.32, 1e-3), (0.0032, 1e-9)] {
+                let mut model = read(&twisted(kind, [2 * n, n / 2], h, [0.0, p, 0.0]));
+                twist(&mut model);
+                let y = displacements(&model, &[("mid", 1)])[1][0] / p;
+                let mut model = read(&twisted(kind, [2 * n, n / 2], h, [0.0, 0.0, p]));
+                twist(&mut model);
+                let z = displacements(&model, &[("mid", 2)])[1][0] / p;
+                println!("twisted {kind} {} h = {h}: {:.5e} {:.5e} (5.4245e-3 1.7533e-3; 5256 1294)", 2 * n, y, z);
+            }
+        }
+        // Straight cantilever, six elements: regular, trapezoids, parallelograms.
+        for (shape, skew) in [("regular", 0.0), ("trapezoids", 0.1), ("parallelograms", 0.1)] {
+            for (what, force, dof, wanted) in [
+                ("extension", [1.0, 0.0, 0.0], 0, 3e-5),
+                ("in-plane", [0.0, 1.0, 0.0], 1, 0.1081),
+                ("out-of-plane", [0.0, 0.0, 1.0], 2, 0.4321),
+            ] {
+                let mut body = String::from("[points]\n");
+                body += &point("a", [0.0, 0.0, 0.0]) ;
+                body += &point("b", [6.0, 0.0, 0.0]);
+                body += &point("c", [6.0, 0.2, 0.0]);
+                body += &point("d", [0.0, 0.2, 0.0]);
+                body += &shell("beam", "a b c d", [6, 1], kind, "");
+                body += &fix("beam.edge4", "ux uy uz rx ry rz");
+                let p = 1e-3;
+                body += &load("beam.edge2", "force", force.map(|f: f64| 0.5 * p * f));
+                let mut model = read(&deck("straight beam", 1, [1e7, 0.3, 0.1], &body));
+                for node in &mut model.nodes {
+                    let k = node.x.x.round();
+                    if k > 0.5 && k < 5.5 {
+                        let sign = if shape == "trapezoids" && k as usize % 2 == 0 { -1.0 } else { 1.0 };
+                        let side = if node.x.y < 0.1 { -1.0 } else { 1.0 };
+                        node.x.x += sign * skew * side;
+                    }
+                }
+                let u = displacements(&model, &[("b", dof), ("c", dof)]);
+                println!("straight {kind} {shape} {what}: {:.4}", 0.5 * (u[1][0] + u[1][1]) / p / wanted);
+            }
+        }
+        // Curved beam in the plane and out of it.
+        for (what, force, dof, wanted) in [("in-plane", [0.0, 1.0, 0.0], 1, 0.08734), ("out-of-plane", [0.0, 0.0, 1.0], 2, 0.5022)] {
+            let mut body = String::from("[points]\n");
+            body += &point("a", [4.12, 0.0, 0.0]);
+            body += &point("b", [4.32, 0.0, 0.0]);
+            body += &point("c", [0.0, 4.32, 0.0]);
+            body += &point("d", [0.0, 4.12, 0.0]);
+            body += &shell("beam", "a b c d", [1, 6], kind, "kind = \"cylinder\", axis = [0.0, 0.0, 1.0]");
+            body += &fix("beam.edge1", "ux uy uz rx ry rz");
+            body += &load("beam.edge3", "force", force.map(|f: f64| 0.5e-3 * f));
+            let u = displacements(&read(&deck("curved beam", 1, [1e7, 0.25, 0.1], &body)), &[("c", dof), ("d", dof)]);
+            println!("curved {kind} {what}: {:.4}", 0.5 * (u[1][0] + u[1][1]) / 1e-3 / wanted);
+        }
+        // Clamped and simply supported square plate, a quarter, thickness 1e-4 of the side.
+        for (edge, dofs, wanted) in [("clamped", "ux uy uz rx ry rz", 5.60), ("supported", "ux uy uz", 11.60)] {
+            for n in [4, 8] {
+                let mut body = String::from("[points]\n");
+                body += &point("middle", [0.0, 0.0, 0.0]);
+                body += &point("b", [1.0, 0.0, 0.0]);
+                body += &point("c", [1.0, 1.0, 0.0]);
+                body += &point("d", [0.0, 1.0, 0.0]);
+                body += &shell("plate", "middle b c d", [n, n], kind, "");
+                body += &fix("plate.edge1", "uy rx rz");
+                body += &fix("plate.edge4", "ux ry rz");
+                body += &fix("plate.edge2", dofs);
+                body += &fix("plate.edge3", dofs);
+                let p = 1e-12;
+                body += &load("middle", "force", [0.0, 0.0, 0.25 * p]);
+                let h = 2e-4 * PI / PI;
+                let u = displacements(&read(&deck("plate", 1, [1.7472e7, 0.3, h], &body)), &[("middle", 2)])[1][0];
+                // 5.60 and 11.60 belong to P = 4e-4 and h = 1e-4 with E = 1.7472e7: w = α P L²/D.
+                let scale = 4e-4 / p * (h / 1e-4f64).powi(3);
+                println!("plate {kind} {edge} {n}: {:.4} of {wanted}e-6", u * scale * 1e6);
+            }
+        }
+    }
+}
+
+/// A strip that [`twist`] turns by 90° over its length.
+fn twisted(kind: &str, [n, m]: [usize; 2], h: f64, force: [f64; 3]) -> String {
+    let mut body = String::from("[points]\n");
+    body += &point("a", [0.0, -0.55, 0.0]);
+    body += &point("b", [12.0, -0.55, 0.0]);
+    body += &point("mid", [12.0, 0.0, 0.0]);
+    body += &point("root", [0.0, 0.0, 0.0]);
+    body += &point("c", [12.0, 0.55, 0.0]);
+    body += &point("d", [0.0, 0.55, 0.0]);
+    body += &shell("low", "a b mid root", [n, m.max(2) / 2], kind, "");
+    body += &shell("high", "root mid c d", [n, m.max(2) / 2], kind, "");
+    body += &fix("low.edge4", "ux uy uz rx ry rz");
+    body += &fix("high.edge4", "ux uy uz rx ry rz");
+    body += &load("mid", "force", force);
+    deck("twisted beam", 1, [29e6, 0.22, h], &body)
+}
+
+/// Turns each section about x, from lying along y to standing along z, with the normals of the helicoid.
+fn twist(model: &mut Model) {
+    use rdsolve::math::Vec3;
+    let rate = std::f64::consts::FRAC_PI_2 / 12.0;
+    let mut normals = Vec::new();
+    for node in &mut model.nodes {
+        let (x, w) = (node.x.x, node.x.y);
+        let (s, c) = (rate * x).sin_cos();
+        node.x = Vec3::new(x, w * c, w * s);
+        let (along, across) = (Vec3::new(1.0, -w * s * rate, w * c * rate), Vec3::new(0.0, c, s));
+        normals.push(along.cross(&across).normalize());
+    }
+    for element in model.shells.iter_mut().flat_map(|shell| &mut shell.elements) {
+        element.normals = element.nodes.map(|n| normals[n]);
+    }
+}
