@@ -23,6 +23,8 @@ pub trait Kind<const N: usize, const V: usize>: Send + Sync + Sized {
     const AREA: f64;
     /// Where the axes of the plane are taken.
     const CENTRE: [f64; 2];
+    /// See [`super::arc`]: a 24th of the squares of the element's spans in its coordinates.
+    const ARC: [[f64; 2]; 2];
     /// x,ξ and x,η as sums of the v_i.
     fn slopes(at: [f64; 2]) -> [[f64; V]; 2];
     /// Shear strains of (ξ, η) as sums of those of the edges, x,along·d with the whole edge for x,along.
@@ -48,6 +50,7 @@ impl Kind<4, 3> for Quadrilateral {
         [[NEAR, SIDE, FAR, SIDE], [SIDE, NEAR, SIDE, FAR], [FAR, SIDE, NEAR, SIDE], [SIDE, FAR, SIDE, NEAR]];
     const AREA: f64 = 4.0;
     const CENTRE: [f64; 2] = [0.0, 0.0];
+    const ARC: [[f64; 2]; 2] = [[1.0 / 6.0, 0.0], [0.0, 1.0 / 6.0]];
 
     fn slopes([xi, eta]: [f64; 2]) -> [[f64; 3]; 2] {
         [[1.0, 0.0, eta], [0.0, 1.0, xi]]
@@ -71,6 +74,8 @@ impl Kind<3, 2> for Triangle {
     const VALUES: [[f64; 3]; 3] = [[THIRDS, SIXTH, SIXTH], [SIXTH, THIRDS, SIXTH], [SIXTH, SIXTH, THIRDS]];
     const AREA: f64 = 0.5;
     const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
+    /// Half the sum of e eᵀ/24 over the edges e: the same from each corner.
+    const ARC: [[f64; 2]; 2] = [[1.0 / 24.0, -1.0 / 48.0], [-1.0 / 48.0, 1.0 / 24.0]];
 
     fn slopes(_: [f64; 2]) -> [[f64; 2]; 2] {
         [[1.0, 0.0], [0.0, 1.0]]
@@ -297,7 +302,7 @@ where
         drilling: from_fn(|g| plate.drilling * G * h * places[g].weight),
         section: section(elastic, if M == 3 { one(spread) } else { spread.collect() }),
     };
-    shell.start = shell.measure::<K>(&Motion { x: X, turning: [D, [axes[0]; N], [axes[1]; N]] });
+    shell.start = shell.measure::<K, true>(&Motion { x: X, turning: [D, [axes[0]; N], [axes[1]; N]] });
     shell
 }
 

@@ -5,19 +5,21 @@
 //!   membrane ½ x,α·x,β    bending ½ (x,α·d,β + x,β·d,α)    shear x,α·d    drilling ½ (t₂·x,₁ − t₁·x,₂),
 //! with t₁, t₂ in-plane axes that turn with the nodes: the difference between their rotation about the normal and that of
 //! the surface (Hughes & Brezzi 1989), which vanishes in rigid motions and wherever the surface stretches without it.
-//! All are polynomials of second degree in positions and directors, so they are objective, and no frame goes along.
+//! All are polynomials in positions and directors, so they are objective, and no frame goes along: of second degree but for
+//! bending, which [`arc`] takes by angles instead of chords.
 //!
 //! An element feels few numbers only. In the plane: the moments of strain that the stress modes of Pian & Sumihara (1984)
 //! pick out, five for the quadrilateral (Wagner & Gruttmann 2005 use them so), three for the triangle, the same for membrane
 //! and bending; they cure bending in the plane and, of warped elements, membrane locking. Across: the shear strains at the
 //! middles of the edges (Dvorkin & Bathe 1984; Lee & Bathe 2004). Drilling: one for each node. Together just as many as
 //! the element has ways to deform. With ε these numbers, energy is U(ε), the gradient Bᵀσ, the Hessian BᵀCB + σ·∂²ε, and
-//! ∂²ε is constant in positions and directors. A spatial rotation δθ changes a director by δθ × d.
+//! ∂²ε is all but constant in positions and directors. A spatial rotation δθ changes a director by δθ × d.
 //!
 //! Where the material yields, a point of the element strains as its stress modes have it while elastic; nothing inside an
 //! element needs iteration or memory but the layers themselves.
 //! Left out: change of thickness, curvature in the volume element (h/R against 1), initial stress.
 
+mod arc;
 mod geometry;
 mod layers;
 mod section;
@@ -27,6 +29,7 @@ use super::{Block, Force, Moduli, subtract};
 use crate::materials::Spent;
 use crate::math::Vec3;
 use crate::state::{Node, Now};
+use arc::Arc;
 pub use geometry::{Kind, Quadrilateral, Triangle, faces, products, shares};
 pub use layers::{MOST_LAYERS, Yielding};
 pub use section::Plane;
@@ -161,11 +164,14 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
         }
     }
 
-    /// Strains, with those at t = 0.
+    /// Strains, with those at t = 0; bending by angles with `ARC`, by chords without.
     #[inline(always)]
-    fn measure<K: Kind<N, V>>(&self, motion: &Motion<N>) -> Strains<N, M> {
+    fn measure<K: Kind<N, V>, const ARC: bool>(&self, motion: &Motion<N>) -> Strains<N, M> {
         let Motion { x, turning: [d, t1, t2] } = motion;
-        let (v, w) = (Motion::slopes::<K, V>(x), Motion::slopes::<K, V>(d));
+        let (v, mut w) = (Motion::slopes::<K, V>(x), Motion::slopes::<K, V>(d));
+        if ARC {
+            w = Arc::new::<K, N>(w).long;
+        }
         let mut strains = Strains { plane: [[0.0; M]; 2], shear: [0.0; N], drill: [0.0; N] };
         for i in 0..V {
             for j in 0..V {
@@ -188,7 +194,7 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
 
     #[inline(always)]
     fn strains<K: Kind<N, V>>(&self, motion: &Motion<N>) -> Strains<N, M> {
-        let mut strains = self.measure::<K>(motion);
+        let mut strains = self.measure::<K, true>(motion);
         for m in 0..M {
             strains.plane[0][m] -= self.start.plane[0][m];
             strains.plane[1][m] -= self.start.plane[1][m];
@@ -200,11 +206,11 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
         strains
     }
 
-    /// Rates of strain: half the difference of the strains a rate ahead and behind, exact for polynomials of second degree.
+    /// Rates of strain, bending by chords: half the difference of the strains a rate ahead and behind, exact for polynomials of second degree.
     #[inline(always)]
     fn strain_rates<K: Kind<N, V>>(&self, motion: &Motion<N>, rates: &Motion<N>) -> Strains<N, M> {
         let (mut ahead, behind) =
-            (self.measure::<K>(&motion.plus(1.0, rates)), self.measure::<K>(&motion.plus(-1.0, rates)));
+            (self.measure::<K, false>(&motion.plus(1.0, rates)), self.measure::<K, false>(&motion.plus(-1.0, rates)));
         let half = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a = 0.5 * (*a - b));
         half(ahead.plane.as_flattened_mut(), behind.plane.as_flattened());
         half(&mut ahead.shear, &behind.shear);
@@ -219,18 +225,26 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
         (shear, std::array::from_fn(|g| self.drilling[g] * strains.drill[g]))
     }
 
+    /// Stress of an element by the pairs of slopes it works on: of the membrane, of bending.
     #[inline(always)]
-    fn curvature<K: Kind<N, V>>(&self, stress: &Strains<N, M>) -> Curvature<N> {
-        let mut out = Curvature { xx: [[0.0; N]; N], xd: [[[0.0; N]; N]; 3] };
-        for (part, plane) in stress.plane.iter().enumerate() {
-            let mut Q = [[0.0; V]; V];
-            for m in 0..M {
-                for i in 0..V {
-                    for j in 0..V {
-                        Q[i][j] += plane[m] * self.Q[m][i][j];
-                    }
+    fn by_slopes(&self, plane: &[f64; M]) -> [[f64; V]; V] {
+        let mut Q = [[0.0; V]; V];
+        for m in 0..M {
+            for i in 0..V {
+                for j in 0..V {
+                    Q[i][j] += plane[m] * self.Q[m][i][j];
                 }
             }
+        }
+        Q
+    }
+
+    /// With `ARC` all but that of bending, which [`Bending`] has.
+    #[inline(always)]
+    fn curvature<K: Kind<N, V>, const ARC: bool>(&self, stress: &Strains<N, M>) -> Curvature<N> {
+        let mut out = Curvature { xx: [[0.0; N]; N], xd: [[[0.0; N]; N]; 3] };
+        for (part, plane) in stress.plane.iter().enumerate().take(if ARC { 1 } else { 2 }) {
+            let Q = self.by_slopes(plane);
             let to = if part == 0 { &mut out.xx } else { &mut out.xd[0] };
             for a in 0..N {
                 let half: [f64; V] = std::array::from_fn(|j| (0..V).map(|i| K::SLOPES[i][a] * Q[i][j]).sum());
@@ -279,31 +293,50 @@ impl<const N: usize> Curvature<N> {
     }
 }
 
+/// What the stress of bending does to slopes, by angles.
+struct Bending<const V: usize> {
+    arc: Arc<V>,
+    Q: [[f64; V]; V],
+    /// Q v.
+    p: [Vec3; V],
+}
+
+impl<const V: usize> Bending<V> {
+    #[inline(always)]
+    fn new<K: Kind<N, V>, const N: usize>(Q: [[f64; V]; V], motion: &Motion<N>) -> Self {
+        let v = Motion::slopes::<K, V>(&motion.x);
+        let arc = Arc::new::<K, N>(Motion::slopes::<K, V>(&motion.turning[0]));
+        Bending { arc, p: std::array::from_fn(|k| sum(&Q[k], &v)), Q }
+    }
+
+    #[inline(always)]
+    fn add_gradient<K: Kind<N, V>, const N: usize>(&self, gradient: &mut Motion<N>) {
+        let g = self.arc.gradient(&self.p);
+        for i in 0..V {
+            let f = sum(&self.Q[i], &self.arc.long);
+            for a in 0..N {
+                gradient.x[a] += K::SLOPES[i][a] * f;
+                gradient.turning[0][a] += K::SLOPES[i][a] * g[i];
+            }
+        }
+    }
+}
+
 impl<K, const N: usize, const V: usize, const M: usize, S> Shells<K, N, V, M, S>
 where
     K: Kind<N, V>,
     S: Section<M>,
 {
-    /// Stress at a motion, damping included.
+    /// Stress of damping.
     #[inline(always)]
-    fn stress(&self, element: &Shell<N, V, M, S>, motion: &Motion<N>, now: &Now) -> Strains<N, M> {
-        let strains = element.strains::<K>(motion);
-        let (shear, drill) = element.across(&strains);
-        let mut stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
-        if self.damping > 0.0 {
-            self.add_damping(element, motion, now.nodes, &mut stress);
-        }
-        stress
-    }
-
-    #[inline(always)]
-    fn add_damping(&self, element: &Shell<N, V, M, S>, motion: &Motion<N>, nodes: &[Node], stress: &mut Strains<N, M>) {
+    fn viscous(&self, element: &Shell<N, V, M, S>, motion: &Motion<N>, nodes: &[Node]) -> Strains<N, M> {
         let rates = element.strain_rates::<K>(motion, &element.rates(motion, nodes));
-        let more = element.elastic(&rates);
-        let add = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a += self.damping * b);
-        add(stress.plane.as_flattened_mut(), more.plane.as_flattened());
-        add(&mut stress.shear, &more.shear);
-        add(&mut stress.drill, &more.drill);
+        let mut stress = element.elastic(&rates);
+        let times = |a: &mut [f64]| a.iter_mut().for_each(|a| *a *= self.damping);
+        times(stress.plane.as_flattened_mut());
+        times(&mut stress.shear);
+        times(&mut stress.drill);
+        stress
     }
 }
 
@@ -343,8 +376,15 @@ where
     fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
         for element in &self.elements {
             let motion = element.gather(now.nodes);
-            let stress = self.stress(element, &motion, now);
-            let gradient = element.curvature::<K>(&stress).gradient(&motion);
+            let strains = element.strains::<K>(&motion);
+            let (shear, drill) = element.across(&strains);
+            let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
+            let mut gradient = element.curvature::<K, true>(&stress).gradient(&motion);
+            Bending::new::<K, N>(element.by_slopes(&stress.plane[1]), &motion).add_gradient::<K, N>(&mut gradient);
+            if self.damping > 0.0 {
+                let viscous = self.viscous(element, &motion, now.nodes);
+                gradient = gradient.plus(1.0, &element.curvature::<K, false>(&viscous).gradient(&motion));
+            }
             for a in 0..N {
                 let f = &mut F[element.nodes[a]];
                 subtract(f, 0, &gradient.x[a]);

@@ -1,7 +1,8 @@
-//! The matrix of a shell: BᵀCB of its few strains and σ·∂²ε, which is constant in positions and directors.
+//! The matrix of a shell: BᵀCB of its few strains and σ·∂²ε.
 
+use super::arc::Arc;
 use super::section::{Plane, Section};
-use super::{Kind, Motion, Shell, Shells, Strains, sum};
+use super::{Bending, Curvature, Kind, Motion, Shell, Shells, Strains, sum};
 use crate::elements::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
 use crate::state::Now;
@@ -34,7 +35,7 @@ fn entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
 impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
     /// ∂ε/∂(x, θ), where `moment(k, a, g)` makes of ∂ε/∂d (k = 0), ∂ε/∂t₁, ∂ε/∂t₂ at node a the part of rotation.
     #[inline(always)]
-    fn rows<K: Kind<N, V>>(
+    fn rows<K: Kind<N, V>, const ARC: bool>(
         &self,
         motion: &Motion<N>,
         moment: impl Fn(usize, usize, &Vec3) -> Vec3,
@@ -42,14 +43,15 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
     ) {
         let Motion { x, turning: [d, t1, t2] } = motion;
         let (v, w) = (Motion::slopes::<K, V>(x), Motion::slopes::<K, V>(d));
+        let arc = Arc::new::<K, N>(w);
         let at = |y: &[Vec3; V], a: usize| (0..V).map(|i| K::SLOPES[i][a] * y[i]).sum::<Vec3>();
         for m in 0..M {
             let y: [Vec3; V] = from_fn(|i| sum(&self.Q[m][i], &v));
-            let z: [Vec3; V] = from_fn(|i| sum(&self.Q[m][i], &w));
+            let z: [Vec3; V] = from_fn(|i| sum(&self.Q[m][i], if ARC { &arc.long } else { &w }));
+            let g = if ARC { arc.gradient(&y) } else { y };
             for a in 0..N {
-                let g = at(&y, a);
-                entry(&mut rows.plane[0][m], a, &g, &Vec3::zeros());
-                entry(&mut rows.plane[1][m], a, &at(&z, a), &moment(0, a, &g));
+                entry(&mut rows.plane[0][m], a, &at(&y, a), &Vec3::zeros());
+                entry(&mut rows.plane[1][m], a, &at(&z, a), &moment(0, a, &at(&g, a)));
             }
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
@@ -147,69 +149,122 @@ where
         let mut room = Plane::ZERO;
         let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut room);
         let (shear, drill) = element.across(&strains);
-        let mut stress = Strains { plane, shear, drill };
+        let stress = Strains { plane, shear, drill };
         let turning = &motion.turning;
         let mut B = Rows::<N, M>::ZERO;
-        element.rows::<K>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-        let mut CB = element.times(C, &B);
+        element.rows::<K, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
+        set_product(&B, &element.times(C, &B), K);
+        let bending = Bending::new::<K, N>(element.by_slopes(&stress.plane[1]), &motion);
+        add_bending::<K, N, V>(&bending, &turning[0], K);
+        let curvature = element.curvature::<K, true>(&stress);
+        let mut gradient = curvature.gradient(&motion);
+        bending.add_gradient::<K, N>(&mut gradient);
+        add_curvature(&curvature, &gradient, &motion, K);
         if DAMPED {
-            self.add_damping(element, &motion, now.nodes, &mut stress);
             let rates = element.rates(&motion, now.nodes);
+            let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
             // ∂ε̇/∂(x, θ): ε̇ is linear in positions and in their rates; ḋ = ω × d turns with d.
             let (mut D, mut turned) = (Rows::<N, M>::ZERO, Rows::<N, M>::ZERO);
-            element.rows::<K>(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
-            let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
-            element.rows::<K>(&motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
-            for (D, turned) in D.all_mut().zip(turned.all()) {
+            element.rows::<K, false>(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
+            element.rows::<K, false>(&motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
+            element.rows::<K, false>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
+            for ((D, turned), B) in D.all_mut().zip(turned.all()).zip(B.all()) {
                 for a in 0..N {
                     for k in 3..6 {
                         D[a][k] += turned[a][k];
                     }
                 }
-            }
-            for (D, B) in D.all_mut().zip(B.all()) {
                 add(D, rate_weight, B);
+                D.as_flattened_mut().iter_mut().for_each(|d| *d *= self.damping);
             }
-            let viscous = element.times(element.section.elastic(), &D);
-            CB.all_mut().zip(viscous.all()).for_each(|(sum, more)| add(sum, self.damping, more));
+            let mut viscous = [[[[0.0; 6]; N]; 6]; N];
+            set_product(
+                &B,
+                &element.times(element.section.elastic(), &D),
+                viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
+            );
+            K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);
+            let curvature = element.curvature::<K, false>(&self.viscous(element, &motion, now.nodes));
+            add_curvature(&curvature, &curvature.gradient(&motion), &motion, K);
         }
-        for a in 0..N {
-            for k in 0..6 {
-                let mut row = [[0.0; 6]; N];
-                B.transpose_times(a, k, &CB, &mut row);
-                let at = (6 * a + k) * 6 * N;
-                K[at..at + 6 * N].copy_from_slice(row.as_flattened());
-            }
+    }
+}
+
+/// K ← BᵀX.
+#[inline(always)]
+fn set_product<const N: usize, const M: usize>(B: &Rows<N, M>, X: &Rows<N, M>, K: &mut [f64]) {
+    for a in 0..N {
+        for k in 0..6 {
+            let mut row = [[0.0; 6]; N];
+            B.transpose_times(a, k, X, &mut row);
+            let at = (6 * a + k) * 6 * N;
+            K[at..at + 6 * N].copy_from_slice(row.as_flattened());
         }
-        let curvature = element.curvature::<K>(&stress);
-        let gradient = curvature.gradient(&motion);
-        let width = 6 * N;
-        for a in 0..N {
-            for b in 0..N {
-                for i in 0..3 {
-                    K[(6 * a + i) * width + 6 * b + i] += curvature.xx[a][b];
-                }
-                // δd = δθ × d: the mixed part is −[Σ c d]~ and its transpose.
-                let c: Vec3 = (0..3).map(|k| curvature.xd[k][a][b] * turning[k][b]).sum();
-                let mixed = skew(&c);
-                for i in 0..3 {
-                    for j in 0..3 {
-                        K[(6 * a + i) * width + 6 * b + 3 + j] -= mixed[(i, j)];
-                        K[(6 * b + 3 + j) * width + 6 * a + i] -= mixed[(i, j)];
-                    }
-                }
-            }
-            // δ(d × g) at fixed g: (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
-            let mut turn = Mat3::zeros();
-            for k in 0..3 {
-                let (d, g) = (&turning[k][a], &gradient.turning[k][a]);
-                turn += d * g.transpose() - d.dot(g) * Mat3::identity();
-            }
+    }
+}
+
+/// K += σ·∂²ε of what is bilinear in positions and directors, and δ(d × g) at fixed g.
+#[inline(always)]
+fn add_curvature<const N: usize>(curvature: &Curvature<N>, gradient: &Motion<N>, motion: &Motion<N>, K: &mut [f64]) {
+    let (turning, width) = (&motion.turning, 6 * N);
+    for a in 0..N {
+        for b in 0..N {
             for i in 0..3 {
-                for j in 0..3 {
-                    K[(6 * a + 3 + i) * width + 6 * a + 3 + j] += turn[(i, j)];
-                }
+                K[(6 * a + i) * width + 6 * b + i] += curvature.xx[a][b];
             }
+            // δd = δθ × d: the mixed part is −[Σ c d]~ and its transpose.
+            let c: Vec3 = (0..3).map(|k| curvature.xd[k][a][b] * turning[k][b]).sum();
+            add_mixed(a, b, &-skew(&c), K, width);
+        }
+        // (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
+        let mut turn = Mat3::zeros();
+        for k in 0..3 {
+            let (d, g) = (&turning[k][a], &gradient.turning[k][a]);
+            turn += d * g.transpose() - d.dot(g) * Mat3::identity();
+        }
+        add_block(6 * a + 3, 6 * a + 3, &turn, K, width);
+    }
+}
+
+#[inline(always)]
+fn add_block(row: usize, column: usize, block: &Mat3, K: &mut [f64], width: usize) {
+    for i in 0..3 {
+        for j in 0..3 {
+            K[(row + i) * width + column + j] += block[(i, j)];
+        }
+    }
+}
+
+/// Position of a against rotation of b, and its transpose.
+#[inline(always)]
+fn add_mixed(a: usize, b: usize, block: &Mat3, K: &mut [f64], width: usize) {
+    for i in 0..3 {
+        for j in 0..3 {
+            K[(6 * a + i) * width + 6 * b + 3 + j] += block[(i, j)];
+            K[(6 * b + 3 + j) * width + 6 * a + i] += block[(i, j)];
+        }
+    }
+}
+
+/// K += σ·∂²ε of bending by angles.
+#[inline(always)]
+fn add_bending<T: Kind<N, V>, const N: usize, const V: usize>(bending: &Bending<V>, d: &[Vec3; N], K: &mut [f64]) {
+    let Bending { arc, Q, p } = bending;
+    let width = 6 * N;
+    let J: [[Mat3; V]; V] = from_fn(|b| from_fn(|k| arc.slope(b, k)));
+    let mixed: [[Mat3; V]; V] = from_fn(|i| from_fn(|k| (0..V).map(|b| Q[i][b] * J[b][k]).sum()));
+    let H = arc.hessian::<T, N>(p);
+    for b in 0..N {
+        let turn = -skew(&d[b]);
+        let along =
+            |row: &[Mat3]| -> Mat3 { row.iter().enumerate().map(|(k, m)| T::SLOPES[k][b] * m).sum::<Mat3>() * turn };
+        let mixed: [Mat3; V] = from_fn(|i| along(&mixed[i]));
+        let H = [along(&H[0]), along(&H[1])];
+        for a in 0..N {
+            let block = (0..V).map(|i| T::SLOPES[i][a] * mixed[i]).sum();
+            add_mixed(a, b, &block, K, width);
+            let block = skew(&d[a]) * (T::SLOPES[0][a] * H[0] + T::SLOPES[1][a] * H[1]);
+            add_block(6 * a + 3, 6 * b + 3, &block, K, width);
         }
     }
 }
