@@ -2,6 +2,8 @@
 
 #[path = "shells/benchmarks.rs"]
 mod benchmarks;
+#[path = "shells/dynamics.rs"]
+mod dynamics;
 #[path = "shells/element.rs"]
 mod element;
 mod support;
