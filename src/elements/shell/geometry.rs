@@ -21,6 +21,9 @@ pub trait Kind<const N: usize, const V: usize>: Send + Sync + Sized {
     const VALUES: [[f64; N]; N];
     /// Area of the parameters' domain.
     const AREA: f64;
+    /// Flexibility of bending within the element, put into its shear: κGh → κGh h²/(h² + α ℓ²), ℓ the longest edge
+    /// (Lyly, Stenberg & Vihinen 1993; MacNeal 1978 for beams).
+    const FLEXIBILITY: f64;
     /// Where the axes of the plane are taken.
     const CENTRE: [f64; 2];
     /// See [`super::arc`]: a 24th of the squares of the element's spans in its coordinates.
@@ -49,6 +52,7 @@ impl Kind<4, 3> for Quadrilateral {
     const VALUES: [[f64; 4]; 4] =
         [[NEAR, SIDE, FAR, SIDE], [SIDE, NEAR, SIDE, FAR], [FAR, SIDE, NEAR, SIDE], [SIDE, FAR, SIDE, NEAR]];
     const AREA: f64 = 4.0;
+    const FLEXIBILITY: f64 = 0.0;
     const CENTRE: [f64; 2] = [0.0, 0.0];
     const ARC: [[f64; 2]; 2] = [[1.0 / 6.0, 0.0], [0.0, 1.0 / 6.0]];
 
@@ -73,6 +77,7 @@ impl Kind<3, 2> for Triangle {
     const POINTS: [[f64; 2]; 3] = [[SIXTH, SIXTH], [THIRDS, SIXTH], [SIXTH, THIRDS]];
     const VALUES: [[f64; 3]; 3] = [[THIRDS, SIXTH, SIXTH], [SIXTH, THIRDS, SIXTH], [SIXTH, SIXTH, THIRDS]];
     const AREA: f64 = 0.5;
+    const FLEXIBILITY: f64 = 0.1;
     const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
     /// Half the sum of e eᵀ/24 over the edges e: the same from each corner.
     const ARC: [[f64; 2]; 2] = [[1.0 / 24.0, -1.0 / 48.0], [-1.0 / 48.0, 1.0 / 24.0]];
@@ -279,9 +284,11 @@ where
 
     let G = 0.5 * E / (1.0 + nu);
     let mut shear = [[0.0; N]; N];
+    let span = K::EDGES.map(|[a, b]| (X[b] - X[a]).norm_squared()).into_iter().fold(0.0, f64::max);
+    let flexible = h * h / (h * h + K::FLEXIBILITY * span);
     for place in &places {
         let edges = K::shear(place.at);
-        let w = SHEAR_FACTOR * G * h * place.weight;
+        let w = SHEAR_FACTOR * G * h * flexible * place.weight;
         for i in place.inverse {
             let Z: [f64; N] = from_fn(|e| i[0] * edges[0][e] + i[1] * edges[1][e]);
             for a in 0..N {
