@@ -73,7 +73,7 @@ fn no_step_after_the_first_allocates() {
     m.held.sort_by_key(|h| (h.node, h.dof));
     let system = System::new(&m).unwrap();
     let stop = AtomicBool::new(false);
-    let wanted = Wanted { energy: true, reactions: true, links: true, sections: true };
+    let wanted = Wanted { energy: true, reactions: true, links: true, sections: true, plastic_strains: true };
     for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
         for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
             for cadence in [Cadence::Steps(1), Cadence::Interval(0.012)] {

@@ -30,14 +30,10 @@ pub fn displacements(model: &Model, at: &[(&str, usize)]) -> Vec<Vec<f64>> {
     done.rows
 }
 
-/// Greatest difference from a table, of the greatest value in each column.
-fn worst(rows: &[Vec<f64>], table: &[Vec<f64>]) -> f64 {
-    let columns = table[0].len();
-    let largest: Vec<f64> = (0..columns).map(|c| table.iter().fold(0.0f64, |m, row| m.max(row[c].abs()))).collect();
-    let error = |(row, wanted): (&Vec<f64>, &Vec<f64>)| {
-        (0..columns).map(|c| (row[c] - wanted[c]).abs() / largest[c]).fold(0.0, f64::max)
-    };
-    rows.iter().zip(table).map(error).fold(0.0, f64::max)
+/// Compares with what is wanted, relative to it.
+fn check(what: &str, found: f64, wanted: f64, tolerance: f64) {
+    println!("{what}: {found:.6e} of {wanted:.6e}, {:+.4}", found / wanted - 1.0);
+    assert!((found - wanted).abs() <= tolerance * wanted.abs(), "{what}: {found} for {wanted}");
 }
 
 const STRIP: &str = r#"
@@ -73,7 +69,12 @@ fn cantilever_under_end_shear() {
         let deck = STRIP.replace("LENGTH", "10.0").replace("KIND", kind)
             + "[[loads]]\nat = \"strip.edge2\"\nforce_per_length = [0.0, 0.0, 4.0]\n";
         let rows = displacements(&read(&deck), &[("b", 0), ("b", 2)]);
-        println!("{kind} tip: {:?}", rows.last().unwrap());
+        // Exact for the beam that the strip is; 16 elements bend by some 4° each.
+        let exact = [[0.564_360_973_9, 3.017_384_759], [1.606_481_602, 4.934_870_825], [3.289_509_358, 6.700_132_549]];
+        for (step, [u, w]) in [5, 10, 20].into_iter().zip(exact) {
+            check(kind, -rows[step][0], u, 3e-3);
+            check(kind, rows[step][1], w, 3e-3);
+        }
     }
 }
 
@@ -83,7 +84,13 @@ fn cantilever_rolled_up() {
         let deck = STRIP.replace("LENGTH", "12.0").replace("KIND", kind)
             + "[[loads]]\nat = [\"b\", \"c\"]\nmoment = [0.0, -26.179938779914945, 0.0]\n";
         let rows = displacements(&read(&deck), &[("b", 0), ("b", 2)]);
-        println!("{kind} tip: {:?}", rows.last().unwrap());
+        // The circle: 22.5° in each element, of which φ⁴ is left.
+        for step in [5, 10, 20] {
+            let t = std::f64::consts::TAU * step as f64 / 20.0;
+            let (u, w) = (-12.0 * (1.0 - t.sin() / t), 12.0 * (1.0 - t.cos()) / t);
+            println!("{kind} {step}: {:?} ({u} {w})", rows[step]);
+            assert!((rows[step][0] - u).abs() < 2e-3 * 12.0 && (rows[step][1] - w).abs() < 2e-3 * 12.0);
+        }
     }
 }
 
@@ -138,9 +145,13 @@ pub fn annulus(kind: &str, radial: usize, around: usize) -> String {
 
 #[test]
 fn slit_annulus() {
-    for (kind, mesh) in [("quadrilateral", [6, 32]), ("quadrilateral", [10, 80]), ("triangle", [10, 80])] {
+    // The table is of 10 × 80 elements too and itself not converged.
+    for (kind, mesh, tolerance) in [("quadrilateral", [10, 80], 0.01), ("triangle", [10, 80], 0.05)] {
         let rows = displacements(&read(&annulus(kind, mesh[0], mesh[1])), &[("i4", 2), ("o4", 2)]);
-        println!("annulus {kind} {mesh:?}: {:?} (13.891 17.528) half {:?} (10.468 13.768)", rows[40], rows[20]);
+        for (step, [inner, outer]) in [(10, [7.602, 10.288]), (20, [10.468, 13.768]), (40, [13.891, 17.528])] {
+            check(kind, rows[step][0], inner, tolerance);
+            check(kind, rows[step][1], outer, tolerance);
+        }
     }
 }
 
@@ -163,11 +174,13 @@ pub fn hemisphere(kind: &str, n: usize, thickness: f64, force: f64, steps: usize
 
 #[test]
 fn hemisphere_with_a_hole() {
-    for (kind, n) in
-        [("quadrilateral", 8), ("quadrilateral", 16), ("quadrilateral", 32), ("triangle", 16), ("triangle", 32)]
-    {
+    // Extrapolated, the quadrilaterals go to 4.08 and 8.17; they fall behind where elements turn most.
+    for (kind, n, tolerance) in [("quadrilateral", 16, 0.02), ("quadrilateral", 32, 0.012), ("triangle", 32, 0.05)] {
         let rows = displacements(&read(&hemisphere(kind, n, 0.04, 200.0, 20)), &[("b", 1), ("a", 0)]);
-        println!("hemisphere {kind} {n}: {:?} (4.067 8.178) half {:?} (3.406 5.902)", rows[20], rows[10]);
+        for (step, [v, u]) in [(5, [2.596, 3.833]), (10, [3.406, 5.902]), (20, [4.067, 8.178])] {
+            check(kind, rows[step][0], v, tolerance);
+            check(kind, -rows[step][1], u, tolerance);
+        }
     }
 }
 
@@ -225,12 +238,15 @@ fn pinched_cylinder_on_diaphragms() {
             let Some(k) =
                 (1..done.rows.len()).rev().find(|&k| (done.rows[k][0] - p) * (done.rows[k - 1][0] - p) <= 0.0)
             else {
-                println!("never at {p}");
-                continue;
+                panic!("never at {p}");
             };
             let (a, b) = (&done.rows[k - 1], &done.rows[k]);
             let t = (p - a[0]) / (b[0] - a[0]);
-            println!("  P {p}: {:.3} {:.3} ({w} {u})", a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]));
+            // A point load has no limit in this theory: never ask for more than a per cent.
+            check("W", a[1] + t * (b[1] - a[1]), w, 0.0125);
+            let found = a[2] + t * (b[2] - a[2]);
+            println!("U: {found} {u}");
+            assert!((found - u).abs() < 0.04 * 34.272);
         }
     }
 }
@@ -248,15 +264,21 @@ pub fn semi_cylinder(kind: &str, n: usize, steps: usize) -> String {
 fn pinched_semi_cylinder() {
     for (kind, n) in [("quadrilateral", 40), ("triangle", 40)] {
         let rows = displacements(&read(&semi_cylinder(kind, n, 40)), &[("crown", 2)]);
-        println!("semi-cylinder {kind} {n}: {:?} (171.505) half {:?} (132.653)", rows[40], rows[20]);
+        for (step, w) in [(4, 16.100), (10, 48.537), (20, 132.653), (40, 171.505)] {
+            check(kind, -rows[step][0], w, 0.012);
+        }
     }
 }
 
 /// Linear: a small load, the answer scaled back.
 #[test]
 fn linear_set() {
-    use std::f64::consts::PI;
     for kind in ["quadrilateral", "triangle"] {
+        // Of the finest mesh, for quadrilaterals and triangles.
+        let last = |what: &str, n: usize, found: f64, wanted: f64, tolerance: [f64; 2]| {
+            let tolerance = if n < 16 { 1.0 } else { tolerance[usize::from(kind == "triangle")] };
+            check(&format!("{what} {kind} {n}"), found, wanted, tolerance);
+        };
         for n in [4, 8, 16] {
             // Scordelis-Lo roof, a quarter.
             let half = 40f64.to_radians();
@@ -273,10 +295,10 @@ fn linear_set() {
             body += &fix("roof.edge2", "ux uz");
             body += &load("roof", "force_per_area", [0.0, 0.0, -90e-3]);
             let u = displacements(&read(&deck("Scordelis-Lo", 1, [4.32e8, 0.0, 0.25], &body)), &[("edge", 2)])[1][0];
-            println!("Scordelis-Lo {kind} {n}: {:.4} of .3024", -u * 1e3);
+            last("Scordelis-Lo", n, -u * 1e3, 0.3024, [0.01, 0.05]);
 
             let u = displacements(&read(&hemisphere(kind, n, 0.04, 1e-3, 1)), &[("a", 0)])[1][0];
-            println!("hemisphere {kind} {n}: {:.4} of .0930", -u * 1e3);
+            last("hemisphere", n, -u * 1e3, 0.0930, [0.01, 0.01]);
 
             let mut body = quarter_cylinder(300.0, 300.0, kind, 2 * n);
             body += &fix("cylinder.edge1", "ux ry rz");
@@ -285,7 +307,7 @@ fn linear_set() {
             body += &fix("cylinder.edge2", "ux uz");
             body += &load("crown", "force", [0.0, 0.0, -0.25e-3]);
             let u = displacements(&read(&deck("cylinder", 1, [3e6, 0.3, 3.0], &body)), &[("crown", 2)])[1][0];
-            println!("pinched cylinder {kind} {}: {:.4} of 1.8249e-5", 2 * n, -u * 1e3 / 1e-5);
+            last("pinched cylinder", n, -u * 1e3, 1.82488e-5, [0.02, 0.02]);
 
             for (h, p) in [(0.32, 1e-3), (0.0032, 1e-9)] {
                 let mut model = read(&twisted(kind, [2 * n, n / 2], h, [0.0, p, 0.0]));
@@ -294,7 +316,9 @@ fn linear_set() {
                 let mut model = read(&twisted(kind, [2 * n, n / 2], h, [0.0, 0.0, p]));
                 twist(&mut model);
                 let z = displacements(&model, &[("mid", 2)])[1][0] / p;
-                println!("twisted {kind} {} h = {h}: {:.5e} {:.5e} (5.4245e-3 1.7533e-3; 5256 1294)", 2 * n, y, z);
+                let [out, within] = if h > 0.1 { [1.753_248e-3, 5.424_535e-3] } else { [1.294e3, 5.256e3] };
+                last("twisted, out of the plane", n, y, out, [0.01, 0.05]);
+                last("twisted, in the plane", n, z, within, [0.01, 0.02]);
             }
         }
         // Straight cantilever, six elements: regular, trapezoids, parallelograms.
@@ -323,7 +347,15 @@ fn linear_set() {
                     }
                 }
                 let u = displacements(&model, &[("b", dof), ("c", dof)]);
-                println!("straight {kind} {shape} {what}: {:.4}", 0.5 * (u[1][0] + u[1][1]) / p / wanted);
+                let found = 0.5 * (u[1][0] + u[1][1]) / p;
+                // Four-node elements of five stress modes fail in their plane where they are distorted, triangles always.
+                let tolerance = match (kind, shape, what) {
+                    ("quadrilateral", "regular", "in-plane") => 0.02,
+                    (_, _, "in-plane") => 1.0,
+                    ("triangle", ..) => 0.05,
+                    _ => 0.03,
+                };
+                check(&format!("straight {kind} {shape} {what}"), found, wanted, tolerance);
             }
         }
         // Curved beam in the plane and out of it.
@@ -339,7 +371,8 @@ fn linear_set() {
             body += &fix("beam.edge1", "ux uy uz rx ry rz");
             body += &load("beam.edge3", "force", force.map(|f: f64| 0.5e-3 * f));
             let u = displacements(&read(&deck("curved beam", 1, [1e7, 0.25, 0.1], &body)), &[("c", dof), ("d", dof)]);
-            println!("curved {kind} {what}: {:.4}", 0.5 * (u[1][0] + u[1][1]) / 1e-3 / wanted);
+            let tolerance = if kind == "triangle" { 1.0 } else { 0.13 };
+            check(&format!("curved {kind} {what}"), 0.5 * (u[1][0] + u[1][1]) / 1e-3, wanted, tolerance);
         }
         // Clamped and simply supported square plate, a quarter, thickness 1e-4 of the side.
         for (edge, dofs, wanted) in [("clamped", "ux uy uz rx ry rz", 5.60), ("supported", "ux uy uz", 11.60)] {
@@ -356,11 +389,16 @@ fn linear_set() {
                 body += &fix("plate.edge3", dofs);
                 let p = 1e-12;
                 body += &load("middle", "force", [0.0, 0.0, 0.25 * p]);
-                let h = 2e-4 * PI / PI;
+                let h = 2e-4; // a ten-thousandth of the side
                 let u = displacements(&read(&deck("plate", 1, [1.7472e7, 0.3, h], &body)), &[("middle", 2)])[1][0];
                 // 5.60 and 11.60 belong to P = 4e-4 and h = 1e-4 with E = 1.7472e7: w = α P L²/D.
-                let scale = 4e-4 / p * (h / 1e-4f64).powi(3);
-                println!("plate {kind} {edge} {n}: {:.4} of {wanted}e-6", u * scale * 1e6);
+                let scale = 4e-4 / p * f64::powi(h / 1e-4, 3);
+                let tolerance = match (kind, n) {
+                    ("quadrilateral", 8) => 0.01,
+                    (_, 8) => 0.025,
+                    _ => 0.1,
+                };
+                check(&format!("plate {kind} {edge} {n}"), u * scale, wanted, tolerance);
             }
         }
     }
@@ -400,16 +438,16 @@ fn twist(model: &mut Model) {
     }
 }
 
-/// The stiffness of drilling is a matter of taste: from 1e-5 to 1e-1 of the shear stiffness results stay within 1e-3.
+/// The stiffness of drilling is a matter of taste: ten times less or more leaves the hemisphere where it is.
 #[test]
 fn drilling_stiffness_does_not_matter() {
-    let u: Vec<f64> = [1e-5, 1e-3, 1e-1]
-        .iter()
-        .map(|&drilling| {
-            let mut model = read(&hemisphere("quadrilateral", 16, 0.04, 200.0, 10));
-            model.shells[0].plate.drilling = drilling;
-            displacements(&model, &[("a", 0)])[10][0]
-        })
-        .collect();
-    println!("drilling: {u:?}");
+    let u = [(1e-3, 20), (4e-3, 20), (4e-2, 20), (4e-3, 10)].map(|(drilling, steps)| {
+        let mut model = read(&hemisphere("quadrilateral", 16, 0.04, 200.0, steps));
+        model.shells[0].plate.drilling = drilling;
+        displacements(&model, &[("a", 0)])[steps][0]
+    });
+    check("weaker", u[0], u[1], 1e-3);
+    check("stiffer", u[2], u[1], 1e-3);
+    // Nor do the steps: no node has spun.
+    check("longer steps", u[3], u[1], 1e-8);
 }

@@ -104,11 +104,14 @@ fn panel(kind: &str, [n, m]: [usize; 2], step: f64) -> Model {
 
 #[test]
 fn panel_struck_into_plastic_flow() {
-    for (kind, mesh) in [("quadrilateral", [8, 16]), ("triangle", [8, 16])] {
+    // By the mesh; the reference has two and a half digits.
+    for (kind, mesh, most) in [("quadrilateral", [8, 16], 0.045), ("triangle", [8, 16], 0.06)] {
         let model = panel(kind, mesh, 2.5e-6);
         let at = |y: f64| nearest(&model, Vec3::new(0.0, y, 2.9375));
         let rows = histories(&model, [at(6.28), at(9.42)]);
-        println!("panel {kind} {mesh:?}: error {:.4}", error(&rows, &PANEL));
+        let error = error(&rows, &PANEL);
+        println!("panel {kind} {mesh:?}: error {error:.4}");
+        assert!(error < most);
     }
 }
 
@@ -167,11 +170,14 @@ fn cap(kind: &str, n: usize, plastic: bool, step: f64) -> Model {
 #[test]
 fn cap_under_step_pressure() {
     let (radius, half) = (22.27, 0.5 * 26.67f64.to_radians());
-    for (kind, plastic) in [("quadrilateral", false), ("quadrilateral", true), ("triangle", false)] {
+    let cases = [("quadrilateral", false, 0.02), ("quadrilateral", true, 0.02), ("triangle", false, 0.04)];
+    for (kind, plastic, most) in cases {
         let model = cap(kind, 8, plastic, 2.5e-6);
         let at = |angle: f64| nearest(&model, radius * Vec3::new(angle.sin(), 0.0, angle.cos()));
         let rows = histories(&model, [at(0.0), at(half)]);
         let reference = if plastic { &CAP_PLASTIC } else { &CAP_ELASTIC };
-        println!("cap {kind} plastic {plastic}: error {:.4}", error(&rows, reference));
+        let error = error(&rows, reference);
+        println!("cap {kind} plastic {plastic}: error {error:.4}");
+        assert!(error < most);
     }
 }
