@@ -84,8 +84,8 @@ impl<const N: usize> Answer<N> {
 }
 
 impl Law {
-    /// E > 0, −1 < ν ≤ ½, a kinematic share from 0 to 1, and numbers that do not fall or turn negative are the caller's
-    /// care.
+    /// The caller has checked that E > 0, −1 < ν ≤ ½, 0 ≤ kinematic share ≤ 1, yield stress, exponent > 0 and modulus,
+    /// fluidity ≥ 0. ν counts in plane stress and shear only.
     pub fn new(E: f64, nu: f64, hardening: Hardening, kinematic_share: f64, viscosity: Option<Viscosity>) -> Law {
         let elastic = Elastic { E, G: 0.5 * E / (1.0 + nu), biaxial: E / (1.0 - nu) };
         Law { elastic, hardening, kinematic_share, viscosity }
@@ -131,7 +131,8 @@ impl Law {
     ) -> ([f64; N], Option<[[f64; N]; N]>) {
         let answer = self.answer::<N, S>(strain, dt, old);
         let C = answer.yielding.as_ref().map(|y| {
-            // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S),  bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ².
+            // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition keeps Σ bᵢ dεᵢ = slope ∂, and
+            // dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
             let e = S::moduli(&self.elastic);
             let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
             let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);

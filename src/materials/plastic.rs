@@ -130,7 +130,7 @@ fn root(mut x: f64, at: impl Fn(f64) -> Return) -> Return {
         let misfit = 1.0 - point.sum.sqrt();
         let step = point.sum * misfit / point.slope;
         // Less than a few units in the last place is no step.
-        let moves = step.abs() > 8.0 * f64::EPSILON;
+        let moves = step.abs() > 2.0 * f64::EPSILON;
         if misfit.abs() <= if moves { TOLERANCE } else { STEEP } {
             return point;
         }
