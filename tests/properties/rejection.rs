@@ -1,8 +1,6 @@
 //! A step that is given up leaves nothing behind: not in the motion, not in what the material remembers.
 
 use crate::scene::*;
-use rdsolve::amplitude::Amplitude;
-use rdsolve::materials::Hardening;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{Expect, ExpectAt, Kind, MassKind, Model, Tolerance, Update, When};
 use rdsolve::plan::Plan;
@@ -10,6 +8,9 @@ use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::state::State;
 use rdsolve::system::System;
 use std::sync::atomic::AtomicBool;
+
+/// Iterations that some steps need more of.
+const LIMITS: [(Kind, usize); 2] = [(Kind::Static, 5), (Kind::Dynamic, 4)];
 
 /// A cantilever of two beams, bent far over, back, and over again, in steps too long for `limit` iterations.
 fn bent(kind: Kind, limit: usize) -> Model {
@@ -57,7 +58,7 @@ fn steps(m: &Model) -> (Steps, State, Counts, Outcome) {
 /// A run that is told beforehand where the steps of another ended rejects none, and is the same to the last bit.
 #[test]
 fn rejected_steps_leave_no_trace() {
-    for (kind, limit) in [(Kind::Static, 6), (Kind::Dynamic, 6)] {
+    for (kind, limit) in LIMITS {
         let m = bent(kind, limit);
         let (cut, end, counts, outcome) = steps(&m);
         eprintln!("{kind:?}: {counts:?}");
@@ -81,19 +82,16 @@ fn rejected_steps_leave_no_trace() {
     }
 }
 
-/// Perfect plasticity under a load that grows: past the hinge no step converges, and the run ends with the state it had.
+/// The same with no shorter step to try: the run ends with the state it had.
 #[test]
 fn a_run_that_fails_ends_with_its_last_step() {
-    let mut m = bent(Kind::Static, 20);
-    m.amplitudes[0] = Amplitude::Ramp { start: 0.0, end: 1.0 };
-    m.loads[0].force *= 1e3;
-    let law = |law: &rdsolve::materials::Law| {
-        let hardening = Hardening::Linear { yield_stress: 10.0, modulus: 0.0 };
-        rdsolve::materials::Law::new(law.elastic().E, 0.3, hardening, 0.0, None)
-    };
-    m.beams.iter_mut().flat_map(|b| &mut b.yielding).for_each(|y| y.law = law(&y.law));
-    let (seen, end, counts, outcome) = steps(&m);
-    assert!(matches!(outcome, Outcome::Failed { time, .. } if time == end.time), "{outcome:?}");
-    assert!(counts.cuts > 3 && end.work.material.plastic > 0.0, "{counts:?}, {:?}", end.work);
-    assert_eq!(seen.last, Some(end));
+    for (kind, limit) in LIMITS {
+        let mut m = bent(kind, limit);
+        m.analysis.least_step = m.analysis.time_step;
+        let (seen, end, _, outcome) = steps(&m);
+        eprintln!("{kind:?}: {} {:?}", end.time, end.work);
+        assert!(matches!(outcome, Outcome::Failed { time, .. } if time == end.time), "{outcome:?}");
+        assert!(end.work.material.plastic > 0.0, "{:?}", end.work);
+        assert_eq!(seen.last, Some(end));
+    }
 }
