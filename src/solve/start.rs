@@ -75,7 +75,7 @@ impl Stepper<'_> {
         for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
             *reaction = -self.forces.on_nodes[held.node][held.dof];
         }
-        state.work.damping_power = if dynamic { self.system.damping_power(&state.nodes) } else { 0.0 };
+        state.work.damping_power = if dynamic { self.system.damping_power(&state.now()) } else { 0.0 };
         self.trial.clone_from(&state.nodes);
         Ok(state)
     }

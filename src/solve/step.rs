@@ -284,7 +284,7 @@ impl<'a> Stepper<'a> {
             let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
             self.system.residual(&now, &self.given[2], &mut self.forces);
             if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
-                damping_power = self.system.damping_power(&self.trial);
+                damping_power = self.system.damping_power(&now);
             }
         } else {
             for &node in &self.movers {

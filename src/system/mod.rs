@@ -215,9 +215,9 @@ impl System {
     }
 
     /// Power that dampers take.
-    pub fn damping_power(&self, nodes: &[Node]) -> f64 {
-        let now = Now::of(nodes);
-        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(&now)).sum();
+    pub fn damping_power(&self, now: &Now) -> f64 {
+        let nodes = now.nodes;
+        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(&g.share(now))).sum();
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
