@@ -231,7 +231,10 @@ fn materials_that_yield() {
     assert_snapshot!("softening", plastic("yield_stress = 275e6\nhardening_modulus = -1e9"));
     assert_snapshot!("kinematic_share", plastic("yield_stress = 275e6\nkinematic_share = 2.0"));
     assert_snapshot!("overstress_exponent", viscous(&format!("{stress}\n{}", viscosity.replace("5.0", "0.5"))));
-    assert_snapshot!("overstress_without_exponent", viscous(&format!("{stress}\n{}", viscosity.replace(", exponent = 5.0", ""))));
+    assert_snapshot!(
+        "overstress_without_exponent",
+        viscous(&format!("{stress}\n{}", viscosity.replace(", exponent = 5.0", "")))
+    );
     assert_snapshot!("exponent_of_a_line", viscous(&format!("{stress}\n{}", viscosity.replace("power", "linear"))));
     assert_snapshot!("overstress_law", viscous(&format!("{stress}\n{}", viscosity.replace("power", "cowper-symonds"))));
 }
@@ -258,7 +261,8 @@ fn beams_that_yield() {
             ),
         ])
     );
-    let expect = "[[expect]]\nat = \"portal\"\nquantity = \"plastic_strain\"\npeak = \"max\"\nvalue = 0.01\ntolerance = 0.1";
+    let expect =
+        "[[expect]]\nat = \"portal\"\nquantity = \"plastic_strain\"\npeak = \"max\"\nvalue = 0.01\ntolerance = 0.1";
     assert_snapshot!("plastic_strain_when_elastic", portal_and(expect));
     assert_snapshot!(
         "quantity_of_a_beam",

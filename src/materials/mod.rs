@@ -222,7 +222,8 @@ impl Law {
         let yielding = if square > radius * radius {
             trial_stress::<N, S>(&relative).map(|(rho, share)| {
                 let c = [S::P[0] * e[0], 3.0 * self.elastic.G];
-                self.solve(&Trial { rho, share, c, accumulated: old[N], rise, radius }, dt)
+                let last = if self.viscosity.is_some() { old[old.len() - 1] } else { 0.0 };
+                self.solve(&Trial { rho, share, c, accumulated: old[N], rise, radius }, dt, last)
             })
         } else {
             None
