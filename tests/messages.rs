@@ -217,7 +217,9 @@ fn materials_that_yield() {
     assert_eq!(plastic("hardening = [[0.0, 275e6], [0.1, 300e6]]\nkinematic_share = 1.0"), "");
     assert_eq!(viscous(&format!("{stress}\n{viscosity}")), "");
     assert_snapshot!("yield_stress_when_elastic", yielding("elastic", &format!("{stress}\n{viscosity}"), ""));
+    // What depends on a material with errors is not judged.
     assert_snapshot!("no_yield_stress", plastic("kinematic_share = 0.5"));
+    assert_eq!(yielding("elastic-plastic", "kinematic_share = 0.5", "points = 4"), plastic("kinematic_share = 0.5"));
     assert_snapshot!("viscosity_when_plastic", plastic(&format!("{stress}\n{viscosity}")));
     assert_snapshot!("no_viscosity", viscous(stress));
     assert_snapshot!("falling_hardening", plastic("hardening = [[0.0, 275e6], [0.1, 270e6]]"));
@@ -231,7 +233,10 @@ fn materials_that_yield() {
     assert_snapshot!("softening", plastic("yield_stress = 275e6\nhardening_modulus = -1e9"));
     assert_snapshot!("kinematic_share", plastic("yield_stress = 275e6\nkinematic_share = 2.0"));
     assert_snapshot!("overstress_exponent", viscous(&format!("{stress}\n{}", viscosity.replace("5.0", "0.5"))));
-    assert_snapshot!("overstress_without_exponent", viscous(&format!("{stress}\n{}", viscosity.replace(", exponent = 5.0", ""))));
+    assert_snapshot!(
+        "overstress_without_exponent",
+        viscous(&format!("{stress}\n{}", viscosity.replace(", exponent = 5.0", "")))
+    );
     assert_snapshot!("exponent_of_a_line", viscous(&format!("{stress}\n{}", viscosity.replace("power", "linear"))));
     assert_snapshot!("overstress_law", viscous(&format!("{stress}\n{}", viscosity.replace("power", "cowper-symonds"))));
 }
@@ -258,7 +263,8 @@ fn beams_that_yield() {
             ),
         ])
     );
-    let expect = "[[expect]]\nat = \"portal\"\nquantity = \"plastic_strain\"\npeak = \"max\"\nvalue = 0.01\ntolerance = 0.1";
+    let expect =
+        "[[expect]]\nat = \"portal\"\nquantity = \"plastic_strain\"\npeak = \"max\"\nvalue = 0.01\ntolerance = 0.1";
     assert_snapshot!("plastic_strain_when_elastic", portal_and(expect));
     assert_snapshot!(
         "quantity_of_a_beam",
