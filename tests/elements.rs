@@ -172,13 +172,7 @@ fn yielding(rng: &mut StdRng, firmness: f64) -> Vec<Kind> {
 }
 
 /// Beams of N nodes with few fibres, whose section is not theirs alone.
-fn yielding_beams<const N: usize>(
-    rng: &mut StdRng,
-    name: &str,
-    law: &Material,
-    damping: f64,
-    kinds: &mut Vec<Kind>,
-) {
+fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, damping: f64, kinds: &mut Vec<Kind>) {
     let spots = [-0.35, 0.4].into_iter().flat_map(|y| [-0.4, 0.05, 0.45].map(|z| (y, z)));
     let fibre = |(y, z)| Fibre { area: 0.15, y, z, shear: [[0.9, 0.0, -z], [0.1, 0.9, y]] };
     let fibres: Vec<Fibre> = spots.map(fibre).collect();
