@@ -217,7 +217,9 @@ fn materials_that_yield() {
     assert_eq!(plastic("hardening = [[0.0, 275e6], [0.1, 300e6]]\nkinematic_share = 1.0"), "");
     assert_eq!(viscous(&format!("{stress}\n{viscosity}")), "");
     assert_snapshot!("yield_stress_when_elastic", yielding("elastic", &format!("{stress}\n{viscosity}"), ""));
+    // What depends on a material with errors is not judged.
     assert_snapshot!("no_yield_stress", plastic("kinematic_share = 0.5"));
+    assert_eq!(yielding("elastic-plastic", "kinematic_share = 0.5", "points = 4"), plastic("kinematic_share = 0.5"));
     assert_snapshot!("viscosity_when_plastic", plastic(&format!("{stress}\n{viscosity}")));
     assert_snapshot!("no_viscosity", viscous(stress));
     assert_snapshot!("falling_hardening", plastic("hardening = [[0.0, 275e6], [0.1, 270e6]]"));

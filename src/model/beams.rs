@@ -102,9 +102,7 @@ impl<'d> Builder<'d> {
             ("points", span(&beam.points)),
             ("shear_yields", span(&beam.shear_yields)),
         ];
-        let law = beam.material.as_ref().and_then(|name| self.deck.materials.position(name));
-        let Some(law) = law.and_then(|index| self.laws[index].clone()) else {
-            // Where the material is wrong, that has been said.
+        let Some(law) = self.yielding_of(&beam.material)? else {
             self.stray(&format!("{}, whose material is elastic", owner.what), &strays);
             return Some(None);
         };
@@ -232,11 +230,7 @@ impl<'d> Builder<'d> {
         let elements = nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         self.bar_nodes[index] = nodes;
         let tension_only = bar.tension_only.as_ref().is_some_and(|only| only.value);
-        let yielding = bar
-            .material
-            .as_ref()
-            .and_then(|name| self.deck.materials.position(name))
-            .and_then(|m| self.laws[m].clone());
+        let yielding = self.yielding_of(&bar.material)?;
         self.model.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, yielding, elements });
         Some(())
     }
