@@ -70,7 +70,7 @@ impl Kind {
     /// What is remembered of a motion.
     fn remember(&self, nodes: &[Node]) -> (Vec<f64>, Spent) {
         let mut history = vec![f64::NAN; self.past.len()];
-        let spent = self.block.remember(&self.now(nodes), &mut history);
+        let spent = self.block.remember(&self.now(nodes), 1.0, &mut history);
         (history, spent)
     }
 }
@@ -421,7 +421,7 @@ fn what_is_remembered_is_the_motion() {
                 assert!((a - b).abs() < 1e-11 * size, "{name}: {a} {b}");
             }
             let mut more = history.clone();
-            let spent = kind.block.remember(&again, &mut more);
+            let spent = kind.block.remember(&again, 1.0, &mut more);
             let amount = spent.plastic + spent.viscous + spent.stored.abs();
             assert!(amount < 1e-11 * size, "{name}: {spent:?}");
             let strain = |past: &[f64]| kind.block.plastic_strain(0, past);

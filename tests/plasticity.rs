@@ -256,7 +256,8 @@ fn end_of(model: &Model) -> (Outcome, State) {
 #[test]
 fn a_rejected_step_leaves_no_trace() {
     // No step is cut: the first that needs more iterations than the limit ends the run.
-    let of = ["analysis.time_step=1.5e-3", "analysis.least_step=1.5e-3", "beams.portal.elements=4", "iteration.limit=6"];
+    let of =
+        ["analysis.time_step=1.5e-3", "analysis.least_step=1.5e-3", "beams.portal.elements=4", "iteration.limit=6"];
     let (outcome, failed) = end_of(&scene("portal_and_block", &of));
     let Outcome::Failed { time, .. } = outcome else { panic!("{outcome:?}") };
     assert_eq!(time, failed.time);
@@ -317,7 +318,8 @@ sections = true
             layers[p[2] / (N - 1)].push(format!("{:?}", name(p)));
         }
     }
-    writeln!(deck, "{points}\n[sets]\nbottom = [{}]\ntop = [{}]\n", layers[0].join(", "), layers[1].join(", ")).unwrap();
+    writeln!(deck, "{points}\n[sets]\nbottom = [{}]\ntop = [{}]\n", layers[0].join(", "), layers[1].join(", "))
+        .unwrap();
     for axis in 0..3 {
         for i in 0..N * N {
             let at = |k: usize| {

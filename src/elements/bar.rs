@@ -157,7 +157,7 @@ impl Block for YieldingBars {
         }
     }
 
-    fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut sum = Spent::default();
         for (e, new) in history.chunks_exact_mut(self.memory).enumerate() {
             let at = self.stretch(e, now.nodes);
@@ -166,7 +166,8 @@ impl Block for YieldingBars {
                 new.copy_from_slice(past);
                 continue;
             }
-            sum += self.law.advance(Bar, &[at.strain], now.since, past, new).1 * (self.area * self.elements[e].1);
+            let (_, spent) = self.law.advance(Bar, &[at.strain], (now.since, part), past, new);
+            sum += spent * (self.area * self.elements[e].1);
         }
         sum
     }

@@ -156,39 +156,45 @@ impl Law {
         from_modes::<N, S>(std::array::from_fn(|i| std::array::from_fn(|j| if i == j { e[i] } else { 0.0 })))
     }
 
-    /// Writes the history `dt` after the state in `old`; answers with the stress and what became of the plastic work.
+    /// Writes the history after `part` of the time `dt` since the state in `old`, at whose end `strain` is; answers with the
+    /// stress at the end and what became of the plastic work in the part. A scheme that writes equilibrium beyond the end of
+    /// its step keeps that part of what equilibrium asked for.
     #[inline]
     pub fn advance<const N: usize, S: StressState<N>>(
         &self,
         _: S,
         strain: &[f64; N],
-        dt: f64,
+        (dt, part): (f64, f64),
         old: &[f64],
         new: &mut [f64],
     ) -> ([f64; N], Spent) {
         let answer = self.answer::<N, S>(strain, dt, old);
         let stress = S::modes(answer.stress());
         new.copy_from_slice(old);
-        let viscous = self.viscosity.and_then(|_| new.last_mut());
-        let Some(y) = answer.yielding else {
-            if let Some(v) = viscous {
-                *v = 0.0;
-            }
-            return (stress, Spent::default());
+        let overstress = answer.yielding.as_ref().map_or(0.0, |y| y.overstress);
+        let from = self.viscosity.and_then(|_| new.last_mut()).map_or(0.0, |v| {
+            let from = *v;
+            *v += part * (overstress - from);
+            from
+        });
+        let Some(y) = answer.yielding else { return (stress, Spent::default()) };
+        // Of the return that part, on a straight line.
+        let (multiplier, back, to) = (part * y.multiplier, part * y.back, from + part * (overstress - from));
+        let rise = self.hardening.rise(old[N] + multiplier).0;
+        let radius = self.hardening.initial() + (1.0 - self.kinematic_share) * rise;
+        let mut spent = Spent {
+            plastic: 0.5 * (answer.radius + radius) * multiplier,
+            viscous: 0.5 * (from * answer.radius + to * radius) * multiplier,
+            stored: 0.0,
         };
-        let mut spent = Spent { plastic: 0.5 * (answer.radius + y.radius) * y.multiplier, ..Spent::default() };
-        if let Some(v) = viscous {
-            spent.viscous = 0.5 * (*v * answer.radius + y.overstress * y.radius) * y.multiplier;
-            *v = y.overstress;
-        }
         // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
         let direction: [f64; N] = std::array::from_fn(|i| answer.relative[i] / y.T(i));
-        let plastic: [f64; N] = std::array::from_fn(|i| S::P[i] * y.multiplier * direction[i]);
+        let plastic: [f64; N] = std::array::from_fn(|i| S::P[i] * multiplier * direction[i]);
         add(&mut new[..N], &S::modes(plastic));
-        new[N] += y.multiplier;
+        new[N] += multiplier;
         if self.is_kinematic() {
-            add(&mut new[N + 1..], &S::modes(direction.map(|n| y.back * n)));
-            let mean = |i: usize| answer.back[i] + 0.5 * y.back * direction[i];
+            add(&mut new[N + 1..], &S::modes(direction.map(|n| back * n)));
+            let mean = |i: usize| answer.back[i] + 0.5 * back * direction[i];
             spent.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
         }
         (stress, spent)

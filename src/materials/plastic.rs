@@ -32,8 +32,6 @@ pub(super) struct Return {
     /// Δλ.
     pub multiplier: f64,
     pub overstress: f64,
-    /// i.
-    pub radius: f64,
     /// k.
     pub back: f64,
     /// T of the first mode and of the others.
@@ -110,7 +108,6 @@ impl Law {
         Return {
             multiplier,
             overstress: v,
-            radius,
             back,
             T,
             S,

@@ -3,6 +3,7 @@
 use super::accelerate::Anderson;
 use super::failure::Failure;
 use super::refresh::Refresh;
+use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{Frame, LinkState, Observer, SectionPoint};
@@ -100,6 +101,7 @@ impl<'a> Run<'a> {
             solver,
             assembly,
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
+            search: (system.history > 0).then(|| Search::new(plan.unknowns, n)),
             anderson: (system.history > 0 && method != Method::TangentStiffness).then(|| Anderson::new(weights)),
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),

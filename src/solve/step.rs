@@ -4,6 +4,7 @@ use super::accelerate::Anderson;
 use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::refresh::{Advice, Refresh};
+use super::search::Search;
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::math::rotation::inverse_tangent;
@@ -25,6 +26,7 @@ pub struct Stepper<'a> {
     pub refresh: Refresh,
     /// Where the matrix may be far from the derivative because material yields.
     pub anderson: Option<Anderson>,
+    pub search: Option<Search>,
     /// Motion at the instant of equilibrium.
     pub trial: Vec<Node>,
     pub increments: Vec<Increment>,
@@ -98,16 +100,31 @@ impl<'a> Stepper<'a> {
                 convergence.forget();
                 continue;
             }
+            if let Some(search) = &mut self.search
+                && search.shorten(&self.r, taken.residual, &mut self.increments)
+            {
+                // What was mixed into it no longer tells what it did.
+                if let Some(anderson) = &mut self.anderson {
+                    anderson.forget();
+                }
+                continue;
+            }
             if self.refresh.due(taken.iterations, dt) {
                 self.form_matrix(state, &scheme, since)?;
                 self.refresh.done(dt);
                 self.forget_corrections();
                 taken.refactorizations += 1;
             }
+            if let Some(search) = &mut self.search {
+                search.keep_residual(&self.r, taken.residual);
+            }
             self.solver.solve(&mut self.r);
             self.solves += 1;
             if let Some(anderson) = &mut self.anderson {
                 anderson.mix(&mut self.r);
+            }
+            if let Some(search) = &mut self.search {
+                search.keep_correction(&self.r, &self.increments);
             }
             let (correction, motion) = self.correct();
             taken.iterations += 1;
@@ -165,6 +182,9 @@ impl<'a> Stepper<'a> {
     fn forget_corrections(&mut self) {
         if let Some(anderson) = &mut self.anderson {
             anderson.forget();
+        }
+        if let Some(search) = &mut self.search {
+            search.forget();
         }
     }
 
@@ -279,19 +299,27 @@ impl<'a> Stepper<'a> {
     fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
         let dt = to - state.time;
         let mut damping_power = 0.0;
-        if self.wants_forces {
+        let remembers = self.system.history > 0;
+        if self.wants_forces || remembers {
             self.move_trial(state, scheme);
-            let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
-            self.system.residual(&now, &self.given[2], &mut self.forces);
-            if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
-                damping_power = self.system.damping_power(&now);
-            }
         } else {
             for &node in &self.movers {
                 let start = &state.nodes[node];
                 let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
                 scheme.differentiate(&mut self.increments[node], &v, &a);
             }
+        }
+        let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
+        if self.wants_forces {
+            self.system.residual(&now, &self.given[2], &mut self.forces);
+            if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
+                damping_power = self.system.damping_power(&now);
+            }
+        }
+        if remembers {
+            // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a
+            // straight line: at the end itself stiff parts are not at rest, and would yield from step to step.
+            state.work.material += self.system.remember(&now, 1.0 / scheme.instant, &mut self.history);
         }
         for &node in &self.movers {
             let start = &state.nodes[node];
@@ -315,9 +343,7 @@ impl<'a> Stepper<'a> {
         if self.wants_forces {
             self.account(state, scheme, dt, damping_power);
         }
-        if self.system.history > 0 {
-            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
-            state.work.material += self.system.remember(&now, &mut self.history);
+        if remembers {
             std::mem::swap(&mut state.history, &mut self.history);
         }
         std::mem::swap(&mut state.nodes, &mut self.trial);

@@ -204,12 +204,12 @@ impl System {
         work
     }
 
-    /// Writes what material points will remember of `now` into `history`; returns what became of the work of plastic
-    /// strains since the last state.
-    pub fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+    /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
+    /// became of the work of plastic strains on it.
+    pub fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut spent = Spent::default();
         for group in self.groups.iter().filter(|group| !group.history.is_empty()) {
-            spent += group.block.remember(&group.share(now), &mut history[group.history.clone()]);
+            spent += group.block.remember(&group.share(now), part, &mut history[group.history.clone()]);
         }
         spent
     }
