@@ -87,8 +87,9 @@ impl<'a> Run<'a> {
         let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
         // Load steps are long and few, and there is no mass to steady an old matrix.
         let method = model.iteration.method;
+        let mixes = system.history > 0 && method != Method::TangentStiffness;
         let update = match (model.analysis.kind, model.iteration.update) {
-            (Kind::Static, Update::Auto) if method == Method::TangentStiffness => Update::Iteration,
+            (Kind::Static, Update::Auto) if !mixes => Update::Iteration,
             (_, update) => update,
         };
         let length = extent(&at_rest);
@@ -102,7 +103,7 @@ impl<'a> Run<'a> {
             assembly,
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
             search: (system.history > 0).then(|| Search::new(plan.unknowns, n)),
-            anderson: (system.history > 0 && method != Method::TangentStiffness).then(|| Anderson::new(weights)),
+            anderson: mixes.then(|| Anderson::new(weights)),
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
             trial: at_rest,
