@@ -15,7 +15,7 @@ use std::fmt::Write;
 use std::io;
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
-use support::{Done, error, node, position, read, run, run_to_the_end, slope};
+use support::{Done, error, position, read, run_to_the_end, slope};
 
 fn sets(of: &[&str]) -> Vec<String> {
     of.iter().map(|set| (*set).to_owned()).collect()

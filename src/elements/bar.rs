@@ -90,7 +90,8 @@ impl YieldingBars {
         let viscosity = self.damping * self.law.elastic().E;
         let damping = viscosity * at.strain_rate;
         if self.tension_only && stress + damping < 0.0 {
-            return Tension::default();
+            // Damping takes what the material gives and no more: the bar does not push.
+            return Tension { material: self.area * stress, damping: -self.area * stress, ..Tension::default() };
         }
         let modulus = if moduli == Moduli::Elastic { self.law.elastic().E } else { modulus };
         Tension { material: self.area * stress, damping: self.area * damping, modulus, viscosity }
@@ -162,11 +163,9 @@ impl Block for YieldingBars {
         for (e, new) in history.chunks_exact_mut(self.memory).enumerate() {
             let at = self.stretch(e, now.nodes);
             let past = &now.past[self.share(e)];
-            if self.is_slack(at.strain, past) {
-                new.copy_from_slice(past);
-                continue;
-            }
-            let (_, spent) = self.law.advance(Bar, &[at.strain], (now.since, part), past, new);
+            // A slack bar rests at its plastic strain.
+            let strain = if self.is_slack(at.strain, past) { past[0] } else { at.strain };
+            let (_, spent) = self.law.advance(Bar, &[strain], (now.since, part), past, new);
             sum += spent * (self.area * self.elements[e].1);
         }
         sum

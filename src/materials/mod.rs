@@ -179,8 +179,9 @@ impl Law {
         });
         let Some(y) = answer.yielding else { return (stress, Spent::default()) };
         // Of the return that part, on a straight line.
-        let (multiplier, back, to) = (part * y.multiplier, part * y.back, from + part * (overstress - from));
+        let (multiplier, to) = (part * y.multiplier, from + part * (overstress - from));
         let rise = self.hardening.rise(old[N] + multiplier).0;
+        let back = self.kinematic_share * (rise - self.hardening.rise(old[N]).0);
         let radius = self.hardening.initial() + (1.0 - self.kinematic_share) * rise;
         let mut spent = Spent {
             plastic: 0.5 * (answer.radius + radius) * multiplier,

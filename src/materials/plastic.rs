@@ -32,8 +32,6 @@ pub(super) struct Return {
     /// Δλ.
     pub multiplier: f64,
     pub overstress: f64,
-    /// k.
-    pub back: f64,
     /// T of the first mode and of the others.
     pub T: [f64; 2],
     /// R + k.
@@ -108,7 +106,6 @@ impl Law {
         Return {
             multiplier,
             overstress: v,
-            back,
             T,
             S,
             turn: dmultiplier - multiplier * (dS / S),

@@ -108,6 +108,13 @@ impl<'d> Builder<'d> {
         };
         let points = self.count("points", &beam.points, order);
         if let Some(at) = &beam.points
+            && order == 1
+            && points > 1
+        {
+            let message = "elements of order 1 take one point: with more they lock in shear";
+            return self.error_with(&at.span, message, "take a higher `order`");
+        }
+        if let Some(at) = &beam.points
             && !(order..=MOST_POINTS).contains(&points)
         {
             let message = format!("`points` must lie between the order of the elements, {order}, and {MOST_POINTS}");
@@ -115,8 +122,8 @@ impl<'d> Builder<'d> {
         }
         let rule = match &beam.integration {
             Some(at) if at.value == deck::Rule::Lobatto && points < 3 => {
-                let message = "a Lobatto rule needs three points: give `points`, or elements of order 3";
-                return self.error(&at.span, message);
+                let message = "a Lobatto rule needs three points";
+                return self.error_with(&at.span, message, "take elements of order 3 or 4");
             }
             Some(at) if at.value == deck::Rule::Lobatto => Rule::Lobatto,
             Some(_) | None => Rule::Gauss,

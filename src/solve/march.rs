@@ -209,9 +209,10 @@ impl<'a> Run<'a> {
                 }
                 Err(failure) => {
                     let half = 0.5 * dt;
-                    // A structure that nothing holds is not helped by smaller loads.
+                    // A structure that nothing holds is not helped by smaller loads; one that yields may be.
                     let analysis = &self.stepper.model.analysis;
                     let unheld = analysis.kind == Kind::Static
+                        && self.stepper.system.history == 0
                         && state.time == 0.0
                         && matches!(failure, Failure::Singular { .. });
                     if piece == 1 || half < analysis.least_step || unheld {

@@ -5,6 +5,7 @@ use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::refresh::{Advice, Refresh};
 use super::search::Search;
+use crate::elements::Moduli;
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::math::rotation::inverse_tangent;
@@ -120,6 +121,7 @@ impl<'a> Stepper<'a> {
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
+            let plain = self.anderson.is_some().then(|| self.largest_correction());
             if let Some(anderson) = &mut self.anderson {
                 anderson.mix(&mut self.r);
             }
@@ -127,6 +129,8 @@ impl<'a> Stepper<'a> {
                 search.keep_correction(&self.r, &self.increments);
             }
             let (correction, motion) = self.correct();
+            // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
+            let correction = plain.filter(|_| !correction.translation.is_nan()).unwrap_or(correction);
             taken.iterations += 1;
             let size = self.relative(correction, motion);
             if !size.is_finite() {
@@ -134,7 +138,11 @@ impl<'a> Stepper<'a> {
             }
             let fresh = taken.refactorizations > 0;
             let judgement = convergence.judge(size, taken.residual);
-            if judgement.converged() || judgement.stalled() && self.is_rounding(correction, fresh) {
+            // Between elastic and plastic one contraction says little of the next, and what is small against positions may be
+            // large against elastic strains: the residual must have come down as well, or nothing but rounding be left.
+            let sure = self.search.is_none() || taken.residual <= 1e3 * self.model.iteration.tolerance;
+            let rounding = judgement.stalled() && self.is_rounding(correction, fresh && sure);
+            if rounding || sure && judgement.converged() {
                 break;
             }
             if taken.iterations >= limit {
@@ -233,13 +241,34 @@ impl<'a> Stepper<'a> {
         ratio(largest[0], force).max(ratio(largest[1], moment))
     }
 
+    /// Where all that resists has yielded its derivative may be singular; the elastic matrix then leads on.
     fn form_matrix(&mut self, state: &State, scheme: &Coefficients, since: f64) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
-        let weights = Weights { stiffness: true, rate, acceleration, moduli: self.refresh.moduli() };
         let now = Now { nodes: &self.trial, past: &state.history, since };
-        self.assembly.tangent(self.system, &now, &self.given[2], &self.forces, weights, &mut self.solver);
-        self.factorizations += 1;
-        self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))
+        let mut moduli = self.refresh.moduli();
+        loop {
+            let weights = Weights { stiffness: true, rate, acceleration, moduli };
+            self.assembly.tangent(self.system, &now, &self.given[2], &self.forces, weights, &mut self.solver);
+            self.factorizations += 1;
+            match self.solver.factor() {
+                Ok(()) => return Ok(()),
+                Err(_) if moduli == Moduli::Algorithmic && self.system.history > 0 => moduli = Moduli::Elastic,
+                Err(singular) => {
+                    self.refresh.rejected();
+                    return Err(Failure::singular(self.model, self.plan.directions[singular.row]));
+                }
+            }
+        }
+    }
+
+    /// Of the correction in `r`.
+    fn largest_correction(&self) -> Size {
+        let mut size = Size::default();
+        for (r, &(_, dof)) in self.r.iter().zip(&self.plan.directions) {
+            let largest = if dof < 3 { &mut size.translation } else { &mut size.rotation };
+            *largest = largest.max(r.abs());
+        }
+        size
     }
 
     /// Adds the correction in `r` to the increments. Returns its size and that of the increments.
