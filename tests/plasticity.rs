@@ -41,7 +41,7 @@ fn space_frame() -> String {
 [analysis]
 kind = "dynamic"
 end_time = 0.05
-time_step = 5e-4
+time_step = 2.5e-4
 
 [materials.steel]
 model = "elastic-plastic"
@@ -155,18 +155,20 @@ fn balance(deck: &str, of: &[&str], steps: &[f64], least_order: f64, last: f64) 
 
 #[test]
 fn the_energy_of_the_portal_balances() {
+    // The scheme is of second order; the blow keeps the slope a little below.
     let of = ["beams.portal.elements=4", "beams.portal.order=2", "output={ every = 1 }"];
-    balance("portal_and_block", &of, &[3.75e-4, 1.875e-4, 9.375e-5, 4.6875e-5], 1.0, 1.0);
+    balance("portal_and_block", &of, &[3.75e-4, 1.875e-4, 9.375e-5, 4.6875e-5], 1.5, 5e-5);
 }
 
 #[test]
 fn the_energy_of_the_ring_balances() {
-    balance("free_ring", &[], &[2e-6, 1e-6, 5e-7, 2.5e-7], 1.0, 1.0);
+    balance("free_ring", &[], &[2e-6, 1e-6, 5e-7, 2.5e-7], 1.5, 1e-3);
 }
 
 #[test]
 fn the_energy_of_the_viscoplastic_ring_balances() {
-    balance("free_ring/viscoplastic", &[], &[2e-6, 1e-6, 5e-7, 2.5e-7], 1.0, 1.0);
+    // Backward Euler is of first order in the overstress; with the scheme's second order the slope lies between.
+    balance("free_ring/viscoplastic", &[], &[2e-6, 1e-6, 5e-7, 2.5e-7], 1.1, 2e-3);
 }
 
 fn everything(frame: &Frame) -> Vec<f64> {
@@ -228,7 +230,7 @@ fn cut_steps_go_on() {
         (displacements(&model, &done), done.counts)
     };
     let (whole, none) = history(&["analysis.time_step=1.5e-3", "iteration.limit=60"]);
-    let (cut, some) = history(&["analysis.time_step=1.5e-3", "iteration.limit=6"]);
+    let (cut, some) = history(&["analysis.time_step=1.5e-3", "iteration.limit=4"]);
     let (fine, _) = history(&["analysis.time_step=1.875e-4", "iteration.limit=60"]);
     let (change, step) = (error(&cut, &whole, 0), error(&whole, &fine, 0));
     println!("{} and {} cuts; cut from whole {change:.2e}, whole from fine {step:.2e}", none.cuts, some.cuts);
@@ -256,8 +258,13 @@ fn end_of(model: &Model) -> (Outcome, State) {
 #[test]
 fn a_rejected_step_leaves_no_trace() {
     // No step is cut: the first that needs more iterations than the limit ends the run.
-    let of =
-        ["analysis.time_step=1.5e-3", "analysis.least_step=1.5e-3", "beams.portal.elements=4", "iteration.limit=6"];
+    let of = [
+        "analysis.time_step=1.5e-3",
+        "analysis.least_step=1.5e-3",
+        "beams.portal.elements=4",
+        "iteration.limit=4",
+        "expect=[]",
+    ];
     let (outcome, failed) = end_of(&scene("portal_and_block", &of));
     let Outcome::Failed { time, .. } = outcome else { panic!("{outcome:?}") };
     assert_eq!(time, failed.time);
