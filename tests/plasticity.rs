@@ -321,7 +321,7 @@ sections = true
     for i in 0..N.pow(3) {
         let p = [i / N / N, i / N % N, i % N];
         writeln!(points, "{} = [{}.0, {}.0, {}.0]", name(p), p[0], p[1], p[2]).unwrap();
-        if p[2] % (N - 1) == 0 {
+        if p[2].is_multiple_of(N - 1) {
             layers[p[2] / (N - 1)].push(format!("{:?}", name(p)));
         }
     }

@@ -42,12 +42,14 @@ impl Search {
     }
 
     /// Before a system is solved for `residual`, whose relative size is `size`.
+    #[inline(never)]
     pub fn keep_residual(&mut self, residual: &[f64], size: f64) {
         self.residual.copy_from_slice(residual);
         self.size = size;
     }
 
     /// Before `correction` is added to the increments.
+    #[inline(never)]
     pub fn keep_correction(&mut self, correction: &[f64], increments: &[Increment]) {
         self.correction.copy_from_slice(correction);
         self.before.iter_mut().zip(increments).for_each(|(before, increment)| *before = increment.q);
@@ -57,6 +59,7 @@ impl Search {
 
     /// With the residual after the correction: shortens it where that pulls back as hard as it pulled forth before. Returns
     /// whether it did.
+    #[inline(never)]
     pub fn shorten(&mut self, residual: &[f64], size: f64, increments: &mut [Increment]) -> bool {
         // A correction that was no step downhill, or one that did its work.
         if self.tries >= TRIES || self.at_start <= 0.0 || size <= self.size {

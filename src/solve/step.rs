@@ -68,6 +68,13 @@ struct Size {
     rotation: f64,
 }
 
+impl Size {
+    /// This size, unless the other is not a number.
+    fn or_not_finite(self, other: Size) -> Size {
+        if other.translation.is_nan() { other } else { self }
+    }
+}
+
 impl<'a> Stepper<'a> {
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         match (self.model.analysis.kind, &self.model.scheme) {
@@ -121,16 +128,12 @@ impl<'a> Stepper<'a> {
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
-            let plain = self.anderson.is_some().then(|| self.largest_correction());
-            if let Some(anderson) = &mut self.anderson {
-                anderson.mix(&mut self.r);
-            }
-            if let Some(search) = &mut self.search {
-                search.keep_correction(&self.r, &self.increments);
-            }
-            let (correction, motion) = self.correct();
             // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
-            let correction = plain.filter(|_| !correction.translation.is_nan()).unwrap_or(correction);
+            let plain = self.search.is_some().then(|| self.prepare());
+            let (mut correction, motion) = self.correct();
+            if let Some(plain) = plain {
+                correction = plain.or_not_finite(correction);
+            }
             taken.iterations += 1;
             let size = self.relative(correction, motion);
             if !size.is_finite() {
@@ -259,6 +262,19 @@ impl<'a> Stepper<'a> {
                 }
             }
         }
+    }
+
+    /// Mixes the correction in `r`, where material yields, and keeps it. Returns its size before that.
+    #[inline(never)]
+    fn prepare(&mut self) -> Size {
+        let plain = self.largest_correction();
+        if let Some(anderson) = &mut self.anderson {
+            anderson.mix(&mut self.r);
+        }
+        if let Some(search) = &mut self.search {
+            search.keep_correction(&self.r, &self.increments);
+        }
+        plain
     }
 
     /// Of the correction in `r`.
