@@ -179,6 +179,7 @@ SCENES = {
         Scene("B2", "flying_beam", 0.05, lambda at: sum((position(at[n]) for n in ("a", "middle", "b")), []), ("rod",)),
         Scene("C1", "block_on_cantilever", 0.01, lambda at: position(at["block"]) + position(at["tip"]), ("beam",)),
         Scene("C2", "hub_with_blades", 0.015, hub, ("blade_1", "blade_2"), angle_first=True),
+        Scene("C4", "portal_and_block", 0.0015, lambda at: [at["knee_left"]["ux"], at["block"]["x"]], ("portal",)),
     ]
 }
 

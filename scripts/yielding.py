@@ -9,57 +9,45 @@
 Errors are the root mean square over all output times, relative to the largest displacement. Python's standard library only.
 """
 
-import csv
 import math
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
-from scenes import ROOT, build, run
+from scenes import SCENES, Scene, build, run
 
-PORTAL = ROOT / "decks" / "portal_and_block"
-COLUMNS = (("nodes.csv", "node", "knee_left", "ux"), ("bodies.csv", "body", "block", "x"))
+PORTAL = SCENES["C4"]
 
 
-def histories(folder: Path, columns) -> list[list[float]]:
-    out = []
-    for file, key, name, quantity in columns:
-        with open(folder / file) as rows:
-            out.append([float(row[quantity]) for row in csv.DictReader(rows) if row[key] == name])
-    return out
+class Measured(NamedTuple):
+    """The fastest of some runs."""
+
+    history: list[list[float]]
+    loop: float
+    counts: dict
+
+
+def measured(scene: Scene, deck: Path, sets: list[str], repeats: int = 3) -> Measured:
+    with tempfile.TemporaryDirectory() as folder:
+        runs = [run(deck, sets + ["expect=[]"], Path(folder)) for _ in range(repeats)]
+        history = scene.history(Path(folder))
+    return Measured(history, min(r.loop_s for r in runs), runs[0].report["counts"])
 
 
 def error(found: list[list[float]], reference: list[list[float]]) -> float:
-    count = len(reference[0])
-    assert all(len(column) == count for column in found)
-    largest = max(math.hypot(*row) for row in zip(*reference))
+    assert len(found) == len(reference)
+    largest = max(math.hypot(*row) for row in reference)
     squares = sum((a - b) ** 2 for f, r in zip(found, reference) for a, b in zip(f, r))
-    return math.sqrt(squares / count) / largest
-
-
-def portal_reference() -> list[list[float]]:
-    with open(PORTAL / "reference.csv") as rows:
-        table = [[float(number) for number in row[1:]] for row in list(csv.reader(rows))[1:]]
-    return [list(column) for column in zip(*table)]
-
-
-class Measured:
-    """The fastest of some runs of a deck."""
-
-    def __init__(self, deck: Path, sets: list[str], columns, repeats: int = 3):
-        with tempfile.TemporaryDirectory() as folder:
-            runs = [run(deck, sets, Path(folder)) for _ in range(repeats)]
-            self.histories = histories(Path(folder), columns)
-        self.loop = min(r.loop_s for r in runs)
-        self.counts = runs[0].report["counts"]
+    return math.sqrt(squares / len(reference)) / largest
 
 
 def portal(*sets: str, repeats: int = 3) -> Measured:
-    return Measured(PORTAL / "deck.toml", list(sets), COLUMNS, repeats)
+    return measured(PORTAL, PORTAL.deck, list(sets), repeats)
 
 
 def elements() -> None:
-    reference = portal_reference()
+    reference = PORTAL.reference()
     rules = [("gauss", 0), ("lobatto", 0), ("gauss", 1), ("lobatto", 1)]
     names = {0: "order points", 1: "one more"}
     print("| order | elements a leg | " + " | ".join(f"{rule}, {names[more]}" for rule, more in rules) + " |")
@@ -71,7 +59,7 @@ def elements() -> None:
                 if rule == "lobatto" and order + more < 3:
                     cells.append("")
                     continue
-                measured = portal(
+                made = portal(
                     f"beams.portal.elements={count}",
                     f"beams.portal.order={order}",
                     f"beams.portal.points={order + more}",
@@ -79,29 +67,29 @@ def elements() -> None:
                     "sections.square.fibres=[2,40]",
                     repeats=1,
                 )
-                cells.append(f"{error(measured.histories, reference):.1e} ({measured.loop:.2f} s)")
+                cells.append(f"{error(made.history, reference):.1e} ({made.loop:.2f} s)")
             print(f"| {order} | {count} | " + " | ".join(cells) + " |", flush=True)
 
 
 def fibres() -> None:
-    reference = portal_reference()
+    reference = PORTAL.reference()
     print("| fibres over the height | error | loop s |\n|---|---|---|")
     for count in (4, 6, 8, 10, 12, 16, 20, 24, 40):
-        measured = portal(f"sections.square.fibres=[2,{count}]", "beams.portal.elements=16")
-        print(f"| {count} | {error(measured.histories, reference):.1e} | {measured.loop:.3f} |", flush=True)
+        made = portal(f"sections.square.fibres=[2,{count}]", "beams.portal.elements=16")
+        print(f"| {count} | {error(made.history, reference):.1e} | {made.loop:.3f} |", flush=True)
 
 
 def steps() -> None:
     """Against the same mesh with a step of a fortieth of the output interval."""
-    finest = portal("analysis.time_step=3.75e-5", repeats=1).histories
+    finest = portal("analysis.time_step=3.75e-5", repeats=1).history
     print("| time step | error | slope | loop s |\n|---|---|---|---|")
     last = None
     for division in (1, 2, 4, 8, 16):
-        measured = portal(f"analysis.time_step={1.5e-3 / division}")
-        size = error(measured.histories, finest)
+        made = portal(f"analysis.time_step={1.5e-3 / division}")
+        size = error(made.history, finest)
         slope = f"{math.log2(last / size):.2f}" if last else ""
         last = size
-        print(f"| {1.5e-3 / division:.3g} | {size:.1e} | {slope} | {measured.loop:.3f} |", flush=True)
+        print(f"| {1.5e-3 / division:.3g} | {size:.1e} | {slope} | {made.loop:.3f} |", flush=True)
 
 
 def ten_storeys() -> str:
@@ -153,24 +141,23 @@ def ten_storeys() -> str:
 def methods() -> None:
     print("| scene | method | iterations | factorizations | loop s | error |\n|---|---|---|---|---|---|")
     words = ("tangent-stiffness", "initial-load", "auto")
-    sets = ["beams.portal.elements=8", "sections.square.fibres=[2,16]", "analysis.time_step=3.75e-4"]
     for word in words:
-        measured = portal(*sets, f'iteration.method="{word}"')
-        row("portal_and_block", word, measured, error(measured.histories, portal_reference()))
+        made = portal(f'iteration.method="{word}"')
+        row("portal_and_block", word, made, error(made.history, PORTAL.reference()))
+    tower = Scene("ten storeys", "", 0.05, lambda at: [at["p00_10"]["ux"], at["p21_10"]["uy"]])
     with tempfile.TemporaryDirectory() as folder:
         deck = Path(folder) / "deck.toml"
         deck.write_text(ten_storeys())
-        top = (("nodes.csv", "node", "p00_10", "ux"), ("nodes.csv", "node", "p21_10", "uy"))
-        finest = Measured(deck, ["analysis.time_step=1.25e-3"], top, 1).histories
+        finest = measured(tower, deck, ["analysis.time_step=1.25e-3"], 1).history
         for word in words:
-            measured = Measured(deck, [f'iteration.method="{word}"'], top)
-            row("ten storeys", word, measured, error(measured.histories, finest))
+            made = measured(tower, deck, [f'iteration.method="{word}"'])
+            row("ten storeys", word, made, error(made.history, finest))
 
 
-def row(scene: str, word: str, measured: Measured, size: float) -> None:
-    counts = measured.counts
+def row(scene: str, word: str, made: Measured, size: float) -> None:
+    counts = made.counts
     print(
-        f"| {scene} | {word} | {counts['iterations']} | {counts['factorizations']} | {measured.loop:.3f} | {size:.2e} |",
+        f"| {scene} | {word} | {counts['iterations']} | {counts['factorizations']} | {made.loop:.3f} | {size:.2e} |",
         flush=True,
     )
 

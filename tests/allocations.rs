@@ -9,9 +9,12 @@ mod scene;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{BaseAcceleration, Cadence, Held, History, Kind, Motion, NodalDamping, Update};
+use rdsolve::model::{
+    BaseAcceleration, Cadence, Held, History, Iteration, Kind, Method, Model, Motion, NodalDamping, Update,
+};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
+use rdsolve::state::State;
 use rdsolve::system::System;
 use scene::*;
 use std::alloc::{GlobalAlloc, Layout};
@@ -52,12 +55,8 @@ impl Observer for Counts {
     }
 }
 
-/// Every update policy and both factorisations, with all that can be shown: one test, since the count is one for all
-/// threads.
-#[test]
-fn no_step_after_the_first_allocates() {
-    let mut rng = StdRng::seed_from_u64(71);
-    let mut m = zoo(&mut rng, Kind::Dynamic, 0.005);
+fn lively(rng: &mut StdRng) -> Model {
+    let mut m = zoo(rng, Kind::Dynamic, 0.005);
     m.analysis.end_time = 0.3;
     m.iteration.tolerance = 1e-8;
     let pulse = sine_squared(&mut m, 4.0);
@@ -71,25 +70,48 @@ fn no_step_after_the_first_allocates() {
     let ball = body(&mut m, Vec3::new(5.0, 5.0, 5.0), 1.0, Mat3::identity());
     m.nodes[ball].omega = Vec3::new(1.0, 2.0, 3.0);
     m.held.sort_by_key(|h| (h.node, h.dof));
-    let system = System::new(&m).unwrap();
-    let stop = AtomicBool::new(false);
-    let wanted = Wanted { energy: true, reactions: true, links: true, sections: true, plastic_strains: true };
+    m
+}
+
+/// Every update policy and both factorisations, with all that can be shown, and every way to iterate where parts yield: one
+/// test, since the count is one for all threads.
+#[test]
+fn no_step_after_the_first_allocates() {
+    let mut m = lively(&mut StdRng::seed_from_u64(71));
     for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
         for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
             for cadence in [Cadence::Steps(1), Cadence::Interval(0.012)] {
                 m.iteration.update = update;
                 m.output.cadence = cadence;
-                let mut plan = Plan::new(&m, &system, 1);
-                plan.kind = kind;
-                let mut run = Run::new(&m, &system, &plan, wanted, &stop);
-                let mut counts = Counts(Vec::with_capacity(1000));
-                let (outcome, _) = run.run(&mut counts);
-                assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-                let Counts(counts) = counts;
-                assert!(counts.len() > 60, "t = 0 and sixty steps");
-                let made: Vec<usize> = counts.windows(2).skip(1).map(|pair| pair[1] - pair[0]).collect();
-                assert!(made.iter().all(|&n| n == 0), "{update:?}, {kind:?}, {cadence:?}: {made:?}");
+                assert_none(&m, kind);
             }
         }
     }
+    soften(&mut m, 10.0);
+    m.iteration.limit = 200;
+    for method in [Method::TangentStiffness, Method::InitialLoad, Method::Auto] {
+        for update in [Update::Step, Update::Auto] {
+            (m.iteration.method, m.iteration.update) = (method, update);
+            let state = assert_none(&m, rdsolve::linear::Kind::Block);
+            assert!(state.work.material.plastic > 0.1, "{:?}", state.work);
+        }
+    }
+}
+
+fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
+    let system = System::new(m).unwrap();
+    let stop = AtomicBool::new(false);
+    let wanted = Wanted { energy: true, reactions: true, links: true, sections: true, plastic_strains: true };
+    let mut plan = Plan::new(m, &system, 1);
+    plan.kind = kind;
+    let mut run = Run::new(m, &system, &plan, wanted, &stop);
+    let mut counts = Counts(Vec::with_capacity(1000));
+    let (outcome, state) = run.run(&mut counts);
+    assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+    let Counts(counts) = counts;
+    assert!(counts.len() > 60, "t = 0 and sixty steps");
+    let made: Vec<usize> = counts.windows(2).skip(1).map(|pair| pair[1] - pair[0]).collect();
+    let Iteration { method, update, .. } = m.iteration;
+    assert!(made.iter().all(|&n| n == 0), "{method:?}, {update:?}, {kind:?}, {:?}: {made:?}", m.output.cadence);
+    state.expect("a start")
 }

@@ -52,14 +52,36 @@ thickness = 0.005
 gravity = [0.3, -1.0, -9.81]
 "#;
 
+/// A material that yields in the first moments, and a section that lets it.
+const SOFT: &str = r#"
+[materials.steel]
+model = "elastic-viscoplastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+yield_stress = 1e6
+hardening_modulus = 2e9
+kinematic_share = 0.5
+viscosity = { law = "power", rate = 40.0, exponent = 5.0 }
+
+[sections.tube]
+shape = "rectangle"
+width = 0.05
+height = 0.05
+fibres = [2, 4]
+
+[environment]
+gravity = [0.3, -1.0, -9.81]
+"#;
+
 /// A space frame of 9³ points. A beam of two elements per segment winds through all points along each axis: 1456 elements
 /// in a part, enough for threads to fill matrices, and a factorisation large enough for them.
-fn space_frame() -> String {
+fn space_frame(common: &str) -> String {
     const N: usize = 9;
     let mut deck = String::from(
         "[analysis]\nkind = \"dynamic\"\nend_time = 0.02\ntime_step = 0.01\n\n[iteration]\nupdate = \"step\"\n",
     );
-    deck += COMMON;
+    deck += common;
     deck += "[points]\n";
     let cells = || (0..N).flat_map(|i| (0..N).flat_map(move |j| (0..N).map(move |k| [i, j, k])));
     for [i, j, k] in cells() {
@@ -89,14 +111,26 @@ fn space_frame() -> String {
 
 #[test]
 fn a_large_frame() {
-    let folder = assert_same(&space_frame(), 3);
+    let folder = assert_same(&space_frame(COMMON), 3);
     let plan = std::fs::read_to_string(folder.path().join("first/result.json")).unwrap();
     assert!(plan.contains("Cholesky"), "threads take part in the factorisation too: {plan}");
 }
 
 #[test]
-fn a_small_scene_with_everything_written() {
-    let deck = r#"
+fn a_large_frame_that_yields() {
+    let shorter = space_frame(SOFT).replace("end_time = 0.02\ntime_step = 0.01", "end_time = 0.002\ntime_step = 0.001");
+    let folder = assert_same(&shorter, 3);
+    assert!(spent(&folder) > 0.0);
+}
+
+/// Of the last row of energy.csv, what plastic flow dissipated.
+fn spent(folder: &tempfile::TempDir) -> f64 {
+    let mut energy = csv::Reader::from_path(folder.path().join("first/energy.csv")).unwrap();
+    let column = energy.headers().unwrap().iter().position(|name| name == "plastic").unwrap();
+    energy.records().last().unwrap().unwrap()[column].parse().unwrap()
+}
+
+const SCENE: &str = r#"
 [analysis]
 kind = "dynamic"
 end_time = 0.2
@@ -143,6 +177,20 @@ reactions = true
 sections = true
 fields = { format = "vtu", every = 20 }
 "#;
+
+#[test]
+fn a_small_scene_with_everything_written() {
     // Tables of nodes, bodies, energy, links, reactions, sections, steps; the list of fields and six grids.
-    assert_same(&format!("{deck}{COMMON}"), 14);
+    assert_same(&format!("{SCENE}{COMMON}"), 14);
+}
+
+#[test]
+fn a_small_scene_that_yields_by_every_method() {
+    // Steps that follow the spinning block.
+    let scene = SCENE.replace("end_time = 0.2\ntime_step = 0.002", "end_time = 0.02\ntime_step = 5e-5");
+    for method in ["tangent-stiffness", "initial-load", "auto"] {
+        let deck = format!("{scene}{SOFT}\n[iteration]\nmethod = \"{method}\"\n");
+        let folder = assert_same(&deck, 14); // as above
+        assert!(spent(&folder) > 0.0, "{method}");
+    }
 }

@@ -31,7 +31,7 @@ impl<'a, S: Copy> Point<'a, S> {
         S: StressState<N>,
     {
         let mut new = vec![f64::NAN; self.history.len()];
-        let (stress, work) = self.law.advance(self.state, &strain, dt, &self.history, &mut new);
+        let (stress, work) = self.law.advance(self.state, &strain, (dt, 1.0), &self.history, &mut new);
         assert_eq!(stress, self.law.stress(self.state, &strain, dt, &self.history));
         assert_eq!(stress, self.law.stress_and_tangent(self.state, &strain, dt, &self.history).0);
         self.history = new;
@@ -300,7 +300,7 @@ fn differences<const N: usize, S: StressState<N>>(
     let at = |j: usize, step: f64| {
         let (mut moved, mut new) = (*strain, old.to_vec());
         moved[j] += step;
-        let stress = law.advance(state, &moved, dt, old, &mut new).0;
+        let stress = law.advance(state, &moved, (dt, 1.0), old, &mut new).0;
         (stress, (new[N] > old[N], line(new[N])))
     };
     let mut C = [[0.0; N]; N];
@@ -560,7 +560,7 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
         let size = EY * 10f64.powf(rng.random_range(-1.0..decades));
         let strain: [f64; N] = random(rng, size);
         let mut new = vec![f64::NAN; old.len()];
-        let (stress, work) = law.advance(state, &strain, 1.0, &old, &mut new);
+        let (stress, work) = law.advance(state, &strain, (1.0, 1.0), &old, &mut new);
         let (_, C) = law.stress_and_tangent(state, &strain, 1.0, &old);
         let at = format!("{law:?} at {strain:?} from {old:?}: {stress:?}, {new:?}");
         assert!(C.iter().flatten().chain(&stress).chain(&new).all(|x| x.is_finite()), "{at}");
@@ -621,7 +621,7 @@ fn no_number_is_too_large_and_no_strain_loops() {
         }
         for strain in [[f64::NAN, 0.0, 0.0], [f64::INFINITY, 0.0, 1.0], [1e-3, 0.0, f64::NEG_INFINITY]] {
             let mut new = old.clone();
-            let (stress, _) = law.advance(PlaneStress, &strain, 0.1, &old, &mut new);
+            let (stress, _) = law.advance(PlaneStress, &strain, (0.1, 1.0), &old, &mut new);
             assert!(stress.iter().any(|s| !s.is_finite()), "{law:?} at {strain:?}: {stress:?}");
         }
     }

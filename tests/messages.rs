@@ -130,10 +130,7 @@ fn keys_and_types() {
     assert_snapshot!("list_for_table", portal(&[("[analysis]", "[[analysis]]")]));
     assert_snapshot!("not_finite", portal(&[("mass = 500.0", "mass = nan"), ("stiffness = 5e6", "stiffness = inf")]));
     assert_snapshot!("unknown_word", portal(&[("kind = \"dynamic\"", "kind = \"dinamic\"")]));
-    assert_snapshot!(
-        "later_words",
-        portal_and("[integrator]\nscheme = \"newmark\"\n[iteration]\nmethod = \"initial-load\"")
-    );
+    assert_snapshot!("later_words", portal_and("[integrator]\nscheme = \"newmark\""));
     assert_snapshot!("unknown_direction", portal(&[("fix = \"all\"", "fix = [\"ux\", \"uu\"]")]));
     assert_snapshot!(
         "missing_keys",
@@ -200,6 +197,87 @@ fn quantities() {
     );
     assert_snapshot!("falling_times", portal(&[("[2.0, 0.0]", "[0.5, 0.0]")]));
     assert_snapshot!("implausible_units", portal(&[("title =", "units = \"mm-t-s\"\ntitle =")]));
+}
+
+/// The portal with a material that yields, and more in its material and in its beam.
+fn yielding(model: &str, material: &str, beam: &str) -> String {
+    portal(&[
+        ("model = \"elastic\"\n", &format!("model = \"{model}\"\n{material}\n")),
+        ("elements = 12\n", &format!("elements = 12\n{beam}\n")),
+    ])
+}
+
+#[test]
+fn materials_that_yield() {
+    let plastic = |material: &str| yielding("elastic-plastic", material, "");
+    let viscous = |material: &str| yielding("elastic-viscoplastic", material, "");
+    let stress = "yield_stress = 275e6";
+    let viscosity = "viscosity = { law = \"power\", rate = 40.0, exponent = 5.0 }";
+    assert_eq!(plastic(stress), "");
+    assert_eq!(plastic("hardening = [[0.0, 275e6], [0.1, 300e6]]\nkinematic_share = 1.0"), "");
+    assert_eq!(viscous(&format!("{stress}\n{viscosity}")), "");
+    assert_snapshot!("yield_stress_when_elastic", yielding("elastic", &format!("{stress}\n{viscosity}"), ""));
+    // What depends on a material with errors is not judged.
+    assert_snapshot!("no_yield_stress", plastic("kinematic_share = 0.5"));
+    assert_eq!(yielding("elastic-plastic", "kinematic_share = 0.5", "points = 4"), plastic("kinematic_share = 0.5"));
+    assert_snapshot!("viscosity_when_plastic", plastic(&format!("{stress}\n{viscosity}")));
+    assert_snapshot!("no_viscosity", viscous(stress));
+    assert_snapshot!("falling_hardening", plastic("hardening = [[0.0, 275e6], [0.1, 270e6]]"));
+    assert_snapshot!("late_hardening", plastic("hardening = [[0.01, 275e6], [0.1, 300e6]]"));
+    assert_snapshot!("hardening_back_in_strain", plastic("hardening = [[0.0, 275e6], [0.1, 300e6], [0.05, 310e6]]"));
+    assert_snapshot!("empty_hardening", plastic("hardening = []"));
+    assert_snapshot!(
+        "two_hardenings",
+        plastic("yield_stress = 275e6\nhardening_modulus = 1e9\nhardening = [[0.0, 275e6], [0.1, 300e6]]")
+    );
+    assert_snapshot!("softening", plastic("yield_stress = 275e6\nhardening_modulus = -1e9"));
+    assert_snapshot!("kinematic_share", plastic("yield_stress = 275e6\nkinematic_share = 2.0"));
+    assert_snapshot!("overstress_exponent", viscous(&format!("{stress}\n{}", viscosity.replace("5.0", "0.5"))));
+    assert_snapshot!(
+        "overstress_without_exponent",
+        viscous(&format!("{stress}\n{}", viscosity.replace(", exponent = 5.0", "")))
+    );
+    assert_snapshot!("exponent_of_a_line", viscous(&format!("{stress}\n{}", viscosity.replace("power", "linear"))));
+    assert_snapshot!("overstress_law", viscous(&format!("{stress}\n{}", viscosity.replace("power", "cowper-symonds"))));
+}
+
+#[test]
+fn beams_that_yield() {
+    let beam = |keys: &str| yielding("elastic-plastic", "yield_stress = 275e6", keys);
+    assert_eq!(beam("integration = \"lobatto\"\npoints = 5\nshear_yields = false"), "");
+    assert_snapshot!("few_points", beam("points = 2"));
+    assert_snapshot!("many_points", beam("points = 6"));
+    assert_snapshot!("short_lobatto", beam("order = 2\nintegration = \"lobatto\"\npoints = 2"));
+    assert_snapshot!("short_lobatto_by_order", beam("order = 1\nintegration = \"lobatto\""));
+    assert_snapshot!(
+        "integration_when_elastic",
+        portal(&[("elements = 12", "elements = 12\nintegration = \"gauss\"\npoints = 4\nshear_yields = false")])
+    );
+    assert_snapshot!(
+        "general_that_yields",
+        portal(&[
+            ("model = \"elastic\"\n", "model = \"elastic-plastic\"\nyield_stress = 275e6\n"),
+            (
+                "shape = \"rectangle\"\nwidth = 0.05\nheight = 0.05",
+                "shape = \"general\"\narea = 25e-4\nmoments = [5e-7, 5e-7]\ntorsion_constant = 9e-7\nshear_areas = [2e-3, 2e-3]"
+            ),
+        ])
+    );
+    let expect =
+        "[[expect]]\nat = \"portal\"\nquantity = \"plastic_strain\"\npeak = \"max\"\nvalue = 0.01\ntolerance = 0.1";
+    assert_snapshot!("plastic_strain_when_elastic", portal_and(expect));
+    assert_snapshot!(
+        "quantity_of_a_beam",
+        said(
+            &format!(
+                "{}\n{}",
+                edited(&[("model = \"elastic\"\n", "model = \"elastic-plastic\"\nyield_stress = 275e6\n")]),
+                expect.replace("plastic_strain", "strain")
+            ),
+            &[]
+        )
+    );
+    assert_snapshot!("iteration_method", portal_and("[iteration]\nmethod = \"initial-stress\""));
 }
 
 #[test]

@@ -1,8 +1,11 @@
 //! What decks mean: the numbers of the model.
 
 use rdsolve::diagnostic::Source;
+use rdsolve::elements::beam::Rule;
+use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, Model, Shape, Tolerance, When};
+use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, Method, Model, Shape, Tolerance, When};
+use rdsolve::sections::Fibre;
 
 /// Every table once.
 const ALL: &str = include_str!("everything.toml");
@@ -66,6 +69,30 @@ fn bars_have_stiffness_and_mass() {
     assert_eq!((stay.axial_stiffness, stay.mass_per_length), (210e9 * 1e-4, 7850.0 * 1e-4));
     assert_eq!((rope.axial_stiffness, rope.mass_per_length, rope.tension_only), (1e6, 0.5, true));
     assert_eq!(rope.elements.len(), 2);
+}
+
+#[test]
+fn materials_that_yield_reach_their_parts() {
+    let model = everything();
+    assert!(model.beams[..3].iter().all(|beam| beam.yielding.is_none()));
+    let brace = model.beams[3].yielding.as_ref().unwrap();
+    assert_eq!((brace.rule, brace.points, brace.shear), (Rule::Lobatto, 4, false));
+    let hardening = Hardening::Linear { yield_stress: 235e6, modulus: 1e9 };
+    assert_eq!(brace.law, Law::new(210e9, 0.3, hardening, 0.5, None));
+    // Whatever the fibres are, they are the section.
+    let sum = |of: fn(&Fibre) -> f64| brace.fibres.iter().map(|fibre| fibre.area * of(fibre)).sum::<f64>();
+    let (area, moment) = (0.05 * 0.05, 0.05f64.powi(4) / 12.0);
+    assert!((sum(|_| 1.0) - area).abs() < 1e-14 * area);
+    for of in [|f: &Fibre| f.y * f.y, |f: &Fibre| f.z * f.z] {
+        assert!((sum(of) - moment).abs() < 1e-13 * moment);
+    }
+    assert!(model.bars[..2].iter().all(|bar| bar.yielding.is_none()));
+    let cable = &model.bars[2];
+    let hardening = Hardening::table(vec![[0.0, 235e6], [0.02, 240e6], [0.2, 360e6]]).unwrap();
+    let viscosity = Viscosity { fluidity: 40.4, overstress: Overstress::Power { exponent: 5.0 } };
+    assert_eq!(cable.yielding, Some(Law::new(210e9, 0.3, hardening, 0.0, Some(viscosity))));
+    assert!(cable.tension_only);
+    assert_eq!((model.iteration.method, model.iteration.limit), (Method::InitialLoad, 15));
 }
 
 #[test]
@@ -143,7 +170,9 @@ fn the_rest_is_taken_as_written() {
     assert_eq!(expect.tolerance, Tolerance::Relative(0.02));
     assert_eq!(expect.label, "ux of c at t = 0.3");
     assert_eq!(model.expects[1].at, ExpectAt::Link(0));
-    assert_eq!(model.expects[2].tolerance, Tolerance::Absolute(1e-3));
+    // Elements count through the beams: three of the frame, two of the leg, one of the arm, and these.
+    assert_eq!(model.expects[2].at, ExpectAt::Elements(6, 8));
+    assert_eq!(model.expects[3].tolerance, Tolerance::Absolute(1e-3));
     assert_eq!(model.output.nodes, [node(&model, "a"), node(&model, "c"), node(&model, "d")]);
     assert_eq!((model.output.cadence, model.output.fields), (Cadence::Interval(0.01), Some(20)));
     assert_eq!(model.analysis.least_step, 1e-4 / 1048576.0);

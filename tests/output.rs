@@ -44,7 +44,7 @@ fn headers_are_those_of_the_interface() {
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),
-        ("sections.csv", "step,time,beam,element,point,s,N,Qy,Qz,T,My,Mz"),
+        ("sections.csv", "step,time,beam,element,point,s,N,Qy,Qz,T,My,Mz,plastic_strain"),
         ("steps.csv", "step,time,dt,iterations,refactorizations,residual,cuts"),
     ] {
         let text = fs::read_to_string(dir.path().join(name)).unwrap();

@@ -71,7 +71,7 @@ pub enum RotationUpdate {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Iteration {
-    /// Which moduli the matrix is formed with where material yields. Default: "tangent-stiffness".
+    /// Which moduli the matrix is formed with where material yields. Default: "auto".
     pub method: Maybe<Method>,
     /// When the matrix is formed and factorised anew. Default: "auto".
     pub update: Maybe<Update>,

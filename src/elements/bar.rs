@@ -90,7 +90,8 @@ impl YieldingBars {
         let viscosity = self.damping * self.law.elastic().E;
         let damping = viscosity * at.strain_rate;
         if self.tension_only && stress + damping < 0.0 {
-            return Tension::default();
+            // Damping takes what the material gives and no more: the bar does not push.
+            return Tension { material: self.area * stress, damping: -self.area * stress, ..Tension::default() };
         }
         let modulus = if moduli == Moduli::Elastic { self.law.elastic().E } else { modulus };
         Tension { material: self.area * stress, damping: self.area * damping, modulus, viscosity }
@@ -157,16 +158,15 @@ impl Block for YieldingBars {
         }
     }
 
-    fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut sum = Spent::default();
         for (e, new) in history.chunks_exact_mut(self.memory).enumerate() {
             let at = self.stretch(e, now.nodes);
             let past = &now.past[self.share(e)];
-            if self.is_slack(at.strain, past) {
-                new.copy_from_slice(past);
-                continue;
-            }
-            sum += self.law.advance(Bar, &[at.strain], now.since, past, new).1 * (self.area * self.elements[e].1);
+            // A slack bar rests at its plastic strain.
+            let strain = if self.is_slack(at.strain, past) { past[0] } else { at.strain };
+            let (_, spent) = self.law.advance(Bar, &[strain], (now.since, part), past, new);
+            sum += spent * (self.area * self.elements[e].1);
         }
         sum
     }

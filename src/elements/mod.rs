@@ -41,9 +41,9 @@ pub trait Block: Send + Sync {
     fn subtract_forces(&self, now: &Now, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
     fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
-    /// Writes what the material points will remember of `now`, and returns what became of the work of plastic strains
-    /// since the last state.
-    fn remember(&self, _now: &Now, _history: &mut [f64]) -> Spent {
+    /// Writes what the material points will remember of `part` of the way from the last state to `now`, and returns what became
+    /// of the work of plastic strains on it.
+    fn remember(&self, _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
         Spent::default()
     }
     /// Elastic energy stored.

@@ -84,8 +84,8 @@ impl<const N: usize> Answer<N> {
 }
 
 impl Law {
-    /// E > 0, −1 < ν ≤ ½, a kinematic share from 0 to 1, and numbers that do not fall or turn negative are the caller's
-    /// care.
+    /// The caller has checked that E > 0, −1 < ν ≤ ½, 0 ≤ kinematic share ≤ 1, yield stress, exponent > 0 and modulus,
+    /// fluidity ≥ 0. ν counts in plane stress and shear only.
     pub fn new(E: f64, nu: f64, hardening: Hardening, kinematic_share: f64, viscosity: Option<Viscosity>) -> Law {
         let elastic = Elastic { E, G: 0.5 * E / (1.0 + nu), biaxial: E / (1.0 - nu) };
         Law { elastic, hardening, kinematic_share, viscosity }
@@ -131,7 +131,8 @@ impl Law {
     ) -> ([f64; N], Option<[[f64; N]; N]>) {
         let answer = self.answer::<N, S>(strain, dt, old);
         let C = answer.yielding.as_ref().map(|y| {
-            // With the yield condition kept, Σ bᵢ dεᵢ = slope ∂:  dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S),  bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ².
+            // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition keeps Σ bᵢ dεᵢ = slope ∂, and
+            // dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
             let e = S::moduli(&self.elastic);
             let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
             let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
@@ -155,39 +156,46 @@ impl Law {
         from_modes::<N, S>(std::array::from_fn(|i| std::array::from_fn(|j| if i == j { e[i] } else { 0.0 })))
     }
 
-    /// Writes the history `dt` after the state in `old`; answers with the stress and what became of the plastic work.
+    /// Writes the history after `part` of the time `dt` since the state in `old`, at whose end `strain` is; answers with the
+    /// stress at the end and what became of the plastic work in the part. A scheme that writes equilibrium beyond the end of
+    /// its step keeps that part of what equilibrium asked for.
     #[inline]
     pub fn advance<const N: usize, S: StressState<N>>(
         &self,
         _: S,
         strain: &[f64; N],
-        dt: f64,
+        (dt, part): (f64, f64),
         old: &[f64],
         new: &mut [f64],
     ) -> ([f64; N], Spent) {
         let answer = self.answer::<N, S>(strain, dt, old);
         let stress = S::modes(answer.stress());
         new.copy_from_slice(old);
-        let viscous = self.viscosity.and_then(|_| new.last_mut());
-        let Some(y) = answer.yielding else {
-            if let Some(v) = viscous {
-                *v = 0.0;
-            }
-            return (stress, Spent::default());
+        let overstress = answer.yielding.as_ref().map_or(0.0, |y| y.overstress);
+        let from = self.viscosity.and_then(|_| new.last_mut()).map_or(0.0, |v| {
+            let from = *v;
+            *v += part * (overstress - from);
+            from
+        });
+        let Some(y) = answer.yielding else { return (stress, Spent::default()) };
+        // Of the return that part, on a straight line.
+        let (multiplier, to) = (part * y.multiplier, from + part * (overstress - from));
+        let rise = self.hardening.rise(old[N] + multiplier).0;
+        let back = self.kinematic_share * (rise - self.hardening.rise(old[N]).0);
+        let radius = self.hardening.initial() + (1.0 - self.kinematic_share) * rise;
+        let mut spent = Spent {
+            plastic: 0.5 * (answer.radius + radius) * multiplier,
+            viscous: 0.5 * (from * answer.radius + to * radius) * multiplier,
+            stored: 0.0,
         };
-        let mut spent = Spent { plastic: 0.5 * (answer.radius + y.radius) * y.multiplier, ..Spent::default() };
-        if let Some(v) = viscous {
-            spent.viscous = 0.5 * (*v * answer.radius + y.overstress * y.radius) * y.multiplier;
-            *v = y.overstress;
-        }
         // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
         let direction: [f64; N] = std::array::from_fn(|i| answer.relative[i] / y.T(i));
-        let plastic: [f64; N] = std::array::from_fn(|i| S::P[i] * y.multiplier * direction[i]);
+        let plastic: [f64; N] = std::array::from_fn(|i| S::P[i] * multiplier * direction[i]);
         add(&mut new[..N], &S::modes(plastic));
-        new[N] += y.multiplier;
+        new[N] += multiplier;
         if self.is_kinematic() {
-            add(&mut new[N + 1..], &S::modes(direction.map(|n| y.back * n)));
-            let mean = |i: usize| answer.back[i] + 0.5 * y.back * direction[i];
+            add(&mut new[N + 1..], &S::modes(direction.map(|n| back * n)));
+            let mean = |i: usize| answer.back[i] + 0.5 * back * direction[i];
             spent.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
         }
         (stress, spent)
@@ -221,7 +229,8 @@ impl Law {
         let yielding = if square > radius * radius {
             trial_stress::<N, S>(&relative).map(|(rho, share)| {
                 let c = [S::P[0] * e[0], 3.0 * self.elastic.G];
-                self.solve(&Trial { rho, share, c, accumulated: old[N], rise, radius }, dt)
+                let last = if self.viscosity.is_some() { old[old.len() - 1] } else { 0.0 };
+                self.solve(&Trial { rho, share, c, accumulated: old[N], rise, radius }, dt, last)
             })
         } else {
             None

@@ -32,10 +32,6 @@ pub(super) struct Return {
     /// Δλ.
     pub multiplier: f64,
     pub overstress: f64,
-    /// i.
-    pub radius: f64,
-    /// k.
-    pub back: f64,
     /// T of the first mode and of the others.
     pub T: [f64; 2],
     /// R + k.
@@ -60,22 +56,30 @@ impl Return {
 }
 
 impl Law {
-    /// Where the yield condition holds at the end of the step.
-    pub(super) fn solve(&self, trial: &Trial, dt: f64) -> Return {
+    /// Where the yield condition holds at the end of the step. `last`: the overstress at its beginning.
+    pub(super) fn solve(&self, trial: &Trial, dt: f64, last: f64) -> Return {
         // Newton's first step, from Δλ = 0. A single mode with linear hardening has arrived there.
         let slope = self.hardening.rise(trial.accumulated).1;
         let first = (trial.rho - trial.radius).max(0.0)
             / (trial.share[0] * (trial.c[0] + slope) + trial.share[1] * (trial.c[1] + slope));
-        let plastic = root(first, |dl| self.point(trial, [dl, dl], [0.0; 2]));
+        let plastic = || root(first, |dl| self.point(trial, [dl, dl], [0.0; 2]));
         match self.viscosity {
-            None => plastic,
+            None => plastic(),
             Some(Viscosity { fluidity, overstress }) => {
-                // From the larger side, where the equation is steep: φ grows no further than the rate-independent return
-                // and v no further than the elastic stress. Beyond 1e300 nothing but rounding is left of v.
+                // Beyond 1e300 nothing but rounding is left of v.
                 let rate = (fluidity * dt).min(1e300);
-                let most = plastic.multiplier;
                 let elastic = (trial.rho / trial.radius - 1.0).max(0.0);
-                root(elastic.min(overstress.inverse(most / rate)), |v| {
+                // Where it flows on as before the last overstress is near. Otherwise from the larger side, where the equation is steep: φ grows no further than the rate-independent return and v no
+                // further than the elastic stress.
+                let bound = (trial.rho - trial.radius).max(0.0) / trial.c[0].min(trial.c[1]);
+                let flow = rate * overstress.phi(last).0;
+                let (most, start) = if last < elastic && flow > 1e-3 * bound && flow < bound {
+                    (2.0 * bound, last)
+                } else {
+                    let most = plastic().multiplier;
+                    (most, elastic.min(overstress.inverse(most / rate)))
+                };
+                root(start, |v| {
                     let (phi, change) = overstress.phi(v);
                     // The bounds cost rounding where φ is in range and answer where it is not.
                     let multiplier =
@@ -102,8 +106,6 @@ impl Law {
         Return {
             multiplier,
             overstress: v,
-            radius,
-            back,
             T,
             S,
             turn: dmultiplier - multiplier * (dS / S),
@@ -130,7 +132,7 @@ fn root(mut x: f64, at: impl Fn(f64) -> Return) -> Return {
         let misfit = 1.0 - point.sum.sqrt();
         let step = point.sum * misfit / point.slope;
         // Less than a few units in the last place is no step.
-        let moves = step.abs() > 8.0 * f64::EPSILON;
+        let moves = step.abs() > 2.0 * f64::EPSILON;
         if misfit.abs() <= if moves { TOLERANCE } else { STEEP } {
             return point;
         }

@@ -93,8 +93,8 @@ impl<'d> Builder<'d> {
         }
         let method = match iteration.method.as_ref().map(|method| method.value) {
             Some(deck::Method::InitialLoad) => Method::InitialLoad,
-            Some(deck::Method::Auto) => Method::Auto,
-            Some(deck::Method::TangentStiffness) | None => Method::TangentStiffness,
+            Some(deck::Method::TangentStiffness) => Method::TangentStiffness,
+            Some(deck::Method::Auto) | None => Method::Auto,
         };
         // An elastic matrix converges slowly while material yields, at little cost per iteration.
         let default = if method == Method::InitialLoad { 10 } else { 1 } * self.model.iteration.limit;

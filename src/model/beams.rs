@@ -102,13 +102,18 @@ impl<'d> Builder<'d> {
             ("points", span(&beam.points)),
             ("shear_yields", span(&beam.shear_yields)),
         ];
-        let law = beam.material.as_ref().and_then(|name| self.deck.materials.position(name));
-        let Some(law) = law.and_then(|index| self.laws[index].clone()) else {
-            // Where the material is wrong, that has been said.
+        let Some(law) = self.yielding_of(&beam.material)? else {
             self.stray(&format!("{}, whose material is elastic", owner.what), &strays);
             return Some(None);
         };
         let points = self.count("points", &beam.points, order);
+        if let Some(at) = &beam.points
+            && order == 1
+            && points > 1
+        {
+            let message = "elements of order 1 take one point: with more they lock in shear";
+            return self.error_with(&at.span, message, "take a higher `order`");
+        }
         if let Some(at) = &beam.points
             && !(order..=MOST_POINTS).contains(&points)
         {
@@ -117,8 +122,8 @@ impl<'d> Builder<'d> {
         }
         let rule = match &beam.integration {
             Some(at) if at.value == deck::Rule::Lobatto && points < 3 => {
-                let message = "a Lobatto rule needs three points: give `points`, or elements of order 3";
-                return self.error(&at.span, message);
+                let message = "a Lobatto rule needs three points";
+                return self.error_with(&at.span, message, "take elements of order 3 or 4");
             }
             Some(at) if at.value == deck::Rule::Lobatto => Rule::Lobatto,
             Some(_) | None => Rule::Gauss,
@@ -232,11 +237,7 @@ impl<'d> Builder<'d> {
         let elements = nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         self.bar_nodes[index] = nodes;
         let tension_only = bar.tension_only.as_ref().is_some_and(|only| only.value);
-        let yielding = bar
-            .material
-            .as_ref()
-            .and_then(|name| self.deck.materials.position(name))
-            .and_then(|m| self.laws[m].clone());
+        let yielding = self.yielding_of(&bar.material)?;
         self.model.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, yielding, elements });
         Some(())
     }

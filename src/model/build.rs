@@ -104,7 +104,7 @@ impl<'d> Builder<'d> {
                 plane: true,
             },
             scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-            iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-8, limit: 20 },
+            iteration: Iteration { method: Method::Auto, update: Update::Auto, tolerance: 1e-8, limit: 20 },
             nodes: Vec::new(),
             bodies: Vec::new(),
             masses: Vec::new(),

@@ -128,7 +128,10 @@ impl<'d> Builder<'d> {
         let diagnostic = Diagnostic::error(message).at(&quantity.span);
         self.problems.push(match nearest(quantity, columns.iter().copied()) {
             Some(near) if quantity.chars().count() > 2 => diagnostic.hint(format!("did you mean `{near}`?")),
-            _ => diagnostic.hint("not a column").hint(format!("there are {}", columns.join(", "))),
+            _ => {
+                let there = if columns.len() == 1 { "there is" } else { "there are" };
+                diagnostic.hint("not a column").hint(format!("{there} {}", columns.join(", ")))
+            }
         });
     }
 

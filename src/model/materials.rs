@@ -3,7 +3,7 @@
 use super::MassKind;
 use super::build::{Builder, Owner, span};
 use crate::deck::materials as deck;
-use crate::deck::words::Table;
+use crate::deck::words::{Maybe, Table};
 use crate::diagnostic::At;
 use crate::materials::{Hardening, Law, Overstress, Viscosity};
 
@@ -24,6 +24,17 @@ impl<'d> Builder<'d> {
             }
             let law = model.and_then(|model| self.law_of(&owner, material, model.value));
             self.laws.push(law);
+        }
+    }
+
+    /// How the material of a part yields, `Some(None)` where it is elastic or the part has none; `None` where it has errors.
+    pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<Law>> {
+        let Some(name) = name else { return Some(None) };
+        let index = self.deck.materials.position(name)?;
+        let (_, material) = &self.deck.materials.0[index];
+        match material.model.as_ref()?.value {
+            deck::Model::Elastic => Some(None),
+            deck::Model::ElasticPlastic | deck::Model::ElasticViscoplastic => self.laws[index].clone().map(Some),
         }
     }
 
@@ -70,7 +81,10 @@ impl<'d> Builder<'d> {
             if self.is_spoiled(owner.span, "hardening") {
                 return None;
             }
-            let yield_stress = self.need_positive(owner, "yield_stress", &material.yield_stress);
+            if material.yield_stress.is_none() && !self.is_spoiled(owner.span, "yield_stress") {
+                self.error::<()>(owner.span, format!("{} needs `yield_stress`, or a table of `hardening`", owner.what));
+            }
+            let yield_stress = self.positive("yield_stress", &material.yield_stress);
             let modulus = self.not_negative("hardening_modulus", &material.hardening_modulus, 0.0);
             return Some(Hardening::Linear { yield_stress: yield_stress?, modulus });
         };

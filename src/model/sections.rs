@@ -8,6 +8,9 @@ use crate::deck::words::{Maybe, Numbers, Table};
 use crate::diagnostic::{At, Span};
 use crate::sections::{Fibre, Shape, Stiffness};
 
+/// Beyond this a section's answer no longer changes.
+const MOST_FIBRES: usize = 10_000;
+
 impl<'d> Builder<'d> {
     /// Fibres of a beam's section, which is sound.
     pub fn fibres(&mut self, beam: &'d Beam) -> Option<Vec<Fibre>> {
@@ -16,6 +19,12 @@ impl<'d> Builder<'d> {
         let owner = Owner { what: format!("section `{}`", name.value), span: &section.span };
         let counts = section.fibres.as_ref();
         let numbers: Vec<usize> = counts.iter().flat_map(|c| &c.value.values).map(|n| n.value as usize).collect();
+        if let Some(counts) = counts
+            && numbers.iter().try_fold(1usize, |all, &n| all.checked_mul(n)).is_none_or(|all| all > MOST_FIBRES)
+        {
+            return self
+                .error(&counts.span, format!("more than {MOST_FIBRES} fibres are taken for a slip of the keyboard"));
+        }
         match self.shape(&owner, section, section.shape.as_ref()?.value)?.fibres(&numbers) {
             Ok(fibres) => Some(fibres),
             Err(reason) => {

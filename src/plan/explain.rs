@@ -89,10 +89,13 @@ impl Plan {
             Kind::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
         };
         line("matrix", matrix.to_string());
+        let mixes = system.history > 0 && model.iteration.method != Method::TangentStiffness;
         let update = match (self.linear, model.iteration.update) {
             (true, _) => "once per length of step: the scene is linear",
             (_, Update::Iteration) => "in every iteration",
-            (_, Update::Auto) if analysis.kind == Analysis::Static => "in every iteration: load steps are long and few",
+            (_, Update::Auto) if analysis.kind == Analysis::Static && !mixes => {
+                "in every iteration: load steps are long and few"
+            }
             (_, Update::Step) => "once a step",
             (_, Update::Auto) => "when convergence slows",
             (_, Update::Never) => "never after the first",

@@ -43,6 +43,7 @@ impl Anderson {
     }
 
     /// Replaces a correction by the mixed one.
+    #[inline(never)]
     pub fn mix(&mut self, correction: &mut [f64]) {
         if self.seen {
             if self.used == DEPTH {

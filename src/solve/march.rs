@@ -3,6 +3,7 @@
 use super::accelerate::Anderson;
 use super::failure::Failure;
 use super::refresh::Refresh;
+use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{Frame, LinkState, Observer, SectionPoint};
@@ -86,8 +87,9 @@ impl<'a> Run<'a> {
         let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
         // Load steps are long and few, and there is no mass to steady an old matrix.
         let method = model.iteration.method;
+        let mixes = system.history > 0 && method != Method::TangentStiffness;
         let update = match (model.analysis.kind, model.iteration.update) {
-            (Kind::Static, Update::Auto) if method == Method::TangentStiffness => Update::Iteration,
+            (Kind::Static, Update::Auto) if !mixes => Update::Iteration,
             (_, update) => update,
         };
         let length = extent(&at_rest);
@@ -100,7 +102,8 @@ impl<'a> Run<'a> {
             solver,
             assembly,
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
-            anderson: (system.history > 0 && method != Method::TangentStiffness).then(|| Anderson::new(weights)),
+            search: (system.history > 0).then(|| Search::new(plan.unknowns, n)),
+            anderson: mixes.then(|| Anderson::new(weights)),
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
             trial: at_rest,
@@ -206,9 +209,10 @@ impl<'a> Run<'a> {
                 }
                 Err(failure) => {
                     let half = 0.5 * dt;
-                    // A structure that nothing holds is not helped by smaller loads.
+                    // A structure that nothing holds is not helped by smaller loads; one that yields may be.
                     let analysis = &self.stepper.model.analysis;
                     let unheld = analysis.kind == Kind::Static
+                        && self.stepper.system.history == 0
                         && state.time == 0.0
                         && matches!(failure, Failure::Singular { .. });
                     if piece == 1 || half < analysis.least_step || unheld {

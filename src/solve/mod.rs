@@ -5,6 +5,7 @@ mod convergence;
 mod failure;
 mod march;
 mod refresh;
+mod search;
 mod start;
 mod stations;
 mod step;

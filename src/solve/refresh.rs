@@ -52,8 +52,8 @@ impl Refresh {
     /// What the matrix is to be formed with.
     pub fn moduli(&self) -> Moduli {
         match self.method {
-            Method::InitialLoad => Moduli::Elastic,
-            Method::TangentStiffness | Method::Auto => Moduli::Algorithmic,
+            Method::InitialLoad if !self.insisting => Moduli::Elastic,
+            _ => Moduli::Algorithmic,
         }
     }
 
@@ -119,8 +119,7 @@ impl Refresh {
     /// After a step that did not converge: whether it is to be tried with a fresh matrix in every iteration, which it has
     /// not been so far.
     pub fn insist(&mut self) -> bool {
-        let helps = self.method != Method::InitialLoad && matches!(self.update, Update::Auto | Update::Step);
-        let more = !self.insisting && helps;
+        let more = !self.insisting && matches!(self.update, Update::Auto | Update::Step);
         self.insisting |= more;
         more
     }

@@ -75,7 +75,12 @@ impl Stepper<'_> {
         for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
             *reaction = -self.forces.on_nodes[held.node][held.dof];
         }
-        state.work.damping_power = if dynamic { self.system.damping_power(&state.nodes) } else { 0.0 };
+        if self.system.history > 0 {
+            // What has yielded before the start is no one's work.
+            self.system.remember(&state.now(), 1.0, &mut self.history);
+            std::mem::swap(&mut state.history, &mut self.history);
+        }
+        state.work.damping_power = if dynamic { self.system.damping_power(&state.now()) } else { 0.0 };
         self.trial.clone_from(&state.nodes);
         Ok(state)
     }

@@ -4,6 +4,8 @@ use super::accelerate::Anderson;
 use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::refresh::{Advice, Refresh};
+use super::search::Search;
+use crate::elements::Moduli;
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::math::rotation::inverse_tangent;
@@ -25,6 +27,7 @@ pub struct Stepper<'a> {
     pub refresh: Refresh,
     /// Where the matrix may be far from the derivative because material yields.
     pub anderson: Option<Anderson>,
+    pub search: Option<Search>,
     /// Motion at the instant of equilibrium.
     pub trial: Vec<Node>,
     pub increments: Vec<Increment>,
@@ -65,6 +68,13 @@ struct Size {
     rotation: f64,
 }
 
+impl Size {
+    /// This size, unless the other is not a number.
+    fn or_not_finite(self, other: Size) -> Size {
+        if other.translation.is_nan() { other } else { self }
+    }
+}
+
 impl<'a> Stepper<'a> {
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         match (self.model.analysis.kind, &self.model.scheme) {
@@ -98,18 +108,32 @@ impl<'a> Stepper<'a> {
                 convergence.forget();
                 continue;
             }
+            if let Some(search) = &mut self.search
+                && search.shorten(&self.r, taken.residual, &mut self.increments)
+            {
+                // What was mixed into it no longer tells what it did.
+                if let Some(anderson) = &mut self.anderson {
+                    anderson.forget();
+                }
+                continue;
+            }
             if self.refresh.due(taken.iterations, dt) {
                 self.form_matrix(state, &scheme, since)?;
                 self.refresh.done(dt);
                 self.forget_corrections();
                 taken.refactorizations += 1;
             }
+            if let Some(search) = &mut self.search {
+                search.keep_residual(&self.r, taken.residual);
+            }
             self.solver.solve(&mut self.r);
             self.solves += 1;
-            if let Some(anderson) = &mut self.anderson {
-                anderson.mix(&mut self.r);
+            // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
+            let plain = self.search.is_some().then(|| self.prepare());
+            let (mut correction, motion) = self.correct();
+            if let Some(plain) = plain {
+                correction = plain.or_not_finite(correction);
             }
-            let (correction, motion) = self.correct();
             taken.iterations += 1;
             let size = self.relative(correction, motion);
             if !size.is_finite() {
@@ -117,7 +141,11 @@ impl<'a> Stepper<'a> {
             }
             let fresh = taken.refactorizations > 0;
             let judgement = convergence.judge(size, taken.residual);
-            if judgement.converged() || judgement.stalled() && self.is_rounding(correction, fresh) {
+            // Between elastic and plastic one contraction says little of the next, and what is small against positions may be
+            // large against elastic strains: the residual must have come down as well, or nothing but rounding be left.
+            let sure = self.search.is_none() || taken.residual <= 1e3 * self.model.iteration.tolerance;
+            let rounding = judgement.stalled() && self.is_rounding(correction, fresh && sure);
+            if rounding || sure && judgement.converged() {
                 break;
             }
             if taken.iterations >= limit {
@@ -166,6 +194,9 @@ impl<'a> Stepper<'a> {
         if let Some(anderson) = &mut self.anderson {
             anderson.forget();
         }
+        if let Some(search) = &mut self.search {
+            search.forget();
+        }
     }
 
     fn predict(&mut self, state: &State, scheme: &Coefficients) {
@@ -213,13 +244,47 @@ impl<'a> Stepper<'a> {
         ratio(largest[0], force).max(ratio(largest[1], moment))
     }
 
+    /// Where all that resists has yielded its derivative may be singular; the elastic matrix then leads on.
     fn form_matrix(&mut self, state: &State, scheme: &Coefficients, since: f64) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
-        let weights = Weights { stiffness: true, rate, acceleration, moduli: self.refresh.moduli() };
         let now = Now { nodes: &self.trial, past: &state.history, since };
-        self.assembly.tangent(self.system, &now, &self.given[2], &self.forces, weights, &mut self.solver);
-        self.factorizations += 1;
-        self.solver.factor().map_err(|singular| Failure::singular(self.model, self.plan.directions[singular.row]))
+        let mut moduli = self.refresh.moduli();
+        loop {
+            let weights = Weights { stiffness: true, rate, acceleration, moduli };
+            self.assembly.tangent(self.system, &now, &self.given[2], &self.forces, weights, &mut self.solver);
+            self.factorizations += 1;
+            match self.solver.factor() {
+                Ok(()) => return Ok(()),
+                Err(_) if moduli == Moduli::Algorithmic && self.system.history > 0 => moduli = Moduli::Elastic,
+                Err(singular) => {
+                    self.refresh.rejected();
+                    return Err(Failure::singular(self.model, self.plan.directions[singular.row]));
+                }
+            }
+        }
+    }
+
+    /// Mixes the correction in `r`, where material yields, and keeps it. Returns its size before that.
+    #[inline(never)]
+    fn prepare(&mut self) -> Size {
+        let plain = self.largest_correction();
+        if let Some(anderson) = &mut self.anderson {
+            anderson.mix(&mut self.r);
+        }
+        if let Some(search) = &mut self.search {
+            search.keep_correction(&self.r, &self.increments);
+        }
+        plain
+    }
+
+    /// Of the correction in `r`.
+    fn largest_correction(&self) -> Size {
+        let mut size = Size::default();
+        for (r, &(_, dof)) in self.r.iter().zip(&self.plan.directions) {
+            let largest = if dof < 3 { &mut size.translation } else { &mut size.rotation };
+            *largest = largest.max(r.abs());
+        }
+        size
     }
 
     /// Adds the correction in `r` to the increments. Returns its size and that of the increments.
@@ -279,19 +344,27 @@ impl<'a> Stepper<'a> {
     fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
         let dt = to - state.time;
         let mut damping_power = 0.0;
-        if self.wants_forces {
+        let remembers = self.system.history > 0;
+        if self.wants_forces || remembers {
             self.move_trial(state, scheme);
-            let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
-            self.system.residual(&now, &self.given[2], &mut self.forces);
-            if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
-                damping_power = self.system.damping_power(&self.trial);
-            }
         } else {
             for &node in &self.movers {
                 let start = &state.nodes[node];
                 let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
                 scheme.differentiate(&mut self.increments[node], &v, &a);
             }
+        }
+        let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
+        if self.wants_forces {
+            self.system.residual(&now, &self.given[2], &mut self.forces);
+            if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
+                damping_power = self.system.damping_power(&now);
+            }
+        }
+        if remembers {
+            // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a
+            // straight line: at the end itself stiff parts are not at rest, and would yield from step to step.
+            state.work.material += self.system.remember(&now, 1.0 / scheme.instant, &mut self.history);
         }
         for &node in &self.movers {
             let start = &state.nodes[node];
@@ -315,9 +388,7 @@ impl<'a> Stepper<'a> {
         if self.wants_forces {
             self.account(state, scheme, dt, damping_power);
         }
-        if self.system.history > 0 {
-            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
-            state.work.material += self.system.remember(&now, &mut self.history);
+        if remembers {
             std::mem::swap(&mut state.history, &mut self.history);
         }
         std::mem::swap(&mut state.nodes, &mut self.trial);

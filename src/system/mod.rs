@@ -204,20 +204,20 @@ impl System {
         work
     }
 
-    /// Writes what material points will remember of `now` into `history`; returns what became of the work of plastic
-    /// strains since the last state.
-    pub fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+    /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
+    /// became of the work of plastic strains on it.
+    pub fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut spent = Spent::default();
         for group in self.groups.iter().filter(|group| !group.history.is_empty()) {
-            spent += group.block.remember(&group.share(now), &mut history[group.history.clone()]);
+            spent += group.block.remember(&group.share(now), part, &mut history[group.history.clone()]);
         }
         spent
     }
 
     /// Power that dampers take.
-    pub fn damping_power(&self, nodes: &[Node]) -> f64 {
-        let now = Now::of(nodes);
-        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(&now)).sum();
+    pub fn damping_power(&self, now: &Now) -> f64 {
+        let nodes = now.nodes;
+        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(&g.share(now))).sum();
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();

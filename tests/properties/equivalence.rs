@@ -139,6 +139,49 @@ fn a_plane_scene_is_the_same_in_space() {
     assert!(e < SAME, "{e:e}");
 }
 
+/// Fibres that strain alike in a plane motion are one there. Whichever global plane it is, whichever side of the section lies in
+/// it, and with all fibres in space: one answer.
+#[test]
+fn a_plane_scene_that_yields_is_the_same_in_space_and_in_any_plane() {
+    let scene = |plane: bool, side: Vec3| {
+        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        m.analysis.plane = plane;
+        m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
+        let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
+        beam(&mut m, [p[0], p[1]], 1, 3, side, MassKind::Lumped);
+        beam(&mut m, [p[1], p[2]], 2, 1, side, MassKind::Lumped);
+        soften(&mut m, 10.0);
+        fix(&mut m, p[0], 0..6);
+        let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
+        ride(&mut m, p[2], block, ALL);
+        m.nodes[block].omega = Vec3::y() * 2.0;
+        m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
+        m.gravity = Vec3::new(1.0, 0.0, -4.0);
+        m
+    };
+    let history = |m: &Model| System::new(m).unwrap().history;
+    // Cyclic changes of the axes, which leave every number as it is.
+    let third = Quat::new(0.5, 0.5, 0.5, 0.5);
+    for side in [Vec3::y(), Vec3::new(-0.6, 0.0, 1.0)] {
+        let (plane, space) = (scene(true, side), scene(false, side));
+        assert_eq!(history(&space), 4 * history(&plane), "four rows of four fibres are four");
+        let first = run(&plane);
+        let spent = first.energies.last().expect("shown").plastic;
+        assert!(spent > 1.0, "{spent}");
+        let others = [(space, Quat::identity()), (turned(&plane, &third, &Vec3::zeros()), third)];
+        let last = third * third;
+        for (other, q) in others.into_iter().chain([(turned(&plane, &last, &Vec3::zeros()), last)]) {
+            let R = rdsolve::math::rotation::matrix(&q);
+            let off = run(&other).states.iter().zip(&first.states).fold(0.0f64, |off, (a, b)| {
+                let apart = a.nodes.iter().zip(&b.nodes).map(|(a, b)| (a.x - R * b.x).norm());
+                apart.fold(off, f64::max)
+            });
+            eprintln!("plane and space, yielding: {off:e}");
+            assert!(off < SAME, "{side:?}, {q:?}: {off:e}");
+        }
+    }
+}
+
 /// Each way stops within the tolerance of a step; a hundred steps let that grow tenfold.
 #[test]
 fn updates_and_factorisations_do_not_show() {

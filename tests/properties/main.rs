@@ -9,5 +9,6 @@ mod equivalence;
 mod motion;
 mod objectivity;
 mod omission;
+mod rejection;
 mod spinning;
 mod tangent;

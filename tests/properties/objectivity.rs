@@ -63,6 +63,21 @@ fn answers_turn_with_the_scene() {
     }
 }
 
+/// The same of a scene whose parts yield: what they remember does not turn with it.
+#[test]
+fn answers_of_yielding_scenes_turn_with_the_scene() {
+    let mut rng = StdRng::seed_from_u64(13);
+    for _ in 0..3 {
+        let mut m = lively(&mut rng);
+        soften(&mut m, 20.0);
+        let yields = run(&m).energies.last().expect("shown").plastic;
+        let e = differences(&m, &turn(&mut rng), &Vec3::zeros());
+        eprintln!("turned while it yields: {e:?}, {yields}");
+        assert!(yields > 1.0, "{yields}");
+        assert!(e[..3].iter().all(|&e| e < 1e-11) && e[3] < 1e-10, "{e:?}"); // as above
+    }
+}
+
 /// A hundred lengths away positions are rounded to 1e-13 and forces to that times EA, 1e-10 against loads of 8; a thousand
 /// lengths away to ten times that. The tolerance of the iteration, 1e-10 and 1e-8, lies above it and is what remains.
 #[test]

@@ -3,13 +3,15 @@
 use rand::rngs::StdRng;
 use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
+use rdsolve::elements::beam::{Rule, Yielding};
 use rdsolve::elements::link::Law;
 use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use rdsolve::linear;
+use rdsolve::materials::{Hardening, Law as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::*;
 use rdsolve::plan::Plan;
-use rdsolve::sections::Stiffness;
+use rdsolve::sections::{Fibre, Stiffness};
 use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::state::State;
 use rdsolve::system::System;
@@ -218,6 +220,27 @@ pub fn zoo(rng: &mut StdRng, kind: Kind, time_step: f64) -> Model {
         n.v = Vec3::zeros();
     }
     m
+}
+
+/// Makes all beams and bars of a material that yields at a stress; E = 2000. The parts take turns in what there is to choose.
+pub fn soften(m: &mut Model, yield_stress: f64) {
+    let hardening = || Hardening::Linear { yield_stress, modulus: 200.0 };
+    let viscosity = Viscosity { fluidity: 5.0, overstress: Overstress::Power { exponent: 2.0 } };
+    let laws = [None, Some(viscosity)].map(|viscosity| Material::new(2e3, 0.3, hardening(), 0.4, viscosity));
+    // A square of 0.5 by 0.5, below the stiffness of `section` in all respects.
+    let at = |i: usize| (i as f64 - 1.5) * 0.125;
+    let fibres = (0..4).flat_map(|i| (0..4).map(move |j| (at(i), at(j))));
+    let fibre = |(y, z): (f64, f64)| Fibre { area: 0.0156, y, z, shear: [[0.9, 0.0, -z], [0.0, 0.9, y]] };
+    let fibres: Vec<Fibre> = fibres.map(fibre).collect();
+    for (i, beam) in m.beams.iter_mut().enumerate() {
+        let (rule, points) = if i % 3 == 1 { (Rule::Lobatto, 5) } else { (Rule::Gauss, beam.order + i % 2) };
+        let law = laws[i % 2].clone();
+        beam.yielding = Some(Yielding { law, fibres: fibres.clone(), shear: i % 4 < 2, rule, points: points.min(5) });
+    }
+    for (i, bar) in m.bars.iter_mut().enumerate() {
+        bar.yielding = Some(laws[i % 2].clone());
+        bar.tension_only = i % 2 == 1;
+    }
 }
 
 /// The scene turned by R about the origin, then shifted. Held directions must come in whole triples.

@@ -157,6 +157,7 @@ impl Extras {
             energy: Some(&self.energy),
             reactions: &self.reactions,
             links: &self.links,
+            plastic_strains: &[],
             sections: &self.sections,
         }
     }

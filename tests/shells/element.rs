@@ -194,7 +194,7 @@ fn layers_have_the_tangent_of_their_stress() {
             let (first, second) = (moved(0.02), moved(0.02));
             let mut history = vec![0.0; block.history()];
             let past = history.clone();
-            block.remember(&Now { nodes: &first, past: &past, since: 1.0 }, &mut history);
+            block.remember(&Now { nodes: &first, past: &past, since: 1.0 }, 1.0, &mut history);
             assert!(block.plastic_strain(0, &history) > 0.0, "round {round} yields nowhere");
             let n = 6 * mesh.x.len();
             let mut K = vec![0.0; n * n];

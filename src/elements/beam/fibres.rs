@@ -213,7 +213,7 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         rest.energy(&gamma, &kappa) + self.profile.memories(now.past).map(of).sum::<f64>()
     }
 
-    fn remember(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Now, history: &mut [f64]) -> Spent {
+    fn remember(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let Profile { law, state, memory, .. } = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let now = self.at(g, now);
@@ -221,7 +221,7 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         let history = history[self.share(g)].chunks_exact_mut(*memory);
         for ((fibre, past), new) in self.profile.memories(now.past).zip(history) {
             let strain = Profile::<S, N>::strain(fibre, &gamma, &kappa);
-            let spent = law.advance(*state, &strain, now.since, past, new).1;
+            let spent = law.advance(*state, &strain, (now.since, part), past, new).1;
             sum += spent * fibre.area;
         }
         sum

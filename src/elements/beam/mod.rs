@@ -373,13 +373,13 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         }
     }
 
-    fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut sum = Spent::default();
         for element in &self.elements {
             let motion = self.gather(element, now.nodes);
             for g in 0..self.points() {
                 let point = self.locate(element, g, &motion);
-                let spent = element.section.remember(g, (&point.gamma, &point.kappa), now, history);
+                let spent = element.section.remember(g, (&point.gamma, &point.kappa), now, part, history);
                 sum += spent * (self.shape.weight[g] * element.jacobian);
             }
         }

@@ -26,7 +26,7 @@ pub trait Section: Send + Sync {
     /// Elastic energy per length.
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Now) -> f64;
     /// Writes its share of the history; what was spent is per length.
-    fn remember(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Now, _history: &mut [f64]) -> Spent {
+    fn remember(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
         Spent::default()
     }
     /// Largest accumulated plastic strain.

@@ -147,12 +147,12 @@ impl<const M: usize> Section<M> for Layered<M> {
         sum
     }
 
-    fn remember(&self, strain: &[[f64; M]; 2], now: &Now, history: &mut [f64]) -> Spent {
+    fn remember(&self, strain: &[[f64; M]; 2], now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut spent = Spent::default();
         let mut new = history[self.share()].chunks_exact_mut(self.layers.memory);
         self.each(strain, now.past, |_, [_, w], strain, past| {
             if let Some(new) = new.next() {
-                spent += self.layers.law.advance(PlaneStress, strain, now.since, past, new).1 * w;
+                spent += self.layers.law.advance(PlaneStress, strain, (now.since, part), past, new).1 * w;
             }
         });
         spent

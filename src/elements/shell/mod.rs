@@ -407,11 +407,11 @@ where
         }
     }
 
-    fn remember(&self, now: &Now, history: &mut [f64]) -> Spent {
+    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
         let mut spent = Spent::default();
         for element in &self.elements {
             let strains = element.strains::<K>(&element.gather(now.nodes));
-            spent += element.section.remember(&strains.plane, now, history);
+            spent += element.section.remember(&strains.plane, now, part, history);
         }
         spent
     }

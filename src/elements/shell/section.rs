@@ -19,7 +19,7 @@ pub trait Section<const M: usize>: Send + Sync {
     /// Elastic energy.
     fn energy(&self, strain: &[[f64; M]; 2], now: &Now) -> f64;
     /// Writes its share of the history.
-    fn remember(&self, _strain: &[[f64; M]; 2], _now: &Now, _history: &mut [f64]) -> Spent {
+    fn remember(&self, _strain: &[[f64; M]; 2], _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
         Spent::default()
     }
     /// Largest accumulated plastic strain.
