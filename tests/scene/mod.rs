@@ -158,6 +158,7 @@ impl Extras {
             reactions: &self.reactions,
             links: &self.links,
             sections: &self.sections,
+            plastic_strains: &[],
         }
     }
 }
