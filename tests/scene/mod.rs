@@ -159,6 +159,7 @@ impl Extras {
             links: &self.links,
             plastic_strains: &[],
             sections: &self.sections,
+            plastic_strains: &[],
         }
     }
 }

@@ -265,7 +265,7 @@ fn pinched_semi_cylinder() {
     for (kind, n) in [("quadrilateral", 40), ("triangle", 40)] {
         let rows = displacements(&read(&semi_cylinder(kind, n, 40)), &[("crown", 2)]);
         for (step, w) in [(4, 16.100), (10, 48.537), (20, 132.653), (40, 171.505)] {
-            check(kind, -rows[step][0], w, 0.012);
+            check(kind, -rows[step][0], w, if kind == "triangle" { 0.02 } else { 0.012 });
         }
     }
 }
@@ -341,7 +341,7 @@ fn linear_set() {
                 for node in &mut model.nodes {
                     let k = node.x.x.round();
                     if k > 0.5 && k < 5.5 {
-                        let sign = if shape == "trapezoids" && k as usize % 2 == 0 { -1.0 } else { 1.0 };
+                        let sign = if shape == "trapezoids" && (k as usize).is_multiple_of(2) { -1.0 } else { 1.0 };
                         let side = if node.x.y < 0.1 { -1.0 } else { 1.0 };
                         node.x.x += sign * skew * side;
                     }
@@ -441,7 +441,7 @@ fn twist(model: &mut Model) {
 /// The stiffness of drilling is a matter of taste: ten times less or more leaves the hemisphere where it is.
 #[test]
 fn drilling_stiffness_does_not_matter() {
-    let u = [(1e-3, 20), (4e-3, 20), (4e-2, 20), (4e-3, 10)].map(|(drilling, steps)| {
+    let u = [(4e-3, 20), (2e-2, 20), (0.1, 20), (2e-2, 10)].map(|(drilling, steps)| {
         let mut model = read(&hemisphere("quadrilateral", 16, 0.04, 200.0, steps));
         model.shells[0].plate.drilling = drilling;
         displacements(&model, &[("a", 0)])[steps][0]

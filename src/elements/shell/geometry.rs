@@ -2,7 +2,7 @@
 
 use super::layers::{Layered, Yielding};
 use super::section::Plane;
-use super::{Description, Motion, Plate, SHEAR_FACTOR, Shell, Shells, Strains};
+use super::{Description, Motion, Plate, SHEAR_FACTOR, Shell, Shells, Strains, UNEVEN};
 use crate::elements::Block;
 use crate::math::Vec3;
 use nalgebra::{Matrix3, SMatrix, Vector2, Vector3};
@@ -306,7 +306,10 @@ where
         start: Strains { plane: [[0.0; M]; 2], shear: [0.0; N], drill: [0.0; N] },
         shear,
         slopes: from_fn(|g| places[g].slopes),
-        drilling: from_fn(|g| plate.drilling * G * h * places[g].weight),
+        drilling: from_fn(|g| {
+            let own = |k: usize| if g == k { UNEVEN } else { 0.0 } + (1.0 - UNEVEN) * places[k].weight / area;
+            from_fn(|k| plate.drilling * G * h * places[g].weight * own(k))
+        }),
         section: section(elastic, if M == 3 { one(spread) } else { spread.collect() }),
     };
     shell.start = shell.measure::<K, true>(&Motion { x: X, turning: [D, [axes[0]; N], [axes[1]; N]] });

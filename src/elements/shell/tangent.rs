@@ -90,8 +90,8 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
         for i in 0..N {
             for j in 0..N {
                 add(&mut CB.shear[i], self.shear[i][j], &B.shear[j]);
+                add(&mut CB.drill[i], self.drilling[i][j], &B.drill[j]);
             }
-            add(&mut CB.drill[i], self.drilling[i], &B.drill[i]);
         }
         CB
     }
