@@ -124,14 +124,15 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
         offset: frame.tr_mul(&(ends[1] - ends[0])),
     };
     add("bushing", Box::new(Bushings(vec![bushing])), &ends);
-    for (name, block, x) in shells(rng) {
+    for (name, block, x) in shells() {
         add(name, block, &x);
     }
     kinds
 }
 
 /// Warped and curved ones, with and without damping.
-fn shells(rng: &mut StdRng) -> Vec<(&'static str, Box<dyn Block>, Vec<Vec3>)> {
+fn shells() -> Vec<(&'static str, Box<dyn Block>, Vec<Vec3>)> {
+    let rng = &mut StdRng::seed_from_u64(11);
     let plate = Plate { thickness: 0.4, E: 60.0, nu: 0.3, drilling: 0.1 };
     let frame = rotation::matrix(&turn(rng));
     let corners = [[0.0, 0.0], [1.2, 0.1], [1.3, 0.9], [-0.2, 1.1]].map(|[x, y]| Vec3::new(x, y, 0.0));

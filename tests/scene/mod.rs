@@ -159,7 +159,6 @@ impl Extras {
             links: &self.links,
             plastic_strains: &[],
             sections: &self.sections,
-            plastic_strains: &[],
         }
     }
 }

@@ -276,10 +276,11 @@ fn linear_set() {
     for kind in ["quadrilateral", "triangle"] {
         // Of the finest mesh, for quadrilaterals and triangles.
         let last = |what: &str, n: usize, found: f64, wanted: f64, tolerance: [f64; 2]| {
-            let tolerance = if n < 16 { 1.0 } else { tolerance[usize::from(kind == "triangle")] };
+            let tolerance = tolerance[usize::from(kind == "triangle")];
             check(&format!("{what} {kind} {n}"), found, wanted, tolerance);
         };
-        for n in [4, 8, 16] {
+        {
+            let n = 16;
             // Scordelis-Lo roof, a quarter.
             let half = 40f64.to_radians();
             let (s, c) = half.sin_cos();
@@ -348,20 +349,21 @@ fn linear_set() {
                 }
                 let u = displacements(&model, &[("b", dof), ("c", dof)]);
                 let found = 0.5 * (u[1][0] + u[1][1]) / p;
-                // Four-node elements of five stress modes fail in their plane where they are distorted, triangles always.
+                // Four-node elements of five stress modes fail in their plane where they are distorted, triangles always: no
+                // claim is made there.
                 let tolerance = match (kind, shape, what) {
                     ("quadrilateral", "regular", "in-plane") => 0.02,
-                    (_, _, "in-plane") => 1.0,
+                    (_, _, "in-plane") => continue,
                     ("triangle", ..) => 0.05,
                     _ => 0.03,
                 };
                 check(&format!("straight {kind} {shape} {what}"), found, wanted, tolerance);
             }
         }
-        // Curved beam in the plane and out of it.
-        for (what, force, dof, wanted) in
-            [("in-plane", [0.0, 1.0, 0.0], 1, 0.08734), ("out-of-plane", [0.0, 0.0, 1.0], 2, 0.5022)]
-        {
+        // Curved beam out of its plane, with MacNeal & Harder's six elements (their QUAD4 is 5 per cent stiff, too); in its plane
+        // six of these are too stiff.
+        if kind == "quadrilateral" {
+            let (what, force, dof, wanted) = ("out-of-plane", [0.0, 0.0, 1.0], 2, 0.5022);
             let mut body = String::from("[points]\n");
             body += &point("a", [4.12, 0.0, 0.0]);
             body += &point("b", [4.32, 0.0, 0.0]);
@@ -371,8 +373,7 @@ fn linear_set() {
             body += &fix("beam.edge1", "ux uy uz rx ry rz");
             body += &load("beam.edge3", "force", force.map(|f: f64| 0.5e-3 * f));
             let u = displacements(&read(&deck("curved beam", 1, [1e7, 0.25, 0.1], &body)), &[("c", dof), ("d", dof)]);
-            let tolerance = if kind == "triangle" { 1.0 } else { 0.13 };
-            check(&format!("curved {kind} {what}"), 0.5 * (u[1][0] + u[1][1]) / 1e-3, wanted, tolerance);
+            check(&format!("curved {kind} {what}"), 0.5 * (u[1][0] + u[1][1]) / 1e-3, wanted, 0.06);
         }
         // Clamped and simply supported square plate, a quarter, thickness 1e-4 of the side.
         for (edge, dofs, wanted) in [("clamped", "ux uy uz rx ry rz", 5.60), ("supported", "ux uy uz", 11.60)] {
