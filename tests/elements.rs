@@ -8,6 +8,7 @@ use rdsolve::elements::bar::YieldingBars;
 use rdsolve::elements::beam::{Beams, Description, Rule, Yielding};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Law, Link, Links};
+use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
 use rdsolve::elements::{Block, Force, Moduli};
 use rdsolve::materials::{Hardening, Law as Material, Overstress, Spent, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
@@ -123,7 +124,28 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
         offset: frame.tr_mul(&(ends[1] - ends[0])),
     };
     add("bushing", Box::new(Bushings(vec![bushing])), &ends);
+    for (name, block, x) in shells() {
+        add(name, block, &x);
+    }
     kinds
+}
+
+/// Warped and curved ones, with and without damping.
+fn shells() -> Vec<(&'static str, Box<dyn Block>, Vec<Vec3>)> {
+    let rng = &mut StdRng::seed_from_u64(11);
+    let plate = Plate { thickness: 0.4, E: 60.0, nu: 0.3, drilling: 0.1 };
+    let frame = rotation::matrix(&turn(rng));
+    let corners = [[0.0, 0.0], [1.2, 0.1], [1.3, 0.9], [-0.2, 1.1]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let x: Vec<Vec3> = corners.iter().map(|c| frame * (c + vector(rng, 0.1))).collect();
+    let normals: Vec<Vec3> = x.iter().map(|_| frame * (Vec3::z() + vector(rng, 0.1)).normalize()).collect();
+    let four = || [shell::Description { nodes: &[0, 1, 2, 3], normals: &normals }].into_iter();
+    let three = || [shell::Description { nodes: &[0, 1, 2], normals: &normals[..3] }].into_iter();
+    vec![
+        ("quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.0)), x.clone()),
+        ("damped quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.2)), x.clone()),
+        ("triangle", Box::new(Triangles::new(three(), &x, &plate, 0.0)), x[..3].to_vec()),
+        ("damped triangle", Box::new(Triangles::new(three(), &x, &plate, 0.2)), x[..3].to_vec()),
+    ]
 }
 
 fn nodes_of(n: usize, frame: &Mat3, start: Vec3) -> Vec<Vec3> {

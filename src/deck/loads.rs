@@ -5,17 +5,23 @@ use serde::Deserialize;
 
 use super::words::{Maybe, Names, Vector};
 
-/// A force or moment on points or bodies.
+/// A force or moment on points or bodies, or spread over shells.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Names of points, bodies or sets; each gets the whole load.
+    /// Names of points, bodies, shells, edges or sets; each node gets the whole load, unless it is one per length or area.
     #[schemars(required)]
     pub at: Maybe<Names>,
     /// Global components.
     pub force: Maybe<Vector>,
     /// Global components.
     pub moment: Maybe<Vector>,
+    /// Along edges of shells, global components; `at` then names edges, such as "roof.edge2".
+    pub force_per_length: Maybe<Vector>,
+    /// On the area that shells have at t = 0, global components; `at` then names shells.
+    pub force_per_area: Maybe<Vector>,
+    /// On shells, against their normals at t = 0, which see the corners go round counter-clockwise; `at` then names shells.
+    pub pressure: Maybe<f64>,
     /// Turns with its node. Default: false.
     pub follower: Maybe<bool>,
     /// Name of an amplitude that multiplies the load. Default: constant (dynamic), growing linearly (static).

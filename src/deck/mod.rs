@@ -18,6 +18,7 @@ pub mod output;
 pub mod read;
 pub mod sections;
 pub mod set;
+pub mod shells;
 pub mod supports;
 pub mod words;
 
@@ -50,13 +51,15 @@ pub struct Deck {
     /// Named points [x, y, z] at t = 0; every one becomes a node.
     #[serde(default)]
     pub points: Named<Vector>,
-    /// Lists of names under one name: points, bodies, beams, bars, further sets.
+    /// Lists of names under one name: points, bodies, beams, bars, shells and their edges, further sets.
     #[serde(default)]
     pub sets: Named<Names>,
     #[serde(default)]
     pub beams: Vec<At<Table<beams::Beam>>>,
     #[serde(default)]
     pub bars: Vec<At<Table<beams::Bar>>>,
+    #[serde(default)]
+    pub shells: Vec<At<Table<shells::Shell>>>,
     #[serde(default)]
     pub bodies: Vec<At<Table<bodies::Body>>>,
     #[serde(default)]

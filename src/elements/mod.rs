@@ -5,6 +5,7 @@ pub mod bar;
 pub mod beam;
 pub mod bushing;
 pub mod link;
+pub mod shell;
 
 use crate::materials::Spent;
 use crate::math::{Mat3, Vec3};

@@ -281,7 +281,7 @@ impl<'d> Builder<'d> {
     }
 }
 
-fn mass_kind(mass: &Maybe<deck::Mass>) -> MassKind {
+pub(super) fn mass_kind(mass: &Maybe<deck::Mass>) -> MassKind {
     match mass.as_ref().map(|mass| mass.value) {
         Some(deck::Mass::Consistent) => MassKind::Consistent,
         Some(deck::Mass::None) => MassKind::None,

@@ -35,6 +35,7 @@ pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     b.materials();
     b.beams();
     b.bars();
+    b.shells();
     b.masses();
     b.links();
     b.attachments();
@@ -56,7 +57,7 @@ pub(super) struct Builder<'d> {
     pub deck: &'d Deck,
     pub model: Model,
     pub problems: Vec<Diagnostic>,
-    /// What the names of points, bodies, sets, beams, bars and links stand for.
+    /// What the names of points, bodies, sets, beams, bars, shells and links stand for.
     pub places: HashMap<&'d str, (Place, &'d Span)>,
     /// Per node: directions in which an element, a mass, a body or a link acts on it.
     pub acts: Vec<[bool; 6]>,
@@ -65,6 +66,11 @@ pub(super) struct Builder<'d> {
     /// Nodes of each beam and bar, in order along it.
     pub beam_nodes: Vec<Vec<usize>>,
     pub bar_nodes: Vec<Vec<usize>>,
+    /// Nodes of each shell, and of each of its edges in order along it.
+    pub shell_nodes: Vec<Vec<usize>>,
+    pub shell_edges: Vec<Vec<Vec<usize>>>,
+    /// Edges of all shells so far, each once.
+    pub edges: Vec<super::shells::Edge>,
     /// By material: how it yields.
     pub laws: Vec<Option<Law>>,
     /// Section, material and whether it needs a mass → `model.stiffnesses`.
@@ -105,6 +111,7 @@ impl<'d> Builder<'d> {
             stiffnesses: Vec::new(),
             beams: Vec::new(),
             bars: Vec::new(),
+            shells: Vec::new(),
             links: Vec::new(),
             riders: Vec::new(),
             held: Vec::new(),
@@ -133,6 +140,9 @@ impl<'d> Builder<'d> {
             rides: HashMap::new(),
             beam_nodes: Vec::new(),
             bar_nodes: Vec::new(),
+            shell_nodes: Vec::new(),
+            shell_edges: Vec::new(),
+            edges: Vec::new(),
             laws: Vec::new(),
             stiffnesses: HashMap::new(),
             held: BTreeMap::new(),
@@ -160,7 +170,7 @@ impl<'d> Builder<'d> {
 
     /// The value of a key that must be there.
     pub fn need<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
-        self.unsure |= value.is_none() && ["path", "at", "nodes", "from", "to"].contains(&key);
+        self.unsure |= value.is_none() && ["path", "corners", "at", "nodes", "from", "to"].contains(&key);
         if value.is_none() && !self.is_spoiled(owner.span, key) {
             self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
         }

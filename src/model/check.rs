@@ -53,10 +53,11 @@ impl<'d> Builder<'d> {
 
     fn check_content(&mut self) {
         let deck = self.deck;
-        let parts = [deck.beams.len(), deck.bars.len(), deck.bodies.len(), deck.masses.len(), deck.links.len()];
-        let spoiled = ["beams", "bars", "bodies", "masses", "links"].iter().any(|key| self.is_spoiled(&ROOT, key));
-        if parts[..4].iter().all(|&count| count == 0) && !spoiled {
-            let message = "the deck has nothing that could move: no beams, bars, bodies or masses";
+        let parts = [deck.beams.len(), deck.bars.len(), deck.shells.len(), deck.bodies.len(), deck.masses.len()];
+        let spoiled =
+            ["beams", "bars", "shells", "bodies", "masses", "links"].iter().any(|key| self.is_spoiled(&ROOT, key));
+        if parts.iter().all(|&count| count == 0) && !spoiled {
+            let message = "the deck has nothing that could move: no beams, bars, shells, bodies or masses";
             self.problems.push(Diagnostic::error(message));
         }
     }

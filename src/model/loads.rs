@@ -2,12 +2,16 @@
 
 use super::attachments::directions;
 use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
-use super::places::Reach;
+use super::places::{Place, Reach};
 use super::{BaseAcceleration, Damping, Load, NodalDamping};
 use crate::amplitude::Amplitude;
 use crate::deck::amplitudes as deck;
+use crate::deck::loads::Load as Spread;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
+use crate::elements::shell;
+use crate::math::Vec3;
+use std::collections::BTreeMap;
 
 impl<'d> Builder<'d> {
     /// One for each of the deck, also for those with errors: others refer to them.
@@ -80,6 +84,10 @@ impl<'d> Builder<'d> {
 
     pub fn loads(&mut self) {
         for load in &self.deck.loads {
+            if load.force_per_length.is_some() || load.force_per_area.is_some() || load.pressure.is_some() {
+                self.spread_load(load);
+                continue;
+            }
             let owner = Owner { what: "`[[loads]]`".to_owned(), span: &load.span };
             let spots = self.spots(&owner, "at", &load.at, Reach::Nodes);
             let amplitude = load.amplitude.as_ref().map(|name| self.amplitude(name));
@@ -106,6 +114,49 @@ impl<'d> Builder<'d> {
                 self.model.loads.push(Load { node: spot.node, force, moment, follower, amplitude });
             }
         }
+    }
+
+    /// A load spread over edges or shells, as forces on their nodes.
+    fn spread_load(&mut self, load: &'d At<Table<Spread>>) {
+        let owner = Owner { what: "`[[loads]]`".to_owned(), span: &load.span };
+        let strays = [("force", span(&load.force)), ("moment", span(&load.moment)), ("follower", span(&load.follower))];
+        self.stray("a load spread over shells", &strays);
+        let amplitude = load.amplitude.as_ref().map(|name| self.amplitude(name));
+        let Some(names) = self.need(&owner, "at", &load.at) else { return };
+        let (line, area) = (vec3_or_zero(&load.force_per_length), vec3_or_zero(&load.force_per_area));
+        let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
+        let mut forces: BTreeMap<usize, Vec3> = BTreeMap::new();
+        for name in &names.values {
+            match self.lookup(name) {
+                None => {}
+                Some(Place::Edge(shell, edge)) if load.force_per_length.is_some() => {
+                    let nodes = self.shell_edges[shell].get(edge).cloned().unwrap_or_default();
+                    for pair in nodes.windows(2) {
+                        let half = 0.5 * (self.x(pair[1]) - self.x(pair[0])).norm();
+                        pair.iter().for_each(|&node| *forces.entry(node).or_default() += half * line);
+                    }
+                }
+                Some(Place::Shell(_)) if load.force_per_length.is_none() => {
+                    let Some(shell) = self.model.shells.iter().find(|shell| shell.name == name.value) else { continue };
+                    for element in &shell.elements {
+                        let nodes = &element.nodes[..shell.corners];
+                        let x: Vec<Vec3> = nodes.iter().map(|&node| self.model.nodes[node].x).collect();
+                        let parts = shell::shares(&x).into_iter().zip(shell::faces(&x));
+                        for (&node, (share, face)) in nodes.iter().zip(parts) {
+                            *forces.entry(node).or_default() += share * area - pressure * face;
+                        }
+                    }
+                }
+                Some(place) => {
+                    let wants = if load.force_per_length.is_some() { "edges of shells" } else { "shells" };
+                    let message = format!("this load wants {wants}, and `{}` is a {}", name.value, place.kind());
+                    self.error::<()>(&name.span, message);
+                }
+            }
+        }
+        let amplitude = amplitude.flatten();
+        let load = |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude };
+        self.model.loads.extend(forces.into_iter().map(load));
     }
 
     pub fn environment(&mut self) {

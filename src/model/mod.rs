@@ -13,6 +13,7 @@ mod loads;
 mod materials;
 mod places;
 mod sections;
+mod shells;
 mod supports;
 
 pub use build::{build, read};
@@ -20,6 +21,7 @@ pub use build::{build, read};
 use crate::amplitude::Amplitude;
 use crate::elements::beam::Yielding;
 use crate::elements::link::Law;
+use crate::elements::shell::{self, Plate};
 use crate::integrators::Scheme;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
@@ -40,6 +42,7 @@ pub struct Model {
     pub stiffnesses: Vec<Stiffness>,
     pub beams: Vec<Beam>,
     pub bars: Vec<Bar>,
+    pub shells: Vec<Shell>,
     pub links: Vec<Link>,
     /// Nodes tied to other nodes, each at most once, in no particular order.
     pub riders: Vec<Rider>,
@@ -201,6 +204,27 @@ pub struct Bar {
 }
 
 #[derive(Debug, Clone)]
+pub struct Shell {
+    pub name: String,
+    pub plate: Plate,
+    pub density: f64,
+    pub mass: MassKind,
+    /// `None`: the material is elastic.
+    pub yielding: Option<shell::Yielding>,
+    /// Of each element: 3 or 4.
+    pub corners: usize,
+    pub elements: Vec<ShellElement>,
+}
+
+#[derive(Debug, Clone)]
+pub struct ShellElement {
+    /// Counter-clockwise about the normals; of a triangle the first three are used.
+    pub nodes: [usize; 4],
+    /// Unit normals of the surface at the nodes, at t = 0.
+    pub normals: [Vec3; 4],
+}
+
+#[derive(Debug, Clone)]
 pub struct Link {
     pub name: String,
     /// Nodes at `from` and `to`: riders on a node or body, the node itself, or a held node for the ground.
@@ -310,7 +334,7 @@ pub enum ExpectAt {
     Energy,
     /// Columns of links.csv.
     Link(usize),
-    /// The largest plastic strain of elements, from one to before another, counted through all beams and then all bars.
+    /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars, then all shells.
     Elements(usize, usize),
 }
 

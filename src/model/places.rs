@@ -1,4 +1,4 @@
-//! What the names of a deck stand for: points, bodies, sets, beams, bars, links.
+//! What the names of a deck stand for: points, bodies, sets, beams, bars, shells and their edges, links.
 
 use super::build::{Builder, Owner, vec3};
 use crate::deck::words::{Maybe, Names};
@@ -15,6 +15,9 @@ pub(super) enum Place {
     Set(usize),
     Beam(usize),
     Bar(usize),
+    Shell(usize),
+    /// Of a shell, counted from 0.
+    Edge(usize, usize),
     Link(usize),
 }
 
@@ -32,7 +35,7 @@ pub(super) struct Spot<'d> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
     Nodes,
-    /// Beams and bars too.
+    /// Beams and bars too. (Shells are lists of nodes like sets: their inner ones have no other name.)
     Parts,
 }
 
@@ -44,7 +47,7 @@ impl<'d> Builder<'d> {
         }
     }
 
-    /// Takes a name for something; names of points, bodies, sets, beams, bars and links are all different.
+    /// Takes a name for something; names of points, bodies, sets, beams, bars, shells and links are all different.
     pub fn name(&mut self, name: &'d At<String>, place: Place) {
         if name.is_empty() {
             self.error::<()>(&name.span, "a name must not be empty");
@@ -53,7 +56,7 @@ impl<'d> Builder<'d> {
         } else if self.places.contains_key(name.as_str()) {
             let message = format!("the name `{}` is taken", name.value);
             let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
-            let rule = "points, bodies, sets, beams, bars and links share one space of names";
+            let rule = "points, bodies, sets, beams, bars, shells and links share one space of names";
             self.problems.push(diagnostic.hint(rule));
         } else {
             self.places.insert(&name.value, (place, &name.span));
@@ -74,6 +77,11 @@ impl<'d> Builder<'d> {
         for (index, bar) in deck.bars.iter().enumerate() {
             if let Some(name) = &bar.name {
                 self.name(name, Place::Bar(index));
+            }
+        }
+        for (index, shell) in deck.shells.iter().enumerate() {
+            if let Some(name) = &shell.name {
+                self.name(name, Place::Shell(index));
             }
         }
         for (index, link) in deck.links.iter().enumerate() {
@@ -109,10 +117,21 @@ impl<'d> Builder<'d> {
         false
     }
 
+    /// What a name stands for, `shell.edge1` to `shell.edge4` among them.
+    pub fn place(&self, name: &str) -> Option<Place> {
+        if let Some((place, _)) = self.places.get(name) {
+            return Some(*place);
+        }
+        let (shell, edge) = name.rsplit_once(".edge")?;
+        let Some((Place::Shell(index), _)) = self.places.get(shell) else { return None };
+        let corners = self.deck.shells[*index].corners.as_ref()?.values.len();
+        (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(*index, k - 1))
+    }
+
     /// What a name stands for; reports a name that stands for nothing.
     pub fn lookup(&mut self, name: &At<String>) -> Option<Place> {
-        if let Some((place, _)) = self.places.get(name.as_str()) {
-            return Some(*place);
+        if let Some(place) = self.place(name) {
+            return Some(place);
         }
         let is_link = |place: &Place| matches!(place, Place::Link(_));
         let known = self.places.iter().filter(|(_, (place, _))| !is_link(place)).map(|(name, _)| *name);
@@ -123,9 +142,9 @@ impl<'d> Builder<'d> {
 
     /// The node of a point; `key` wants nothing else.
     pub fn point(&mut self, key: &str, name: &At<String>) -> Option<usize> {
-        match self.places.get(name.as_str()) {
-            Some((Place::Point(node), _)) => Some(*node),
-            Some((place, _)) => {
+        match self.place(name) {
+            Some(Place::Point(node)) => Some(node),
+            Some(place) => {
                 let message = format!("`{key}` wants points, and `{}` is a {}", name.value, place.kind());
                 self.error(&name.span, message)
             }
@@ -187,11 +206,15 @@ impl<'d> Builder<'d> {
                 Place::Body(body) => nodes.push(self.model.bodies[body].node),
                 Place::Beam(beam) => nodes.extend(self.beam_nodes.get(beam).into_iter().flatten()),
                 Place::Bar(bar) => nodes.extend(self.bar_nodes.get(bar).into_iter().flatten()),
+                Place::Shell(shell) => nodes.extend(self.shell_nodes.get(shell).into_iter().flatten()),
+                Place::Edge(shell, edge) => {
+                    nodes.extend(self.shell_edges.get(shell).and_then(|edges| edges.get(edge)).into_iter().flatten());
+                }
                 Place::Link(_) => {}
                 Place::Set(set) if std::mem::replace(&mut seen[set], true) => {}
                 Place::Set(set) => {
                     let members = self.deck.sets.0[set].1.values.iter().rev();
-                    todo.extend(members.filter_map(|name| self.places.get(name.as_str())).map(|(place, _)| *place));
+                    todo.extend(members.filter_map(|name| self.place(name)));
                 }
             }
         }
@@ -211,6 +234,8 @@ impl Place {
             Place::Set(_) => "set",
             Place::Beam(_) => "beam",
             Place::Bar(_) => "bar",
+            Place::Shell(_) => "shell",
+            Place::Edge(..) => "edge of a shell",
             Place::Link(_) => "link",
         }
     }

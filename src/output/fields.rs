@@ -2,7 +2,7 @@
 //! names the parts that the grids number.
 //!
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
-//! links are lines, bodies closed shapes. A grid is named after its step and listed only once it is whole.
+//! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
 use super::shape::Surface;
 use super::vtu::{self, Cell};
@@ -10,6 +10,7 @@ use super::{at, replace};
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::Model;
 use crate::solve::Frame;
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;
 use std::io;
@@ -48,7 +49,7 @@ impl Grid {
         self.cell(kind, part, [first, last].into_iter().chain(first + 1..last));
     }
 
-    /// Beams, bars, links, bodies, each in deck order.
+    /// Beams, bars, shells, links, bodies, each in deck order.
     fn of(model: &Model) -> Grid {
         let mut grid = Grid::default();
         let mut part = 0..;
@@ -68,6 +69,23 @@ impl Grid {
             let part = next();
             for nodes in &bar.elements {
                 grid.curve(Cell::Line, part, nodes, Mat3::identity());
+            }
+        }
+        for shell in &model.shells {
+            let (part, first) = (next(), grid.places.len());
+            let kind = if shell.corners == 3 { Cell::Triangle } else { Cell::Quad };
+            // Points of the part's own, one for each of its nodes.
+            let mut place = HashMap::new();
+            for element in &shell.elements {
+                let points = [0, 1, 2, 3].map(|k| {
+                    let next = first + place.len();
+                    *place.entry(element.nodes[k]).or_insert_with(|| {
+                        let axes = Mat3::identity();
+                        grid.places.push(Place { node: element.nodes[k], arm: Vec3::zeros(), axes });
+                        next
+                    })
+                });
+                grid.cell(kind, part, points.into_iter().take(shell.corners));
             }
         }
         for link in &model.links {
@@ -90,11 +108,12 @@ impl Grid {
 fn names(model: &Model) -> csv::Result<Vec<u8>> {
     let beams = model.beams.iter().map(|part| ("beam", &part.name));
     let bars = model.bars.iter().map(|part| ("bar", &part.name));
+    let shells = model.shells.iter().map(|part| ("shell", &part.name));
     let links = model.links.iter().map(|part| ("link", &part.name));
     let bodies = model.bodies.iter().map(|part| ("body", &part.name));
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(["part", "kind", "name"])?;
-    for (part, (kind, name)) in beams.chain(bars).chain(links).chain(bodies).enumerate() {
+    for (part, (kind, name)) in beams.chain(bars).chain(shells).chain(links).chain(bodies).enumerate() {
         table.write_record([&part.to_string(), kind, name])?;
     }
     table.into_inner().map_err(|e| e.into_error().into())
@@ -181,7 +200,7 @@ impl Fields {
         text.push_str("<CellData>\n");
         text.push_str(&self.parts);
         if !frame.plastic_strains.is_empty() {
-            // Cells of beams and bars come first; links and bodies do not yield.
+            // Cells of beams, bars and shells come first; links and bodies do not yield.
             let strains = frame.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
             vtu::array(text, bytes, "plastic_strain", 1, strains);
         }

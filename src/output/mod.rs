@@ -134,7 +134,9 @@ pub fn wanted(model: &Model) -> Wanted {
 
 /// Whether the material of any part yields.
 fn yields(model: &Model) -> bool {
-    model.beams.iter().any(|beam| beam.yielding.is_some()) || model.bars.iter().any(|bar| bar.yielding.is_some())
+    model.beams.iter().any(|beam| beam.yielding.is_some())
+        || model.bars.iter().any(|bar| bar.yielding.is_some())
+        || model.shells.iter().any(|shell| shell.yielding.is_some())
 }
 
 /// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.

@@ -32,11 +32,13 @@ impl Plan {
         }
         let beams: usize = model.beams.iter().map(|b| b.elements.len()).sum();
         let bars: usize = model.bars.iter().map(|b| b.elements.len()).sum();
+        let shells: usize = model.shells.iter().map(|s| s.elements.len()).sum();
         let parts = [
             (model.nodes.len(), "nodes"),
             (model.bodies.len(), "bodies"),
             (beams, "beam elements"),
             (bars, "bar elements"),
+            (shells, "shell elements"),
             (model.links.len(), "links"),
             (model.riders.len(), "attached nodes"),
         ];
@@ -66,6 +68,11 @@ impl Plan {
         }
         for bar in model.bars.iter().filter(|bar| bar.yielding.is_some()) {
             line("yields", format!("bar `{}`", bar.name));
+        }
+        for shell in &model.shells {
+            let Some(yielding) = &shell.yielding else { continue };
+            let what = format!("{} layers, yield under membrane stress; transverse shear elastic", yielding.layers);
+            line("yields", format!("shell `{}`: {what}", shell.name));
         }
         if system.history > 0 {
             let method = match model.iteration.method {

@@ -8,6 +8,7 @@ use crate::elements::bar::{self, YieldingBars};
 use crate::elements::beam::{Beams, Description, Yielding};
 use crate::elements::bushing::{Bushing, Bushings};
 use crate::elements::link::{Link, Links};
+use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Triangles};
 use crate::math::{Mat3, Vec3, quadrature};
 use crate::model::{self, MassKind, Model};
 use crate::sections;
@@ -46,6 +47,22 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
             }
         }
     }
+    for part in &model.shells {
+        let h = part.plate.thickness;
+        for element in &part.elements {
+            let nodes = &element.nodes[..part.corners];
+            let corners: Vec<Vec3> = nodes.iter().map(|&n| x[n]).collect();
+            for (&node, area) in nodes.iter().zip(shell::shares(&corners)) {
+                let mass = if part.mass == MassKind::Lumped { part.density * h * area } else { 0.0 };
+                // The same about the normal, where a director has none: no direction is left without inertia.
+                let rotary = if part.mass == MassKind::None { 0.0 } else { part.density * h.powi(3) / 12.0 * area };
+                lumped.add(node, mass, &(rotary * Mat3::identity()));
+            }
+            if part.mass == MassKind::Consistent {
+                consistent.push(ConsistentMass::of_shell(nodes, &corners, part.density * h));
+            }
+        }
+    }
     (lumped.finish(), consistent)
 }
 
@@ -55,9 +72,11 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, V
     let structure = |block| Group { block, kind: GroupKind::Structure, history: 0..0 };
     let beams = model.beams.iter().map(|part| structure(beams(part, model, x, beta, plane)));
     let bars = model.bars.iter().map(|part| structure(bars(part, x, beta)));
+    let shells = model.shells.iter().map(|part| structure(shells(part, x, beta)));
     let (links, watched) = links(model, x);
     let links = links.into_iter().map(|block| Group { block, kind: GroupKind::Link, history: 0..0 });
-    let mut groups: Vec<Group> = beams.chain(bars).chain(links).filter(|group| !group.block.is_empty()).collect();
+    let mut groups: Vec<Group> =
+        beams.chain(bars).chain(shells).chain(links).filter(|group| !group.block.is_empty()).collect();
     let mut end = 0;
     for group in &mut groups {
         group.history = end..end + group.block.history();
@@ -113,6 +132,18 @@ fn bars(part: &model::Bar, x: &[Vec3], beta: f64) -> Box<dyn Block> {
             let stiffness = part.axial_stiffness;
             Box::new(YieldingBars::new(&part.elements, stiffness, law, part.tension_only, x, beta))
         }
+    }
+}
+
+fn shells(part: &model::Shell, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+    let corners = part.corners;
+    let elements =
+        part.elements.iter().map(|e| shell::Description { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
+    match (&part.yielding, corners) {
+        (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
+        (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),
+        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3>(elements, x, &part.plate, beta),
+        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 5>(elements, x, &part.plate, beta),
     }
 }
 

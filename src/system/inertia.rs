@@ -132,6 +132,14 @@ impl ConsistentMass {
         ConsistentMass { nodes: nodes.to_vec(), m }
     }
 
+    /// ∫ N_a N_b over a shell of this mass per area, with the corners at `x`.
+    pub fn of_shell(nodes: &[usize], x: &[Vec3], mass: f64) -> Self {
+        let n = nodes.len();
+        let products = crate::elements::shell::products(x);
+        let m = (0..n * n).map(|i| mass * products[i / n][i % n]).collect();
+        ConsistentMass { nodes: nodes.to_vec(), m }
+    }
+
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let n = self.nodes.len();
         self.m.iter().enumerate().map(move |(i, &m)| (self.nodes[i / n], self.nodes[i % n], m))

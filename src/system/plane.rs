@@ -22,6 +22,10 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     let pairs_wrongly =
         |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.amax()));
 
+    // Shells bend out of any plane they lie in.
+    if !model.shells.is_empty() {
+        return false;
+    }
     let Some(first) = model.nodes.first() else { return false };
     let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
     let flat = |p: &crate::model::Node| (p.x[n] - first.x[n]).abs() <= small * size;

@@ -58,7 +58,7 @@ impl System {
         }));
     }
 
-    /// Largest accumulated plastic strain of each element of all beams, then of all bars, in deck order.
+    /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order.
     pub fn plastic_strains(&self, now: &Now, out: &mut Vec<f64>) {
         out.clear();
         for group in self.groups.iter().filter(|group| group.kind == GroupKind::Structure) {

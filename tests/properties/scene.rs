@@ -53,6 +53,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         stiffnesses: vec![],
         beams: vec![],
         bars: vec![],
+        shells: vec![],
         links: vec![],
         riders: vec![],
         held: vec![],

@@ -55,6 +55,7 @@ pub fn model() -> Model {
             beam("arm", 3, vec![element([0, 1, 2, 3, 0])]),
             beam("fore & aft", 1, vec![element([3, 4, 0, 0, 0]), element([4, 5, 0, 0, 0])]),
         ],
+        shells: vec![],
         bars: vec![Bar {
             name: "stay".into(),
             axial_stiffness: 1.0,

@@ -1,0 +1,63 @@
+//! `[[shells]]`: patches between three or four points, flat or on a surface of revolution.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::beams::Mass;
+use super::words::{Maybe, Names, OneOrMany, Table, Vector};
+
+/// A patch of shell elements. Its name stands for all of its nodes, `name.edge1` to `name.edge4` for those of an edge: edge1
+/// runs from the first corner to the second, and so on round. Patches that share corners share the nodes between them.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Shell {
+    #[schemars(required)]
+    pub name: Maybe<String>,
+    /// Names of four points in order round the patch, or of three.
+    #[schemars(required)]
+    pub corners: Maybe<Names>,
+    /// Elements along edge1 and along edge2, or one number for all edges.
+    #[schemars(required)]
+    pub elements: Maybe<OneOrMany<u64>>,
+    #[schemars(required)]
+    pub thickness: Maybe<f64>,
+    /// Name of a material.
+    #[schemars(required)]
+    pub material: Maybe<String>,
+    /// Default: "quadrilateral"; a patch of three corners has triangles.
+    pub kind: Maybe<Kind>,
+    /// Points through the thickness, 2 to 7. Default: 5. Shells whose material yields.
+    pub layers: Maybe<u64>,
+    /// The surface on which the patch lies. Default: straight lines between opposite edges.
+    pub surface: Maybe<Table<Surface>>,
+    /// Default: "lumped".
+    pub mass: Maybe<Mass>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    Quadrilateral,
+    Triangle,
+}
+
+/// Where the nodes between the corners lie. With an axis, edges are straight in the coordinates about it.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Surface {
+    #[schemars(required)]
+    pub kind: Maybe<SurfaceKind>,
+    /// A point of the axis, or the centre of the sphere. Default: the origin.
+    pub center: Maybe<Vector>,
+    /// Needed by a cylinder. A sphere without one takes edges along great circles.
+    pub axis: Maybe<Vector>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SurfaceKind {
+    /// Radius, angle and height about the axis: also cones and flat rings.
+    Cylinder,
+    /// Radius, longitude and latitude about the axis.
+    Sphere,
+}

@@ -1,0 +1,9 @@
+//! Shells: what every element must do, and the benchmarks of Sze, Liu & Lo (2004) and MacNeal & Harder (1985).
+
+#[path = "shells/benchmarks.rs"]
+mod benchmarks;
+#[path = "shells/dynamics.rs"]
+mod dynamics;
+#[path = "shells/element.rs"]
+mod element;
+mod support;

@@ -1,0 +1,343 @@
+//! One element, and patches of a few.
+
+use nalgebra::{DMatrix, DVector, Unit};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use rdsolve::elements::shell::{
+    DRILLING, Description, Plate, Quadrilateral, Quadrilaterals, Triangle, Triangles, Yielding,
+};
+use rdsolve::elements::{Block, Force, Moduli};
+use rdsolve::materials::{Hardening, Law};
+use rdsolve::math::{Mat3, Vec3, rotation};
+use rdsolve::state::{Node, Now};
+use std::time::Instant;
+
+fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
+    Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
+}
+
+fn turn(rng: &mut StdRng) -> nalgebra::Quaternion<f64> {
+    let v = nalgebra::Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0));
+    Unit::new_normalize(nalgebra::Quaternion::from(v)).into_inner()
+}
+
+const PLATE: Plate = Plate { thickness: 0.1, E: 1e3, nu: 0.3, drilling: DRILLING };
+
+/// A mesh of elements of one kind with normals along z, or as given.
+struct Mesh {
+    x: Vec<Vec3>,
+    elements: Vec<Vec<usize>>,
+    normals: Vec<Vec3>,
+}
+
+impl Mesh {
+    fn block(&self, plate: &Plate) -> Box<dyn Block> {
+        let normals: Vec<Vec<Vec3>> =
+            self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
+        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| Description { nodes, normals });
+        match self.elements[0].len() {
+            3 => Box::new(Triangles::new(all, &self.x, plate, 0.0)),
+            _ => Box::new(Quadrilaterals::new(all, &self.x, plate, 0.0)),
+        }
+    }
+
+    fn layered(&self, plate: &Plate, yielding: &Yielding) -> Box<dyn Block> {
+        let normals: Vec<Vec<Vec3>> =
+            self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
+        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| Description { nodes, normals });
+        match self.elements[0].len() {
+            3 => yielding.shells::<Triangle, 3, 2, 3>(all, &self.x, plate, 0.0),
+            _ => yielding.shells::<Quadrilateral, 4, 3, 5>(all, &self.x, plate, 0.0),
+        }
+    }
+
+    /// The patch of MacNeal & Harder: 0.24 × 0.12, four distorted quadrilaterals round one; or their triangles.
+    fn patch(triangles: bool) -> Mesh {
+        let x = [
+            [0.0, 0.0],
+            [0.24, 0.0],
+            [0.24, 0.12],
+            [0.0, 0.12],
+            [0.04, 0.02],
+            [0.18, 0.03],
+            [0.16, 0.08],
+            [0.08, 0.08],
+        ]
+        .map(|[x, y]| Vec3::new(x, y, 0.0));
+        let quads = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
+        let elements = quads.iter().flat_map(|&[a, b, c, d]| match triangles {
+            true => vec![vec![a, b, c], vec![a, c, d]],
+            false => vec![vec![a, b, c, d]],
+        });
+        Mesh { x: x.to_vec(), elements: elements.collect(), normals: vec![Vec3::z(); 8] }
+    }
+
+    /// A warped element with normals of its own at the nodes.
+    fn one(rng: &mut StdRng, triangle: bool) -> Mesh {
+        let corners = [[0.0, 0.0], [1.2, 0.1], [1.3, 0.9], [-0.2, 1.1]];
+        let n = if triangle { 3 } else { 4 };
+        let x = corners[..n].iter().map(|[x, y]| Vec3::new(*x, *y, 0.0) + vector(rng, 0.1)).collect();
+        let normals = (0..n).map(|_| (Vec3::z() + vector(rng, 0.1)).normalize()).collect();
+        Mesh { x, elements: vec![(0..n).collect()], normals }
+    }
+}
+
+fn forces(block: &dyn Block, now: &Now) -> Vec<Force> {
+    let mut F = vec![[0.0; 6]; now.nodes.len()];
+    block.subtract_forces(now, &mut F);
+    F.iter().map(|f| f.map(|c| -c)).collect()
+}
+
+fn nudge(node: &mut Node, dof: usize, h: f64) {
+    let mut d = Vec3::zeros();
+    d[dof % 3] = h;
+    if dof < 3 { node.x += d } else { node.q = rotation::exp(&d) * node.q }
+}
+
+fn stiffness(block: &dyn Block, nodes: &[Node]) -> DMatrix<f64> {
+    let mut K = DMatrix::zeros(6 * nodes.len(), 6 * nodes.len());
+    for e in 0..block.len() {
+        let of = block.nodes(e);
+        let n = 6 * of.len();
+        let mut k = vec![0.0; n * n];
+        block.tangent(e, &Now::of(nodes), 0.0, Moduli::Algorithmic, &mut k);
+        for i in 0..n {
+            for j in 0..n {
+                K[(6 * of[i / 6] + i % 6, 6 * of[j / 6] + j % 6)] += k[i * n + j];
+            }
+        }
+    }
+    K
+}
+
+fn at_rest(x: &[Vec3]) -> Vec<Node> {
+    x.iter().map(|&x| Node::at_rest(x)).collect()
+}
+
+fn law() -> Law {
+    Law::new(1e3, 0.3, Hardening::Linear { yield_stress: 10.0, modulus: 50.0 }, 0.3, None)
+}
+
+/// Six zeros and no more: eigenvalues of flat, warped and narrow elements. Zeros are rounding of the largest.
+#[test]
+fn only_rigid_motions_are_free() {
+    let mut rng = StdRng::seed_from_u64(1);
+    for triangle in [false, true] {
+        for round in 0..10 {
+            let mut mesh = Mesh::one(&mut rng, triangle);
+            if round == 0 {
+                mesh.x.iter_mut().for_each(|x| x.z = 0.0);
+                mesh.normals.fill(Vec3::z());
+            }
+            let block = mesh.block(&PLATE);
+            let K = stiffness(&*block, &at_rest(&mesh.x));
+            assert!((&K - K.transpose()).amax() < 1e-13 * K.amax());
+            let mut values: Vec<f64> = K.symmetric_eigenvalues().iter().copied().collect();
+            values.sort_by(f64::total_cmp);
+            let largest = values.last().unwrap();
+            assert!(values[..6].iter().all(|v| v.abs() < 1e-14 * largest), "{values:?}");
+            // The weakest is drilling about its mean, a thousandth of the shear stiffness.
+            assert!(values[6] > 1e-6 * largest, "{values:?}");
+        }
+    }
+}
+
+/// The same element from each of its corners: same forces. Bound: rounding.
+#[test]
+fn corners_may_come_in_any_order() {
+    let mut rng = StdRng::seed_from_u64(2);
+    for triangle in [false, true] {
+        let mesh = Mesh::one(&mut rng, triangle);
+        let n = mesh.x.len();
+        let nodes: Vec<Node> = mesh
+            .x
+            .iter()
+            .map(|x| Node { q: rotation::exp(&vector(&mut rng, 0.5)), ..Node::at_rest(x + vector(&mut rng, 0.2)) })
+            .collect();
+        let F = forces(&*mesh.block(&PLATE), &Now::of(&nodes));
+        let size = F.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
+        for shift in 1..n {
+            let elements = vec![(0..n).map(|k| (k + shift) % n).collect()];
+            let other = Mesh { x: mesh.x.clone(), elements, normals: mesh.normals.clone() };
+            for (a, b) in F.iter().zip(forces(&*other.block(&PLATE), &Now::of(&nodes))) {
+                for i in 0..6 {
+                    assert!((a[i] - b[i]).abs() < 1e-12 * size, "{a:?} {b:?}");
+                }
+            }
+        }
+        // Turned over: normals down, corners the other way round.
+        let elements = vec![(0..n).rev().collect()];
+        let over = Mesh { x: mesh.x.clone(), elements, normals: mesh.normals.iter().map(|n| -n).collect() };
+        for (a, b) in F.iter().zip(forces(&*over.block(&PLATE), &Now::of(&nodes))) {
+            for i in 0..6 {
+                assert!((a[i] - b[i]).abs() < 1e-12 * size, "turned over: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+/// With layers that yield and remember: tangent against differences, within a step, loading and unloading.
+#[test]
+fn layers_have_the_tangent_of_their_stress() {
+    let mut rng = StdRng::seed_from_u64(3);
+    for triangle in [false, true] {
+        for round in 0..10 {
+            let mesh = Mesh::one(&mut rng, triangle);
+            let block = mesh.layered(&PLATE, &Yielding { law: law(), layers: 4 });
+            let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
+            let R: Mat3 = rotation::matrix(&q);
+            let mut moved = |strain: f64| -> Vec<Node> {
+                let node = |x: &Vec3| Node {
+                    q: rotation::exp(&vector(&mut rng, 3.0 * strain)) * q,
+                    ..Node::at_rest(R * (x + vector(&mut rng, strain)) + shift)
+                };
+                mesh.x.iter().map(node).collect()
+            };
+            let (first, second) = (moved(0.02), moved(0.02));
+            let mut history = vec![0.0; block.history()];
+            let past = history.clone();
+            block.remember(&Now { nodes: &first, past: &past, since: 1.0 }, 1.0, &mut history);
+            assert!(block.plastic_strain(0, &history) > 0.0, "round {round} yields nowhere");
+            let n = 6 * mesh.x.len();
+            let mut K = vec![0.0; n * n];
+            let base = Now { nodes: &second, past: &history, since: 1.0 };
+            block.tangent(0, &base, 0.0, Moduli::Algorithmic, &mut K);
+            let scale = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
+            let h = 1e-6; // truncation h² and 1e-16/h, and a layer at its yield limit is met with small chance
+            for column in 0..n {
+                let at = |h: f64| {
+                    let mut nodes = second.clone();
+                    nudge(&mut nodes[column / 6], column % 6, h);
+                    forces(&*block, &Now { nodes: &nodes, ..base })
+                };
+                let (plus, minus) = (at(h), at(-h));
+                for row in 0..n {
+                    let k = (plus[row / 6][row % 6] - minus[row / 6][row % 6]) / (2.0 * h);
+                    assert!((K[row * n + column] - k).abs() < 1e-6 * scale, "{round} {row} {column}");
+                }
+            }
+            // The elastic matrix is that of the elastic section with the stress of the layers.
+            block.tangent(0, &base, 0.0, Moduli::Elastic, &mut K);
+            assert!(K.iter().all(|k| k.is_finite()));
+        }
+    }
+}
+
+/// As long as nothing yields, layers are the elastic shell: same forces and energy to rounding.
+#[test]
+fn layers_that_do_not_yield_are_elastic() {
+    let mut rng = StdRng::seed_from_u64(4);
+    for triangle in [false, true] {
+        let mesh = Mesh::one(&mut rng, triangle);
+        let layered = mesh.layered(&PLATE, &Yielding { law: law(), layers: 2 });
+        let elastic = mesh.block(&PLATE);
+        let nodes: Vec<Node> = mesh
+            .x
+            .iter()
+            .map(|x| Node { q: rotation::exp(&vector(&mut rng, 1e-3)), ..Node::at_rest(x + vector(&mut rng, 1e-3)) })
+            .collect();
+        let history = vec![0.0; layered.history()];
+        let now = Now { nodes: &nodes, past: &history, since: 1.0 };
+        let (a, b) = (forces(&*layered, &now), forces(&*elastic, &now));
+        let size = a.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
+        assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12 * size));
+        let (a, b) = (layered.energy(&now), elastic.energy(&now));
+        assert!((a - b).abs() < 1e-12 * a);
+    }
+}
+
+/// Constant states on distorted meshes, by small displacements given on the rim: what is inside follows exactly, and so does
+/// the energy. Bound: rounding times the condition of the patch, some 1e6 with h/L of 1e-2.
+#[test]
+fn patches_strain_evenly() {
+    let h = 1e-3;
+    let plate = Plate { thickness: h, E: 1e6, nu: 0.25, drilling: 1e-3 };
+    let G = 1e6 / 2.5;
+    let plane = 1e6 / (1.0 - 0.25 * 0.25);
+    type Field = fn(f64, f64) -> ([f64; 3], [f64; 3]);
+    // (u, v, w) and rotations; with rotations (−w,y … ) chosen for no shear where bending.
+    let fields: [(&str, Field, f64); 4] = [
+        ("membrane", |x, y| ([x + 0.5 * y, y + 0.5 * x, 0.0], [0.0; 3]), { h * (plane * (1.0 + 0.25) + 0.5 * G) }),
+        // w = (x² + xy + y²)/2, θ = (w,y, −w,x).
+        ("bending", |x, y| ([0.0, 0.0, 0.5 * (x * x + x * y + y * y)], [0.5 * x + y, -x - 0.5 * y, 0.0]), {
+            h * h * h / 12.0 * (plane * (1.0 + 0.25) + 0.5 * G)
+        }),
+        ("shear", |x, y| ([0.0, 0.0, x + 0.5 * y], [0.0; 3]), h * 5.0 / 6.0 * G * 0.5 * 1.25),
+        ("rotation", |x, y| ([-y, x, 0.0], [0.0, 0.0, 1.0]), 0.0),
+    ];
+    for triangles in [false, true] {
+        let mesh = Mesh::patch(triangles);
+        let K = stiffness(&*mesh.block(&plate), &at_rest(&mesh.x));
+        for (name, field, energy) in fields {
+            if name == "shear" && triangles {
+                continue; // see the residual flexibility
+            }
+            let given = |n: usize| {
+                let (u, r) = field(mesh.x[n].x, mesh.x[n].y);
+                [u[0], u[1], u[2], r[0], r[1], r[2]]
+            };
+            let outer = 4;
+            let free: Vec<usize> = (6 * outer..6 * 8).collect();
+            let mut u = DVector::zeros(48);
+            for n in 0..outer {
+                for d in 0..6 {
+                    u[6 * n + d] = given(n)[d];
+                }
+            }
+            let Kff = DMatrix::from_fn(free.len(), free.len(), |i, j| K[(free[i], free[j])]);
+            let r = DVector::from_fn(free.len(), |i, _| -(0..24).map(|j| K[(free[i], j)] * u[j]).sum::<f64>());
+            let inner = Kff.lu().solve(&r).unwrap();
+            if name == "shear" {
+                // Bending could lower the energy: the state is held as it is instead.
+                for n in 4..8 {
+                    for d in 0..6 {
+                        u[6 * n + d] = given(n)[d];
+                    }
+                }
+            } else {
+                for (i, &dof) in free.iter().enumerate() {
+                    u[dof] = inner[i];
+                    let exact = given(dof / 6)[dof % 6];
+                    assert!((inner[i] - exact).abs() < 1e-8, "{name} {triangles}: {dof} {} {exact}", inner[i]);
+                }
+            }
+            let found = 0.5 * u.dot(&(&K * &u)) / (0.24 * 0.12);
+            let size = if energy == 0.0 { 1e6 * h } else { energy };
+            assert!((found - energy).abs() < 1e-8 * size, "{name} {triangles}: {found} {energy}");
+        }
+    }
+}
+
+/// Microseconds of a force and of a tangent: printed, not judged.
+#[test]
+fn speed() {
+    let mut rng = StdRng::seed_from_u64(5);
+    for triangle in [false, true] {
+        let mesh = Mesh::one(&mut rng, triangle);
+        let elements = vec![mesh.elements[0].clone(); 1000];
+        let mesh = Mesh { elements, ..mesh };
+        let strain = |x: &Vec3| Node::at_rest(1.02 * x);
+        let nodes: Vec<Node> = mesh.x.iter().map(strain).collect();
+        let elastic = mesh.block(&PLATE);
+        let layered = mesh.layered(&PLATE, &Yielding { law: law(), layers: 5 });
+        for (name, block) in [("elastic", elastic), ("layered, all of 5 layers yield", layered)] {
+            let history = vec![0.0; block.history()];
+            let now = Now { nodes: &nodes, past: &history, since: 1.0 };
+            let mut F = vec![[0.0; 6]; nodes.len()];
+            let best = |of: &mut dyn FnMut()| {
+                let time = |_| {
+                    let began = Instant::now();
+                    of();
+                    began.elapsed().as_secs_f64() * 1e3
+                };
+                (0..10).map(time).fold(f64::INFINITY, f64::min)
+            };
+            let force = best(&mut || block.subtract_forces(&now, &mut F));
+            let n = 6 * block.nodes(0).len();
+            let mut K = vec![0.0; n * n];
+            let tangent =
+                best(&mut || (0..1000).for_each(|e| block.tangent(e, &now, 0.0, Moduli::Algorithmic, &mut K)));
+            println!("{} nodes, {name}: force {force:.2} µs, tangent {tangent:.2} µs", n / 6);
+        }
+    }
+}
