@@ -135,11 +135,11 @@ impl<'d> Builder<'d> {
         let material = material.and_then(|name| Some((name, self.find("material", &self.deck.materials, name)?)));
         let corners = self.corners(owner, shell);
         let counts = self.need(owner, "elements", &shell.elements).and_then(|counts| self.shell_counts(counts));
-        let (material_name, (material_index, material)) = material?;
+        let (material_name, (_, material)) = material?;
         let density = self.density(material_name, material, mass, &owner.what);
         let what = format!("material `{}`, of which {} is made,", material_name.value, owner.what);
         let nu = self.need(&Owner { what, span: &material.span }, "poisson_ratio", &material.poisson_ratio);
-        let yielding = self.layers(owner, shell, material_index);
+        let yielding = self.layers(owner, shell);
         let corners = corners?;
         let triangles = match &shell.kind {
             Some(at) if at.value == deck::Kind::Quadrilateral && corners.len() == 3 => {
@@ -227,8 +227,9 @@ impl<'d> Builder<'d> {
     }
 
     /// How the shell yields, `Some(None)` where its material is elastic.
-    fn layers(&mut self, owner: &Owner<'d>, shell: &'d deck::Shell, material: usize) -> Option<Option<Yielding>> {
-        let Some(law) = self.laws[material].clone() else {
+    fn layers(&mut self, owner: &Owner<'d>, shell: &'d deck::Shell) -> Option<Option<Yielding>> {
+        // Where the material is wrong, that has been said.
+        let Some(law) = self.yielding_of(&shell.material)? else {
             self.stray(&format!("{}, whose material is elastic", owner.what), &[("layers", span(&shell.layers))]);
             return Some(None);
         };

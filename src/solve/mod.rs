@@ -40,8 +40,8 @@ pub struct Frame<'a> {
     pub reactions: &'a [f64],
     /// In the order of [`Model::links`]. Empty unless `due` and wanted.
     pub links: &'a [LinkState],
-    /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Empty unless `due` and
-    /// wanted.
+    /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Empty
+    /// unless `due` and wanted.
     pub plastic_strains: &'a [f64],
     /// Empty unless `due` and wanted.
     pub sections: &'a [SectionPoint],
