@@ -6,4 +6,6 @@ mod benchmarks;
 mod dynamics;
 #[path = "shells/element.rs"]
 mod element;
+#[path = "shells/pressure.rs"]
+mod pressure;
 mod support;

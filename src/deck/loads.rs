@@ -20,9 +20,10 @@ pub struct Load {
     pub force_per_length: Maybe<Vector>,
     /// On the area that shells have at t = 0, global components; `at` then names shells.
     pub force_per_area: Maybe<Vector>,
-    /// On shells, against their normals at t = 0, which see the corners go round counter-clockwise; `at` then names shells.
+    /// On shells, against their normals, which see the corners go round counter-clockwise; `at` then names shells. Area and
+    /// normals are those of t = 0, or with `follower` those of the moment.
     pub pressure: Maybe<f64>,
-    /// Turns with its node. Default: false.
+    /// A force or moment turns with its node, a pressure goes with the surface. Default: false.
     pub follower: Maybe<bool>,
     /// Name of an amplitude that multiplies the load. Default: constant (dynamic), growing linearly (static).
     pub amplitude: Maybe<String>,

@@ -5,6 +5,7 @@ pub mod bar;
 pub mod beam;
 pub mod bushing;
 pub mod link;
+pub mod pressure;
 pub mod shell;
 
 use crate::materials::Spent;

@@ -117,6 +117,7 @@ impl<'d> Builder<'d> {
             held: Vec::new(),
             amplitudes: Vec::new(),
             loads: Vec::new(),
+            pressures: Vec::new(),
             gravity: Vec3::zeros(),
             base_accelerations: Vec::new(),
             damping: Damping::default(),

@@ -3,12 +3,13 @@
 use super::attachments::directions;
 use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
 use super::places::{Place, Reach};
-use super::{BaseAcceleration, Damping, Load, NodalDamping};
+use super::{BaseAcceleration, Damping, Load, NodalDamping, Pressure};
 use crate::amplitude::Amplitude;
 use crate::deck::amplitudes as deck;
 use crate::deck::loads::Load as Spread;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
+use crate::elements::pressure::Face;
 use crate::elements::shell;
 use crate::math::Vec3;
 use std::collections::BTreeMap;
@@ -119,13 +120,20 @@ impl<'d> Builder<'d> {
     /// A load spread over edges or shells, as forces on their nodes.
     fn spread_load(&mut self, load: &'d At<Table<Spread>>) {
         let owner = Owner { what: "`[[loads]]`".to_owned(), span: &load.span };
-        let strays = [("force", span(&load.force)), ("moment", span(&load.moment)), ("follower", span(&load.follower))];
-        self.stray("a load spread over shells", &strays);
+        self.stray("a load spread over shells", &[("force", span(&load.force)), ("moment", span(&load.moment))]);
+        let follower = load.follower.as_ref().filter(|follower| follower.value);
+        if let Some(at) = follower
+            && (load.force_per_length.is_some() || load.force_per_area.is_some())
+        {
+            let hint = "give what keeps its direction a table of its own";
+            self.error_with::<()>(&at.span, "of loads spread over shells only `pressure` follows", hint);
+        }
         let amplitude = load.amplitude.as_ref().map(|name| self.amplitude(name));
         let Some(names) = self.need(&owner, "at", &load.at) else { return };
         let (line, area) = (vec3_or_zero(&load.force_per_length), vec3_or_zero(&load.force_per_area));
         let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
         let mut forces: BTreeMap<usize, Vec3> = BTreeMap::new();
+        let mut faces = Vec::new();
         for name in &names.values {
             match self.lookup(name) {
                 None => {}
@@ -140,6 +148,10 @@ impl<'d> Builder<'d> {
                     let Some(shell) = self.model.shells.iter().find(|shell| shell.name == name.value) else { continue };
                     for element in &shell.elements {
                         let nodes = &element.nodes[..shell.corners];
+                        if follower.is_some() {
+                            faces.extend(Face::of(nodes));
+                            continue;
+                        }
                         let x: Vec<Vec3> = nodes.iter().map(|&node| self.model.nodes[node].x).collect();
                         let parts = shell::shares(&x).into_iter().zip(shell::faces(&x));
                         for (&node, (share, face)) in nodes.iter().zip(parts) {
@@ -157,6 +169,9 @@ impl<'d> Builder<'d> {
         let amplitude = amplitude.flatten();
         let load = |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude };
         self.model.loads.extend(forces.into_iter().map(load));
+        if !faces.is_empty() {
+            self.model.pressures.push(Pressure { faces, pressure, amplitude });
+        }
     }
 
     pub fn environment(&mut self) {

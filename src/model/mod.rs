@@ -21,6 +21,7 @@ pub use build::{build, read};
 use crate::amplitude::Amplitude;
 use crate::elements::beam::Yielding;
 use crate::elements::link::Law;
+use crate::elements::pressure::Face;
 use crate::elements::shell::{self, Plate};
 use crate::integrators::Scheme;
 use crate::math::{Mat3, Vec3};
@@ -50,6 +51,7 @@ pub struct Model {
     pub held: Vec<Held>,
     pub amplitudes: Vec<Amplitude>,
     pub loads: Vec<Load>,
+    pub pressures: Vec<Pressure>,
     pub gravity: Vec3,
     pub base_accelerations: Vec<BaseAcceleration>,
     pub damping: Damping,
@@ -288,6 +290,14 @@ pub struct Load {
     pub moment: Vec3,
     /// Turns with its node.
     pub follower: bool,
+    pub amplitude: Option<usize>,
+}
+
+/// Pressure on faces as they are at the moment, against their normals.
+#[derive(Debug, Clone)]
+pub struct Pressure {
+    pub faces: Vec<Face>,
+    pub pressure: f64,
     pub amplitude: Option<usize>,
 }
 

@@ -145,6 +145,9 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
             moved[load.node][3 + i] |= load.follower || load.moment[i] != 0.0;
         }
     }
+    for node in model.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()) {
+        moved[*node][..3].fill(true);
+    }
     for held in model.held.iter().filter(|held| held.motion.is_some()) {
         moved[held.node][held.dof] = true;
     }

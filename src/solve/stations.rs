@@ -37,7 +37,8 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
         }
     }
     let loads = model.loads.iter().filter_map(|load| load.amplitude);
-    for amplitude in loads.chain(model.base_accelerations.iter().map(|base| base.amplitude)) {
+    let pressures = model.pressures.iter().filter_map(|load| load.amplitude);
+    for amplitude in loads.chain(pressures).chain(model.base_accelerations.iter().map(|base| base.amplitude)) {
         out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| station(jump.time, false, true)));
     }
     out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));

@@ -26,6 +26,8 @@ pub struct Assembly {
     /// Nodes that have a matrix of their own: inertia, nodal damping, follower loads, arms of riders.
     nodes: Vec<(usize, Place)>,
     masses: Vec<Place>,
+    /// Of the faces under pressures that follow, in their order.
+    faces: Vec<Place>,
     scatter: Scatter,
     /// Per node: the nodes it ends up on by riding, or itself.
     roots: Vec<Vec<usize>>,
@@ -135,6 +137,7 @@ pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
         (0..group.block.len()).for_each(|e| add(group.block.nodes(e)));
     }
     system.consistent_masses().iter().for_each(|m| add(&m.nodes));
+    system.pressures.iter().flat_map(|load| &load.faces).for_each(|face| add(face.nodes()));
     (0..nodes).filter(|&n| roots[n] != [n]).for_each(|n| add(&[n]));
     cliques
 }
@@ -162,24 +165,26 @@ impl Assembly {
             let entries = scatter.push(solver, 36 * m * m, entry);
             Place { targets, entries }
         };
+        // Of an element with `d` directions a node, row-major.
+        let mut local = |scatter: &mut Scatter, of: &[usize], d: usize| {
+            if of.iter().any(|&n| roots[n] != [n]) {
+                return carried(scatter, of, &|_, _| true);
+            }
+            let size = d * of.len();
+            let row = |i: usize| rows[of[i / d]][i % d];
+            let entries = scatter.push(solver, size * size, |k| (row(k / size), row(k % size)));
+            Place { targets: Vec::new(), entries }
+        };
         let groups: Vec<Vec<Place>> = system
             .groups
             .iter()
             .map(|group| {
                 let (block, d) = (&group.block, group.block.dofs());
-                let place = |e: usize| {
-                    let of = block.nodes(e);
-                    if of.iter().any(|&n| roots[n] != [n]) {
-                        return carried(&mut scatter, of, &|_, _| true);
-                    }
-                    let size = d * of.len();
-                    let row = |i: usize| rows[of[i / d]][i % d];
-                    let entries = scatter.push(solver, size * size, |k| (row(k / size), row(k % size)));
-                    Place { targets: Vec::new(), entries }
-                };
-                (0..block.len()).map(place).collect()
+                (0..block.len()).map(|e| local(&mut scatter, block.nodes(e), d)).collect()
             })
             .collect();
+        let faces = system.pressures.iter().flat_map(|load| &load.faces);
+        let faces: Vec<Place> = faces.map(|face| local(&mut scatter, face.nodes(), 3)).collect();
 
         // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
@@ -207,6 +212,7 @@ impl Assembly {
             groups,
             nodes: own,
             masses,
+            faces,
             scatter,
             threads,
             unsymmetric: !solver.symmetric(),
@@ -237,6 +243,7 @@ impl Assembly {
         self.carry_over(system, nodes);
         if weights.stiffness {
             self.add_elements(system, now, weights, values);
+            self.add_pressures(system, nodes, loading, values);
         }
         self.form_nodes(system, nodes, loading, forces, weights);
         self.add_nodes(values);
@@ -262,11 +269,11 @@ impl Assembly {
         for (group, places) in system.groups.iter().zip(&self.groups) {
             let (block, d) = (&group.block, group.block.dofs());
             let now = &group.share(now);
-            let n = block.nodes(0).len();
-            let length = (d * n).pow(2);
+            let length = (d * block.nodes(0).len()).pow(2);
             for first in (0..block.len()).step_by(CHUNK) {
                 let last = (first + CHUNK).min(block.len());
-                let local = &mut self.scratch.local[..length * (last - first)];
+                let Scratch { local, carry: maps, carried, .. } = &mut self.scratch;
+                let local = &mut local[..length * (last - first)];
                 if self.threads > 1 && block.len() >= PARALLEL {
                     local
                         .par_chunks_mut(length)
@@ -279,19 +286,21 @@ impl Assembly {
                         .for_each(|(k, K)| block.tangent(first + k, now, rate, moduli, K));
                 }
                 for (e, K) in (first..last).zip(local.chunks(length)) {
-                    let place = &places[e];
-                    if place.targets.is_empty() {
-                        self.scatter.add(K, place.entries, values);
-                        continue;
-                    }
-                    let pair = |a: usize, b: usize| {
-                        let at = |i: usize, j: usize| K[(d * a + i) * d * n + d * b + j];
-                        Mat6::from_fn(|i, j| if i < d && j < d { at(i, j) } else { 0.0 })
-                    };
-                    let carried = &mut self.scratch.carried;
-                    carry(block.nodes(e), &place.targets, &self.roots, &self.scratch.carry, pair, carried);
-                    self.scatter.add(carried.as_flattened(), place.entries, values);
+                    add_local(K, block.nodes(e), &places[e], (&self.scatter, &self.roots, maps), carried, values);
                 }
+            }
+        }
+    }
+
+    fn add_pressures(&mut self, system: &System, nodes: &[Node], loading: &Loading, values: &mut [f64]) {
+        let Scratch { carry: maps, carried, .. } = &mut self.scratch;
+        let mut places = self.faces.iter();
+        for (load, p) in system.pressures.iter().zip(&loading.pressures) {
+            for (face, place) in load.faces.iter().zip(&mut places) {
+                let mut K = [0.0; 12 * 12];
+                let K = &mut K[..(3 * face.nodes().len()).pow(2)];
+                face.stiffness(*p, nodes, K);
+                add_local(K, face.nodes(), place, (&self.scatter, &self.roots, maps), carried, values);
             }
         }
     }
@@ -355,6 +364,28 @@ impl Assembly {
             self.scatter.add(carried.as_flattened(), place.entries, values);
         }
     }
+}
+
+/// Adds an element's matrix, row-major with 3 or 6 directions a node.
+fn add_local(
+    K: &[f64],
+    nodes: &[usize],
+    place: &Place,
+    (scatter, roots, maps): (&Scatter, &[Vec<usize>], &[Vec<Mat6>]),
+    carried: &mut [[f64; 36]],
+    values: &mut [f64],
+) {
+    if place.targets.is_empty() {
+        return scatter.add(K, place.entries, values);
+    }
+    let width = K.len().isqrt();
+    let d = width / nodes.len();
+    let pair = |a: usize, b: usize| {
+        let at = |i: usize, j: usize| K[(d * a + i) * width + d * b + j];
+        Mat6::from_fn(|i, j| if i < d && j < d { at(i, j) } else { 0.0 })
+    };
+    carry(nodes, &place.targets, roots, maps, pair, carried);
+    scatter.add(carried.as_flattened(), place.entries, values);
 }
 
 /// K̂ = 𝒯ᵀ K 𝒯 over the targets, with `pair(a, b)` the element's 6×6 block of its nodes a and b.

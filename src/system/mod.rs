@@ -56,6 +56,7 @@ pub struct System {
     pub attachments: Vec<Attachment>,
     watched: Vec<results::Watched>,
     loads: Vec<model::Load>,
+    pressures: Vec<model::Pressure>,
     nodal_damping: Vec<model::NodalDamping>,
     mass_damping: f64,
     /// The global axis normal to the motion, where the scene is plane.
@@ -64,10 +65,14 @@ pub struct System {
     dynamic: bool,
 }
 
-/// Loads at the instant of equilibrium: factors of the model's loads, and the acceleration field that every mass feels.
+/// Loads at the instant of equilibrium.
 #[derive(Debug, Clone, Default)]
 pub struct Loading {
+    /// Of the model's loads.
     pub factors: Vec<f64>,
+    /// The model's pressures that follow, with their factors.
+    pub pressures: Vec<f64>,
+    /// The acceleration that every mass feels.
     pub field: Vec3,
 }
 
@@ -131,6 +136,7 @@ impl System {
             plane,
             watched,
             loads: model.loads.clone(),
+            pressures: model.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: model.damping.mass_factor,
             dynamic: model.analysis.kind == model::Kind::Dynamic,
@@ -176,6 +182,11 @@ impl System {
                 *sum += f;
             }
         }
+        for (load, p) in self.pressures.iter().zip(&loading.pressures) {
+            for face in &load.faces {
+                scale.force = scale.force.max(face.add_forces(*p, nodes, F));
+            }
+        }
         for (rider, force) in self.attachments.iter().zip(&mut forces.on_riders).rev() {
             *force = Vec3::new(F[rider.node][0], F[rider.node][1], F[rider.node][2]);
             rider.lift(nodes, F);
@@ -183,7 +194,8 @@ impl System {
         scale
     }
 
-    /// Work of loads and weight over a step, by the mean of the forces at its ends.
+    /// Work of loads and weight over a step, by the mean of the forces at its ends; of pressures that follow, by the volume
+    /// that faces sweep.
     pub fn external_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> f64 {
         let field = 0.5 * (from.1.field + to.1.field);
         let moved = |node: usize| to.0[node].x - from.0[node].x;
@@ -200,6 +212,9 @@ impl System {
             if load.moment != Vec3::zeros() {
                 work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.q * a.q.conjugate())));
             }
+        }
+        for (load, (p0, p1)) in self.pressures.iter().zip(from.1.pressures.iter().zip(&to.1.pressures)) {
+            work += load.faces.iter().map(|face| face.work([*p0, *p1], from.0, to.0)).sum::<f64>();
         }
         work
     }
@@ -249,6 +264,7 @@ impl System {
         self.groups.iter().all(|g| g.block.is_linear())
             && self.attachments.is_empty()
             && self.loads.iter().all(|l| !l.follower)
+            && self.pressures.is_empty()
     }
 }
 

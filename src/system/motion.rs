@@ -59,6 +59,9 @@ impl<'a> Drive<'a> {
             None => self.plain_factor(t),
         };
         loading.factors.extend(self.model.loads.iter().map(|load| factor(load.amplitude)));
+        loading.pressures.clear();
+        let pressures = self.model.pressures.iter();
+        loading.pressures.extend(pressures.map(|load| load.pressure * factor(load.amplitude)));
         loading.field = self.plain_factor(t) * self.model.gravity;
         for base in &self.model.base_accelerations {
             loading.field -= self.factor(base.amplitude, t, side) * base.direction;
@@ -91,8 +94,12 @@ fn prescribed(motion: &Motion, amplitude: &Amplitude, t: f64) -> Prescribed {
 
 /// y ← a + s (b − a): given values at an instant from those at the ends of a step.
 pub fn between(a: &Loading, b: &Loading, s: f64, y: &mut Loading) {
-    y.factors.clear();
-    y.factors.extend(a.factors.iter().zip(&b.factors).map(|(a, b)| a + s * (b - a)));
+    let mix = |a: &[f64], b: &[f64], y: &mut Vec<f64>| {
+        y.clear();
+        y.extend(a.iter().zip(b).map(|(a, b)| a + s * (b - a)));
+    };
+    mix(&a.factors, &b.factors, &mut y.factors);
+    mix(&a.pressures, &b.pressures, &mut y.pressures);
     y.field = lerp(&a.field, &b.field, s);
 }
 

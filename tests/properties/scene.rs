@@ -59,6 +59,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         held: vec![],
         amplitudes: vec![],
         loads: vec![],
+        pressures: vec![],
         gravity: Vec3::zeros(),
         base_accelerations: vec![],
         damping: Damping::default(),

@@ -74,6 +74,7 @@ pub fn model() -> Model {
         held: vec![Held { node: 0, dof: 0, motion: None }, Held { node: 0, dof: 5, motion: None }],
         amplitudes: vec![],
         loads: vec![],
+        pressures: vec![],
         gravity: Vec3::zeros(),
         base_accelerations: vec![],
         damping: Damping::default(),

@@ -1,0 +1,124 @@
+//! Pressure that follows: on the area and along the normal that a face has at the moment.
+//!
+//! A face x(ξ, η) of three or four nodes feels f_a = −p ∫ N_a x,ξ × x,η dξ dη, p against the normal, which sees the nodes go
+//! round counter-clockwise. With x linear or bilinear the integral is a polynomial in the nodes' positions, of second
+//! degree, and written out below. f is −p times the derivative of the volume under the face, so over a closed surface p has
+//! the potential p V and a symmetric stiffness; at a free border the stiffness is not symmetric (Schweizerhof & Ramm 1984).
+
+use super::Force;
+use crate::math::{Mat3, Vec3, skew};
+use crate::state::Node;
+
+/// What pressure acts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    Triangle([usize; 3]),
+    Quadrilateral([usize; 4]),
+}
+
+/// x,ξ = e₀ + η e₂ and x,η = e₁ + ξ e₂ as sums of the nodes of a quadrilateral, ξ and η from −1 to 1.
+const SLOPES: [[f64; 4]; 3] = [[-0.25, 0.25, 0.25, -0.25], [-0.25, -0.25, 0.25, 0.25], [0.25, -0.25, 0.25, -0.25]];
+/// Those pairs whose products e_i × e_j are the face's: by ∫ N_a, by ∫ N_a ξ, by ∫ N_a η.
+const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
+/// The three integrals, by node.
+const SHARES: [[f64; 3]; 4] =
+    [[1.0, -THIRD, -THIRD], [1.0, THIRD, -THIRD], [1.0, THIRD, THIRD], [1.0, -THIRD, THIRD]];
+const THIRD: f64 = 1.0 / 3.0;
+
+impl Face {
+    /// Of the three or four corners of an element.
+    pub fn of(nodes: &[usize]) -> Option<Face> {
+        match *nodes {
+            [a, b, c] => Some(Face::Triangle([a, b, c])),
+            [a, b, c, d] => Some(Face::Quadrilateral([a, b, c, d])),
+            _ => None,
+        }
+    }
+
+    pub fn nodes(&self) -> &[usize] {
+        match self {
+            Face::Triangle(nodes) => nodes,
+            Face::Quadrilateral(nodes) => nodes,
+        }
+    }
+
+    /// ∫ N_a n dA for each of [`Face::nodes`], zero beyond them; `x`: positions by node.
+    #[inline]
+    pub fn areas(&self, x: impl Fn(usize) -> Vec3) -> [Vec3; 4] {
+        match self {
+            Face::Triangle([a, b, c]) => {
+                let first = x(*a);
+                let third = (x(*b) - first).cross(&(x(*c) - first)) / 6.0;
+                [third, third, third, Vec3::zeros()]
+            }
+            Face::Quadrilateral(nodes) => {
+                let e = edges(nodes, x);
+                let products = PAIRS.map(|[i, j]| e[i].cross(&e[j]));
+                SHARES.map(|share| (0..3).map(|k| share[k] * products[k]).sum())
+            }
+        }
+    }
+
+    /// Adds the forces of pressure `p` to `F`, by node; returns the largest component of them.
+    #[inline]
+    pub fn add_forces(&self, p: f64, nodes: &[Node], F: &mut [Force]) -> f64 {
+        let mut largest: f64 = 0.0;
+        for (&node, area) in self.nodes().iter().zip(self.areas(|n| nodes[n].x)) {
+            let f = p * area;
+            largest = largest.max(f.amax());
+            super::subtract(&mut F[node], 0, &f);
+        }
+        largest
+    }
+
+    /// Work of a pressure that goes from `p[0]` to `p[1]` while every node goes straight from `from` to `to`: exact, since
+    /// force along the way is of third degree (Simpson). A constant p does p times the change of volume.
+    pub fn work(&self, p: [f64; 2], from: &[Node], to: &[Node]) -> f64 {
+        let moved = |n: usize| to[n].x - from[n].x;
+        let at = |s: f64| {
+            let areas = self.areas(|n| from[n].x + s * moved(n));
+            let sum: f64 = self.nodes().iter().zip(areas).map(|(&n, area)| area.dot(&moved(n))).sum();
+            -(p[0] + s * (p[1] - p[0])) * sum
+        };
+        (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+    }
+
+    /// K ← −∂f/∂x, row-major over the nodes, three directions each.
+    pub fn stiffness(&self, p: f64, nodes: &[Node], K: &mut [f64]) {
+        let x = |n: usize| nodes[n].x;
+        match self {
+            Face::Triangle([a, b, c]) => {
+                // ∂[(b − a) × (c − a)]: each corner moves against the side across from it.
+                let sides = [x(*c) - x(*b), x(*a) - x(*c), x(*b) - x(*a)].map(|side| p / 6.0 * skew(&side));
+                set(K, |_, column| sides[column]);
+            }
+            Face::Quadrilateral(nodes) => {
+                let e = edges(nodes, x).map(|e| p * skew(&e));
+                let by = PAIRS.map(|[i, j]| [0, 1, 2, 3].map(|b| SLOPES[j][b] * e[i] - SLOPES[i][b] * e[j]));
+                set(K, |a, b| (0..3).map(|k| SHARES[a][k] * by[k][b]).sum());
+            }
+        }
+    }
+}
+
+/// The e_i.
+#[inline]
+fn edges(nodes: &[usize; 4], x: impl Fn(usize) -> Vec3) -> [Vec3; 3] {
+    let first = x(nodes[0]);
+    let x = nodes.map(|n| x(n) - first);
+    SLOPES.map(|slope| (0..4).map(|a| slope[a] * x[a]).sum())
+}
+
+fn set(K: &mut [f64], block: impl Fn(usize, usize) -> Mat3) {
+    let n = (K.len() / 9).isqrt();
+    for a in 0..n {
+        for b in 0..n {
+            let block = block(a, b);
+            for i in 0..3 {
+                for j in 0..3 {
+                    K[(3 * a + i) * 3 * n + 3 * b + j] = block[(i, j)];
+                }
+            }
+        }
+    }
+}
