@@ -10,7 +10,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    BaseAcceleration, Cadence, Held, History, Iteration, Kind, Method, Model, Motion, NodalDamping, Update,
+    BaseAcceleration, Cadence, Held, History, Iteration, Kind, MassKind, Method, Model, Motion, NodalDamping, Update,
 };
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
@@ -96,6 +96,31 @@ fn no_step_after_the_first_allocates() {
             assert!(state.work.material.plastic > 0.1, "{:?}", state.work);
         }
     }
+    shells_neither();
+}
+
+/// Shells of both kinds and masses, elastic and yielding, on a body, under pressure that follows.
+fn shells_neither() {
+    let mut m = empty(Kind::Dynamic, 0.3, 0.005);
+    m.iteration.tolerance = 1e-8;
+    let [o, x, y] = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+    let first = shell(&mut m, [o, 2.0 * x, y], [3, 2], 4, MassKind::Consistent);
+    shell(&mut m, [3.0 * x, 5.0 * x, 3.0 * x + y], [2, 2], 3, MassKind::Lumped);
+    let block = body(&mut m, Vec3::new(2.5, 0.5, 0.0), 1.0, Mat3::identity());
+    [first[3], first[7], first[11]].map(|n| ride(&mut m, n, block, ALL));
+    m.nodes[block].omega = Vec3::new(0.0, 1.0, 0.5);
+    [first[0], first[4], first[8]].map(|n| fix(&mut m, n, 0..6));
+    let pulse = sine_squared(&mut m, 4.0);
+    press(&mut m, 4.0, Some(pulse));
+    m.damping.stiffness_factor = 1e-3;
+    for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+        assert_none(&m, kind);
+    }
+    soften(&mut m, 10.0);
+    m.iteration.limit = 200;
+    m.iteration.method = Method::Auto;
+    let state = assert_none(&m, rdsolve::linear::Kind::Block);
+    assert!(state.work.material.plastic > 0.01, "{:?}", state.work);
 }
 
 fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {

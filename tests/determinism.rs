@@ -194,3 +194,73 @@ fn a_small_scene_that_yields_by_every_method() {
         assert!(spent(&folder) > 0.0, "{method}");
     }
 }
+
+/// Two patches on a block, one of triangles, blown up; 1080 elements in the first: enough for threads to fill matrices.
+const SHEET: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1e-3
+time_step = 5e-4
+
+[points]
+a = [0.0, 0.0, 0.0]
+b = [2.0, 0.0, 0.0]
+c = [2.0, 1.0, 0.1]
+d = [0.0, 1.0, 0.0]
+e = [2.5, 0.0, 0.0]
+f = [2.5, 1.0, 0.0]
+
+[[shells]]
+name = "sheet"
+corners = ["a", "b", "c", "d"]
+elements = [36, 30]
+thickness = 0.01
+material = "steel"
+layers = 2
+
+[[shells]]
+name = "flap"
+corners = ["b", "e", "f", "c"]
+elements = [5, 30]
+kind = "triangle"
+thickness = 0.01
+material = "steel"
+mass = "consistent"
+layers = 2
+
+[[bodies]]
+name = "block"
+center = [2.6, 0.5, 0.0]
+mass = 20.0
+inertia = [2.0, 1.0, 1.5]
+
+[[attachments]]
+body = "block"
+nodes = ["flap.edge2"]
+
+[[supports]]
+at = "sheet.edge4"
+fix = "all"
+
+[[loads]]
+at = ["sheet", "flap"]
+pressure = -1e5
+follower = true
+
+[output]
+nodes = "named"
+reactions = true
+sections = true
+fields = { format = "vtu", every = 2 }
+"#;
+
+#[test]
+fn shells_under_pressure() {
+    let elastic = SHEET.replace("layers = 2\n", "");
+    let folder = assert_same(&format!("{elastic}{COMMON}"), 9);
+    let plan = std::fs::read_to_string(folder.path().join("first/result.json")).unwrap();
+    assert!(plan.contains("Cholesky"), "threads take part in the factorisation too: {plan}");
+    let soft = SOFT.replace("yield_stress = 1e6", "yield_stress = 1e7");
+    let folder = assert_same(&format!("{SHEET}{soft}"), 9);
+    assert!(spent(&folder) > 0.0);
+}

@@ -21,8 +21,7 @@ const SLOPES: [[f64; 4]; 3] = [[-0.25, 0.25, 0.25, -0.25], [-0.25, -0.25, 0.25, 
 /// Those pairs whose products e_i × e_j are the face's: by ∫ N_a, by ∫ N_a ξ, by ∫ N_a η.
 const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
 /// The three integrals, by node.
-const SHARES: [[f64; 3]; 4] =
-    [[1.0, -THIRD, -THIRD], [1.0, THIRD, -THIRD], [1.0, THIRD, THIRD], [1.0, -THIRD, THIRD]];
+const SHARES: [[f64; 3]; 4] = [[1.0, -THIRD, -THIRD], [1.0, THIRD, -THIRD], [1.0, THIRD, THIRD], [1.0, -THIRD, THIRD]];
 const THIRD: f64 = 1.0 / 3.0;
 
 impl Face {

@@ -5,6 +5,8 @@ use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
 use rdsolve::elements::beam::{Rule, Yielding};
 use rdsolve::elements::link::Law;
+use rdsolve::elements::pressure::Face;
+use rdsolve::elements::shell::{self, DRILLING, Plate};
 use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use rdsolve::linear;
 use rdsolve::materials::{Hardening, Law as Material, Overstress, Viscosity};
@@ -154,6 +156,38 @@ pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_lengt
     });
 }
 
+/// A patch of n by m shell elements over the parallelogram of `a`, `b` and `d`; returns its nodes, row by row from `a`.
+pub fn shell(
+    model: &mut Model,
+    [a, b, d]: [Vec3; 3],
+    [n, m]: [usize; 2],
+    corners: usize,
+    mass: MassKind,
+) -> Vec<usize> {
+    let at = |i: usize, j: usize| a + (b - a) * (i as f64 / n as f64) + (d - a) * (j as f64 / m as f64);
+    let nodes: Vec<usize> = (0..(n + 1) * (m + 1)).map(|k| node(model, at(k % (n + 1), k / (n + 1)))).collect();
+    let normals = [(b - a).cross(&(d - a)).normalize(); 4];
+    let mut elements = vec![];
+    for k in (0..n * m).map(|k| k / n * (n + 1) + k % n) {
+        let of = [k, k + 1, k + n + 2, k + n + 1].map(|k| nodes[k]);
+        let split = [[of[0], of[1], of[2], of[2]], [of[0], of[2], of[3], of[3]]];
+        let whole = [of];
+        let of: &[[usize; 4]] = if corners == 3 { &split } else { &whole };
+        elements.extend(of.iter().map(|&nodes| ShellElement { nodes, normals }));
+    }
+    let name = format!("shell{}", model.shells.len());
+    let plate = Plate { thickness: 0.1, E: 2e3, nu: 0.3, drilling: DRILLING };
+    model.shells.push(Shell { name, plate, density: 3.0, mass, yielding: None, corners, elements });
+    nodes
+}
+
+/// Pressure that follows on all shells.
+pub fn press(m: &mut Model, pressure: f64, amplitude: Option<usize>) {
+    let elements = m.shells.iter().flat_map(|s| s.elements.iter().map(|e| &e.nodes[..s.corners]));
+    let faces = elements.filter_map(Face::of).collect();
+    m.pressures.push(Pressure { faces, pressure, amplitude });
+}
+
 pub fn fix(m: &mut Model, node: usize, dofs: impl IntoIterator<Item = usize>) {
     m.held.extend(dofs.into_iter().map(|dof| Held { node, dof, motion: None }));
 }
@@ -242,6 +276,9 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
         bar.yielding = Some(laws[i % 2].clone());
         bar.tension_only = i % 2 == 1;
     }
+    for (i, part) in m.shells.iter_mut().enumerate() {
+        part.yielding = Some(shell::Yielding { law: laws[i % 2].clone(), layers: 3 });
+    }
 }
 
 /// The scene turned by R about the origin, then shifted. Held directions must come in whole triples.
@@ -255,6 +292,7 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
     t.bodies.iter_mut().for_each(|b| tensor(&mut b.inertia));
     t.masses.iter_mut().for_each(|b| tensor(&mut b.inertia));
     t.beams.iter_mut().flat_map(|b| &mut b.elements).for_each(|e| e.frame = R * e.frame);
+    t.shells.iter_mut().flat_map(|s| &mut s.elements).for_each(|e| e.normals = e.normals.map(|n| R * n));
     for link in &mut t.links {
         match &mut link.kind {
             LinkKind::Line { direction: Some(d), .. } => *d = R * *d,

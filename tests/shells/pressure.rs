@@ -58,7 +58,12 @@ fn volume(faces: &[Face], x: &[Vec3]) -> f64 {
         Face::Quadrilateral(n) => {
             let g = 1.0 / 3f64.sqrt();
             let point = |(xi, eta): (f64, f64)| {
-                let N = [(1.0 - xi) * (1.0 - eta), (1.0 + xi) * (1.0 - eta), (1.0 + xi) * (1.0 + eta), (1.0 - xi) * (1.0 + eta)];
+                let N = [
+                    (1.0 - xi) * (1.0 - eta),
+                    (1.0 + xi) * (1.0 - eta),
+                    (1.0 + xi) * (1.0 + eta),
+                    (1.0 - xi) * (1.0 + eta),
+                ];
                 let X: Vec3 = (0..4).map(|a| 0.25 * N[a] * x[n[a]]).sum();
                 let by_xi = 0.25 * ((1.0 - eta) * (x[n[1]] - x[n[0]]) + (1.0 + eta) * (x[n[2]] - x[n[3]]));
                 let by_eta = 0.25 * ((1.0 - xi) * (x[n[3]] - x[n[0]]) + (1.0 + xi) * (x[n[2]] - x[n[1]]));
@@ -154,10 +159,10 @@ title = "inflated strip"
 [analysis]
 kind = "static"
 end_time = 1.0
-time_step = 0.25
+time_step = 0.1
 [materials.m]
 model = "elastic"
-youngs_modulus = 1e6
+youngs_modulus = 1e5
 poisson_ratio = 0.0
 [points]
 a = [-0.5, 0.0, 0.0]
@@ -168,7 +173,7 @@ d = [-0.5, 0.2, 0.0]
 name = "strip"
 corners = ["a", "b", "c", "d"]
 elements = [COUNT, 1]
-thickness = 1e-4
+thickness = 1e-3
 material = "m"
 kind = "KIND"
 surface = { kind = "cylinder", center = [0.0, 0.0, -0.8660254037844386], axis = [0.0, 1.0, 0.0] }
@@ -183,7 +188,7 @@ follower = true
 
 /// A strip between two hinges, an arc of 60° at first, is blown up: T = p R, with T = λ E h ½ (λ² − 1) since stress and strain
 /// are those of Kirchhoff and Green, and the chord kept. Second order in the length of elements; bending, which the
-/// formula leaves out, is h²/(12 R ε) ≈ 1e-8 of the span.
+/// formula leaves out, is h²/(12 R ε) ≈ 1e-6 of the span.
 #[test]
 fn a_strip_is_blown_up_to_an_arc() {
     let (span, angle, p, stiffness): (f64, f64, f64, f64) = (1.0, 30f64.to_radians(), 30.0, 100.0);
@@ -204,7 +209,8 @@ fn a_strip_is_blown_up_to_an_arc() {
             .into_iter()
             .map(|n| {
                 let model = read(&INFLATED.replace("COUNT", &n.to_string()).replace("KIND", kind));
-                let top = (0..model.nodes.len()).max_by(|a, b| model.nodes[*a].x.z.total_cmp(&model.nodes[*b].x.z)).unwrap();
+                let top =
+                    (0..model.nodes.len()).max_by(|a, b| model.nodes[*a].x.z.total_cmp(&model.nodes[*b].x.z)).unwrap();
                 let done = support::run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[top].x.z]);
                 let found = done.rows.last().unwrap()[0];
                 println!("{kind} {n}: rise {found} ({:+.2e}), {:?}", found / rise - 1.0, done.counts);
@@ -302,10 +308,10 @@ fn the_balance_of_energy_holds_the_work_of_pressure() {
             let deck = INFLATED
                 .replace("\"static\"", "\"dynamic\"")
                 .replace("end_time = 1.0", "end_time = 0.02")
-                .replace("time_step = 0.25", &format!("time_step = {step:?}"))
+                .replace("time_step = 0.1", &format!("time_step = {step:?}"))
                 .replace("poisson_ratio = 0.0", "poisson_ratio = 0.3\ndensity = 1000.0")
-                .replace("thickness = 1e-4", "thickness = 1e-2")
-                .replace("pressure = -30.0", "pressure = -3000.0\namplitude = \"push\"")
+                .replace("thickness = 1e-3", "thickness = 1e-2")
+                .replace("pressure = -30.0", "pressure = -300.0\namplitude = \"push\"")
                 .replace("COUNT", "6")
                 .replace("KIND", "quadrilateral")
                 + "[amplitudes.push]\nkind = \"sine-squared\"\nfrequency = 20.0\n";
