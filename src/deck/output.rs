@@ -23,8 +23,10 @@ pub struct Output {
     pub links: Maybe<bool>,
     /// Write reactions.csv. Default: false.
     pub reactions: Maybe<bool>,
-    /// Write sections.csv. Default: false.
+    /// Write sections.csv of beams and shells.csv of shells: their stress resultants. Default: false.
     pub sections: Maybe<bool>,
+    /// Write layers.csv: stress through the thickness of shells. Default: false.
+    pub layers: Maybe<bool>,
 }
 
 /// Field files.

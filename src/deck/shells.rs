@@ -30,6 +30,9 @@ pub struct Shell {
     pub layers: Maybe<u64>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
     pub surface: Maybe<Table<Surface>>,
+    /// Direction that, laid into the surface, is axis 1 of results; where it stands on the surface, the global axis the farthest
+    /// from it is. Default: global x, and y where x stands on the surface.
+    pub axis: Maybe<Vector>,
     /// Default: "lumped".
     pub mass: Maybe<Mass>,
 }

@@ -61,6 +61,11 @@ pub trait Block: Send + Sync {
     fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Now) -> Option<Point> {
         None
     }
+    /// Stress resultants of a shell element whose nodes lay at `start`; axis 1 is `axis` laid into the surface at t = 0, or where
+    /// it stands on the surface the global axis the farthest from it.
+    fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Now) -> Option<Resultants> {
+        None
+    }
     /// Largest accumulated plastic strain in element `e`.
     fn plastic_strain(&self, _e: usize, _past: &[f64]) -> f64 {
         0.0
@@ -88,6 +93,56 @@ pub struct Point {
     pub forces: [f64; 6],
     /// Largest accumulated plastic strain in the section.
     pub plastic_strain: f64,
+}
+
+/// What a shell element feels: means over its area, per length or area at t = 0, in axes that go with the surface. Moments
+/// are positive where the top, the side of the normal, is in tension; ∂M₁₁/∂1 + ∂M₁₂/∂2 = Q₁.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resultants {
+    /// Axis 1, axis 2 and the normal as they lie now; columns, global components.
+    pub frame: Mat3,
+    /// N₁₁, N₂₂, N₁₂.
+    pub N: [f64; 3],
+    /// M₁₁, M₂₂, M₁₂.
+    pub M: [f64; 3],
+    /// Q₁, Q₂.
+    pub Q: [f64; 2],
+    /// See [`Resultants::layers`].
+    layers: [Layer; shell::MOST_LAYERS],
+    count: usize,
+}
+
+impl Resultants {
+    /// From the bottom up; none where the material is elastic.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers[..self.count]
+    }
+
+    /// Stress at the two surfaces of an elastic shell of thickness `h`, linear between them.
+    pub(crate) fn surfaces(&mut self, h: f64) {
+        let stress = |side: f64| std::array::from_fn(|i| self.N[i] / h + side * 6.0 * self.M[i] / (h * h));
+        let layer = |side: f64| Layer { z: 0.5 * side * h, stress: stress(side), plastic_strain: 0.0 };
+        (self.layers[0], self.layers[1]) = (layer(-1.0), layer(1.0));
+        self.count = 2;
+    }
+}
+
+/// Stress in a shell at a height above its reference surface.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Layer {
+    pub z: f64,
+    /// σ₁₁, σ₂₂, σ₁₂: means over the element.
+    pub stress: [f64; 3],
+    /// Largest accumulated one of the element.
+    pub plastic_strain: f64,
+}
+
+impl Layer {
+    /// Without transverse shear.
+    pub fn von_mises(&self) -> f64 {
+        let [a, b, ab] = self.stress;
+        (a * a + b * b - a * b + 3.0 * ab * ab).sqrt()
+    }
 }
 
 #[inline]

@@ -129,6 +129,7 @@ impl<'d> Builder<'d> {
                 links: false,
                 reactions: false,
                 sections: false,
+                layers: false,
                 fields: None,
             },
         };

@@ -82,7 +82,14 @@ impl<'d> Builder<'d> {
                 Some((ExpectAt::Node(self.model.bodies[body].node), columns))
             }
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
-            Some(place @ (Place::Beam(_) | Place::Bar(_) | Place::Shell(_))) => self.expect_strain(place, name),
+            Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
+            // Where a shell has errors, these have been said.
+            Some(Place::Shell(shell)) if self.model.shells.len() == self.deck.shells.len() => {
+                let yields = self.model.shells[shell].yielding.is_some();
+                let columns = if yields { vec!["von_mises", "plastic_strain"] } else { vec!["von_mises"] };
+                Some((ExpectAt::Shell(shell), columns))
+            }
+            Some(Place::Shell(_)) => None,
             Some(place) => {
                 let message = format!("`{}` is a {}", name.value, place.kind());
                 self.error_with(&name.span, message, "values are at points, bodies, parts, links or \"energy\"")
@@ -99,16 +106,14 @@ impl<'d> Builder<'d> {
     fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
         let beams = self.model.beams.iter().map(|beam| (beam.elements.len(), beam.yielding.is_some()));
         let bars = self.model.bars.iter().map(|bar| (bar.elements.len(), bar.yielding.is_some()));
-        let shells = self.model.shells.iter().map(|shell| (shell.elements.len(), shell.yielding.is_some()));
         let index = match place {
-            Place::Shell(shell) => self.deck.beams.len() + self.deck.bars.len() + shell,
             Place::Bar(bar) => self.deck.beams.len() + bar,
             Place::Beam(beam) => beam,
             _ => return None,
         };
-        let parts: Vec<(usize, bool)> = beams.chain(bars).chain(shells).collect();
+        let parts: Vec<(usize, bool)> = beams.chain(bars).collect();
         // Where a part has errors, these have been said, and the count is off.
-        if parts.len() < self.deck.beams.len() + self.deck.bars.len() + self.deck.shells.len() {
+        if parts.len() < self.deck.beams.len() + self.deck.bars.len() {
             return None;
         }
         let (count, yields) = parts[index];
@@ -236,6 +241,7 @@ impl<'d> Builder<'d> {
             links: flag(&output.links, false),
             reactions: flag(&output.reactions, false),
             sections: flag(&output.sections, false),
+            layers: flag(&output.layers, false),
             fields,
         };
     }

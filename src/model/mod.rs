@@ -213,6 +213,8 @@ pub struct Shell {
     pub mass: MassKind,
     /// `None`: the material is elastic.
     pub yielding: Option<shell::Yielding>,
+    /// Axis 1 of results: laid into the surface, element by element.
+    pub axis: Vec3,
     /// Of each element: 3 or 4.
     pub corners: usize,
     pub elements: Vec<ShellElement>,
@@ -344,7 +346,9 @@ pub enum ExpectAt {
     Energy,
     /// Columns of links.csv.
     Link(usize),
-    /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars, then all shells.
+    /// Largest values over a shell: of von Mises stress and plastic strain.
+    Shell(usize),
+    /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),
 }
 
@@ -372,6 +376,7 @@ pub struct Output {
     pub links: bool,
     pub reactions: bool,
     pub sections: bool,
+    pub layers: bool,
     /// Steps between two field files; `None`: no fields.
     pub fields: Option<usize>,
 }

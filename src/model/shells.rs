@@ -140,6 +140,7 @@ impl<'d> Builder<'d> {
         let what = format!("material `{}`, of which {} is made,", material_name.value, owner.what);
         let nu = self.need(&Owner { what, span: &material.span }, "poisson_ratio", &material.poisson_ratio);
         let yielding = self.layers(owner, shell);
+        let axis = shell.axis.as_ref().map_or(Some(Vec3::x()), |axis| self.unit("axis", axis));
         let corners = corners?;
         let triangles = match &shell.kind {
             Some(at) if at.value == deck::Kind::Quadrilateral && corners.len() == 3 => {
@@ -160,7 +161,7 @@ impl<'d> Builder<'d> {
             nu: nu?.value,
             drilling: DRILLING,
         };
-        let (density, yielding) = (density?, yielding?);
+        let (density, yielding, axis) = (density?, yielding?, axis?);
 
         let (nodes, normals) = self.patch(index, &name, owner, &map, &corners, [n, m])?;
         let at = |i: usize, j: usize| j * (n + 1) + i;
@@ -192,7 +193,7 @@ impl<'d> Builder<'d> {
             }
         }
         let corners = if triangles { 3 } else { 4 };
-        self.model.shells.push(Shell { name, plate, density, mass, yielding, corners, elements });
+        self.model.shells.push(Shell { name, plate, density, mass, yielding, axis, corners, elements });
         Some(())
     }
 

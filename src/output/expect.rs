@@ -2,7 +2,7 @@
 //!
 //! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
 
-use super::{bodies_csv, energy_csv, links_csv, nodes_csv};
+use super::{bodies_csv, energy_csv, links_csv, nodes_csv, shells_csv};
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
 use crate::solve::{Frame, Observer};
 use serde::Serialize;
@@ -15,6 +15,7 @@ pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
         ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
         ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
         ExpectAt::Elements(..) => vec!["plastic_strain"],
+        ExpectAt::Shell(_) => vec!["von_mises", "plastic_strain"],
     }
 }
 
@@ -109,6 +110,10 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
         }
         ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
         ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
+        ExpectAt::Shell(shell) => {
+            let of = [shells_csv::von_mises, shells_csv::plastic_strain][column];
+            frame.shells.iter().filter(|state| state.shell == shell).map(of).reduce(f64::max)
+        }
         ExpectAt::Elements(from, to) => frame.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
     }
 }

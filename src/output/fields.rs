@@ -1,15 +1,18 @@
 //! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
 //! names the parts that the grids number.
 //!
+//! Cells carry the number of their part, the largest plastic strain where anything yields, and where there are shells their
+//! stress resultants with axis 1, zero on other cells.
+//!
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
 //! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
 use super::shape::Surface;
 use super::vtu::{self, Cell};
-use super::{at, replace};
+use super::{at, replace, shells_csv};
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::Model;
-use crate::solve::Frame;
+use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;
@@ -129,6 +132,8 @@ pub struct Fields {
     cells: String,
     /// Of cells.
     count: usize,
+    /// Of cells before those of shells; none where there are no shells.
+    before: Option<usize>,
     /// Lines of fields.pvd so far.
     listed: String,
     text: String,
@@ -159,6 +164,10 @@ impl Fields {
             parts: part_array,
             cells,
             count: offsets.len(),
+            before: (!model.shells.is_empty()).then(|| {
+                let beams: usize = model.beams.iter().map(|part| part.elements.len()).sum();
+                beams + model.bars.iter().map(|part| part.elements.len()).sum::<usize>()
+            }),
             listed,
             text: String::new(),
             bytes,
@@ -203,6 +212,21 @@ impl Fields {
             // Cells of beams, bars and shells come first; links and bodies do not yield.
             let strains = frame.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
             vtu::array(text, bytes, "plastic_strain", 1, strains);
+        }
+        if let Some(before) = self.before {
+            let (count, after) = (self.count, self.count - before - frame.shells.len().min(self.count - before));
+            let mut cells = |name: &str, components: usize, of: &dyn Fn(&ShellState, usize) -> f64| {
+                let zeros = |cells: usize| std::iter::repeat_n(0.0, components * cells);
+                let shells = frame.shells.iter().flat_map(|state| (0..components).map(move |i| of(state, i)));
+                let all = zeros(before).chain(shells).chain(zeros(after)).take(components * count);
+                vtu::array(text, bytes, name, components, all);
+            };
+            cells("axis_1", 3, &|state, i| state.at.frame[(i, 0)]);
+            cells("membrane_force", 3, &|state, i| state.at.N[i]);
+            cells("bending_moment", 3, &|state, i| state.at.M[i]);
+            cells("shear_force", 2, &|state, i| state.at.Q[i]);
+            cells("von_mises_bottom", 1, &|state, _| shells_csv::outer(state)[0]);
+            cells("von_mises_top", 1, &|state, _| shells_csv::outer(state)[1]);
         }
         text.push_str("</CellData>\n");
         text.push_str(&self.cells);

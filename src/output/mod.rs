@@ -14,6 +14,7 @@ pub mod nodes_csv;
 mod reactions_csv;
 mod sections_csv;
 mod shape;
+pub mod shells_csv;
 mod steps_csv;
 mod table;
 mod vtu;
@@ -38,6 +39,8 @@ enum Format {
     Links(Table),
     Reactions(Table),
     Sections(Table),
+    Shells(Table),
+    Layers(Table),
     Steps(Table),
     Fields(Fields),
 }
@@ -54,6 +57,8 @@ impl Format {
             Format::Links(table) => links_csv::write(table, frame),
             Format::Reactions(table) => reactions_csv::write(table, frame),
             Format::Sections(table) => sections_csv::write(table, frame),
+            Format::Shells(table) => shells_csv::write(table, frame),
+            Format::Layers(table) => shells_csv::write_layers(table, frame),
         }
     }
 
@@ -65,6 +70,8 @@ impl Format {
             | Format::Links(table)
             | Format::Reactions(table)
             | Format::Sections(table)
+            | Format::Shells(table)
+            | Format::Layers(table)
             | Format::Steps(table) => table.flush(),
             Format::Fields(_) => Ok(()), // whole after every frame
         }
@@ -98,6 +105,9 @@ impl Files {
         table(asked.links && !model.links.is_empty(), Format::Links, "links.csv", links_csv::header())?;
         table(asked.reactions, Format::Reactions, "reactions.csv", reactions_csv::header())?;
         table(asked.sections && !model.beams.is_empty(), Format::Sections, "sections.csv", sections_csv::header())?;
+        let shells = !model.shells.is_empty();
+        table(asked.sections && shells, Format::Shells, "shells.csv", shells_csv::header())?;
+        table(asked.layers && shells, Format::Layers, "layers.csv", shells_csv::header_of_layers())?;
         table(true, Format::Steps, "steps.csv", steps_csv::header())?;
         if let Some(every) = asked.fields {
             formats.push(Format::Fields(Fields::open(dir, model, every, keep_to)?));
@@ -127,6 +137,11 @@ pub fn wanted(model: &Model) -> Wanted {
         reactions: model.output.reactions,
         links: model.output.links || expects(|at| matches!(at, ExpectAt::Link(_))),
         sections: model.output.sections,
+        shells: !model.shells.is_empty()
+            && (model.output.sections
+                || model.output.layers
+                || model.output.fields.is_some()
+                || expects(|at| matches!(at, ExpectAt::Shell(_)))),
         plastic_strains: yields(model)
             && (model.output.fields.is_some() || expects(|at| matches!(at, ExpectAt::Elements(..)))),
     }
@@ -141,13 +156,15 @@ fn yields(model: &Model) -> bool {
 
 /// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.
 fn remove_stale(dir: &Path) -> io::Result<()> {
-    const OURS: [&str; 10] = [
+    const OURS: [&str; 12] = [
         "nodes.csv",
         "bodies.csv",
         "energy.csv",
         "links.csv",
         "reactions.csv",
         "sections.csv",
+        "shells.csv",
+        "layers.csv",
         "steps.csv",
         "fields.csv",
         "fields.pvd",

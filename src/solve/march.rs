@@ -6,7 +6,7 @@ use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
-use super::{Frame, LinkState, Observer, SectionPoint};
+use super::{Frame, LinkState, Observer, SectionPoint, ShellState};
 use crate::model::{Cadence, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
@@ -23,6 +23,7 @@ pub struct Wanted {
     pub links: bool,
     pub sections: bool,
     pub plastic_strains: bool,
+    pub shells: bool,
 }
 
 /// How a run ended.
@@ -63,6 +64,7 @@ pub struct Run<'a> {
     links: Vec<LinkState>,
     plastic_strains: Vec<f64>,
     sections: Vec<SectionPoint>,
+    shells: Vec<ShellState>,
 }
 
 /// Halvings of a step that are ever tried; the deck's least step may stop earlier.
@@ -129,6 +131,7 @@ impl<'a> Run<'a> {
             links: Vec::new(),
             plastic_strains: Vec::new(),
             sections: Vec::new(),
+            shells: Vec::new(),
         }
     }
 
@@ -250,7 +253,10 @@ impl<'a> Run<'a> {
                 Cadence::Interval(_) => false,
             };
         let began = Instant::now();
-        self.derive(state, due, balance);
+        // Fields are drawn by steps, and at the end.
+        let last = state.time >= model.analysis.end_time * (1.0 - 1e-9);
+        let drawn = model.output.fields.is_some_and(|every| self.counts.steps.is_multiple_of(every.max(1)) || last);
+        self.derive(state, due, drawn, balance);
         let frame = Frame {
             model,
             state,
@@ -266,6 +272,7 @@ impl<'a> Run<'a> {
             links: &self.links,
             plastic_strains: &self.plastic_strains,
             sections: &self.sections,
+            shells: &self.shells,
         };
         observer.see(&frame).map_err(Outcome::Io)?;
         self.observing += began.elapsed();
@@ -273,23 +280,27 @@ impl<'a> Run<'a> {
     }
 
     /// What is computed only to be shown.
-    fn derive(&mut self, state: &State, due: bool, balance: Option<f64>) {
+    fn derive(&mut self, state: &State, due: bool, drawn: bool, balance: Option<f64>) {
         self.energy = None;
         self.links.clear();
         self.plastic_strains.clear();
         self.sections.clear();
+        self.shells.clear();
+        let system = self.stepper.system;
+        if self.wanted.plastic_strains && (due || drawn) {
+            system.plastic_strains(&state.now(), &mut self.plastic_strains);
+        }
+        if self.wanted.shells && (due || drawn) {
+            system.shell_states(self.stepper.model, &state.now(), &mut self.shells);
+        }
         if !due {
             return;
         }
-        let system = self.stepper.system;
         if self.wanted.energy {
             self.energy = Some(system.energy(state, balance));
         }
         if self.wanted.links {
             system.link_states(&state.nodes, &mut self.links);
-        }
-        if self.wanted.plastic_strains {
-            system.plastic_strains(&state.now(), &mut self.plastic_strains);
         }
         if self.wanted.sections {
             system.section_points(self.stepper.model, &state.now(), &mut self.sections);

@@ -16,7 +16,7 @@ pub use march::{Counts, Outcome, Run, Wanted};
 use crate::model::Model;
 use crate::state::State;
 use crate::system::energy::Energy;
-pub use crate::system::results::{LinkState, SectionPoint};
+pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 
 /// One accepted step, read-only.
 pub struct Frame<'a> {
@@ -41,8 +41,10 @@ pub struct Frame<'a> {
     /// In the order of [`Model::links`]. Empty unless `due` and wanted.
     pub links: &'a [LinkState],
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Empty
-    /// unless `due` and wanted.
+    /// unless `due` or drawn, and wanted.
     pub plastic_strains: &'a [f64],
+    /// Of all elements of all shells in deck order. Empty unless `due` or drawn, and wanted.
+    pub shells: &'a [ShellState],
     /// Empty unless `due` and wanted.
     pub sections: &'a [SectionPoint],
 }

@@ -11,7 +11,7 @@ pub mod results;
 
 pub use inertia::Inertia;
 pub use motion::{Drive, Prescribed, Side, between};
-pub use results::{LinkState, SectionPoint};
+pub use results::{LinkState, SectionPoint, ShellState};
 
 use crate::constraints::attachment::{self, Attachment};
 use crate::elements::{Block, Force};

@@ -1,7 +1,7 @@
 //! What elements feel, for output: forces of links, stress resultants of beams.
 
 use super::{GroupKind, System};
-use crate::elements::Point;
+use crate::elements::{Point, Resultants};
 use crate::elements::bushing::Bushing;
 use crate::elements::link::Link;
 use crate::math::{Mat3, Vec3};
@@ -29,6 +29,14 @@ pub struct SectionPoint {
     pub point: usize,
     /// At arc length `s` from the beam's start.
     pub at: Point,
+}
+
+/// A shell element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShellState {
+    pub shell: usize,
+    pub element: usize,
+    pub at: Resultants,
 }
 
 /// A link as the deck lists it, apart from the blocks that integrate it.
@@ -64,6 +72,27 @@ impl System {
         for group in self.groups.iter().filter(|group| group.kind == GroupKind::Structure) {
             let past = group.share(now).past;
             out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
+        }
+    }
+
+    /// Stress resultants of all elements of all shells in deck order.
+    pub fn shell_states(&self, model: &Model, now: &Now, out: &mut Vec<ShellState>) {
+        out.clear();
+        // Shells come after beams and bars, a group per part.
+        let before = model.beams.iter().filter(|part| !part.elements.is_empty()).count()
+            + model.bars.iter().filter(|part| !part.elements.is_empty()).count();
+        let parts = model.shells.iter().enumerate().filter(|(_, part)| !part.elements.is_empty());
+        for ((shell, part), group) in parts.zip(&self.groups[before..]) {
+            let now = group.share(now);
+            for (element, spec) in part.elements.iter().enumerate() {
+                let start = spec.nodes.map(|node| model.nodes[node].x);
+                let resultants = group.block.resultants(element, &part.axis, &start[..part.corners], &now);
+                let Some(mut at) = resultants else { continue };
+                if at.layers().is_empty() {
+                    at.surfaces(part.plate.thickness);
+                }
+                out.push(ShellState { shell, element, at });
+            }
         }
     }
 

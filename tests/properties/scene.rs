@@ -73,6 +73,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
             links: false,
             reactions: true,
             sections: false,
+            layers: false,
             fields: None,
         },
     }
@@ -177,7 +178,7 @@ pub fn shell(
     }
     let name = format!("shell{}", model.shells.len());
     let plate = Plate { thickness: 0.1, E: 2e3, nu: 0.3, drilling: DRILLING };
-    model.shells.push(Shell { name, plate, density: 3.0, mass, yielding: None, corners, elements });
+    model.shells.push(Shell { name, plate, density: 3.0, mass, yielding: None, axis: Vec3::x(), corners, elements });
     nodes
 }
 

@@ -86,6 +86,7 @@ pub fn model() -> Model {
             links: true,
             reactions: true,
             sections: true,
+            layers: true,
             fields: None,
         },
     }
@@ -160,6 +161,7 @@ impl Extras {
             links: &self.links,
             plastic_strains: &[],
             sections: &self.sections,
+            shells: &self.shells,
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::geometry::Spread;
 use super::section::{Plane, Section};
 use super::{Moduli, Now};
+use crate::elements::Layer;
 use crate::materials::{Law, PlaneStress, Spent};
 use crate::math::quadrature;
 use std::array::from_fn;
@@ -156,6 +157,23 @@ impl<const M: usize> Section<M> for Layered<M> {
             }
         });
         spent
+    }
+
+    fn layers(&self, strain: &[[f64; M]; 2], now: &Now, layers: &mut [Layer]) -> usize {
+        let count = self.layers.at.len();
+        let layers = &mut layers[..count];
+        layers.fill(Layer::default());
+        let whole: f64 = self.points.iter().map(|point| point.weight).sum();
+        let mut next = 0;
+        self.each(strain, now.past, |point, [z, _], strain, past| {
+            let layer = &mut layers[next % count];
+            next += 1;
+            let sigma = self.layers.law.stress(PlaneStress, strain, now.since, past);
+            layer.z = z;
+            (0..3).for_each(|i| layer.stress[i] += point.weight / whole * sigma[i]);
+            layer.plastic_strain = layer.plastic_strain.max(self.layers.law.accumulated(PlaneStress, past));
+        });
+        count
     }
 
     fn plastic_strain(&self, past: &[f64]) -> f64 {

@@ -22,10 +22,11 @@
 mod arc;
 mod geometry;
 mod layers;
+mod results;
 mod section;
 mod tangent;
 
-use super::{Block, Force, Moduli, subtract};
+use super::{Block, Force, Moduli, Resultants, subtract};
 use crate::materials::Spent;
 use crate::math::Vec3;
 use crate::state::{Node, Now};
@@ -448,6 +449,10 @@ where
                 + power(&stress.drill, &rates.drill);
         }
         self.damping * sum
+    }
+
+    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Now) -> Option<Resultants> {
+        self.resultants_of(e, axis, start, now)
     }
 
     fn plastic_strain(&self, e: usize, past: &[f64]) -> f64 {

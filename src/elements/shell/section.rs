@@ -1,6 +1,7 @@
 //! How the plane of a shell answers to strain: elastic here, by layers in [`super::layers`].
 
 use super::{Moduli, Now};
+use crate::elements::Layer;
 use crate::materials::Spent;
 
 /// The sections of one element. Strains and stresses are the M numbers of the membrane and the M of bending.
@@ -21,6 +22,10 @@ pub trait Section<const M: usize>: Send + Sync {
     /// Writes its share of the history.
     fn remember(&self, _strain: &[[f64; M]; 2], _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
         Spent::default()
+    }
+    /// Writes each layer's mean stress and largest plastic strain, in axes of the element, and returns how many there are.
+    fn layers(&self, _strain: &[[f64; M]; 2], _now: &Now, _layers: &mut [Layer]) -> usize {
+        0
     }
     /// Largest accumulated plastic strain.
     fn plastic_strain(&self, _past: &[f64]) -> f64 {

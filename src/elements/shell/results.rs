@@ -1,0 +1,109 @@
+//! What a shell feels, for output: means over an element of the stress resultants, and of the stress in each layer.
+//!
+//! A resultant is what works on a strain that is the same all over the element: N on x = X + E X, M on d = D + K X, Q on a
+//! director that leans the same everywhere. Strains are of first and second degree in positions and directors, so half the
+//! difference of those ahead and behind is exact, whatever the numbers are that an element feels.
+
+use super::section::Section;
+use super::{Kind, MOST_LAYERS, Motion, Shell, Shells, Strains};
+use crate::elements::pressure::Face;
+use crate::elements::{Layer, Resultants};
+use crate::math::{Mat3, Vec3};
+use crate::state::Now;
+use std::array::from_fn;
+
+/// An axis nearer to the normal than this (its part in the plane, some 1°) has no direction there.
+const STEEP: f64 = 0.02;
+
+/// `axis` in the plane across `normal`; where it stands on the plane, the global axis the farthest from it.
+fn lay(axis: &Vec3, normal: &Vec3) -> Vec3 {
+    let across = |a: &Vec3| a - a.dot(normal) * normal;
+    let laid = across(axis);
+    if laid.norm() > STEEP { laid.normalize() } else { across(&Vec3::ith(axis.iamin(), 1.0)).normalize() }
+}
+
+/// Σ stress · strain.
+fn work<const N: usize, const M: usize>(stress: &Strains<N, M>, strain: &Strains<N, M>) -> f64 {
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    product(stress.plane.as_flattened(), strain.plane.as_flattened())
+        + product(&stress.shear, &strain.shear)
+        + product(&stress.drill, &strain.drill)
+}
+
+impl<K, const N: usize, const V: usize, const M: usize, S> Shells<K, N, V, M, S>
+where
+    K: Kind<N, V>,
+    S: Section<M>,
+{
+    /// Of element `e`, whose nodes lay at `X`; axis 1 is `axis` laid into the surface at t = 0.
+    pub(super) fn resultants_of(&self, e: usize, axis: &Vec3, X: &[Vec3], now: &Now) -> Option<Resultants> {
+        let element: &Shell<N, V, M, S> = &self.elements[e];
+        let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
+        let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
+        let normal = area.normalize();
+        let first = lay(axis, &normal);
+        let t = [first, normal.cross(&first)];
+
+        let motion = element.gather(now.nodes);
+        let strains = element.strains::<K>(&motion);
+        let (shear, drill) = element.across(&strains);
+        let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
+        let start = Motion { x: X, turning: [element.D, [element.T[0]; N], [element.T[1]; N]] };
+        let mean = |change: &dyn Fn(&Vec3) -> Vec3, of_director: bool| {
+            let mut way = Motion { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+            *(if of_director { &mut way.turning[0] } else { &mut way.x }) = X.map(|x| change(&x));
+            let at = |s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, &way)));
+            0.5 * (at(1.0) - at(-1.0)) / area.norm()
+        };
+        // Strains of one component each: 11, 22, 12 as the tensor's two halves.
+        let even = |i: usize| {
+            move |x: &Vec3| match i {
+                2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
+                _ => t[i].dot(x) * t[i],
+            }
+        };
+        let forces = from_fn(|i| mean(&even(i), false));
+        let moments = from_fn(|i| mean(&even(i), true));
+        let shears = from_fn(|i| mean(&|_| t[i], true));
+
+        let mut layers = [Layer::default(); MOST_LAYERS];
+        let count = element.section.layers(&strains.plane, now, &mut layers);
+        // The layers know the axes of the element alone.
+        let own = super::sum(&K::slopes(K::CENTRE)[0], &Motion::slopes::<K, V>(&X)).normalize();
+        let turned = [t[0].dot(&own), -t[1].dot(&own)];
+        layers[..count].iter_mut().for_each(|layer| layer.stress = turn(&layer.stress, turned));
+        Some(Resultants { frame: frame(&X, &t, &motion), N: forces, M: moments, Q: shears, layers, count })
+    }
+}
+
+/// σ₁₁, σ₂₂, σ₁₂ along axes of which the first is (c, s).
+fn turn(stress: &[f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
+    let (c, s) = (c / c.hypot(s), s / c.hypot(s));
+    let [a, b, ab] = *stress;
+    [
+        c * c * a + s * s * b + 2.0 * c * s * ab,
+        s * s * a + c * c * b - 2.0 * c * s * ab,
+        c * s * (b - a) + (c * c - s * s) * ab,
+    ]
+}
+
+/// Where the axes `t` at t = 0 have gone: the first along the line that it was drawn on, the normal of the mean plane.
+fn frame<const N: usize>(X: &[Vec3; N], t: &[Vec3; 2], motion: &Motion<N>) -> Mat3 {
+    // x ≈ x̄ + F (X − X̄) by least squares in the plane.
+    let centre = |x: &[Vec3; N]| x.iter().sum::<Vec3>() / N as f64;
+    let (X0, x0) = (centre(X), centre(&motion.x));
+    let mut G = [[0.0; 2]; 2];
+    let mut moved = [Vec3::zeros(); 2];
+    for a in 0..N {
+        let s = [0, 1].map(|i| t[i].dot(&(X[a] - X0)));
+        for i in 0..2 {
+            moved[i] += s[i] * (motion.x[a] - x0);
+            (0..2).for_each(|j| G[i][j] += s[i] * s[j]);
+        }
+    }
+    let det = G[0][0] * G[1][1] - G[0][1] * G[1][0];
+    let first = (G[1][1] * moved[0] - G[0][1] * moved[1]) / det;
+    let second = (G[0][0] * moved[1] - G[1][0] * moved[0]) / det;
+    let (first, normal) = (first.normalize(), first.cross(&second).normalize());
+    Mat3::from_columns(&[first, normal.cross(&first), normal])
+}
