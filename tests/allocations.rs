@@ -126,7 +126,8 @@ fn shells_neither() {
 fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
     let system = System::new(m).unwrap();
     let stop = AtomicBool::new(false);
-    let wanted = Wanted { energy: true, reactions: true, links: true, sections: true, plastic_strains: true, shells: true };
+    let wanted =
+        Wanted { energy: true, reactions: true, links: true, sections: true, plastic_strains: true, shells: true };
     let mut plan = Plan::new(m, &system, 1);
     plan.kind = kind;
     let mut run = Run::new(m, &system, &plan, wanted, &stop);

@@ -416,3 +416,101 @@ fn no_text_is_too_wrong() {
         said(&text, &[]);
     }
 }
+
+/// A sound deck of two patches; as with [`PORTAL`].
+const SHEET: &str = r#"
+[analysis]
+kind = "static"
+end_time = 1.0
+time_step = 0.1
+
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+
+[points]
+a = [0.0, 0.0, 0.0]
+b = [1.0, 0.0, 0.0]
+c = [1.0, 1.0, 0.0]
+d = [0.0, 1.0, 0.0]
+e = [2.0, 0.5, 0.0]
+
+[[shells]]
+name = "sheet"
+corners = ["a", "b", "c", "d"]
+elements = [3, 4]
+thickness = 0.01
+material = "steel"
+
+[[shells]]
+name = "flap"
+corners = ["b", "e", "c"]
+elements = 4
+thickness = 0.02
+material = "steel"
+
+[[supports]]
+at = "sheet.edge4"
+fix = "all"
+
+[[loads]]
+at = "flap"
+pressure = 1e3
+"#;
+
+fn sheet(old: &str, new: &str) -> String {
+    assert!(SHEET.contains(old), "`{old}` is not in the deck");
+    said(&SHEET.replacen(old, new, 1), &[])
+}
+
+#[test]
+fn shells() {
+    assert_eq!(said(SHEET, &[]), "");
+    let four = r#"["a", "b", "c", "d"]"#;
+    assert_snapshot!("shell_of_two_corners", sheet(four, r#"["a", "b"]"#));
+    assert_snapshot!("shell_unknown_corner", sheet(four, r#"["a", "b", "c", "dd"]"#));
+    assert_snapshot!("shell_corner_twice", sheet(four, r#"["a", "b", "c", "c"]"#));
+    assert_snapshot!("shell_crossed_corners", sheet(four, r#"["a", "c", "b", "d"]"#));
+    assert_snapshot!("shell_without_thickness", sheet("thickness = 0.01\n", ""));
+    assert_snapshot!("shell_of_no_thickness", sheet("thickness = 0.01", "thickness = 0.0"));
+    assert_snapshot!("shell_of_no_elements", sheet("[3, 4]", "[3, 0]"));
+    assert_snapshot!("shell_of_three_counts", sheet("[3, 4]", "[3, 4, 5]"));
+    assert_snapshot!("shell_edges_that_differ", sheet("[3, 4]", "[3, 5]"));
+    assert_snapshot!("shell_three_corners_two_counts", sheet("elements = 4", "elements = [4, 3]"));
+    assert_snapshot!(
+        "shell_three_corners_quadrilateral",
+        sheet("elements = 4", "elements = 4\nkind = \"quadrilateral\"")
+    );
+    assert_snapshot!("shell_kind", sheet("[3, 4]", "[3, 4]\nkind = \"quad\""));
+    assert_snapshot!("shell_layers_when_elastic", sheet("[3, 4]", "[3, 4]\nlayers = 5"));
+    let plastic = SHEET.replace("model = \"elastic\"", "model = \"elastic-plastic\"\nyield_stress = 2e8");
+    assert_snapshot!("shell_of_one_layer", said(&plastic.replace("[3, 4]", "[3, 4]\nlayers = 1"), &[]));
+    assert_snapshot!("shell_poisson_ratio", sheet("poisson_ratio = 0.3", "poisson_ratio = 0.5"));
+    assert_snapshot!("shell_without_poisson_ratio", sheet("poisson_ratio = 0.3\n", ""));
+    let dynamic = SHEET.replace("\"static\"", "\"dynamic\"");
+    assert_snapshot!("shell_without_density", said(&dynamic, &[]));
+    let on = |surface: &str| sheet("[3, 4]", &format!("[3, 4]\nsurface = {{ {surface} }}"));
+    assert_snapshot!("shell_corner_on_the_axis", on(r#"kind = "cylinder", axis = [0.0, 0.0, 1.0]"#));
+    assert_snapshot!("shell_cylinder_without_axis", on(r#"kind = "cylinder""#));
+    assert_snapshot!("shell_zero_axis", sheet("[3, 4]", "[3, 4]\naxis = [0.0, 0.0, 0.0]"));
+    let load = |load: &str| sheet("at = \"flap\"\npressure = 1e3", load);
+    assert_snapshot!("pressure_on_an_edge", load("at = \"flap.edge2\"\npressure = 1e3"));
+    assert_snapshot!("line_load_on_a_shell", load("at = \"flap\"\nforce_per_length = [1.0, 0.0, 0.0]"));
+    assert_snapshot!(
+        "line_load_that_follows",
+        load("at = \"flap.edge2\"\nforce_per_length = [1.0, 0.0, 0.0]\nfollower = true")
+    );
+    assert_snapshot!("pressure_with_a_force", load("at = \"flap\"\npressure = 1e3\nforce = [1.0, 0.0, 0.0]"));
+    let expect = |quantity: &str| {
+        said(
+            &format!(
+                "{SHEET}[[expect]]\nat = \"flap\"\nquantity = \"{quantity}\"\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1\n"
+            ),
+            &[],
+        )
+    };
+    assert_eq!(expect("von_mises"), "");
+    assert_snapshot!("shell_quantity", expect("von_misses"));
+    assert_snapshot!("shell_plastic_strain_when_elastic", expect("plastic_strain"));
+}

@@ -2,9 +2,10 @@
 
 use rdsolve::diagnostic::Source;
 use rdsolve::elements::beam::Rule;
+use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, Method, Model, Shape, Tolerance, When};
+use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, MassKind, Method, Model, Shape, Tolerance, When};
 use rdsolve::sections::Fibre;
 
 /// Every table once.
@@ -93,6 +94,27 @@ fn materials_that_yield_reach_their_parts() {
     assert_eq!(cable.yielding, Some(Law::new(210e9, 0.3, hardening, 0.0, Some(viscosity))));
     assert!(cable.tension_only);
     assert_eq!((model.iteration.method, model.iteration.limit), (Method::InitialLoad, 15));
+}
+
+#[test]
+fn shells_are_patches() {
+    let model = everything();
+    let [wall, roof] = [&model.shells[0], &model.shells[1]];
+    assert_eq!((wall.corners, wall.elements.len(), roof.corners, roof.elements.len()), (3, 12, 3, 4));
+    assert_eq!((wall.yielding.as_ref().unwrap().layers, roof.yielding.is_none()), (3, true));
+    assert_eq!(
+        (wall.axis, roof.axis, wall.mass, roof.mass),
+        (Vec3::z(), Vec3::x(), MassKind::Consistent, MassKind::Lumped)
+    );
+    // On a circle about (0.5, 1), edges b-c and c-hook straight. Bound: a rounding.
+    let radius = |n: usize| (model.nodes[n].x.x - 0.5).hypot(model.nodes[n].x.y - 1.0);
+    assert!(wall.elements.iter().flat_map(|e| e.nodes).all(|n| (radius(n) - 1.25f64.sqrt()).abs() < 1e-15));
+    assert!(roof.elements.iter().flat_map(|e| e.normals).all(|n| n.z.abs() < 1e-15 && n.x.abs() < 1e-15));
+    let [follower] = &model.pressures[..] else { panic!("one of them follows") };
+    assert_eq!((follower.pressure, follower.amplitude, follower.faces.len()), (-3.0, Some(0), 16));
+    assert_eq!(follower.faces[0], Face::of(&roof.elements[0].nodes[..3]).unwrap());
+    assert_eq!(model.expects[4].at, ExpectAt::Shell(1));
+    assert!(model.output.sections && model.output.layers);
 }
 
 #[test]

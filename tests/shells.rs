@@ -6,6 +6,12 @@ mod benchmarks;
 mod dynamics;
 #[path = "shells/element.rs"]
 mod element;
+#[path = "shells/frequencies.rs"]
+mod frequencies;
+#[path = "shells/loads.rs"]
+mod loads;
 #[path = "shells/pressure.rs"]
 mod pressure;
+#[path = "shells/results.rs"]
+mod results;
 mod support;

@@ -193,8 +193,21 @@ impl<'d> Builder<'d> {
             }
         }
         let corners = if triangles { 3 } else { 4 };
+        if elements.iter().any(|element| self.folds(element, corners)) {
+            let message = format!("{} folds back on itself", owner.what);
+            return self.error_with(owner.span, message, "corners go round the patch, each at its own place");
+        }
         self.model.shells.push(Shell { name, plate, density, mass, yielding, axis, corners, elements });
         Some(())
+    }
+
+    /// True for an element that is not seen the same way round from each of its corners.
+    fn folds(&self, element: &ShellElement, corners: usize) -> bool {
+        let x = |k: usize| self.x(element.nodes[k % corners]);
+        (0..corners).any(|k| {
+            let normal = (x(k + 1) - x(k)).cross(&(x(k + corners - 1) - x(k)));
+            normal.dot(&element.normals[k]) <= 0.0 || element.normals[k].dot(&element.normals[0]) <= 0.0
+        })
     }
 
     /// Nodes of three or four corners.

@@ -1,9 +1,9 @@
 //! What elements feel, for output: forces of links, stress resultants of beams.
 
 use super::{GroupKind, System};
-use crate::elements::{Point, Resultants};
 use crate::elements::bushing::Bushing;
 use crate::elements::link::Link;
+use crate::elements::{Point, Resultants};
 use crate::math::{Mat3, Vec3};
 use crate::model::Model;
 use crate::state::{Node, Now};

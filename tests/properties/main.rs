@@ -10,5 +10,6 @@ mod motion;
 mod objectivity;
 mod omission;
 mod rejection;
+mod shells;
 mod spinning;
 mod tangent;

@@ -6,7 +6,7 @@ use rdsolve::elements::link::Law;
 use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
-use rdsolve::solve::{Frame, LinkState, SectionPoint};
+use rdsolve::solve::{Frame, LinkState, SectionPoint, ShellState};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
 
@@ -114,6 +114,7 @@ pub struct Extras {
     reactions: [f64; 2],
     links: [LinkState; 1],
     sections: [SectionPoint; 2],
+    shells: Vec<ShellState>,
 }
 
 impl Extras {
@@ -142,6 +143,7 @@ impl Extras {
             reactions: [time, -1.0],
             links: [LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
             sections: [point(0), point(1)],
+            shells: vec![],
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a shell feels, for output: means over an element of the stress resultants, and of the stress in each layer.
 //!
-//! A resultant is what works on a strain that is the same all over the element: N on x = X + E X, M on d = D + K X, Q on a
-//! director that leans the same everywhere. Strains are of first and second degree in positions and directors, so half the
+//! A resultant is what works on a strain that is the same all over the element: N on x = X + E X, M on d = D + K X with
+//! x = X − ½ (X·K X) n, which leaves no shear, Q on a director that leans the same everywhere. Strains are of first and second degree in positions and directors, so half the
 //! difference of those ahead and behind is exact, whatever the numbers are that an element feels.
 
 use super::section::Section;
@@ -49,22 +49,21 @@ where
         let (shear, drill) = element.across(&strains);
         let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
         let start = Motion { x: X, turning: [element.D, [element.T[0]; N], [element.T[1]; N]] };
-        let mean = |change: &dyn Fn(&Vec3) -> Vec3, of_director: bool| {
+        // Of a change of positions and directors.
+        let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
             let mut way = Motion { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
-            *(if of_director { &mut way.turning[0] } else { &mut way.x }) = X.map(|x| change(&x));
+            (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));
             let at = |s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, &way)));
             0.5 * (at(1.0) - at(-1.0)) / area.norm()
         };
         // Strains of one component each: 11, 22, 12 as the tensor's two halves.
-        let even = |i: usize| {
-            move |x: &Vec3| match i {
-                2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
-                _ => t[i].dot(x) * t[i],
-            }
+        let even = |i: usize, x: &Vec3| match i {
+            2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
+            _ => t[i].dot(x) * t[i],
         };
-        let forces = from_fn(|i| mean(&even(i), false));
-        let moments = from_fn(|i| mean(&even(i), true));
-        let shears = from_fn(|i| mean(&|_| t[i], true));
+        let forces = from_fn(|i| mean(&|x| [even(i, x), Vec3::zeros()]));
+        let moments = from_fn(|i| mean(&|x| [-0.5 * x.dot(&even(i, x)) * normal, even(i, x)]));
+        let shears = from_fn(|i| mean(&|_| [Vec3::zeros(), t[i]]));
 
         let mut layers = [Layer::default(); MOST_LAYERS];
         let count = element.section.layers(&strains.plane, now, &mut layers);
