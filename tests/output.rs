@@ -211,6 +211,128 @@ fn grids_hold_together() {
     }
 }
 
+/// A strip pulled along a direction of its own, of quadrilaterals and a triangle at its end; beside a bar, whose cell comes first.
+const SHELLS: &str = r#"
+[analysis]
+kind = "static"
+end_time = 1.0
+time_step = 0.5
+
+[materials.m]
+model = "elastic"
+youngs_modulus = 1e6
+poisson_ratio = 0.0
+
+[points]
+a = [0.0, 0.0, 0.0]
+b = [0.0, 2.0, 0.0]
+c = [-1.0, 2.0, 0.0]
+d = [-1.0, 0.0, 0.0]
+e = [-0.5, 3.0, 0.0]
+
+[[bars]]
+name = "bar"
+path = ["b", "e"]
+material = "m"
+area = 1e-6
+
+[[shells]]
+name = "strip"
+corners = ["a", "b", "c", "d"]
+elements = [2, 1]
+thickness = 0.1
+material = "m"
+axis = [0.0, 1.0, 0.0]
+
+[[shells]]
+name = "tip"
+corners = ["b", "e", "c"]
+elements = 1
+thickness = 0.1
+material = "m"
+
+[[supports]]
+at = "strip.edge4"
+fix = "all"
+
+[[loads]]
+at = ["b", "c"]
+force = [0.0, 0.5, 0.0]
+
+[[expect]]
+at = "strip"
+quantity = "von_mises"
+time = 1.0
+value = 10.0
+tolerance = 2e-3
+source = "force over section, less what the tip and the bar take"
+
+[output]
+every = 2
+sections = true
+layers = true
+fields = { format = "vtu", every = 1 }
+"#;
+
+/// From the command to the files and back: faces, cell data, tables of the same numbers; also where a grid falls on no row.
+#[test]
+fn shells_are_drawn_with_what_they_feel() {
+    let dir = tempfile::tempdir().unwrap();
+    let (deck, out) = (dir.path().join("deck.toml"), dir.path().join("out"));
+    fs::write(&deck, SHELLS).unwrap();
+    let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_rdsolve"));
+    let run = run.args(["run", "--quiet", "-o"]).args([&out, &deck]).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let (header, rows) = table(&out, "shells.csv");
+    assert_eq!(
+        header.join(","),
+        "step,time,shell,element,N11,N22,N12,M11,M22,M12,Q1,Q2,von_mises_bottom,von_mises_top,plastic_strain"
+    );
+    assert_eq!(rows.len(), 2 * 3, "t = 0 and the end, three elements");
+    assert_eq!((rows[4][2].as_str(), rows[4][3].as_str(), rows[5][2].as_str()), ("strip", "1", "tip"));
+    let (header, layers) = table(&out, "layers.csv");
+    assert_eq!(header.join(","), "step,time,shell,element,layer,z,s11,s22,s12,von_mises,plastic_strain");
+    assert_eq!(layers.len(), 2 * 3 * 2, "and two surfaces each");
+    assert_eq!((layers[6][4].as_str(), layers[6][5].as_str(), layers[7][5].as_str()), ("0", "-0.05", "0.05"));
+
+    let grid = |step: usize| fs::read_to_string(out.join(format!("fields_{step:06}.vtu"))).unwrap();
+    let xml = grid(2);
+    assert!(well_formed(&xml) && well_formed(&grid(1)));
+    assert_eq!(array(&xml, "types"), [3, 9, 9, 5], "a line, two quadrilaterals, a triangle");
+    assert_eq!(indices(&array(&xml, "offsets")), [2, 6, 10, 13]);
+    assert_eq!(indices(&array(&xml, "part")), [0, 1, 1, 2]);
+    // Points of a face go round as the corners do.
+    let (points, corners) = (numbers(&array(&xml, "Points")), indices(&array(&xml, "connectivity")));
+    let x = |k: usize| [points[3 * corners[k]], points[3 * corners[k] + 1]];
+    for first in [2, 6, 10] {
+        let [a, b, c] = [x(first), x(first + 1), x(first + 2)];
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        assert!((area - 1.0).abs() < 1e-4, "{area}: halves of the strip's elements, the tip"); // strains are 1e-5
+    }
+    let value = |row: usize, column: usize| rows[3 + row][column].parse::<f64>().unwrap();
+    for (name, from, width) in [
+        ("membrane_force", 4, 3),
+        ("bending_moment", 7, 3),
+        ("shear_force", 10, 2),
+        ("von_mises_bottom", 12, 1),
+        ("von_mises_top", 13, 1),
+    ] {
+        let found = numbers(&array(&xml, name));
+        assert_eq!(found.len(), 4 * width, "{name}");
+        assert!(found[..width].iter().all(|v| *v == 0.0), "{name}: the bar has none");
+        for row in 0..3 {
+            for k in 0..width {
+                assert_eq!(found[width * (row + 1) + k].to_bits(), value(row, from + k).to_bits(), "{name}");
+            }
+        }
+    }
+    // Axis 1 of the strip is y by the deck, of the tip x; half of the force at half of the way, where no table has a row.
+    let axes = numbers(&array(&xml, "axis_1"));
+    assert!((axes[4] - 1.0).abs() < 1e-6 && (axes[9] - 1.0).abs() < 1e-6, "{axes:?}");
+    let half = numbers(&array(&grid(1), "membrane_force"));
+    assert!((value(0, 4) - 1.0).abs() < 2e-3 && (half[3] - 0.5).abs() < 1e-3, "{} {}", value(0, 4), half[3]);
+}
+
 fn expect(at: ExpectAt, quantity: &str, when: When, value: f64, tolerance: Tolerance) -> Expect {
     let (quantity, source) = (quantity.to_string(), "by hand".to_string());
     Expect { at, quantity, when, value, tolerance, source, label: "it".into() }
