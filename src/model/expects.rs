@@ -46,7 +46,12 @@ impl<'d> Builder<'d> {
         let name = self.need(owner, "at", &expect.at);
         let at = name.and_then(|name| self.expect_at(name));
         let quantity = self.need(owner, "quantity", &expect.quantity);
-        if let (Some((_, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
+        if let (Some((at, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
+            let strain = quantity.value == "plastic_strain" && !columns.contains(&"plastic_strain");
+            if strain && matches!(at, ExpectAt::Shell(_)) {
+                let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
+                return self.error(&quantity.span, message);
+            }
             self.column(columns, quantity, name);
         }
         let when = self.when(owner, expect);
@@ -91,7 +96,7 @@ impl<'d> Builder<'d> {
             }
             Some(Place::Shell(_)) => None,
             Some(place) => {
-                let message = format!("`{}` is a {}", name.value, place.kind());
+                let message = format!("`{}` is {}", name.value, place.kind());
                 self.error_with(&name.span, message, "values are at points, bodies, parts, links or \"energy\"")
             }
             None => {

@@ -161,7 +161,7 @@ impl<'d> Builder<'d> {
                 }
                 Some(place) => {
                     let wants = if load.force_per_length.is_some() { "edges of shells" } else { "shells" };
-                    let message = format!("this load wants {wants}, and `{}` is a {}", name.value, place.kind());
+                    let message = format!("this load wants {wants}, and `{}` is {}", name.value, place.kind());
                     self.error::<()>(&name.span, message);
                 }
             }

@@ -124,7 +124,9 @@ impl<'d> Builder<'d> {
         }
         let (shell, edge) = name.rsplit_once(".edge")?;
         let Some((Place::Shell(index), _)) = self.places.get(shell) else { return None };
-        let corners = self.deck.shells[*index].corners.as_ref()?.values.len();
+        // Where the corners are wrong, that is said there.
+        let three = self.deck.shells[*index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
+        let corners = if three { 3 } else { 4 };
         (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(*index, k - 1))
     }
 
@@ -145,7 +147,7 @@ impl<'d> Builder<'d> {
         match self.place(name) {
             Some(Place::Point(node)) => Some(node),
             Some(place) => {
-                let message = format!("`{key}` wants points, and `{}` is a {}", name.value, place.kind());
+                let message = format!("`{key}` wants points, and `{}` is {}", name.value, place.kind());
                 self.error(&name.span, message)
             }
             None => self.unknown("point", name, self.deck.points.names()),
@@ -156,7 +158,7 @@ impl<'d> Builder<'d> {
     pub fn body(&mut self, name: &At<String>) -> Option<usize> {
         match self.places.get(name.as_str()) {
             Some((Place::Body(body), _)) => Some(*body),
-            Some((place, _)) => self.error(&name.span, format!("`{}` is a {}, not a body", name.value, place.kind())),
+            Some((place, _)) => self.error(&name.span, format!("`{}` is {}, not a body", name.value, place.kind())),
             None => {
                 let names = self.deck.bodies.iter().filter_map(|body| body.name.as_ref()).map(|name| name.as_str());
                 self.unknown("body", name, names)
@@ -175,8 +177,7 @@ impl<'d> Builder<'d> {
         for name in &names.values {
             let Some(place) = self.lookup(name) else { continue };
             if reach == Reach::Nodes && matches!(place, Place::Beam(_) | Place::Bar(_) | Place::Link(_)) {
-                let message =
-                    format!("`{key}` wants points, bodies or sets, and `{}` is a {}", name.value, place.kind());
+                let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
                 self.error_with::<()>(&name.span, message, "name its points");
                 continue;
             }
@@ -229,14 +230,14 @@ impl<'d> Builder<'d> {
 impl Place {
     pub fn kind(self) -> &'static str {
         match self {
-            Place::Point(_) => "point",
-            Place::Body(_) => "body",
-            Place::Set(_) => "set",
-            Place::Beam(_) => "beam",
-            Place::Bar(_) => "bar",
-            Place::Shell(_) => "shell",
-            Place::Edge(..) => "edge of a shell",
-            Place::Link(_) => "link",
+            Place::Point(_) => "a point",
+            Place::Body(_) => "a body",
+            Place::Set(_) => "a set",
+            Place::Beam(_) => "a beam",
+            Place::Bar(_) => "a bar",
+            Place::Shell(_) => "a shell",
+            Place::Edge(..) => "an edge of a shell",
+            Place::Link(_) => "a link",
         }
     }
 }

@@ -87,8 +87,7 @@ fn a_hinged_plate_under_pressure() {
     }
 }
 
-/// One element, its pressure dead or following, in every solver's smallest size; and beside a plane frame, which is then no plane
-/// scene any more.
+/// One element of each kind, its pressure dead or following; a patch of three corners.
 #[test]
 fn one_element() {
     for kind in ["quadrilateral", "triangle"] {

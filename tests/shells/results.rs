@@ -186,7 +186,7 @@ fn a_cantilever_obeys_statics() {
                 let size = fx.abs().max(4.0 * fz.abs()).max(m.abs());
                 assert!((mean(&|at| at.N[0]) - fx).abs() < 1e-5 * size, "{kind} N {:?}", pair[0].at);
                 // A force up bends the top into compression.
-                let moment = -fz * (4.0 - x) + m * -1.0;
+                let moment = -fz * (4.0 - x) - m;
                 assert!((mean(&|at| at.M[0]) - moment).abs() < 1e-5 * size, "{kind} M {moment}: {:?}", pair[0].at);
                 assert!((mean(&|at| at.Q[0]) - fz).abs() < 1e-5 * size, "{kind} Q: {:?}", pair[0].at);
                 // Diagonals that lean lead some shear across; elements without do not.
