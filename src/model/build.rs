@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::places::Place;
-use super::{Cadence, Damping, Iteration, Kind, Method, Model, Node, Output, Update};
+use super::{Cadence, Control, Damping, Iteration, Kind, Method, Model, Node, Output, Update};
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
@@ -45,6 +45,7 @@ pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     b.environment();
     b.damping();
     b.initial();
+    b.control();
     b.expects();
     b.output();
     b.check();
@@ -102,6 +103,7 @@ impl<'d> Builder<'d> {
                 time_step: 0.0,
                 least_step: 0.0,
                 plane: true,
+                control: Control::Time,
             },
             scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration { method: Method::Auto, update: Update::Auto, tolerance: 1e-8, limit: 20 },

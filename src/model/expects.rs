@@ -1,6 +1,6 @@
 //! `[[expect]]` and `[output]`.
 
-use super::build::{Builder, Owner};
+use super::build::{Builder, Owner, span};
 use super::places::{Place, Reach};
 use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Tolerance, When};
 use crate::deck::expect as deck;
@@ -55,6 +55,11 @@ impl<'d> Builder<'d> {
         let ((at, _), quantity, when, tolerance) = (at?, quantity?, when?, tolerance?);
         let moment = match when {
             When::Time(time) => format!("at t = {time}"),
+            When::Passing(at) => {
+                let (node, direction) = (&self.model.nodes[at.node].label, DIRECTIONS[at.dof]);
+                let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
+                format!("where {direction} of {node} is {}{pass}", at.value)
+            }
             When::Max => "at its maximum".to_owned(),
             When::Min => "at its minimum".to_owned(),
             When::Abs => "at its greatest absolute value".to_owned(),
@@ -74,6 +79,9 @@ impl<'d> Builder<'d> {
     fn expect_at(&mut self, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
         if name.value == "energy" {
             return Some((ExpectAt::Energy, ENERGY.to_vec()));
+        }
+        if name.value == "analysis" && !self.places.contains_key("analysis") {
+            return Some((ExpectAt::Analysis, vec!["time"]));
         }
         match self.places.get(name.as_str()).map(|(place, _)| *place) {
             Some(Place::Point(node)) => Some((ExpectAt::Node(node), [&MOTION[..], &DIRECTIONS].concat())),
@@ -136,6 +144,18 @@ impl<'d> Builder<'d> {
     }
 
     fn when(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<When> {
+        if let Some(when) = &expect.when {
+            for (key, place) in [("time", span(&expect.time)), ("peak", span(&expect.peak))] {
+                if let Some(place) = place {
+                    self.error::<()>(place, format!("an expected value has `{key}` or `when`, not both"));
+                }
+            }
+            if !self.is_arc_length() {
+                let hint = "`control = \"arc-length\"` of `[analysis]` does";
+                return self.error_with(&when.span, "steps of given times do not land on displacements", hint);
+            }
+            return self.passage("`when`", when).map(When::Passing);
+        }
         match (&expect.time, &expect.peak) {
             (Some(_), Some(peak)) => self.error(&peak.span, "an expected value has `time` or `peak`, not both"),
             (Some(time), None) if !(time.value >= 0.0 && time.value <= self.model.analysis.end_time) => {
@@ -148,7 +168,7 @@ impl<'d> Builder<'d> {
                 deck::Peak::Min => When::Min,
                 deck::Peak::Abs => When::Abs,
             }),
-            (None, None) if ["time", "peak"].iter().any(|key| self.is_spoiled(owner.span, key)) => None,
+            (None, None) if ["time", "peak", "when"].iter().any(|key| self.is_spoiled(owner.span, key)) => None,
             (None, None) => self.error(owner.span, format!("{} needs `time` or `peak`", owner.what)),
         }
     }
@@ -223,6 +243,10 @@ impl<'d> Builder<'d> {
             }
             _ => Cadence::Steps(self.count("every", &output.every, 1)),
         };
+        self.model.output.cadence = cadence;
+        if let Some(at) = &output.interval {
+            self.check_cadence(&at.span);
+        }
         let fields = output.fields.as_ref().map(|fields| {
             let owner = Owner { what: "`fields`".to_owned(), span: &fields.span };
             self.need(&owner, "format", &fields.format);

@@ -11,6 +11,7 @@ mod expects;
 mod links;
 mod loads;
 mod materials;
+mod path;
 mod places;
 mod sections;
 mod shells;
@@ -73,6 +74,37 @@ pub struct Analysis {
     pub least_step: f64,
     /// Leave out-of-plane motion out of the unknowns where nothing can cause it.
     pub plane: bool,
+    pub control: Control,
+}
+
+/// What leads a static analysis on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Control {
+    /// The time, in given steps.
+    Time,
+    /// The way along the path of equilibria; the time follows, and may fall.
+    ArcLength(ArcLength),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArcLength {
+    /// Where the path ends, unless `end_time` is reached before.
+    pub stop: Option<Passage>,
+    /// The run ends after so many steps, wherever it is.
+    pub steps: Option<usize>,
+    /// Longest arc over that of the first step.
+    pub growth: f64,
+}
+
+/// A displacement on its way through a value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Passage {
+    pub node: usize,
+    /// 0..3: ux, uy, uz.
+    pub dof: usize,
+    pub value: f64,
+    /// Which time it does so, from 1.
+    pub pass: usize,
 }
 
 #[derive(Debug, Clone)]
@@ -329,6 +361,8 @@ pub struct Expect {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ExpectAt {
+    /// The time, which follows where the path is followed by arc length.
+    Analysis,
     Node(usize),
     /// Columns of energy.csv.
     Energy,
@@ -340,7 +374,10 @@ pub enum ExpectAt {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
+    /// With arc-length: the first time the load comes to it, from below.
     Time(f64),
+    /// With arc-length alone.
+    Passing(Passage),
     Max,
     Min,
     /// Greatest absolute value.

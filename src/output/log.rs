@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 pub struct Log {
     path: PathBuf,
     file: File,
+    /// Negative pivots and direction of the load in the last step.
+    path_before: Option<(usize, f64)>,
 }
 
 impl Log {
@@ -19,7 +21,7 @@ impl Log {
         let mut options = OpenOptions::new();
         options.create(true).write(true).append(resume).truncate(!resume);
         let file = std::fs::create_dir_all(dir).and_then(|()| options.open(&path)).map_err(|e| at(&path, e))?;
-        Ok(Log { path, file })
+        Ok(Log { path, file, path_before: None })
     }
 
     /// One or more lines; the last may do without its line break.
@@ -30,14 +32,31 @@ impl Log {
 }
 
 impl Observer for Log {
-    /// Notes the steps that had to be cut.
+    /// Notes the steps that had to be cut, and what a path goes through.
     fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        self.see_path(frame)?;
         if frame.cuts == 0 {
             return Ok(());
         }
         let times = if frame.cuts == 1 { "once".into() } else { format!("{} times", frame.cuts) };
         let (step, time, dt) = (frame.step, frame.state.time, frame.dt);
         self.say(&format!("step {step} to t = {time}: cut {times}, accepted with dt = {dt}"))
+    }
+}
+
+impl Log {
+    /// Limit points and bifurcations: one eigenvalue of the matrix changes its sign.
+    fn see_path(&mut self, frame: &Frame) -> io::Result<()> {
+        let Some(now) = frame.negative_pivots else { return Ok(()) };
+        let before = self.path_before.replace((now, frame.dt));
+        let (before, dt) = before.unwrap_or((0, frame.dt));
+        let what = match (dt * frame.dt < 0.0, now == before) {
+            (true, _) => "a limit point: the load turns",
+            (false, false) => "a bifurcation, or two limit points: the path at hand is followed",
+            (false, true) => return Ok(()),
+        };
+        let (step, time) = (frame.step, frame.state.time);
+        self.say(&format!("step {step} to t = {time}: {what}; negative pivots {before}, now {now}"))
     }
 }
 
