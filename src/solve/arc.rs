@@ -37,6 +37,17 @@ pub struct Path {
     weight: f64,
 }
 
+/// Of the last motion: below this a motion does not tell a direction.
+const SHORT: f64 = 1e-6;
+
+/// How far a step goes.
+pub struct Motion {
+    pub length: f64,
+    /// Of the angle with the last step; 1 where there is none.
+    pub cosine: f64,
+    short: bool,
+}
+
 /// Products of motions, rotations as rotation vectors of the step: D the motion so far, ahead the way to go.
 #[derive(Default)]
 struct Products {
@@ -169,11 +180,9 @@ impl Stepper<'_> {
         Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { q[i] })
     }
 
-    /// After a step: its length, and the cosine of its angle with the last one, 1 where there is none. The next step goes on
-    /// along it, unless it is too short to tell a direction.
-    pub(super) fn keep_motion(&mut self) -> (f64, f64) {
-        const SHORT: f64 = 1e-6; // of the last motion
-        let Some(mut path) = self.path.take() else { return (0.0, 1.0) };
+    /// The motion of the step that was found.
+    pub(super) fn motion(&self) -> Motion {
+        let Some(path) = &self.path else { return Motion { length: 0.0, cosine: 1.0, short: true } };
         let (mut along, mut last, mut now) = (0.0, 0.0, 0.0);
         for &node in &self.movers {
             let (D, L) = (self.unknown_part(node, &self.increments[node].q), &path.last[node]);
@@ -181,14 +190,20 @@ impl Stepper<'_> {
             last += path.dot(L, L);
             now += path.dot(&D, &D);
         }
-        if now > SHORT * SHORT * last {
+        let short = now <= SHORT * SHORT * last;
+        let cosine = if short || last == 0.0 { 1.0 } else { along / (last * now).sqrt() };
+        Motion { length: now.sqrt(), cosine, short }
+    }
+
+    /// The next step goes on along the motion that was found, unless that is too short to tell a direction.
+    pub(super) fn keep_motion(&mut self, motion: &Motion) {
+        let Some(mut path) = self.path.take() else { return };
+        if !motion.short {
             for &node in &self.movers {
                 path.last[node] = self.unknown_part(node, &self.increments[node].q);
             }
         }
         self.path = Some(path);
-        let lengths: f64 = (last * now).sqrt();
-        (now.sqrt(), if lengths > 0.0 { along / lengths } else { 1.0 })
     }
 
     /// Goes back to a part of the motion that was found, to begin the search for a point on the way.

@@ -69,7 +69,10 @@ impl fmt::Display for Failure {
                  `time_step` is too long for this motion"
             ),
             Failure::Bend { largest } => {
-                write!(f, "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are")?;
+                write!(
+                    f,
+                    "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are"
+                )?;
                 list(f, largest)
             }
             Failure::Idle { time } => {

@@ -44,7 +44,14 @@ pub fn model() -> Model {
     Model {
         title: "one of each".into(),
         units: None,
-        analysis: Analysis { kind: Kind::Dynamic, end_time: 1.0, time_step: 0.1, least_step: 1e-6, plane: false, control: Control::Time },
+        analysis: Analysis {
+            kind: Kind::Dynamic,
+            end_time: 1.0,
+            time_step: 0.1,
+            least_step: 1e-6,
+            plane: false,
+            control: Control::Time,
+        },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-8, limit: 20 },
         nodes,
