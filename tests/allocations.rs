@@ -8,6 +8,7 @@ mod scene;
 
 use rand::SeedableRng;
 use rand::rngs::StdRng;
+use rdsolve::diagnostic::Source;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
     BaseAcceleration, Cadence, Held, History, Iteration, Kind, Method, Model, Motion, NodalDamping, Update,
@@ -94,6 +95,14 @@ fn no_step_after_the_first_allocates() {
             (m.iteration.method, m.iteration.update) = (method, update);
             let state = assert_none(&m, rdsolve::linear::Kind::Block);
             assert!(state.work.material.plastic > 0.1, "{:?}", state.work);
+        }
+    }
+    for deck in [include_str!("../decks/lees_frame/deck.toml"), include_str!("../decks/hinged_roof/thin/deck.toml")] {
+        let source = Source::new("deck.toml", deck, &["analysis.growth=1.0".to_string()]);
+        let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
+        model.analysis.time_step *= 0.5;
+        for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+            assert_none(&model, kind);
         }
     }
 }

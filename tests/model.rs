@@ -4,7 +4,9 @@ use rdsolve::diagnostic::Source;
 use rdsolve::elements::beam::Rule;
 use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, Method, Model, Shape, Tolerance, When};
+use rdsolve::model::{
+    self, ArcLength, Cadence, Control, ExpectAt, History, LinkKind, Method, Model, Passage, Shape, Tolerance, When,
+};
 use rdsolve::sections::Fibre;
 
 /// Every table once.
@@ -176,4 +178,56 @@ fn the_rest_is_taken_as_written() {
     assert_eq!(model.output.nodes, [node(&model, "a"), node(&model, "c"), node(&model, "d")]);
     assert_eq!((model.output.cadence, model.output.fields), (Cadence::Interval(0.01), Some(20)));
     assert_eq!(model.analysis.least_step, 1e-4 / 1048576.0);
+}
+
+#[test]
+fn a_path_is_taken_as_written() {
+    let text = r#"
+[analysis]
+kind = "static"
+control = "arc-length"
+end_time = 1.0
+time_step = 0.1
+stop = { at = "b", quantity = "uy", value = -0.8, pass = 2 }
+steps = 50
+growth = 4.0
+[points]
+a = [0.0, 0.0, 0.0]
+b = [1.0, 0.0, 0.0]
+[[beams]]
+name = "beam"
+path = ["a", "b"]
+elements = 2
+section = "strip"
+orientation = [0.0, 1.0, 0.0]
+[sections.strip]
+shape = "general"
+axial_stiffness = 1e3
+shear_stiffness = [1e3, 1e3]
+torsional_stiffness = 1.0
+bending_stiffness = [1.0, 1.0]
+[[supports]]
+at = "a"
+fix = "all"
+[[loads]]
+at = "b"
+force = [-1.0, -0.1, 0.0]
+[[expect]]
+at = "analysis"
+quantity = "time"
+when = { at = "b", quantity = "ux", value = -0.5 }
+value = 0.3
+tolerance = 0.1
+"#;
+    let (model, problems) = model::read(&Source::new("path.toml", text, &[]));
+    assert!(problems.is_empty(), "{problems:?}");
+    let model = model.unwrap();
+    let stop = Passage { node: 1, dof: 1, value: -0.8, pass: 2 };
+    let control = ArcLength { stop: Some(stop), steps: Some(50), growth: 4.0 };
+    assert_eq!(model.analysis.control, Control::ArcLength(control));
+    let expect = &model.expects[0];
+    assert_eq!(expect.at, ExpectAt::Analysis);
+    assert_eq!(expect.when, When::Passing(Passage { node: 1, dof: 0, value: -0.5, pass: 1 }));
+    assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
+    assert_eq!(everything().analysis.control, Control::Time);
 }

@@ -84,10 +84,6 @@ fn truss_snaps_through() {
     let done = follow_to_the_end(&model, &[("crown", 2), ("crown", 0)]);
     let rows = &done.rows;
     for row in rows {
-        let exact = truss(-row[1]);
-        println!("{row:?} {exact} {:e}", row[0] - exact);
-    }
-    for row in rows {
         assert!((row[0] - truss(-row[1])).abs() < 1e-8 * 60.0 && row[2].abs() < 1e-12, "{row:?}");
     }
     assert_eq!(rows.last().unwrap()[0], 60.0);
@@ -110,10 +106,6 @@ force = [0.0, 0.0, -60.0]
     let deck = format!("{TRUSS}{spring}").replace("crown = [", "hand = [0.0, 0.0, 1.0]\ncrown = [");
     let done = follow_to_the_end(&read(&deck), &[("crown", 2), ("hand", 2)]);
     let rows = &done.rows;
-    for row in rows {
-        let p = truss(-row[1]);
-        println!("{row:?} {p} {:e} {:e}", row[0] - p, -row[2] + row[1] - p / 40.0);
-    }
     for row in rows {
         let p = truss(-row[1]);
         assert!((row[0] - p).abs() < 1e-8 * 60.0 && (-row[2] + row[1] - p / 40.0).abs() < 1e-8, "{row:?}");
@@ -193,14 +185,14 @@ fn lees_frame() {
     for [p, u, v] in path {
         let off = [miss(&down, &[p, -v], [2.0, 100.0]), miss(&across, &[p, u], [2.0, 100.0])];
         println!("P {p}: {off:?}");
-        assert!(off.iter().all(|[p, u]| p.hypot(*u) < 5e-5), "at P = {p}: {off:?}");
+        // Half the last digits of the table, and what straight lines between the steps leave.
+        assert!(off.iter().all(|[p, u]| p.hypot(*u) < 7e-5), "at P = {p}: {off:?}");
     }
-    let extreme = |of: fn(f64, f64) -> f64| down.iter().map(|r| r[0]).reduce(of).unwrap();
     let turning: Vec<f64> =
         down.windows(3).filter(|r| (r[1][0] - r[0][0]) * (r[2][0] - r[1][0]) < 0.0).map(|r| r[1][0]).collect();
-    println!("{turning:?} {}", extreme(f64::min));
+    println!("limit points {turning:?}");
     // Between steps the load falls off from its extreme by the square of their length.
-    assert!((turning[0] - 1.855661).abs() < 1e-4 && (turning[1] + 0.941442).abs() < 1e-4, "{turning:?}");
+    assert!((turning[0] - 1.855661).abs() < 1e-5 && (turning[1] + 0.941442).abs() < 3e-5, "{turning:?}");
 }
 
 /// Stress of a bar with linear hardening along a way of strains, from its own formulas: σ = E (ε − εᵖ), |σ| ≤ σ_Y + H ε̄ᵖ.
@@ -290,7 +282,8 @@ points = [[-10.0, -10.0], [10.0, 10.0]]
     let done = follow_to_the_end(&read(&deck), &[("crown", 2), ("hand", 2)]);
     for row in &done.rows {
         let exact = -row[1] + truss(-row[1]) / 40.0;
-        assert!((row[0] - exact).abs() < 1e-8 && row[2] == -row[0], "{row:?} {exact}");
+        // Positions are of the size of one.
+        assert!((row[0] - exact).abs() < 1e-8 && (row[2] + row[0]).abs() < 1e-15 * 4.0, "{row:?} {exact}");
     }
     assert_eq!(turns(&done.rows), 2);
 }
@@ -379,7 +372,7 @@ tolerance = 1e-12
 at = "crown"
 quantity = "uz"
 time = 20.0
-value = -0.0673
+value = -0.0666
 tolerance = 0.01
 [[expect]]
 at = "crown"
@@ -394,7 +387,8 @@ absolute_tolerance = 1.0
     let verdicts = &done.verdicts;
     let limit = verdicts[0].value.unwrap();
     assert!((limit - truss(0.3)).abs() < 1e-8 * 60.0, "{limit}");
-    assert!(verdicts[1].passed && verdicts[2].passed, "{verdicts:?}");
+    assert!(verdicts[1].passed, "{verdicts:?}");
+    assert!((truss(-verdicts[2].value.unwrap()) - 20.0).abs() < 1e-8 * 60.0, "{verdicts:?}");
     assert_eq!(verdicts[2].time, Some(20.0));
     assert_eq!(verdicts[3].reason.as_deref(), Some("the path never came there"));
     assert!((done.rows.last().unwrap()[1] + 0.8).abs() < 1e-15);
@@ -403,12 +397,13 @@ absolute_tolerance = 1.0
     assert_eq!(follow_to_the_end(&read(&deck), &[("crown", 2)]).counts.steps, 4);
 }
 
-/// Nothing that grows: a path needs something to lead on.
+/// A path that ends in the middle: the load comes to rest at t = 20, before the limit load.
 #[test]
 fn a_load_that_stays_leads_nowhere() {
-    let dead = "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -10.0]\namplitude = \"short\"\n[amplitudes.short]\n\
+    let dead = "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -20.0]\namplitude = \"short\"\n[amplitudes.short]\n\
                 kind = \"ramp\"\nend = 20.0\n";
     let done = follow(&read(&format!("{TRUSS}{dead}")), &[("crown", 2)]);
-    let Outcome::Failed { failure, .. } = &done.outcome else { panic!("{:?}", done.outcome) };
-    println!("{failure}");
+    let Outcome::Failed { failure, time } = &done.outcome else { panic!("{:?}", done.outcome) };
+    assert!(failure.to_string().contains("no load or held motion changes with the time"), "{failure}");
+    assert!((time - 20.0).abs() < 0.01, "{time}");
 }

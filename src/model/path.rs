@@ -11,6 +11,11 @@ impl<'d> Builder<'d> {
     /// After the supports: a displacement to stop at must be free.
     pub fn control(&mut self) {
         let Some(analysis) = &self.deck.analysis else { return };
+        if self.is_spoiled(&analysis.span, "control") {
+            // Whatever it was to be, it is not held against the words that go with it.
+            self.model.analysis.control = Control::ArcLength(ArcLength { stop: None, steps: None, growth: 1.0 });
+            return;
+        }
         let Some(at) = analysis.control.as_ref().filter(|at| at.value == deck::Control::ArcLength) else {
             let keys = [("stop", span(&analysis.stop)), ("steps", span(&analysis.steps))];
             return self.stray("`control = \"time\"`", &[&keys[..], &[("growth", span(&analysis.growth))]].concat());

@@ -17,10 +17,10 @@ const DESIRED: f64 = 6.0;
 /// A step grows or shrinks from one to the next by at most this.
 const CHANGE: f64 = 2.0;
 /// Cosine of the angle between steps beyond which they grow no more.
-const STRAIGHT: f64 = 0.9;
+const STRAIGHT: f64 = 0.8;
 /// Cosine below which a step may have left the path for another, and is tried at half the length; but so many times only: where
 /// material begins to yield a path has kinks, which no step is too short for.
-const BENT: f64 = 0.5;
+const BENT: f64 = 0.2;
 const TRIES: usize = 3;
 /// More steps are no path that anybody wants.
 const MOST_STEPS: usize = 100_000;
