@@ -191,8 +191,9 @@ fn lees_frame() {
     let turning: Vec<f64> =
         down.windows(3).filter(|r| (r[1][0] - r[0][0]) * (r[2][0] - r[1][0]) < 0.0).map(|r| r[1][0]).collect();
     println!("limit points {turning:?}");
-    // Between steps the load falls off from its extreme by the square of their length.
-    assert!((turning[0] - 1.855661).abs() < 1e-5 && (turning[1] + 0.941442).abs() < 3e-5, "{turning:?}");
+    // The reference has its extremes where its steps are: at v = 48.826, where the deck finds the same load, it is 1.2e-5
+    // below the limit point.
+    assert!((turning[0] - 1.855673).abs() < 2e-6 && (turning[1] + 0.941442).abs() < 1e-5, "{turning:?}");
 }
 
 /// Stress of a bar with linear hardening along a way of strains, from its own formulas: σ = E (ε − εᵖ), |σ| ≤ σ_Y + H ε̄ᵖ.
@@ -257,6 +258,82 @@ hardening_modulus = 50.0
     assert!(steps.accumulated > 0.05 && turns(rows) >= 2, "{} {}", steps.accumulated, turns(rows));
     let peak = rows.iter().map(|r| r[0]).take(rows.len() - 1).fold(0.0, f64::max);
     println!("peak {peak}, plastic strain {}", steps.accumulated);
+}
+
+/// A steel column under a small force across: its load falls once it yields. By arc length, and driven by its shortening,
+/// where the load is a reaction: equations of their own for the same path.
+#[test]
+fn yielding_column_softens() {
+    let column = |analysis: &str, more: &str| {
+        format!(
+            r#"
+title = "column"
+[analysis]
+kind = "static"
+{analysis}
+[materials.steel]
+model = "elastic-plastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+yield_stress = 275e6
+hardening_modulus = 1e9
+[sections.square]
+shape = "rectangle"
+width = 0.05
+height = 0.05
+fibres = [1, 12]
+[points]
+foot = [0.0, 0.0, 0.0]
+head = [0.0, 0.0, 2.0]
+[[beams]]
+name = "column"
+path = ["foot", "head"]
+elements = 6
+material = "steel"
+section = "square"
+orientation = [0.0, 1.0, 0.0]
+shear_yields = false
+[[supports]]
+at = "foot"
+fix = "all"
+[[loads]]
+at = "head"
+force = [500.0, 0.0, 0.0]
+amplitude = "dead"
+[amplitudes.dead]
+kind = "constant"
+{more}
+"#
+        )
+    };
+    let path = column(
+        "control = \"arc-length\"\nend_time = 1.0\ntime_step = 0.05\ngrowth = 20.0\n\
+         stop = { at = \"head\", quantity = \"uz\", value = -0.3 }",
+        "[[loads]]\nat = \"head\"\nforce = [0.0, 0.0, -1e5]",
+    );
+    let done = follow_to_the_end(&read(&path), &[("head", 2)]);
+    let driven = column(
+        "end_time = 1.0\ntime_step = 0.0025",
+        "[[supports]]\nat = \"head\"\nmotion = { uz = { amplitude = \"down\", scale = -0.3 } }\n\
+         [amplitudes.down]\nkind = \"sine-squared\"\nangular_frequency = 1.5707963267948966\n[output]\nreactions = true",
+    );
+    let model = read(&driven);
+    let (head, held) = (node(&model, "head"), model.held.iter().position(|held| held.motion.is_some()).unwrap());
+    let curve = support::run_to_the_end(&model, &mut |frame: &Frame| {
+        vec![-frame.reactions[held] / 1e5, frame.state.nodes[head].x[2] - 2.0]
+    });
+    println!("driven: {} steps, {} iterations", curve.counts.steps, curve.counts.iterations);
+    let largest = done.rows.iter().map(|r| r[0]).fold(0.0, f64::max);
+    for row in &done.rows {
+        let [p, u] = miss(&curve.rows, row, [largest, 0.3]);
+        println!("{row:?} {p:e} {u:e}");
+    }
+    assert!(largest > 2.0 * done.rows.last().unwrap()[0], "{largest}");
+    for row in &done.rows {
+        let [p, u] = miss(&curve.rows, row, [largest, 0.3]);
+        // Straight lines between 400 steps.
+        assert!(p.hypot(u) < 2e-3, "{row:?} {p} {u}");
+    }
 }
 
 /// Driven by the motion of its far end the spring jumps as well: the time is that motion.

@@ -45,18 +45,19 @@ impl Observer for Log {
 }
 
 impl Log {
-    /// Limit points and bifurcations: one eigenvalue of the matrix changes its sign.
+    /// Limit points and bifurcations: an eigenvalue of the matrix changes its sign, and at a limit point the load turns, which
+    /// may show a step later.
     fn see_path(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(now) = frame.negative_pivots else { return Ok(()) };
-        let before = self.path_before.replace((now, frame.dt));
-        let (before, dt) = before.unwrap_or((0, frame.dt));
+        let (before, dt) = self.path_before.replace((now, frame.dt)).unwrap_or((now, frame.dt));
         let what = match (dt * frame.dt < 0.0, now == before) {
-            (true, _) => "a limit point: the load turns",
-            (false, false) => "a bifurcation, or two limit points: the path at hand is followed",
+            (true, true) => "the load turns".to_string(),
+            (true, false) => format!("the load turns, a limit point: negative pivots {before}, now {now}"),
+            (false, false) => format!("a limit point or a bifurcation: negative pivots {before}, now {now}"),
             (false, true) => return Ok(()),
         };
         let (step, time) = (frame.step, frame.state.time);
-        self.say(&format!("step {step} to t = {time}: {what}; negative pivots {before}, now {now}"))
+        self.say(&format!("step {step} to t = {time}: {what}"))
     }
 }
 

@@ -70,7 +70,7 @@ impl Stepper<'_> {
     pub(super) fn new_path(&self) -> Path {
         Path {
             rate: vec![0.0; self.plan.unknowns],
-            loading: Loading::default(),
+            loading: Loading { factors: Vec::with_capacity(self.model.loads.len()), ..Loading::default() },
             forces: self.forces.clone(),
             last: vec![Vec6::zeros(); self.increments.len()],
             driven: self.model.held.iter().any(|held| held.motion.is_some()),
