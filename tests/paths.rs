@@ -281,7 +281,7 @@ hardening_modulus = 1e9
 shape = "rectangle"
 width = 0.05
 height = 0.05
-fibres = [1, 12]
+fibres = [2, 12]
 [points]
 foot = [0.0, 0.0, 0.0]
 head = [0.0, 0.0, 2.0]
