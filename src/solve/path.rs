@@ -183,7 +183,9 @@ impl Run<'_> {
             };
             stations.pass(&self.stepper, state, taken.to, landed);
             self.stepper.keep_motion(&motion);
-            if *unit.get_or_insert(motion.length / size) == 0.0 {
+            // A first step may have been cut short where it passed something.
+            let whole = analysis.time_step / taken.to.abs().max(least * analysis.time_step);
+            if *unit.get_or_insert(motion.length * whole) == 0.0 {
                 let failure = Failure::Idle { time: state.time };
                 return Err(Outcome::Failed { time: state.time, failure });
             }
