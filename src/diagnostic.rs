@@ -101,7 +101,7 @@ pub struct Diagnostic {
     pub message: String,
     pub place: Option<Span>,
     /// In another file, shown instead of the place, which is then where the deck names that file.
-    pub excerpt: Option<Excerpt>,
+    pub excerpt: Option<Box<Excerpt>>,
     /// The first one stands at the caret, the others below the line.
     pub hints: Vec<String>,
 }
@@ -122,7 +122,7 @@ impl Diagnostic {
 
     /// About a line of another file.
     pub fn of(mut self, excerpt: Excerpt) -> Self {
-        self.excerpt = Some(excerpt);
+        self.excerpt = Some(Box::new(excerpt));
         self
     }
 
@@ -144,7 +144,7 @@ impl Diagnostic {
         let title = level.primary_title(self.message.as_str());
         let mut hints = self.hints.iter().map(String::as_str);
         let mut group = Group::with_title(title);
-        if let Some(Excerpt { path, line, text, columns }) = &self.excerpt {
+        if let Some(Excerpt { path, line, text, columns }) = self.excerpt.as_deref() {
             let mark = AnnotationKind::Primary.span(columns.clone()).label(hints.next());
             let snippet = Snippet::source(text.as_str()).path(path.as_str()).line_start(*line);
             group = group.element(snippet.annotation(mark));

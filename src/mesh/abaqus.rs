@@ -31,9 +31,19 @@ enum Member {
 /// What the data lines belong to.
 enum Block {
     Skipped,
-    Nodes { set: Option<usize> },
-    Elements { kind: Option<Kind>, what: String, set: Option<usize> },
-    Set { set: usize, nodes: bool, generate: bool },
+    Nodes {
+        set: Option<usize>,
+    },
+    Elements {
+        kind: Option<Kind>,
+        what: String,
+        set: Option<usize>,
+    },
+    Set {
+        set: usize,
+        nodes: bool,
+        generate: bool,
+    },
     /// Where parts stand in an assembly.
     Instance,
 }

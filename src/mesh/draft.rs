@@ -119,7 +119,9 @@ impl Draft {
         let mut element = Element { id: raw.id, kind, nodes: [0; 4], line: raw.line };
         for (node, id) in element.nodes.iter_mut().zip(&raw.nodes[..kind.size()]) {
             let Some(index) = ids.get(*id) else {
-                self.complain(text, line, Some(*id), || format!("element {} has node {id}, which is not there", raw.id));
+                self.complain(text, line, Some(*id), || {
+                    format!("element {} has node {id}, which is not there", raw.id)
+                });
                 return element;
             };
             *node = short(index);

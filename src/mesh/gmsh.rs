@@ -34,12 +34,15 @@ fn of(number: u64) -> Type {
     })
 }
 
-/// Physical groups by dimension and tag, and the names of them.
+/// Dimension and tag of a physical group.
+type Physical = (u8, u64);
+
+/// Physical groups, and the names of them.
 #[derive(Default)]
 struct Groups {
-    list: Vec<((u8, u64), RawGroup)>,
-    places: HashMap<(u8, u64), usize>,
-    names: HashMap<(u8, u64), String>,
+    list: Vec<(Physical, RawGroup)>,
+    places: HashMap<Physical, usize>,
+    names: HashMap<Physical, String>,
     /// By dimension and tag of an entity: its physical groups.
     entities: HashMap<(u8, i64), Vec<usize>>,
 }
@@ -56,11 +59,11 @@ impl Groups {
 
     /// Groups by name: one that is given in several dimensions holds all of it.
     fn named(mut self) -> Vec<RawGroup> {
-        let alone = |&(dimension, tag): &(u8, u64)| {
-            let same = |other: &(u8, u64)| other.1 == tag && other.0 != dimension && !self.names.contains_key(other);
+        let alone = |&(dimension, tag): &Physical| {
+            let same = |other: &Physical| other.1 == tag && other.0 != dimension && !self.names.contains_key(other);
             !self.places.keys().any(same)
         };
-        let name = |key: &(u8, u64)| match self.names.get(key) {
+        let name = |key: &Physical| match self.names.get(key) {
             Some(name) => name.clone(),
             None if alone(key) => format!("physical_{}", key.1),
             None => format!("physical_{}_{}", key.1, ["points", "lines", "faces"][key.0.min(2) as usize]),
@@ -387,9 +390,7 @@ fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
             let nodes = words.nodes(kind)?;
             words.end()?;
             let element = match place {
-                Some(_) => {
-                    *known.entry((kind, nodes)).or_insert_with(|| draft.element(id, kind, nodes, line.number))
-                }
+                Some(_) => *known.entry((kind, nodes)).or_insert_with(|| draft.element(id, kind, nodes, line.number)),
                 None => draft.element(id, kind, nodes, line.number),
             };
             if let Some(place) = place {
@@ -408,7 +409,7 @@ fn element(
     (id, kind): (u64, &Type),
     line: Line,
     draft: &mut Draft,
-    (groups, places): (&mut [((u8, u64), RawGroup)], &[usize]),
+    (groups, places): (&mut [(Physical, RawGroup)], &[usize]),
 ) -> Result<(), Fault> {
     match kind {
         Type::Point => {

@@ -7,11 +7,13 @@
 mod abaqus;
 mod draft;
 mod gmsh;
+mod normals;
 mod text;
 
 use crate::diagnostic::Diagnostic;
 use crate::math::Vec3;
 use draft::{Draft, Ids};
+pub use normals::{FOLD, normals};
 use text::Text;
 
 /// A mesh as its file has it, sound: elements have nodes that exist, are different and span a length or an area.

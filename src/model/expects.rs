@@ -6,6 +6,7 @@ use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Tolerance, When};
 use crate::deck::expect as deck;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;
+use std::ops::Range;
 
 /// Columns of nodes.csv, apart from displacements and rotations.
 const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
@@ -75,7 +76,14 @@ impl<'d> Builder<'d> {
         if name.value == "energy" {
             return Some((ExpectAt::Energy, ENERGY.to_vec()));
         }
-        match self.places.get(name.as_str()).map(|(place, _)| *place) {
+        let place = self.place(name).map(|place| match place {
+            Place::Set(_) | Place::Group(_) => match self.nodes_of(place)[..] {
+                [node] => Place::Point(node),
+                _ => place,
+            },
+            place => place,
+        });
+        match place {
             Some(Place::Point(node)) => Some((ExpectAt::Node(node), [&MOTION[..], &DIRECTIONS].concat())),
             Some(Place::Body(body)) => {
                 let columns = [&MOTION[..], &DIRECTIONS, &QUATERNION].concat();
@@ -84,7 +92,8 @@ impl<'d> Builder<'d> {
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
             Some(place @ (Place::Beam(_) | Place::Bar(_) | Place::Shell(_))) => self.expect_strain(place, name),
             Some(place) => {
-                let message = format!("`{}` is a {}", name.value, place.kind());
+                let count = self.nodes_of(place).len();
+                let message = format!("`{}` is a {} of {count} nodes", name.value, place.kind());
                 self.error_with(&name.span, message, "values are at points, bodies, parts, links or \"energy\"")
             }
             None => {
@@ -100,19 +109,23 @@ impl<'d> Builder<'d> {
         let beams = self.model.beams.iter().map(|beam| (beam.elements.len(), beam.yielding.is_some()));
         let bars = self.model.bars.iter().map(|bar| (bar.elements.len(), bar.yielding.is_some()));
         let shells = self.model.shells.iter().map(|shell| (shell.elements.len(), shell.yielding.is_some()));
-        let index = match place {
-            Place::Shell(shell) => self.deck.beams.len() + self.deck.bars.len() + shell,
-            Place::Bar(bar) => self.deck.beams.len() + bar,
-            Place::Beam(beam) => beam,
-            _ => return None,
-        };
         let parts: Vec<(usize, bool)> = beams.chain(bars).chain(shells).collect();
         // Where a part has errors, these have been said, and the count is off.
-        if parts.len() < self.deck.beams.len() + self.deck.bars.len() + self.deck.shells.len() {
+        if [&self.beam_parts, &self.bar_parts, &self.shell_parts].iter().any(|p| p.iter().any(Range::is_empty)) {
             return None;
         }
-        let (count, yields) = parts[index];
-        if !yields {
+        let (before, range) = match place {
+            Place::Shell(shell) => (self.model.beams.len() + self.model.bars.len(), &self.shell_parts[shell]),
+            Place::Bar(bar) => (self.model.beams.len(), &self.bar_parts[bar]),
+            Place::Beam(beam) => (0, &self.beam_parts[beam]),
+            _ => return None,
+        };
+        let (index, next) = (before + range.start, before + range.end);
+        let count: usize = parts[index..next].iter().map(|(count, _)| count).sum();
+        if count == 0 {
+            return self.error(&name.span, format!("`{}` is rigid, so it has no plastic strain", name.value));
+        }
+        if !parts[index].1 {
             let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
             return self.error(&name.span, message);
         }
@@ -173,14 +186,8 @@ impl<'d> Builder<'d> {
 
     pub fn output(&mut self) {
         let is_body: Vec<usize> = self.model.bodies.iter().map(|body| body.node).collect();
-        let all = |named: bool| -> Vec<usize> {
-            let nodes = self.model.nodes.iter().enumerate();
-            nodes
-                .filter(|(i, node)| (node.named || !named) && is_body.binary_search(i).is_err())
-                .map(|(i, _)| i)
-                .collect()
-        };
-        let named = all(true);
+        let nodes = self.model.nodes.iter().enumerate();
+        let named = nodes.filter(|(i, node)| node.named && is_body.binary_search(i).is_err()).map(|(i, _)| i).collect();
         let Some(output) = &self.deck.output else {
             self.model.output.nodes = named;
             return;
@@ -189,7 +196,10 @@ impl<'d> Builder<'d> {
         let word = output.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
         let nodes = match word {
             Some("named") => named,
-            Some("all") => all(false),
+            Some("all") => {
+                self.writes_all = true;
+                Vec::new()
+            }
             _ if output.nodes.is_none() => named,
             _ => {
                 let spots = self.spots(&owner, "nodes", &output.nodes, Reach::Nodes);

@@ -11,12 +11,16 @@ mod expects;
 mod links;
 mod loads;
 mod materials;
+mod meshes;
 mod places;
+mod rigid;
 mod sections;
 mod shells;
 mod supports;
+mod unused;
 
 pub use build::{build, read};
+pub use meshes::Input;
 
 use crate::amplitude::Amplitude;
 use crate::elements::beam::Yielding;
@@ -54,7 +58,35 @@ pub struct Model {
     pub base_accelerations: Vec<BaseAcceleration>,
     pub damping: Damping,
     pub expects: Vec<Expect>,
+    /// Bodies that parts make up, whose elements have left the model.
+    pub rigid: Vec<Rigid>,
+    /// The file that the deck names.
+    pub mesh: Option<MeshFile>,
     pub output: Output,
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone)]
+pub struct Rigid {
+    /// Index into [`Model::bodies`].
+    pub body: usize,
+    /// "shell `roof`".
+    pub parts: Vec<String>,
+    /// Elements left out.
+    pub elements: usize,
+}
+
+#[derive(Debug, Clone)]
+pub struct MeshFile {
+    /// As messages name it.
+    pub path: String,
+    /// SHA-256 of its bytes.
+    pub digest: [u8; 32],
+    /// In the file.
+    pub nodes: usize,
+    pub elements: usize,
+    /// Of these, in parts of the deck.
+    pub used: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,6 +178,11 @@ pub enum Shape {
         inner_radius: f64,
         length: f64,
         axis: Vec3,
+    },
+    /// Faces of three or four corners, lines of two, as indices into points about the centre of mass.
+    Faces {
+        points: Vec<Vec3>,
+        faces: Vec<Vec<usize>>,
     },
 }
 

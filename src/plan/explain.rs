@@ -4,7 +4,8 @@ use super::Plan;
 use crate::elements::beam::Rule;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
-use crate::model::{Kind as Analysis, Method, Model, Update};
+use crate::model::{Kind as Analysis, MeshFile, Method, Model, Update};
+use crate::names::{joined, short};
 use std::fmt::Write;
 
 /// What the reader of a result must know of Wilson-θ.
@@ -45,6 +46,16 @@ impl Plan {
         let parts: Vec<String> =
             parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
         line("model", parts.join(", "));
+        if let Some(mesh) = &model.mesh {
+            let MeshFile { path, nodes, elements, used, .. } = mesh;
+            line("mesh", format!("`{path}`: {nodes} nodes, {elements} elements, {used} of them in parts"));
+        }
+        for rigid in &model.rigid {
+            let body = &model.bodies[rigid.body];
+            let words: Vec<&str> = rigid.parts.iter().map(String::as_str).collect();
+            line("rigid", format!("{} as body `{}`, mass {}", joined(&words), body.name, short(body.mass)));
+            line("  left out", format!("its {} elements and the nodes that nothing else needs", rigid.elements));
+        }
         line("unknowns", self.unknowns.to_string());
         for omission in &self.omissions {
             line("  left out", format!("{} {}", omission.count, omission.what));

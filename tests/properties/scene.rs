@@ -63,6 +63,8 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         base_accelerations: vec![],
         damping: Damping::default(),
         expects: vec![],
+        rigid: vec![],
+        mesh: None,
         output: Output {
             nodes: vec![],
             cadence: Cadence::Steps(1),

@@ -78,6 +78,8 @@ pub fn model() -> Model {
         base_accelerations: vec![],
         damping: Damping::default(),
         expects: vec![],
+        rigid: vec![],
+        mesh: None,
         output: Output {
             nodes: vec![2, 0],
             cadence: Cadence::Steps(1),
