@@ -9,10 +9,11 @@ use rdsolve::sections::Fibre;
 
 /// Every table once.
 const ALL: &str = include_str!("everything.toml");
+const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/everything.toml");
 
 fn everything() -> Model {
-    let (model, problems) = model::read(&Source::new("everything.toml", ALL, &[]));
-    let source = Source::new("everything.toml", ALL, &[]);
+    let (model, problems) = model::read(&Source::new(PATH, ALL, &[]));
+    let source = Source::new(PATH, ALL, &[]);
     let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
     assert!(drawn.is_empty(), "{}", drawn.join("\n\n"));
     model.unwrap()
@@ -26,9 +27,9 @@ fn node(model: &Model, label: &str) -> usize {
 fn nodes_come_in_the_order_points_bodies_the_rest() {
     let model = everything();
     let labels: Vec<&str> = model.nodes.iter().map(|node| node.label.as_str()).collect();
-    assert_eq!(labels[..8], ["a", "b", "c", "d", "hook", "pin", "block", "wheel"]);
-    assert!(model.nodes[..8].iter().all(|node| node.named));
-    assert!(model.nodes[8..].iter().all(|node| !node.named));
+    assert_eq!(labels[..9], ["a", "b", "c", "d", "hook", "top", "pin", "block", "wheel"]);
+    assert!(model.nodes[..11].iter().all(|node| node.named));
+    assert!(model.nodes[11..].iter().all(|node| !node.named));
 }
 
 #[test]
@@ -141,6 +142,26 @@ fn links_measure_from_where_they_are() {
     let LinkKind::Bushing { stiffness, axes, .. } = &model.links[3].kind else { panic!("no bushing") };
     assert_eq!((stiffness[5], axes.column(0).into_owned()), (6.0, Vec3::y()));
     assert_eq!(axes.column(2).into_owned(), -Vec3::z());
+}
+
+#[test]
+fn parts_of_a_mesh_are_rigid_or_not() {
+    let model = everything();
+    let lid: Vec<_> = model.shells.iter().filter(|shell| shell.name == "lid").collect();
+    assert_eq!(lid.iter().map(|part| (part.corners, part.elements.len())).collect::<Vec<_>>(), [(4, 1), (3, 2)]);
+    assert_eq!(model.nodes[lid[0].elements[0].nodes[2]].x, Vec3::new(6.0, 1.0, 0.5));
+    let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+    assert_eq!(names, ["block", "wheel", "frame_of_parts", "plate"]);
+    // ρ h A with A = 1 + ½, and of the mast.
+    assert!((model.bodies[3].mass - 7850.0 * 0.02 * 1.5).abs() < 1e-12 * 7850.0);
+    assert!((model.bodies[2].mass - 7850.0 * 0.0025 * 2.0).abs() < 1e-12 * 7850.0);
+    assert_eq!(model.nodes[model.bodies[2].node].x, Vec3::new(0.0, 0.0, 3.0));
+    // Corners of the rigid plate that nothing else has are gone, and so is a lone node of the file.
+    let gone = ["mesh.1", "mesh.5", "mesh.14"];
+    assert!(model.nodes.iter().all(|node| !gone.contains(&node.label.as_str())));
+    let [rim, rib] = ["mesh.8", "mesh.6"].map(|label| node(&model, label));
+    let rider = model.riders.iter().find(|rider| rider.node == rim).unwrap();
+    assert_eq!((rider.master, rider.dofs), (rib, [true; 6]));
 }
 
 #[test]

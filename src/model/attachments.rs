@@ -118,7 +118,7 @@ impl<'d> Builder<'d> {
             self.attach(spot, master, &self.model.nodes[master].label.clone(), dofs);
         }
         if far > 0 {
-            let message = format!("{far} nodes reach beyond beam `{}` by more than half an element", name.value);
+            let message = format!("nodes reach beyond beam `{}` by more than half an element: {far}", name.value);
             self.warn(&name.span, message, format!("the farthest by {} elements", short(farthest)));
         }
     }
@@ -161,7 +161,7 @@ impl<'d> Builder<'d> {
     pub fn is_loose(&mut self, spot: &super::places::Spot, what: &str) -> bool {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
         // Once for a set: it may have thousands.
-        if loose && self.sure && (spot.direct || self.loose.insert(spot.span.start)) {
+        if loose && self.sure && (spot.direct || self.told.insert(("loose", spot.span.start))) {
             let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
             self.error_with::<()>(spot.span, message, "no beam, bar, link, mass or body");
         }

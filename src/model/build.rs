@@ -77,8 +77,8 @@ pub(super) struct Builder<'d> {
     pub beam_parts: Vec<Range<usize>>,
     pub bar_parts: Vec<Range<usize>>,
     pub shell_parts: Vec<Range<usize>>,
-    /// Where names of sets stand that hold nodes on which nothing acts.
-    pub loose: HashSet<usize>,
+    /// What has been said of sets, with where their names stand: once is enough for thousands of nodes.
+    pub told: HashSet<(&'static str, usize)>,
     /// All nodes that are left go to nodes.csv.
     pub writes_all: bool,
     /// What the names of points, bodies, sets, beams, bars, shells and links stand for.
@@ -166,7 +166,7 @@ impl<'d> Builder<'d> {
             beam_parts: Vec::new(),
             bar_parts: Vec::new(),
             shell_parts: Vec::new(),
-            loose: HashSet::new(),
+            told: HashSet::new(),
             writes_all: false,
             problems: Vec::new(),
             places: HashMap::new(),

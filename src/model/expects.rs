@@ -92,8 +92,7 @@ impl<'d> Builder<'d> {
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
             Some(place @ (Place::Beam(_) | Place::Bar(_) | Place::Shell(_))) => self.expect_strain(place, name),
             Some(place) => {
-                let count = self.nodes_of(place).len();
-                let message = format!("`{}` is a {} of {count} nodes", name.value, place.kind());
+                let message = format!("`{}` is a {}", name.value, place.kind());
                 self.error_with(&name.span, message, "values are at points, bodies, parts, links or \"energy\"")
             }
             None => {

@@ -181,6 +181,7 @@ impl<'d> Builder<'d> {
                 None if mesh.groups.is_empty() => "it has none".to_owned(),
                 None => format!("its groups are {}", quoted(known.take(12))),
             };
+            self.unsure = true;
             return self.error_with(&name.span, message, hint);
         };
         if let Some(other) = self.meshed.parts.get(name.as_str()) {
@@ -191,12 +192,14 @@ impl<'d> Builder<'d> {
         if group.skipped > 0 {
             let message =
                 format!("{} elements of group `{}` are of kinds that are not read", group.skipped, name.value);
+            self.unsure = true;
             return self.error_with(&name.span, message, "mesh it with lines of two nodes and faces of three or four");
         }
         let is_meant = |e: &&mesh::Element| (e.kind != Kind::Segment) == faces;
         let indices = || group.elements.iter().map(|&e| e as usize);
         let elements: Vec<&mesh::Element> = indices().map(|e| &mesh.elements[e]).filter(is_meant).collect();
         if elements.is_empty() {
+            self.unsure = true;
             let wanted = if faces { "triangles or quadrilaterals" } else { "segments" };
             return self.error(&name.span, format!("group `{}` has no {wanted}", name.value));
         }
@@ -319,7 +322,8 @@ impl<'d> Builder<'d> {
             .filter(|c| c.0 > 0)
             .map(|(n, w)| format!("{n} {w}"))
             .collect();
-        if !left.is_empty() {
+        // A part with errors would take some of them.
+        if !left.is_empty() && !self.problems.iter().any(Diagnostic::is_error) {
             let words: Vec<&str> = left.iter().map(String::as_str).collect();
             let message = format!("{} of the mesh are in no part", crate::names::joined(&words));
             self.warn(&file.span, message, "left out");

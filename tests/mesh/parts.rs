@@ -1,6 +1,6 @@
 //! Parts and sets of a mesh against the same patches and paths in the deck.
 
-use super::support::{self, node};
+use super::support::node;
 use super::{Folder, Plate, displacements, positions};
 use rdsolve::math::Vec3;
 
@@ -238,7 +238,6 @@ thickness = 0.002
     }
 }
 
-/// A node per element and no more: nothing about a mesh goes into the run.
 #[test]
 fn the_plan_says_what_came_from_the_mesh() {
     let folder = Folder::with(&[("a.msh", &PLATE.msh4())]);
@@ -246,5 +245,4 @@ fn the_plan_says_what_came_from_the_mesh() {
     let system = rdsolve::system::System::new(&model).unwrap();
     let text = rdsolve::plan::Plan::new(&model, &system, 1).explain(&model, &system);
     assert!(text.contains("36 nodes, 30 elements, 24 of them in parts"), "{text}");
-    let _ = support::decks();
 }
