@@ -1,5 +1,7 @@
 //! Meshes from files: what is read, what is refused, and parts made of them against patches of the deck.
 
+#[path = "mesh/command.rs"]
+mod command;
 #[path = "mesh/messages.rs"]
 mod messages;
 #[path = "mesh/parts.rs"]
