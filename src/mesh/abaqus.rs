@@ -8,9 +8,6 @@ use super::text::{Fault, Line, Text, Word};
 use crate::math::Vec3;
 use std::collections::HashMap;
 
-/// Members of a set given by first and last; more are a slip of the keyboard.
-const MOST_MEMBERS: u64 = 100_000_000;
-
 fn of(name: &str) -> Option<Kind> {
     match name {
         "B31" => Some(Kind::Segment),
@@ -142,9 +139,6 @@ pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
             }
             Block::Set { set, nodes, generate } => members(text, &mut sets, line, &words, (*set, *nodes, *generate))?,
         }
-        if draft.is_full() {
-            break;
-        }
     }
     resolve(text, draft, &sets, others)
 }
@@ -202,7 +196,7 @@ fn members(
     if generate {
         let (first, last) = (number(text, words, 0, line)?, number(text, words, 1, line)?);
         let step = if words.len() > 2 { number(text, words, 2, line)? } else { 1 };
-        if step == 0 || last < first || (last - first) / step > MOST_MEMBERS {
+        if step == 0 || last < first {
             return Err(text.fault("first, last and step must count upwards", line.number));
         }
         read.push(Member::Numbers(first, last, step, at));
@@ -226,20 +220,23 @@ fn members(
 fn resolve(text: &Text, draft: &mut Draft, sets: &Sets, others: Vec<u64>) -> Result<(), Fault> {
     let (elements, _) = Ids::new(draft.elements.iter().map(|element| element.id));
     let (others, _) = Ids::new(others.iter().copied());
+    let (nodes, _) = Ids::new(draft.nodes.iter().map(|node| node.id));
+    // The first that is not there ends it, so that a slip in a last number does not count for hours.
+    let missing = |what: &str, id: u64, set: usize, line: u32| {
+        let message = format!("`{}` holds {what} {id}, which is not there", sets.list[set].name);
+        Err(text.fault_on(message, line as usize, Some(id)))
+    };
     for index in 0..sets.list.len() {
         let mut group = RawGroup { name: sets.list[index].name.clone(), ..RawGroup::default() };
         each(sets, index, true, &mut |id, line| {
             group.nodes.push((id, line));
-            Ok(())
+            if nodes.get(id).is_some() { Ok(()) } else { missing("node", id, index, line) }
         })?;
         each(sets, index, false, &mut |id, line| {
             match (elements.get(id), others.get(id)) {
                 (Some(element), _) => group.elements.push(short(element)),
                 (None, Some(_)) => group.skipped += 1,
-                (None, None) => {
-                    let message = format!("`{}` holds element {id}, which is not there", sets.list[index].name);
-                    return Err(text.fault(message, line as usize));
-                }
+                (None, None) => return missing("element", id, index, line),
             }
             Ok(())
         })?;

@@ -62,10 +62,6 @@ impl Draft {
         self.skipped[place].count += count;
     }
 
-    pub fn is_full(&self) -> bool {
-        self.faults.len() >= MOST_FAULTS
-    }
-
     pub fn finish(mut self, text: &Text) -> Result<Mesh, Vec<Diagnostic>> {
         if self.nodes.is_empty() && self.faults.is_empty() {
             self.faults.push(text.fault_at_end("the file has no nodes"));
@@ -100,17 +96,7 @@ impl Draft {
         if self.faults.len() >= MOST_FAULTS {
             return;
         }
-        let content = text.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default();
-        let content = super::text::Line { bytes: content, number: line };
-        // The number where it stands: the last one, as an element's own comes first.
-        let word = id.and_then(|id| {
-            let in_words = content.words().filter(|word| word.whole() == Some(id)).last();
-            in_words.or_else(|| content.fields().filter(|word| word.whole() == Some(id)).last())
-        });
-        self.faults.push(match word {
-            Some(word) => text.fault_at(message(), &word),
-            None => text.fault(message(), line),
-        });
+        self.faults.push(text.fault_on(message(), line, id));
     }
 
     /// The element by indices of its nodes; reports one that is none.

@@ -65,6 +65,20 @@ impl<'t> Text<'t> {
         self.draw(message, word.line, text.trim_ascii_end(), word.column..word.column + word.bytes.len())
     }
 
+    /// A message about a number on a line, the last of that value: an element's own comes before its nodes'.
+    pub fn fault_on(&self, message: impl Into<String>, line: usize, number: Option<u64>) -> Fault {
+        let bytes = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default();
+        let content = Line { bytes, number: line };
+        let word = number.and_then(|number| {
+            let in_words = content.words().filter(|word| word.whole() == Some(number)).last();
+            in_words.or_else(|| content.fields().filter(|word| word.whole() == Some(number)).last())
+        });
+        match word {
+            Some(word) => self.fault_at(message, &word),
+            None => self.fault(message, line),
+        }
+    }
+
     /// A message about the end of the file.
     pub fn fault_at_end(&self, message: impl Into<String>) -> Fault {
         let last = self.bytes.iter().filter(|&&byte| byte == b'\n').count() + usize::from(!self.bytes.ends_with(b"\n"));

@@ -1,6 +1,6 @@
 //! Parts and sets of a mesh against the same patches and paths in the deck.
 
-use super::support::node;
+use super::support::{self, node};
 use super::{Folder, Plate, displacements, positions};
 use rdsolve::math::Vec3;
 
@@ -245,4 +245,47 @@ fn the_plan_says_what_came_from_the_mesh() {
     let system = rdsolve::system::System::new(&model).unwrap();
     let text = rdsolve::plan::Plan::new(&model, &system, 1).explain(&model, &system);
     assert!(text.contains("36 nodes, 30 elements, 24 of them in parts"), "{text}");
+}
+
+/// A quarter of a ring, whose normals the patch knows and the mesh takes from its faces, one-sided at the ends: what that does
+/// falls faster than the square of the size of the elements, and so faster than their own error.
+#[test]
+fn normals_of_a_mesh_bend_as_those_of_the_surface() {
+    let head = HEAD.replace("KIND", "static").replace("time_step = 0.005", "time_step = 0.05");
+    let off = |n: usize| {
+        let mut text = "*NODE\n".to_owned();
+        for j in 0..=2 {
+            for i in 0..=n {
+                let (sin, cos) = (std::f64::consts::FRAC_PI_2 * i as f64 / n as f64).sin_cos();
+                text += &format!("{}, {sin}, {}, {}\n", 1 + i + j * (n + 1), 0.2 * j as f64, 1.0 - cos);
+            }
+        }
+        text += "*ELEMENT, TYPE=S4, ELSET=s\n";
+        for (i, j) in (0..2).flat_map(|j| (0..n).map(move |i| (i, j))) {
+            let a = 1 + i + j * (n + 1);
+            text += &format!("{}, {a}, {}, {}, {}\n", 1 + i + j * n, a + 1, a + n + 2, a + n + 1);
+        }
+        let set = |name: &str, first: usize| {
+            format!("*NSET, NSET={name}, GENERATE\n{first}, {}, {}\n", first + 2 * (n + 1), n + 1)
+        };
+        text += &(set("root", 1) + &set("tip", n + 1));
+        let tail = "thickness = 0.01\nmaterial = \"steel\"\n[[supports]]\nat = \"ROOT\"\nfix = \"all\"\n\
+                    [[loads]]\nat = \"TIP\"\nforce_per_length = [0.0, 200.0, -2000.0]\n";
+        let mesh = format!("{head}[mesh]\nfile = \"a.inp\"\n[[shells]]\ngroup = \"s\"\n{tail}")
+            .replace("ROOT", "root")
+            .replace("TIP", "tip");
+        let patch = format!(
+            "{head}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 1.0]\nc = [1.0, 0.4, 1.0]\nd = [0.0, 0.4, 0.0]\n\
+             [[shells]]\nname = \"s\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [{n}, 2]\n\
+             surface = {{ kind = \"cylinder\", axis = [0.0, 1.0, 0.0], center = [0.0, 0.0, 1.0] }}\n{tail}"
+        );
+        let patch = patch.replace("ROOT", "s.edge4").replace("TIP", "s.edge2");
+        let folder = Folder::with(&[("a.inp", &text)]);
+        let one = positions(&folder.model(&mesh), &format!("mesh.{}", n + 1)).last().unwrap()[2] - 1.0;
+        let two = positions(&folder.model(&patch), "b").last().unwrap()[2] - 1.0;
+        (one / two - 1.0).abs()
+    };
+    let points = [8, 16, 32].map(|n| (1.0 / n as f64, off(n)));
+    println!("{points:?}");
+    assert!(support::slope(&points) > 2.0 && points[0].1 < 2e-3, "{points:?}");
 }

@@ -215,7 +215,7 @@ fn an_edge_of_a_shell_on_a_body() {
     impl rdsolve::solve::Observer for Last {
         fn see(&mut self, frame: &rdsolve::solve::Frame) -> std::io::Result<()> {
             self.0 = frame.state.nodes.iter().map(|node| node.x).collect();
-            self.1 = frame.reactions.iter().copied().collect();
+            self.1 = frame.reactions.to_vec();
             Ok(())
         }
     }
