@@ -44,8 +44,8 @@ struct Groups {
     list: Vec<(Physical, RawGroup)>,
     places: HashMap<Physical, usize>,
     names: HashMap<Physical, String>,
-    /// By dimension and tag of an entity: its physical groups.
-    entities: HashMap<(u8, i64), Vec<usize>>,
+    /// By dimension and tag of an entity: its physical groups, and whether these turn its elements round.
+    entities: HashMap<(u8, i64), (Vec<usize>, bool)>,
 }
 
 impl Groups {
@@ -267,14 +267,17 @@ fn entities(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 words.number("a coordinate")?;
             }
-            let mut places = Vec::new();
+            let (mut places, mut turned) = (Vec::new(), true);
             for _ in 0..words.whole("the number of physical groups")? {
-                let group = words.signed("a physical group")?.unsigned_abs();
+                // A negative one wants the elements the other way round; version 2.2 writes them so.
+                let group = words.signed("a physical group")?;
+                turned &= group < 0;
                 if dimension < 3 {
-                    places.push(groups.place(dimension as u8, group));
+                    places.push(groups.place(dimension as u8, group.unsigned_abs()));
                 }
             }
-            groups.entities.insert((dimension as u8, tag), places);
+            let turned = turned && !places.is_empty();
+            groups.entities.insert((dimension as u8, tag), (places, turned));
         }
     }
     Ok(())
@@ -346,13 +349,16 @@ fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
         let count = words.whole("the number of elements")?;
         words.end()?;
         let places = u8::try_from(dimension).ok().and_then(|dimension| groups.entities.get(&(dimension, entity)));
-        let places = places.map_or(&[][..], Vec::as_slice);
+        let (places, turned) = places.map_or((&[][..], false), |(places, turned)| (places.as_slice(), *turned));
         for _ in 0..count {
             let line = within(text, "Elements")?;
             found += 1;
             let mut words = Numbers::of(text, line);
             let id = words.whole("an element")?;
             element(&mut words, (id, &kind), line, draft, (&mut groups.list, places))?;
+            if let (Type::Known(kind), Some(element), true) = (&kind, draft.elements.last_mut(), turned) {
+                element.nodes[..kind.size()].reverse();
+            }
             if !matches!(kind, Type::Other(_)) {
                 words.end()?;
             }

@@ -75,6 +75,19 @@ fn files_of_gmsh_itself() {
     assert!(second.elements.is_empty());
 }
 
+/// A negative tag turns the elements of a group round, as Gmsh itself does when it writes version 2.2.
+#[test]
+fn a_negative_group_is_turned_round() {
+    let text = Plate { n: 2, m: 1, size: [2.0, 1.0] }.msh4();
+    let turned = read("a.msh", &text.replace("0 1 4 2 1 2 \n", "0 1 -4 2 1 2 \n"));
+    let (straight, group) = (read("a.msh", &text), turned.group("plate").unwrap());
+    assert_eq!(group.elements.len(), 2);
+    for &e in &group.elements {
+        let (one, two) = (straight.elements[e as usize].nodes(), turned.elements[e as usize].nodes());
+        assert!(one.iter().eq(two.iter().rev()), "{one:?} {two:?}");
+    }
+}
+
 #[test]
 fn sets_of_sets_and_other_keywords() {
     let text = "\
