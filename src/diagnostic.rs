@@ -62,19 +62,53 @@ pub enum Severity {
     Warning,
 }
 
+/// A line of a file that the deck names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Excerpt {
+    pub path: String,
+    /// Counted from 1.
+    pub line: usize,
+    /// Of the line, from its start.
+    pub text: String,
+    /// Bytes of the text that are meant.
+    pub columns: Range<usize>,
+}
+
+/// Of a longer line no more is shown.
+const WIDEST: usize = 160;
+
+impl Excerpt {
+    /// `columns` of the bytes of a line, which may be of any length and no text.
+    pub fn new(path: String, line: usize, bytes: &[u8], columns: Range<usize>) -> Self {
+        let lossy = |bytes: &[u8]| -> String {
+            let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
+            String::from_utf8_lossy(bytes).chars().map(plain).collect()
+        };
+        let end = columns.end.min(bytes.len()).min(WIDEST);
+        let start = columns.start.min(end);
+        // Bytes that are no text grow when they are replaced.
+        let (before, meant) = (lossy(&bytes[..start]), lossy(&bytes[start..end]));
+        let columns = before.len()..before.len() + meant.len();
+        let rest = lossy(&bytes[end..bytes.len().min(end.max(WIDEST))]);
+        Excerpt { path, line, text: before + &meant + &rest, columns }
+    }
+}
+
 /// One thing to say about a deck.
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
     pub severity: Severity,
     pub message: String,
     pub place: Option<Span>,
+    /// In another file, shown instead of the place, which is then where the deck names that file.
+    pub excerpt: Option<Box<Excerpt>>,
     /// The first one stands at the caret, the others below the line.
     pub hints: Vec<String>,
 }
 
 impl Diagnostic {
     pub fn error(message: impl Into<String>) -> Self {
-        Diagnostic { severity: Severity::Error, message: message.into(), place: None, hints: Vec::new() }
+        Diagnostic { severity: Severity::Error, message: message.into(), place: None, excerpt: None, hints: Vec::new() }
     }
 
     pub fn warning(message: impl Into<String>) -> Self {
@@ -83,6 +117,12 @@ impl Diagnostic {
 
     pub fn at(mut self, place: &Span) -> Self {
         self.place = Some(place.clone());
+        self
+    }
+
+    /// About a line of another file.
+    pub fn of(mut self, excerpt: Excerpt) -> Self {
+        self.excerpt = Some(Box::new(excerpt));
         self
     }
 
@@ -104,7 +144,11 @@ impl Diagnostic {
         let title = level.primary_title(self.message.as_str());
         let mut hints = self.hints.iter().map(String::as_str);
         let mut group = Group::with_title(title);
-        if let Some(place) = &self.place {
+        if let Some(Excerpt { path, line, text, columns }) = self.excerpt.as_deref() {
+            let mark = AnnotationKind::Primary.span(columns.clone()).label(hints.next());
+            let snippet = Snippet::source(text.as_str()).path(path.as_str()).line_start(*line);
+            group = group.element(snippet.annotation(mark));
+        } else if let Some(place) = &self.place {
             let (name, text, range) = source.locate(place);
             let mark = AnnotationKind::Primary.span(range).label(hints.next());
             group = group.element(Snippet::source(text).path(name).annotation(mark));

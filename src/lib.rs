@@ -4,7 +4,7 @@
 //!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
 //!           words     meaning    machine   motion     files
 //!  below them, used by them, knowing nothing of them:
-//!  system │ constraints  elements  integrators │ state  sections  materials  amplitude  linear │ math  names  diagnostic
+//!  system │ constraints  elements  integrators │ state  sections  materials  amplitude  linear  mesh │ math  names  diagnostic
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
@@ -39,6 +39,7 @@ pub mod integrators;
 pub mod linear;
 pub mod materials;
 pub mod math;
+pub mod mesh;
 pub mod model;
 pub mod names;
 pub mod output;

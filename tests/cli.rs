@@ -118,3 +118,57 @@ fn the_schema_is_a_schema_of_the_deck() {
     assert!(beam["orientation"]["description"].is_string());
     assert!(!schema.to_string().contains("null"));
 }
+
+/// A truss behind a spring snaps back; with steps that may not be cut its path is lost on the way.
+const TRUSS: &str = r#"
+[analysis]
+kind = "static"
+control = "arc-length"
+end_time = 60.0
+time_step = 5.0
+least_step = 5.0
+[points]
+left = [-1.0, 0.0, 0.0]
+right = [1.0, 0.0, 0.0]
+crown = [0.0, 0.0, 0.5]
+hand = [0.0, 0.0, 1.0]
+[[bars]]
+name = "bars"
+path = ["left", "crown", "right"]
+axial_stiffness = 1000.0
+mass_per_length = 0.0
+[[links]]
+name = "spring"
+from = { node = "crown" }
+to = { node = "hand" }
+direction = [0.0, 0.0, 1.0]
+stiffness = 40.0
+[[supports]]
+at = ["left", "right"]
+fix = "translations"
+[[loads]]
+at = "hand"
+force = [0.0, 0.0, -60.0]
+"#;
+
+#[test]
+fn a_lost_path_names_nodes_and_leaves_what_it_found() {
+    let folder = folder(TRUSS);
+    let done = rdsolve(folder.path(), &["ball.toml"]).code(4);
+    let said = said(&done);
+    assert!(said.contains("crown uz") || said.contains("hand uz"), "{said}");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("ball.out").join(name)).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&read("result.json")).unwrap();
+    assert_eq!(result["status"], "not-converged");
+    let (steps, nodes) = (read("steps.csv"), read("nodes.csv"));
+    // A header, and the start with four points in one of them.
+    let found = result["counts"]["steps"].as_u64().unwrap() as usize;
+    assert!(found > 2);
+    assert_eq!((steps.lines().count(), nodes.lines().count()), (1 + found, 1 + 4 * (1 + found)));
+    assert!(nodes.ends_with('\n'));
+    // With cuts it arrives, and the log says what lies on the way.
+    rdsolve(folder.path(), &["ball.toml", "--overwrite", "--set", "analysis.least_step=1e-3"]).code(0);
+    let log = read("run.log");
+    let limits: Vec<&str> = log.lines().filter(|line| line.contains("limit point")).collect();
+    assert!(limits.len() == 2 && limits[0].contains("0, now 1") && limits[1].contains("1, now 0"), "{log}");
+}

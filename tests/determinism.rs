@@ -264,3 +264,11 @@ fn shells_under_pressure() {
     let folder = assert_same(&format!("{SHEET}{soft}"), 9);
     assert!(spent(&folder) > 0.0);
 }
+
+/// A roof of enough shells for threads, along its path: the first three steps.
+#[test]
+fn a_path_of_a_roof() {
+    let deck = include_str!("../decks/hinged_roof/deck.toml").split("# ---- expected").next().unwrap();
+    let deck = deck.replace("[16, 16]", "[34, 34]").replace("time_step = 0.05", "time_step = 0.2\nsteps = 3");
+    assert_same(&format!("{deck}\n[output]\nnodes = \"all\"\nreactions = true\n"), 4);
+}

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 9] = [
     &["math", "names", "diagnostic"],
-    &["state", "sections", "materials", "amplitude", "linear"],
+    &["state", "sections", "materials", "amplitude", "linear", "mesh"],
     &["elements", "constraints", "integrators"],
     &["deck"],
     &["model", "system"],

@@ -251,3 +251,35 @@ fn threads_do_not_change_a_bit() {
         assert!(solutions[0] == solutions[1], "{values:?}");
     }
 }
+
+/// Diagonals outweigh their rows, so by Gershgorin's circles the negative ones tell the negative eigenvalues.
+#[test]
+fn negative_eigenvalues_are_counted() {
+    let mut random = Random(17);
+    for structure in
+        [chain(20, 6), chain(20, 3), frame(3, 3, 3, 6), tree(40, &mut Random(3)), cliques(30, &mut Random(4))]
+    {
+        for (values, negative) in [(Values::Definite, false), (Values::Indefinite, true)] {
+            let expected: usize = structure.sizes.iter().skip(1).step_by(3).sum();
+            for kind in [Kind::Block, Kind::Cholesky] {
+                let mut solver = Solver::new(&structure, kind, 1);
+                let slots = slots(&solver, &entries(&structure, values, &mut random));
+                fill(&mut solver, &slots);
+                solver.factor().unwrap();
+                assert_eq!(solver.negatives(), if negative { expected } else { 0 }, "{kind:?} {values:?}");
+            }
+        }
+    }
+}
+
+/// Two springs side by side that pull each other's way: zeros on the diagonal, one eigenvalue of each sign in every group.
+#[test]
+fn negative_eigenvalues_off_the_diagonal_are_counted() {
+    let structure = chain(5, 2);
+    let mut solver = Solver::new(&structure, Kind::Block, 1);
+    let entries: Vec<_> = (0..5).flat_map(|g| [(2 * g, 2 * g + 1, 1.0), (2 * g + 1, 2 * g, 1.0)]).collect();
+    let slots = slots(&solver, &entries);
+    fill(&mut solver, &slots);
+    solver.factor().unwrap();
+    assert_eq!(solver.negatives(), 5);
+}

@@ -515,3 +515,68 @@ fn shells() {
     assert_snapshot!("shell_quantity", expect("von_misses"));
     assert_snapshot!("shell_plastic_strain_when_elastic", expect("plastic_strain"));
 }
+
+/// A shallow truss by arc length.
+const PATH: &str = r#"
+[analysis]
+kind = "static"
+control = "arc-length"
+end_time = 1.0
+time_step = 0.1
+stop = { at = "crown", quantity = "uz", value = -0.8 }
+
+[points]
+left = [-1.0, 0.0, 0.0]
+right = [1.0, 0.0, 0.0]
+crown = [0.0, 0.0, 0.5]
+
+[[bars]]
+name = "bars"
+path = ["left", "crown", "right"]
+axial_stiffness = 1000.0
+mass_per_length = 0.0
+
+[[supports]]
+at = ["left", "right"]
+fix = "translations"
+
+[[loads]]
+at = "crown"
+force = [0.0, 0.0, -60.0]
+"#;
+
+#[test]
+fn paths() {
+    let path = |edits: &[(&str, &str)]| {
+        let mut text = PATH.to_owned();
+        for (old, new) in edits {
+            assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once in the deck");
+            text = text.replace(old, new);
+        }
+        said(&text, &[])
+    };
+    assert_eq!(path(&[]), "");
+    assert_snapshot!("path_in_time", path(&[("kind = \"static\"", "kind = \"dynamic\"")]));
+    let time = ("control = \"arc-length\"", "steps = 3\ngrowth = 2.0");
+    let expect = "[[expect]]\nat = \"analysis\"\nquantity = \"time\"\nwhen = { at = \"crown\", quantity = \"uz\", value = -0.3 }\n\
+                  value = 0.6\ntolerance = 0.1\n[[loads]]";
+    assert_snapshot!("words_of_paths_without_one", path(&[time, ("[[loads]]", expect)]));
+    assert_snapshot!("misspelt_control", path(&[("arc-length", "arclength"), ("[[loads]]", expect)]));
+    assert_snapshot!(
+        "stop",
+        path(&[("stop = { at = \"crown\", quantity = \"uz\"", "stop = { at = \"crwn\", quantity = \"rz\"")])
+    );
+    assert_snapshot!("stop_at_a_support", path(&[("at = \"crown\", quantity", "at = \"left\", quantity")]));
+    assert_snapshot!("stop_at_the_start", path(&[("value = -0.8", "value = 0.0, pass = 0")]));
+    assert_snapshot!("path_numbers", path(&[("time_step = 0.1", "time_step = 0.1\nsteps = 0\ngrowth = 0.5")]));
+    let wrong = "[iteration]\nmethod = \"initial-load\"\nupdate = \"never\"\n[output]\ninterval = 0.1\n[points]";
+    assert_snapshot!("path_iteration", path(&[("[points]", wrong)]));
+    let jump = "force = [0.0, 0.0, -60.0]\namplitude = \"jump\"\n[amplitudes.jump]\nkind = \"step\"\nstart = 0.5\n";
+    let viscous = "material = \"fast\"\narea = 1.0\n[materials.fast]\nmodel = \"elastic-viscoplastic\"\n\
+                   youngs_modulus = 1e3\npoisson_ratio = 0.3\nyield_stress = 10.0\n\
+                   viscosity = { law = \"linear\", rate = 1.0 }\n";
+    let edits = [("force = [0.0, 0.0, -60.0]\n", jump), ("axial_stiffness = 1000.0\nmass_per_length = 0.0\n", viscous)];
+    assert_snapshot!("path_across_a_jump", path(&edits));
+    let both = expect.replace("value = 0.6", "time = 0.5\nvalue = 0.6");
+    assert_snapshot!("when_and_time", path(&[("[[loads]]", &both)]));
+}

@@ -5,15 +5,19 @@ use rdsolve::elements::beam::Rule;
 use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{self, Cadence, ExpectAt, History, LinkKind, MassKind, Method, Model, Shape, Tolerance, When};
+use rdsolve::model::{
+    self, ArcLength, Cadence, Control, ExpectAt, History, LinkKind, MassKind, Method, Model, Passage, Shape, Tolerance,
+    When,
+};
 use rdsolve::sections::Fibre;
 
 /// Every table once.
 const ALL: &str = include_str!("everything.toml");
+const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/everything.toml");
 
 fn everything() -> Model {
-    let (model, problems) = model::read(&Source::new("everything.toml", ALL, &[]));
-    let source = Source::new("everything.toml", ALL, &[]);
+    let (model, problems) = model::read(&Source::new(PATH, ALL, &[]));
+    let source = Source::new(PATH, ALL, &[]);
     let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
     assert!(drawn.is_empty(), "{}", drawn.join("\n\n"));
     model.unwrap()
@@ -27,9 +31,9 @@ fn node(model: &Model, label: &str) -> usize {
 fn nodes_come_in_the_order_points_bodies_the_rest() {
     let model = everything();
     let labels: Vec<&str> = model.nodes.iter().map(|node| node.label.as_str()).collect();
-    assert_eq!(labels[..8], ["a", "b", "c", "d", "hook", "pin", "block", "wheel"]);
-    assert!(model.nodes[..8].iter().all(|node| node.named));
-    assert!(model.nodes[8..].iter().all(|node| !node.named));
+    assert_eq!(labels[..9], ["a", "b", "c", "d", "hook", "top", "pin", "block", "wheel"]);
+    assert!(model.nodes[..11].iter().all(|node| node.named));
+    assert!(model.nodes[11..].iter().all(|node| !node.named));
 }
 
 #[test]
@@ -99,7 +103,8 @@ fn materials_that_yield_reach_their_parts() {
 #[test]
 fn shells_are_patches() {
     let model = everything();
-    let [wall, roof] = [&model.shells[0], &model.shells[1]];
+    let at = |name: &str| model.shells.iter().position(|shell| shell.name == name).unwrap();
+    let [wall, roof] = [&model.shells[at("wall")], &model.shells[at("roof")]];
     assert_eq!((wall.corners, wall.elements.len(), roof.corners, roof.elements.len()), (3, 12, 3, 4));
     assert_eq!((wall.yielding.as_ref().unwrap().layers, roof.yielding.is_none()), (3, true));
     assert_eq!(
@@ -113,7 +118,7 @@ fn shells_are_patches() {
     let [follower] = &model.pressures[..] else { panic!("one of them follows") };
     assert_eq!((follower.pressure, follower.amplitude, follower.faces.len()), (-3.0, Some(0), 16));
     assert_eq!(follower.faces[0], Face::of(&roof.elements[0].nodes[..3]).unwrap());
-    assert_eq!(model.expects[4].at, ExpectAt::Shell(1));
+    assert_eq!(model.expects[4].at, ExpectAt::Shells(at("roof"), at("roof") + 1));
     assert!(model.output.sections && model.output.layers);
 }
 
@@ -166,6 +171,26 @@ fn links_measure_from_where_they_are() {
 }
 
 #[test]
+fn parts_of_a_mesh_are_rigid_or_not() {
+    let model = everything();
+    let lid: Vec<_> = model.shells.iter().filter(|shell| shell.name == "lid").collect();
+    assert_eq!(lid.iter().map(|part| (part.corners, part.elements.len())).collect::<Vec<_>>(), [(4, 1), (3, 2)]);
+    assert_eq!(model.nodes[lid[0].elements[0].nodes[2]].x, Vec3::new(6.0, 1.0, 0.5));
+    let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+    assert_eq!(names, ["block", "wheel", "frame_of_parts", "plate"]);
+    // ρ h A with A = 1 + ½, and of the mast.
+    assert!((model.bodies[3].mass - 7850.0 * 0.02 * 1.5).abs() < 1e-12 * 7850.0);
+    assert!((model.bodies[2].mass - 7850.0 * 0.0025 * 2.0).abs() < 1e-12 * 7850.0);
+    assert_eq!(model.nodes[model.bodies[2].node].x, Vec3::new(0.0, 0.0, 3.0));
+    // Corners of the rigid plate that nothing else has are gone, and so is a lone node of the file.
+    let gone = ["mesh.1", "mesh.5", "mesh.14"];
+    assert!(model.nodes.iter().all(|node| !gone.contains(&node.label.as_str())));
+    let [rim, rib] = ["mesh.8", "mesh.6"].map(|label| node(&model, label));
+    let rider = model.riders.iter().find(|rider| rider.node == rim).unwrap();
+    assert_eq!((rider.master, rider.dofs), (rib, [true; 6]));
+}
+
+#[test]
 fn initial_motion_is_that_of_a_rigid_body_where_it_should_be() {
     let model = everything();
     let omega = Vec3::new(0.0, 0.0, 2.0);
@@ -198,4 +223,56 @@ fn the_rest_is_taken_as_written() {
     assert_eq!(model.output.nodes, [node(&model, "a"), node(&model, "c"), node(&model, "d")]);
     assert_eq!((model.output.cadence, model.output.fields), (Cadence::Interval(0.01), Some(20)));
     assert_eq!(model.analysis.least_step, 1e-4 / 1048576.0);
+}
+
+#[test]
+fn a_path_is_taken_as_written() {
+    let text = r#"
+[analysis]
+kind = "static"
+control = "arc-length"
+end_time = 1.0
+time_step = 0.1
+stop = { at = "b", quantity = "uy", value = -0.8, pass = 2 }
+steps = 50
+growth = 4.0
+[points]
+a = [0.0, 0.0, 0.0]
+b = [1.0, 0.0, 0.0]
+[[beams]]
+name = "beam"
+path = ["a", "b"]
+elements = 2
+section = "strip"
+orientation = [0.0, 1.0, 0.0]
+[sections.strip]
+shape = "general"
+axial_stiffness = 1e3
+shear_stiffness = [1e3, 1e3]
+torsional_stiffness = 1.0
+bending_stiffness = [1.0, 1.0]
+[[supports]]
+at = "a"
+fix = "all"
+[[loads]]
+at = "b"
+force = [-1.0, -0.1, 0.0]
+[[expect]]
+at = "analysis"
+quantity = "time"
+when = { at = "b", quantity = "ux", value = -0.5 }
+value = 0.3
+tolerance = 0.1
+"#;
+    let (model, problems) = model::read(&Source::new("path.toml", text, &[]));
+    assert!(problems.is_empty(), "{problems:?}");
+    let model = model.unwrap();
+    let stop = Passage { node: 1, dof: 1, value: -0.8, pass: 2 };
+    let control = ArcLength { stop: Some(stop), steps: Some(50), growth: 4.0 };
+    assert_eq!(model.analysis.control, Control::ArcLength(control));
+    let expect = &model.expects[0];
+    assert_eq!(expect.at, ExpectAt::Analysis);
+    assert_eq!(expect.when, When::Passing(Passage { node: 1, dof: 0, value: -0.5, pass: 1 }));
+    assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
+    assert_eq!(everything().analysis.control, Control::Time);
 }

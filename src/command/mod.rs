@@ -118,7 +118,7 @@ pub struct Loaded {
     pub model: Model,
     pub warnings: Vec<Diagnostic>,
     pub source: Source,
-    /// SHA-256 of the text and the `--set` arguments, in hexadecimal.
+    /// SHA-256 of the text, the `--set` arguments and the mesh, in hexadecimal.
     pub hash: String,
 }
 
@@ -135,10 +135,12 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
         complain(&format!("the deck `{name}` is not UTF-8 text: see line {line}"));
         Exit::DeckInvalid
     })?;
-    let hash = hash(&text, sets);
     let source = Source::new(name, text, sets);
     match model::read(&source) {
-        (Some(model), warnings) => Ok(Loaded { model, warnings, source, hash }),
+        (Some(model), warnings) => {
+            let hash = hash(&source, sets, &model);
+            Ok(Loaded { model, warnings, source, hash })
+        }
         (None, problems) => {
             let errors = problems.iter().filter(|problem| problem.is_error()).count();
             show(&problems, &source);
@@ -150,13 +152,17 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
     }
 }
 
-fn hash(text: &str, sets: &[String]) -> String {
+fn hash(source: &Source, sets: &[String], model: &Model) -> String {
     let mut hasher = Sha256::new();
-    hasher.update(text);
+    hasher.update(&source.text);
     for set in sets {
         // A byte that no TOML text holds keeps arguments apart.
         hasher.update([0]);
         hasher.update(set);
+    }
+    if let Some(mesh) = &model.mesh {
+        hasher.update([0, 0]);
+        hasher.update(mesh.digest);
     }
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

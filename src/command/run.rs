@@ -58,6 +58,7 @@ fn compute(
     log.say(&format!("rdsolve {}, deck {}", env!("CARGO_PKG_VERSION"), loaded.source.path))?;
     log.say(&text)?;
     let mut watchers = Watchers {
+        log,
         files: Files::open(folder, model, None)?,
         expectations: Expectations::new(model),
         progress: Progress::new(quiet),
@@ -72,7 +73,7 @@ fn compute(
 
     let expectations = watchers.expectations.verdicts();
     let (status, reason) = judge(outcome, &expectations)?;
-    log.say(if reason.is_empty() { "done" } else { &reason })?;
+    watchers.log.say(if reason.is_empty() { "done" } else { &reason })?;
     let counts = run.counts;
     timings.total_s = began.elapsed().as_secs_f64();
     let report = Report {
@@ -178,6 +179,7 @@ fn line(v: &Verdict) -> String {
 
 /// Everyone who watches the run, one after the other.
 struct Watchers {
+    log: Log,
     files: Files,
     expectations: Expectations,
     progress: Progress,
@@ -187,6 +189,7 @@ impl Observer for Watchers {
     fn see(&mut self, frame: &Frame) -> io::Result<()> {
         self.expectations.see(frame)?;
         self.progress.see(frame)?;
+        self.log.see(frame)?;
         self.files.see(frame)
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::Maybe;
+use super::words::{Maybe, Table};
 
 /// What is computed and over what time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -11,16 +11,57 @@ use super::words::Maybe;
 pub struct Analysis {
     #[schemars(required)]
     pub kind: Maybe<Kind>,
-    /// The run goes from t = 0 to this time.
+    /// What leads a static analysis on. Default: "time".
+    pub control: Maybe<Control>,
+    /// The run goes from t = 0 to this time; with arc-length, until the load first comes to it.
     #[schemars(required)]
     pub end_time: Maybe<f64>,
-    /// Time per step.
+    /// Time per step; with arc-length, that of the first step, from which the length of the others follows.
     #[schemars(required)]
     pub time_step: Maybe<f64>,
     /// A step that does not converge is halved, but not below this. Default: time_step / 2^20.
     pub least_step: Maybe<f64>,
+    /// With arc-length: where the run ends, unless `end_time` is reached before.
+    pub stop: Maybe<Table<Passage>>,
+    /// With arc-length: the run ends after so many steps, wherever it is. Default: after 100000 it fails.
+    pub steps: Maybe<u64>,
+    /// With arc-length: steps grow to at most so many times the first, in displacements. Default: no limit.
+    pub growth: Maybe<f64>,
     /// Leave out motion out of a plane where nothing can cause it. Default: "auto".
     pub plane: Maybe<Plane>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Control {
+    /// Time goes on in given steps.
+    Time,
+    /// Steps have a length in displacements; time is the load's and follows, so it may fall and rise again: through limit
+    /// points, snap-through and snap-back.
+    ArcLength,
+}
+
+/// A displacement on its way through a value: a step lands on it.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Passage {
+    /// Name of a point or body.
+    #[schemars(required)]
+    pub at: Maybe<String>,
+    #[schemars(required)]
+    pub quantity: Maybe<Displacement>,
+    #[schemars(required)]
+    pub value: Maybe<f64>,
+    /// Which time it passes the value, either way. Default: 1.
+    pub pass: Maybe<u64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Displacement {
+    Ux,
+    Uy,
+    Uz,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

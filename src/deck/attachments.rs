@@ -1,21 +1,22 @@
-//! `[[attachments]]`: the constraint map, nodes onto bodies.
+//! `[[attachments]]`: the constraint map, nodes onto bodies or beams.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Directions, Maybe, Names};
 
-/// Points that move with a body.
+/// Points that move with a body, or each with the nearest node of a beam, at the end of a rigid arm.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
     /// Name of a body.
-    #[schemars(required)]
     pub body: Maybe<String>,
-    /// Names of points, bodies or sets.
+    /// Name of a beam, instead of a body.
+    pub beam: Maybe<String>,
+    /// Names of points, bodies or sets. Those on the beam itself stay as they are.
     #[schemars(required)]
     pub nodes: Maybe<Names>,
-    /// Which motions are taken from the body. Default: "all".
+    /// Which motions are taken from the body or beam. Default: "all".
     pub dofs: Maybe<Directions>,
     /// Default: "auto".
     pub method: Maybe<Method>,

@@ -1,21 +1,21 @@
-//! `[[beams]]` and `[[bars]]`: deformable parts along paths of points.
+//! `[[beams]]` and `[[bars]]`: parts along paths of points, or along the segments of a mesh.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Maybe, Names, OneOrMany, Vector};
 
-/// A shear-flexible beam along straight segments between points.
+/// A shear-flexible beam along straight segments between points, or along those of a group of the mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Beam {
-    #[schemars(required)]
+    /// Default: that of the group.
     pub name: Maybe<String>,
     /// Names of points, two or more.
-    #[schemars(required)]
     pub path: Maybe<Names>,
+    /// Name of a group of the mesh, instead of path and elements: each of its segments is an element.
+    pub group: Maybe<String>,
     /// Elements per segment, or a list with one number for each.
-    #[schemars(required)]
     pub elements: Maybe<OneOrMany<u64>>,
     /// Name of a material; not needed where the section gives stiffnesses.
     pub material: Maybe<String>,
@@ -29,6 +29,8 @@ pub struct Beam {
     pub order: Maybe<u64>,
     /// Default: "lumped".
     pub mass: Maybe<Mass>,
+    /// The part is a rigid body of its name, with the mass and inertia of its elements. Default: false.
+    pub rigid: Maybe<bool>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
     /// Rule along an element. Default: "gauss". Beams whose material yields.

@@ -11,8 +11,10 @@ use super::words::{Maybe, Names, Table, Vector};
 pub struct Body {
     #[schemars(required)]
     pub name: Maybe<String>,
-    /// Centre of mass at t = 0.
-    #[schemars(required)]
+    /// Names of shells, beams and bars that are rigid and make up the body: they give its centre, mass and inertia, and their
+    /// elements are left out of the computation.
+    pub parts: Maybe<Names>,
+    /// Centre of mass at t = 0. Left out where parts make up the body, like mass, inertia and shape.
     pub center: Maybe<Vector>,
     /// Left out where the shape has a density.
     pub mass: Maybe<f64>,

@@ -3,20 +3,23 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::Maybe;
+use super::analysis::Passage;
+use super::words::{Maybe, Table};
 
 /// A value that is checked at the end of the run; a miss ends it with exit code 5.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Name of a point, body, beam, bar or link, or "energy".
+    /// Name of a point, body, beam, bar or link, "energy", or "analysis" for its time.
     #[schemars(required)]
     pub at: Maybe<String>,
     /// A column of nodes.csv, bodies.csv, links.csv or energy.csv; "plastic_strain" of a beam or bar, the largest anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,
-    /// When the value is taken.
+    /// When the value is taken; with arc-length, the first time the load comes to it.
     pub time: Maybe<f64>,
+    /// With arc-length, instead of a time: where a displacement passes a value. A step lands there.
+    pub when: Maybe<Table<Passage>>,
     /// Of the whole run, instead of a time.
     pub peak: Maybe<Peak>,
     #[schemars(required)]

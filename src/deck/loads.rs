@@ -16,7 +16,8 @@ pub struct Load {
     pub force: Maybe<Vector>,
     /// Global components.
     pub moment: Maybe<Vector>,
-    /// Along edges of shells, global components; `at` then names edges, such as "roof.edge2".
+    /// Along edges of shells, global components; `at` then names edges, such as "roof.edge2", groups of segments of the mesh, or
+    /// sets of nodes between which edges of shells lie.
     pub force_per_length: Maybe<Vector>,
     /// On the area that shells have at t = 0, global components; `at` then names shells.
     pub force_per_area: Maybe<Vector>,

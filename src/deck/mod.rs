@@ -14,6 +14,7 @@ pub mod initial;
 pub mod links;
 pub mod loads;
 pub mod materials;
+pub mod mesh;
 pub mod output;
 pub mod read;
 pub mod sections;
@@ -51,7 +52,8 @@ pub struct Deck {
     /// Named points [x, y, z] at t = 0; every one becomes a node.
     #[serde(default)]
     pub points: Named<Vector>,
-    /// Lists of names under one name: points, bodies, beams, bars, shells and their edges, further sets.
+    pub mesh: Maybe<Table<mesh::Mesh>>,
+    /// Lists of names under one name: points, bodies, beams, bars, shells and their edges, groups of the mesh, further sets.
     #[serde(default)]
     pub sets: Named<Names>,
     #[serde(default)]

@@ -13,7 +13,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::names::nearest;
 
 /// Tables that an override may begin; entries of any other must stand in the deck.
-const SINGLE: [&str; 6] = ["analysis", "integrator", "iteration", "environment", "damping", "output"];
+const SINGLE: [&str; 7] = ["mesh", "analysis", "integrator", "iteration", "environment", "damping", "output"];
 /// Tables whose entries are named by the user.
 const NAMED: [&str; 5] = ["materials", "sections", "points", "sets", "amplitudes"];
 

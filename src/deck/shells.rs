@@ -1,4 +1,4 @@
-//! `[[shells]]`: patches between three or four points, flat or on a surface of revolution.
+//! `[[shells]]`: patches between three or four points, flat or on a surface of revolution, or the faces of a mesh.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -6,18 +6,19 @@ use serde::Deserialize;
 use super::beams::Mass;
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
 
-/// A patch of shell elements. Its name stands for all of its nodes, `name.edge1` to `name.edge4` for those of an edge: edge1
+/// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1` to `name.edge4` for those of an edge: edge1
 /// runs from the first corner to the second, and so on round. Patches that share corners share the nodes between them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shell {
-    #[schemars(required)]
+    /// Default: that of the group.
     pub name: Maybe<String>,
     /// Names of four points in order round the patch, or of three.
-    #[schemars(required)]
     pub corners: Maybe<Names>,
+    /// Name of a group of the mesh, instead of corners, elements, kind and surface: its triangles and quadrilaterals. Normals at
+    /// nodes are those of the elements round them, each weighted by its angle there, on the same side of folds of more than 31°.
+    pub group: Maybe<String>,
     /// Elements along edge1 and along edge2, or one number for all edges.
-    #[schemars(required)]
     pub elements: Maybe<OneOrMany<u64>>,
     #[schemars(required)]
     pub thickness: Maybe<f64>,
@@ -35,6 +36,8 @@ pub struct Shell {
     pub axis: Maybe<Vector>,
     /// Default: "lumped".
     pub mass: Maybe<Mass>,
+    /// The part is a rigid body of its name, with the mass and inertia of its elements. Default: false.
+    pub rigid: Maybe<bool>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

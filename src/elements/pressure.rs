@@ -41,6 +41,13 @@ impl Face {
         }
     }
 
+    pub fn nodes_mut(&mut self) -> &mut [usize] {
+        match self {
+            Face::Triangle(nodes) => nodes,
+            Face::Quadrilateral(nodes) => nodes,
+        }
+    }
+
     /// ∫ N_a n dA for each of [`Face::nodes`], zero beyond them; `x`: positions by node.
     #[inline]
     pub fn areas(&self, x: impl Fn(usize) -> Vec3) -> [Vec3; 4] {

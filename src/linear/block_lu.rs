@@ -7,7 +7,7 @@
 
 use super::elimination::Elimination;
 use super::graph::Graph;
-use super::kernel::{Block, Column, invert, product, row_scale, subtract_product, subtract_times, times};
+use super::kernel::{Block, Column, invert, negatives, product, row_scale, subtract_product, subtract_times, times};
 use super::{Singular, Stats};
 
 pub struct BlockLu<const B: usize> {
@@ -150,6 +150,11 @@ impl<const B: usize> BlockLu<B> {
                 Err(_) => b.iter_mut().zip(x).for_each(|(b, x)| *b = *x),
             }
         }
+    }
+
+    /// Those of the diagonal blocks D_k, which A = L D Lᵀ leaves; a block and its inverse have as many.
+    pub(super) fn negatives(&self) -> usize {
+        (0..self.elimination.groups()).map(|k| negatives(&self.blocks[self.start[k]])).sum()
     }
 
     pub(super) fn stats(&self) -> Stats {

@@ -118,7 +118,7 @@ impl Cholesky {
         Ok(())
     }
 
-    fn factor_indefinite(&mut self) -> Result<(), Singular> {
+    pub(super) fn prepare_indefinite(&mut self) {
         if !self.ready_for_indefinite {
             let indefinite = supernodal::factorize_supernodal_numeric_ldlt_scratch::<usize, f64>(
                 &self.symbolic,
@@ -129,6 +129,15 @@ impl Cholesky {
             self.buffer = MemBuffer::new(indefinite.or(definite).or(solve_scratch(&self.symbolic)));
             self.ready_for_indefinite = true;
         }
+    }
+
+    /// Those of D: none where K = L Lᵀ.
+    pub(super) fn negatives(&self) -> usize {
+        if self.definite { 0 } else { self.diagonal.iter().filter(|&&at| self.L[at] < 0.0).count() }
+    }
+
+    fn factor_indefinite(&mut self) -> Result<(), Singular> {
+        self.prepare_indefinite();
         let nonzeros = self.values.len() - 1;
         let K = SparseColMatRef::new(self.pattern.as_ref(), &self.values[..nonzeros]);
         supernodal::factorize_supernodal_numeric_ldlt(

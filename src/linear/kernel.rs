@@ -131,3 +131,55 @@ fn exchange<const B: usize>(M: &mut [[f64; LANES]; B], row: &mut [usize; B], k: 
         column.swap(k, largest);
     }
 }
+
+/// Negative eigenvalues of the symmetric part of A: the signs of the pivots of elimination with diagonal pivoting. Where no
+/// diagonal entry will do, a pair of rows is eliminated at once, of which one eigenvalue is negative.
+/// J. R. Bunch & B. N. Parlett, SIAM J. Numer. Anal. 8 (1971).
+pub(super) fn negatives<const B: usize>(A: &Block<B>) -> usize {
+    // Above this part of the largest entry a diagonal entry is a pivot: least growth.
+    const SINGLE: f64 = 0.64;
+    let mut M: Block<B> = std::array::from_fn(|j| std::array::from_fn(|i| 0.5 * (A[j][i] + A[i][j])));
+    let mut left = [true; B];
+    let mut count = 0;
+    loop {
+        let (mut diagonal, mut pair) = ((0.0, 0), (0.0, 0, 0));
+        for i in (0..B).filter(|&i| left[i]) {
+            if M[i][i].abs() >= diagonal.0 {
+                diagonal = (M[i][i].abs(), i);
+            }
+            for j in (0..i).filter(|&j| left[j]) {
+                if M[j][i].abs() > pair.0 {
+                    pair = (M[j][i].abs(), i, j);
+                }
+            }
+        }
+        if !left.contains(&true) {
+            return count;
+        }
+        if diagonal.0 >= SINGLE * pair.0 {
+            let k = diagonal.1;
+            left[k] = false;
+            count += usize::from(M[k][k] < 0.0);
+            if M[k][k] != 0.0 {
+                let column = M[k];
+                for j in (0..B).filter(|&j| left[j]) {
+                    for i in (0..B).filter(|&i| left[i]) {
+                        M[j][i] -= column[i] * column[j] / column[k];
+                    }
+                }
+            }
+            continue;
+        }
+        let (_, k, l) = pair;
+        (left[k], left[l]) = (false, false);
+        count += 1;
+        let (K, L) = (M[k], M[l]);
+        let det = K[k] * L[l] - K[l] * K[l];
+        for j in (0..B).filter(|&j| left[j]) {
+            for i in (0..B).filter(|&i| left[i]) {
+                let (x, y) = (L[l] * K[j] - K[l] * L[j], K[k] * L[j] - K[l] * K[j]);
+                M[j][i] -= (K[i] * x + L[i] * y) / det;
+            }
+        }
+    }
+}

@@ -125,6 +125,18 @@ impl Solver {
         each!(self, inner => inner.solve(b))
     }
 
+    /// Where matrices are known to become indefinite: takes the memory for it now rather than in the run.
+    pub fn expect_indefinite(&mut self) {
+        if let Solver::Cholesky(inner) = self {
+            inner.prepare_indefinite();
+        }
+    }
+
+    /// Negative eigenvalues of the last matrix factored, where it is symmetric (Sylvester's law of inertia).
+    pub fn negatives(&self) -> usize {
+        each!(self, inner => inner.negatives())
+    }
+
     pub fn stats(&self) -> Stats {
         each!(self, inner => inner.stats())
     }

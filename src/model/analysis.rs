@@ -1,7 +1,7 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
 use super::build::{Builder, Owner};
-use super::{Analysis, Kind, Method, Update};
+use super::{Analysis, Control, Kind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::diagnostic::Diagnostic;
@@ -64,6 +64,7 @@ impl<'d> Builder<'d> {
             time_step,
             least_step: least_step.unwrap_or(time_step * 0.5_f64.powi(HALVINGS)),
             plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == deck::Plane::Auto),
+            control: Control::Time,
         };
     }
 

@@ -1,15 +1,26 @@
-//! `[[attachments]]`: points and bodies that move with a body.
+//! `[[attachments]]`: points and bodies that move with a body, nodes that move with a beam.
 
 use super::build::{Builder, Owner};
-use super::places::Reach;
+use super::places::{Place, Reach, Spot};
 use super::{DIRECTIONS, Rider};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{At, Diagnostic};
+use crate::math::Vec3;
+use crate::names::short;
+use std::collections::{HashMap, HashSet};
 
 impl<'d> Builder<'d> {
     pub fn attachments(&mut self) {
         for attachment in &self.deck.attachments {
             let owner = Owner { what: "`[[attachments]]`".to_owned(), span: &attachment.span };
-            let body = self.need(&owner, "body", &attachment.body).and_then(|name| self.body(name));
+            let beam = attachment.beam.as_ref().map(|name| (name, self.beam_of(name)));
+            if let (Some((name, _)), Some(_)) = (&beam, &attachment.body) {
+                self.error::<()>(&name.span, "nodes are attached to a `body` or to a `beam`, not to both");
+            }
+            let body = match beam {
+                Some(_) => None,
+                None if self.is_spoiled(owner.span, "beam") => None,
+                None => self.need(&owner, "body", &attachment.body).and_then(|name| self.body(name)),
+            };
             let spots = self.spots(&owner, "nodes", &attachment.nodes, Reach::Nodes);
             if self.is_spoiled(owner.span, "dofs") {
                 continue;
@@ -20,6 +31,9 @@ impl<'d> Builder<'d> {
             {
                 self.error::<()>(&at.span, "`dofs` is empty, so nothing is attached");
             }
+            if let Some((name, Some(beam))) = beam {
+                self.tie(name, beam, &spots, dofs);
+            }
             let Some(body) = body else { continue };
             let master = self.model.bodies[body].node;
             let body = self.model.bodies[body].name.clone();
@@ -28,20 +42,85 @@ impl<'d> Builder<'d> {
                     let message = format!("body `{body}` is attached to itself");
                     let hint = if spot.direct { "leave it out" } else { "it is a member of this set" };
                     self.error_with::<()>(spot.span, message, hint);
-                } else if let Some((rider, _)) = self.rides.get(&spot.node) {
-                    let first = self.model.riders[*rider].master;
-                    let first = self.model.nodes[first].label.clone();
-                    let message = format!("`{}` is attached twice: to `{first}` and to `{body}`", spot.name);
-                    let hint = "that would need multipliers, which this version does not have";
-                    let way = "a bushing link with a stiff frame can join the two bodies";
-                    self.problems.push(Diagnostic::error(message).at(spot.span).hint(hint).hint(way));
                 } else {
-                    self.rides.insert(spot.node, (self.model.riders.len(), spot.span.clone()));
-                    self.model.riders.push(Rider { node: spot.node, master, dofs });
+                    self.attach(&spot, master, &body, dofs);
                 }
             }
         }
         self.cycles();
+    }
+
+    fn attach(&mut self, spot: &Spot, master: usize, to: &str, dofs: [bool; 6]) {
+        if let Some((rider, _)) = self.rides.get(&spot.node) {
+            let first = self.model.riders[*rider].master;
+            let first = self.model.nodes[first].label.clone();
+            let message = format!("`{}` is attached twice: to `{first}` and to `{to}`", spot.name);
+            let hint = "that would need multipliers, which this version does not have";
+            let way = "a bushing link with a stiff frame can join the two bodies";
+            self.problems.push(Diagnostic::error(message).at(spot.span).hint(hint).hint(way));
+        } else {
+            self.rides.insert(spot.node, (self.model.riders.len(), spot.span.clone()));
+            self.model.riders.push(Rider { node: spot.node, master, dofs });
+        }
+    }
+
+    /// Index of a beam by name.
+    fn beam_of(&mut self, name: &'d At<String>) -> Option<usize> {
+        match self.place(name) {
+            Some(Place::Beam(beam)) => Some(beam),
+            Some(place) => self.error(&name.span, format!("`{}` is {}, not a beam", name.value, place.kind())),
+            None => {
+                let names = self.deck.beams.iter().filter_map(|beam| beam.name.as_ref().or(beam.group.as_ref()));
+                self.unknown("beam", name, names.map(|name| name.as_str()))
+            }
+        }
+    }
+
+    /// Each node onto the nearest node of a beam; the beam's own stay.
+    fn tie(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>], dofs: [bool; 6]) {
+        let own: HashSet<usize> = self.beam_nodes[beam].iter().copied().collect();
+        // Along the axis in which the beam is longest, so that a search may stop where nothing nearer can come.
+        let (low, high) = own.iter().fold((Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN)), |(low, high), &node| {
+            (low.inf(&self.x(node)), high.sup(&self.x(node)))
+        });
+        let axis = (high - low).imax();
+        let mut line: Vec<(f64, usize)> = own.iter().map(|&node| (self.x(node)[axis], node)).collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Direction and length of an element at each node.
+        let mut spans: HashMap<usize, Vec3> = HashMap::new();
+        for part in &self.model.beams[self.beam_parts[beam].clone()] {
+            for e in &part.elements {
+                let span = self.x(e.nodes[part.order]) - self.x(e.nodes[0]);
+                e.nodes[..=part.order].iter().for_each(|&node| {
+                    spans.insert(node, span);
+                });
+            }
+        }
+        let (mut far, mut farthest) = (0, 0.0f64);
+        for spot in spots.iter().filter(|spot| !own.contains(&spot.node)) {
+            let x = self.x(spot.node);
+            let Some((master, second)) = nearest_two(&line, axis, &x, |node| (self.x(node) - x).norm()) else {
+                continue;
+            };
+            let distance = (self.x(master) - x).norm();
+            if let Some(other) = second.filter(|&other| (self.x(other) - x).norm() <= distance * (1.0 + SAME)) {
+                let [a, b] = [master, other].map(|node| self.model.nodes[node].label.clone());
+                let node = self.model.nodes[spot.node].label.clone();
+                let message = format!("`{node}` is as near to `{a}` as to `{b}` of beam `{}`", name.value);
+                self.error_with::<()>(spot.span, message, "the meshes must match: each node needs its own on the beam");
+                continue;
+            }
+            if let Some(span) = spans.get(&master) {
+                let along = (x - self.x(master)).dot(span).abs() / span.norm_squared();
+                far += usize::from(along > 0.5 + SAME);
+                farthest = farthest.max(along);
+            }
+            self.attach(spot, master, &self.model.nodes[master].label.clone(), dofs);
+        }
+        if far > 0 {
+            let message = format!("nodes reach beyond beam `{}` by more than half an element: {far}", name.value);
+            self.warn(&name.span, message, format!("the farthest by {} elements", short(farthest)));
+        }
     }
 
     /// Reports riders that, from master to master, ride on themselves.
@@ -81,12 +160,41 @@ impl<'d> Builder<'d> {
     /// Reports a point on which nothing acts at all, `what` being done to it.
     pub fn is_loose(&mut self, spot: &super::places::Spot, what: &str) -> bool {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
-        if loose && self.sure {
+        // Once for a set: it may have thousands.
+        if loose && self.sure && (spot.direct || self.told.insert(("loose", spot.span.start))) {
             let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
             self.error_with::<()>(spot.span, message, "no beam, bar, link, mass or body");
         }
         loose
     }
+}
+
+/// Distances that agree to this part are the same but for rounding.
+const SAME: f64 = 1e-9;
+
+/// The two nodes nearest to x of a line sorted along an axis, by their distance; the first of equals.
+fn nearest_two(
+    line: &[(f64, usize)],
+    axis: usize,
+    x: &Vec3,
+    distance: impl Fn(usize) -> f64,
+) -> Option<(usize, Option<usize>)> {
+    let start = line.partition_point(|entry| entry.0 < x[axis]);
+    let (mut below, mut above) = (line[..start].iter().rev().peekable(), line[start..].iter().peekable());
+    let mut best: Vec<(f64, usize)> = Vec::with_capacity(3);
+    loop {
+        let gap = |entry: Option<&&(f64, usize)>| entry.map_or(f64::INFINITY, |entry| (entry.0 - x[axis]).abs());
+        let (down, up) = (gap(below.peek()), gap(above.peek()));
+        // Equal distances count, so a node just as near along the axis is still looked at.
+        if best.len() == 2 && down.min(up) > best[1].0 {
+            break;
+        }
+        let Some(&(_, node)) = (if down <= up { below.next() } else { above.next() }) else { break };
+        best.push((distance(node), node));
+        best.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        best.truncate(2);
+    }
+    best.first().map(|first| (first.1, best.get(1).map(|second| second.1)))
 }
 
 /// "ux, uy and rz".

@@ -17,11 +17,16 @@ const PARALLEL: f64 = 1e-6;
 impl<'d> Builder<'d> {
     pub fn beams(&mut self) {
         for (index, beam) in self.deck.beams.iter().enumerate() {
-            let name = beam.name.as_ref().map_or_else(|| format!("beams.{index}"), |name| name.value.clone());
+            let name = beam.name.as_ref().or(beam.group.as_ref());
+            let name = name.map_or_else(|| format!("beams.{index}"), |name| name.value.clone());
             let owner = Owner { what: format!("beam `{name}`"), span: &beam.span };
-            self.need(&owner, "name", &beam.name);
+            if beam.group.is_none() {
+                self.need(&owner, "name", &beam.name);
+            }
             self.beam_nodes.push(Vec::new());
+            let before = self.model.beams.len();
             self.beam(index, name, &owner, beam);
+            self.beam_parts.push(before..self.model.beams.len());
         }
     }
 
@@ -36,8 +41,35 @@ impl<'d> Builder<'d> {
         let mass = mass_kind(&beam.mass);
         let section = self.beam_section(owner, beam, mass);
         let yielding = self.yielding(owner, beam, order, section.is_some());
-        let elements = self.need(owner, "elements", &beam.elements);
         let orientation = self.need(owner, "orientation", &beam.orientation);
+        let rotary_inertia = beam.rotary_inertia.as_ref().is_none_or(|keep| keep.value);
+        if let Some(group) = &beam.group {
+            let strays = [
+                ("path", span(&beam.path)),
+                ("elements", span(&beam.elements)),
+                ("offset_start", span(&beam.offset_start)),
+                ("offset_end", span(&beam.offset_end)),
+            ];
+            self.stray("a beam made of a group of the mesh", &strays);
+            let toward = orientation.and_then(|orientation| self.unit("orientation", orientation));
+            let (inner, _) = lobatto(order.min(4) + 1);
+            // Without an orientation, which has been said, the group is still read.
+            let some = |along: &Vec3| frame(along, &Vec3::ith(along.iamin(), 1.0));
+            let of = |along: Vec3| toward.map_or_else(|| some(&along), |toward| frame(&along, &toward));
+            let made = self.meshed_beam((index, &name), owner, group, inner, of);
+            let (section, yielding, mut elements) = (section?, yielding?, made?);
+            toward?;
+            if order > 4 {
+                return None;
+            }
+            elements.iter_mut().for_each(|element| element.section = section);
+            self.model.beams.push(Beam { name, order, mass, rotary_inertia, yielding, elements });
+            return Some(());
+        }
+        if self.is_spoiled(owner.span, "group") {
+            return None;
+        }
+        let elements = self.need(owner, "elements", &beam.elements);
         let mut path = self.path(owner, &beam.path, true)?;
         let ends = [(0, "offset_start", &beam.offset_start), (path.len() - 1, "offset_end", &beam.offset_end)];
         for (at, key, offset) in ends {
@@ -84,7 +116,6 @@ impl<'d> Builder<'d> {
             }
         }
         self.beam_nodes[index] = nodes;
-        let rotary_inertia = beam.rotary_inertia.as_ref().is_none_or(|keep| keep.value);
         self.model.beams.push(Beam { name, order, mass, rotary_inertia, yielding, elements: made });
         Some(())
     }
@@ -168,17 +199,17 @@ impl<'d> Builder<'d> {
         let mut frames = Vec::new();
         for (i, pair) in path.windows(2).enumerate() {
             let along = self.x(pair[1]) - self.x(pair[0]);
-            let Some(x) = along.try_normalize(0.0) else { continue };
-            let z = x.cross(&toward);
-            if z.norm() < PARALLEL {
+            if along.try_normalize(0.0).is_none() {
+                continue;
+            }
+            let Some(frame) = frame(&along, &toward) else {
                 let message =
                     format!("`orientation` is parallel to segment `{}` - `{}`", points[i].value, points[i + 1].value);
                 let hint = "it must point to the side, where local y is to lie";
                 self.error_with::<()>(&orientation.span, message, hint);
                 continue;
-            }
-            let z: Vec3 = z.normalize();
-            frames.push(Mat3::from_columns(&[x, z.cross(&x), z]));
+            };
+            frames.push(frame);
         }
         (frames.len() + 1 == path.len()).then_some(frames)
     }
@@ -207,7 +238,9 @@ impl<'d> Builder<'d> {
             let owner = Owner { what: format!("bar `{name}`"), span: &bar.span };
             self.need(&owner, "name", &bar.name);
             self.bar_nodes.push(Vec::new());
+            let before = self.model.bars.len();
             self.bar(index, name, &owner, bar);
+            self.bar_parts.push(before..self.model.bars.len());
         }
     }
 
@@ -279,6 +312,13 @@ impl<'d> Builder<'d> {
             .is_some_and(|environment| environment.gravity.is_some() || !environment.base_acceleration.is_empty());
         mass != MassKind::None && (self.model.analysis.kind == Kind::Dynamic || pulled)
     }
+}
+
+/// Section axes: x along a segment, y towards the orientation, z = x × y. `None` where the two are parallel.
+fn frame(along: &Vec3, toward: &Vec3) -> Option<Mat3> {
+    let x = along.try_normalize(0.0)?;
+    let z = x.cross(toward).try_normalize(PARALLEL)?;
+    Some(Mat3::from_columns(&[x, z.cross(&x), z]))
 }
 
 pub(super) fn mass_kind(mass: &Maybe<deck::Mass>) -> MassKind {

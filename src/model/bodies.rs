@@ -28,6 +28,20 @@ impl<'d> Builder<'d> {
             let index = self.model.bodies.len();
             let label = body.name.as_ref().map_or_else(|| format!("bodies.{index}"), |name| name.value.clone());
             let owner = Owner { what: format!("body `{label}`"), span: &body.span };
+            if let Some(parts) = &body.parts {
+                let strays = [
+                    ("center", span(&body.center)),
+                    ("mass", span(&body.mass)),
+                    ("inertia", span(&body.inertia)),
+                    ("shape", span(&body.shape)),
+                ];
+                self.stray("a body that parts make up", &strays);
+                if let Some(name) = self.need(&owner, "name", &body.name) {
+                    self.name(name, Place::Body(index));
+                }
+                self.body_of_parts(label, body, &parts.span);
+                continue;
+            }
             let center = self.need(&owner, "center", &body.center).map_or_else(Vec3::zeros, |center| vec3(center));
             let node = self.node(label.clone(), true, center);
             self.touch(node, true);
@@ -40,6 +54,7 @@ impl<'d> Builder<'d> {
                 self.mass_properties(&owner, body).unwrap_or((1.0, Mat3::identity(), Shape::Sphere { radius: 1.0 }));
             self.model.bodies.push(Body { name: label, node, mass, inertia, shape });
         }
+        self.rigid_parts();
     }
 
     fn mass_properties(&mut self, owner: &Owner<'d>, body: &'d deck::Body) -> Option<(f64, Mat3, Shape)> {

@@ -2,9 +2,12 @@
 //! sensible numbers, names. Each part goes on after an error with what is sound, so that one mistake hides no other.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::ops::Range;
 
+use super::meshes::{Input, Meshed};
 use super::places::Place;
-use super::{Cadence, Damping, Iteration, Kind, Method, Model, Node, Output, Update};
+use super::rigid::RigidParts;
+use super::{Cadence, Control, Damping, Iteration, Kind, Method, Model, Node, Output, Update};
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
@@ -17,25 +20,32 @@ use crate::names::{nearest, quoted};
 /// Reads a deck and builds its model; everything there is to say about it, in the order of the deck.
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
     let (deck, mut problems) = crate::deck::read(source);
-    let (model, more) = deck.as_ref().map_or((None, Vec::new()), build);
+    let folder = std::path::Path::new(&source.path).parent().unwrap_or(std::path::Path::new(""));
+    let (input, said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
+    let (model, more) = deck.as_ref().map_or((None, Vec::new()), |deck| build(deck, input.as_ref()));
+    let model = model.filter(|_| !said.iter().any(Diagnostic::is_error));
+    problems.extend(said);
     let model = model.filter(|_| !problems.iter().any(Diagnostic::is_error));
     problems.extend(more);
     problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
     (model, problems)
 }
 
-/// The model the deck describes, and everything there is to say about it. `None` if any of that is an error.
-pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
-    let mut b = Builder::new(deck);
+/// The model the deck describes, with the mesh it names, and everything there is to say about it. `None` if any of that is an
+/// error.
+pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnostic>) {
+    let mut b = Builder::new(deck, input);
     b.analysis();
     b.points();
     b.bodies();
+    b.mesh_nodes();
     b.register_names();
     b.amplitudes();
     b.materials();
     b.beams();
     b.bars();
     b.shells();
+    b.rigid_bodies();
     b.masses();
     b.links();
     b.attachments();
@@ -45,9 +55,11 @@ pub fn build(deck: &Deck) -> (Option<Model>, Vec<Diagnostic>) {
     b.environment();
     b.damping();
     b.initial();
+    b.control();
     b.expects();
     b.output();
     b.check();
+    b.drop_unused();
     let sound = !b.problems.iter().any(Diagnostic::is_error);
     (sound.then_some(b.model), b.problems)
 }
@@ -57,6 +69,19 @@ pub(super) struct Builder<'d> {
     pub deck: &'d Deck,
     pub model: Model,
     pub problems: Vec<Diagnostic>,
+    pub input: Option<&'d Input>,
+    /// Parts and sets from the mesh.
+    pub meshed: Meshed<'d>,
+    /// Parts that are rigid.
+    pub rigid: RigidParts<'d>,
+    /// Of each beam, bar and shell of the deck: its entries in the model, none where it has errors.
+    pub beam_parts: Vec<Range<usize>>,
+    pub bar_parts: Vec<Range<usize>>,
+    pub shell_parts: Vec<Range<usize>>,
+    /// What has been said of sets, with where their names stand: once is enough for thousands of nodes.
+    pub told: HashSet<(&'static str, usize)>,
+    /// All nodes that are left go to nodes.csv.
+    pub writes_all: bool,
     /// What the names of points, bodies, sets, beams, bars, shells and links stand for.
     pub places: HashMap<&'d str, (Place, &'d Span)>,
     /// Per node: directions in which an element, a mass, a body or a link acts on it.
@@ -92,7 +117,7 @@ pub(super) struct Owner<'d> {
 }
 
 impl<'d> Builder<'d> {
-    fn new(deck: &'d Deck) -> Self {
+    fn new(deck: &'d Deck, input: Option<&'d Input>) -> Self {
         let model = Model {
             title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
             units: deck.units.as_ref().map(|units| units.label().to_owned()),
@@ -102,6 +127,7 @@ impl<'d> Builder<'d> {
                 time_step: 0.0,
                 least_step: 0.0,
                 plane: true,
+                control: Control::Time,
             },
             scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration { method: Method::Auto, update: Update::Auto, tolerance: 1e-8, limit: 20 },
@@ -122,6 +148,8 @@ impl<'d> Builder<'d> {
             base_accelerations: Vec::new(),
             damping: Damping::default(),
             expects: Vec::new(),
+            rigid: Vec::new(),
+            mesh: None,
             output: Output {
                 nodes: Vec::new(),
                 cadence: Cadence::Steps(1),
@@ -136,6 +164,14 @@ impl<'d> Builder<'d> {
         Builder {
             deck,
             model,
+            input,
+            meshed: Meshed::new(deck, input),
+            rigid: RigidParts::default(),
+            beam_parts: Vec::new(),
+            bar_parts: Vec::new(),
+            shell_parts: Vec::new(),
+            told: HashSet::new(),
+            writes_all: false,
             problems: Vec::new(),
             places: HashMap::new(),
             acts: Vec::new(),
@@ -172,7 +208,7 @@ impl<'d> Builder<'d> {
 
     /// The value of a key that must be there.
     pub fn need<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
-        self.unsure |= value.is_none() && ["path", "corners", "at", "nodes", "from", "to"].contains(&key);
+        self.unsure |= value.is_none() && ["path", "corners", "group", "at", "nodes", "from", "to"].contains(&key);
         if value.is_none() && !self.is_spoiled(owner.span, key) {
             self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
         }
@@ -263,6 +299,10 @@ impl<'d> Builder<'d> {
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Option<T> {
         self.unsure |= what.starts_with("point") || what == "body";
+        // It may be a group of a mesh that could not be read.
+        if self.meshed.lost && what.starts_with("point") {
+            return None;
+        }
         // It may be there, but too wrong to be read.
         if self.deck.spoiled.iter().any(|entry| entry.key == name.value) {
             return None;

@@ -43,6 +43,7 @@ impl<'d> Builder<'d> {
         if self.deck.spoiled.is_empty() && !self.problems.iter().any(Diagnostic::is_error) {
             self.check_use();
         }
+        self.check_mesh();
         if self.model.analysis.kind == super::Kind::Static {
             self.check_static();
         }

@@ -1,11 +1,12 @@
 //! `[[expect]]` and `[output]`.
 
-use super::build::{Builder, Owner};
+use super::build::{Builder, Owner, span};
 use super::places::{Place, Reach};
 use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Tolerance, When};
 use crate::deck::expect as deck;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;
+use std::ops::Range;
 
 /// Columns of nodes.csv, apart from displacements and rotations.
 const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
@@ -48,7 +49,7 @@ impl<'d> Builder<'d> {
         let quantity = self.need(owner, "quantity", &expect.quantity);
         if let (Some((at, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
             let strain = quantity.value == "plastic_strain" && !columns.contains(&"plastic_strain");
-            if strain && matches!(at, ExpectAt::Shell(_)) {
+            if strain && matches!(at, ExpectAt::Shells(..)) {
                 let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
                 return self.error(&quantity.span, message);
             }
@@ -60,6 +61,11 @@ impl<'d> Builder<'d> {
         let ((at, _), quantity, when, tolerance) = (at?, quantity?, when?, tolerance?);
         let moment = match when {
             When::Time(time) => format!("at t = {time}"),
+            When::Passing(at) => {
+                let (node, direction) = (&self.model.nodes[at.node].label, DIRECTIONS[at.dof]);
+                let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
+                format!("where {direction} of {node} is {}{pass}", at.value)
+            }
             When::Max => "at its maximum".to_owned(),
             When::Min => "at its minimum".to_owned(),
             When::Abs => "at its greatest absolute value".to_owned(),
@@ -80,7 +86,17 @@ impl<'d> Builder<'d> {
         if name.value == "energy" {
             return Some((ExpectAt::Energy, ENERGY.to_vec()));
         }
-        match self.places.get(name.as_str()).map(|(place, _)| *place) {
+        if name.value == "analysis" && !self.places.contains_key("analysis") {
+            return Some((ExpectAt::Analysis, vec!["time"]));
+        }
+        let place = self.place(name).map(|place| match place {
+            Place::Set(_) | Place::Group(_) => match self.nodes_of(place)[..] {
+                [node] => Place::Point(node),
+                _ => place,
+            },
+            place => place,
+        });
+        match place {
             Some(Place::Point(node)) => Some((ExpectAt::Node(node), [&MOTION[..], &DIRECTIONS].concat())),
             Some(Place::Body(body)) => {
                 let columns = [&MOTION[..], &DIRECTIONS, &QUATERNION].concat();
@@ -89,10 +105,11 @@ impl<'d> Builder<'d> {
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
             Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
             // Where a shell has errors, these have been said.
-            Some(Place::Shell(shell)) if self.model.shells.len() == self.deck.shells.len() => {
-                let yields = self.model.shells[shell].yielding.is_some();
+            Some(Place::Shell(shell)) if !self.shell_parts[shell].is_empty() => {
+                let Range { start, end } = self.shell_parts[shell];
+                let yields = self.model.shells[start].yielding.is_some();
                 let columns = if yields { vec!["von_mises", "plastic_strain"] } else { vec!["von_mises"] };
-                Some((ExpectAt::Shell(shell), columns))
+                Some((ExpectAt::Shells(start, end), columns))
             }
             Some(Place::Shell(_)) => None,
             Some(place) => {
@@ -111,18 +128,22 @@ impl<'d> Builder<'d> {
     fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
         let beams = self.model.beams.iter().map(|beam| (beam.elements.len(), beam.yielding.is_some()));
         let bars = self.model.bars.iter().map(|bar| (bar.elements.len(), bar.yielding.is_some()));
-        let index = match place {
-            Place::Bar(bar) => self.deck.beams.len() + bar,
-            Place::Beam(beam) => beam,
-            _ => return None,
-        };
-        let parts: Vec<(usize, bool)> = beams.chain(bars).collect();
         // Where a part has errors, these have been said, and the count is off.
-        if parts.len() < self.deck.beams.len() + self.deck.bars.len() {
+        if [&self.beam_parts, &self.bar_parts].iter().any(|p| p.iter().any(Range::is_empty)) {
             return None;
         }
-        let (count, yields) = parts[index];
-        if !yields {
+        let parts: Vec<(usize, bool)> = beams.chain(bars).collect();
+        let (before, range) = match place {
+            Place::Bar(bar) => (self.model.beams.len(), &self.bar_parts[bar]),
+            Place::Beam(beam) => (0, &self.beam_parts[beam]),
+            _ => return None,
+        };
+        let (index, next) = (before + range.start, before + range.end);
+        let count: usize = parts[index..next].iter().map(|(count, _)| count).sum();
+        if count == 0 {
+            return self.error(&name.span, format!("`{}` is rigid, so it has no plastic strain", name.value));
+        }
+        if !parts[index].1 {
             let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
             return self.error(&name.span, message);
         }
@@ -146,6 +167,18 @@ impl<'d> Builder<'d> {
     }
 
     fn when(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<When> {
+        if let Some(when) = &expect.when {
+            for (key, place) in [("time", span(&expect.time)), ("peak", span(&expect.peak))] {
+                if let Some(place) = place {
+                    self.error::<()>(place, format!("an expected value has `{key}` or `when`, not both"));
+                }
+            }
+            if !self.is_arc_length() {
+                let hint = "`control = \"arc-length\"` of `[analysis]` does";
+                return self.error_with(&when.span, "steps of given times do not land on displacements", hint);
+            }
+            return self.passage("`when`", when).map(When::Passing);
+        }
         match (&expect.time, &expect.peak) {
             (Some(_), Some(peak)) => self.error(&peak.span, "an expected value has `time` or `peak`, not both"),
             (Some(time), None) if !(time.value >= 0.0 && time.value <= self.model.analysis.end_time) => {
@@ -158,7 +191,7 @@ impl<'d> Builder<'d> {
                 deck::Peak::Min => When::Min,
                 deck::Peak::Abs => When::Abs,
             }),
-            (None, None) if ["time", "peak"].iter().any(|key| self.is_spoiled(owner.span, key)) => None,
+            (None, None) if ["time", "peak", "when"].iter().any(|key| self.is_spoiled(owner.span, key)) => None,
             (None, None) => self.error(owner.span, format!("{} needs `time` or `peak`", owner.what)),
         }
     }
@@ -183,14 +216,8 @@ impl<'d> Builder<'d> {
 
     pub fn output(&mut self) {
         let is_body: Vec<usize> = self.model.bodies.iter().map(|body| body.node).collect();
-        let all = |named: bool| -> Vec<usize> {
-            let nodes = self.model.nodes.iter().enumerate();
-            nodes
-                .filter(|(i, node)| (node.named || !named) && is_body.binary_search(i).is_err())
-                .map(|(i, _)| i)
-                .collect()
-        };
-        let named = all(true);
+        let nodes = self.model.nodes.iter().enumerate();
+        let named = nodes.filter(|(i, node)| node.named && is_body.binary_search(i).is_err()).map(|(i, _)| i).collect();
         let Some(output) = &self.deck.output else {
             self.model.output.nodes = named;
             return;
@@ -199,7 +226,10 @@ impl<'d> Builder<'d> {
         let word = output.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
         let nodes = match word {
             Some("named") => named,
-            Some("all") => all(false),
+            Some("all") => {
+                self.writes_all = true;
+                Vec::new()
+            }
             _ if output.nodes.is_none() => named,
             _ => {
                 let spots = self.spots(&owner, "nodes", &output.nodes, Reach::Nodes);
@@ -233,6 +263,10 @@ impl<'d> Builder<'d> {
             }
             _ => Cadence::Steps(self.count("every", &output.every, 1)),
         };
+        self.model.output.cadence = cadence;
+        if let Some(at) = &output.interval {
+            self.check_cadence(&at.span);
+        }
         let fields = output.fields.as_ref().map(|fields| {
             let owner = Owner { what: "`fields`".to_owned(), span: &fields.span };
             self.need(&owner, "format", &fields.format);

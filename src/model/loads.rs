@@ -144,12 +144,17 @@ impl<'d> Builder<'d> {
                         pair.iter().for_each(|&node| *forces.entry(node).or_default() += half * line);
                     }
                 }
-                Some(Place::Shell(_)) if load.force_per_length.is_none() => {
-                    let Some(shell) = self.model.shells.iter().find(|shell| shell.name == name.value) else { continue };
-                    for element in &shell.elements {
-                        let nodes = &element.nodes[..shell.corners];
+                Some(place @ (Place::Group(_) | Place::Set(_))) if load.force_per_length.is_some() => {
+                    for pair in self.line_of(place, name) {
+                        let half = 0.5 * (self.x(pair[1]) - self.x(pair[0])).norm();
+                        pair.iter().for_each(|&node| *forces.entry(node).or_default() += half * line);
+                    }
+                }
+                Some(place) if load.force_per_length.is_none() && self.shell_of(place).is_some() => {
+                    let Some(shell) = self.shell_of(place) else { continue };
+                    for nodes in self.faces_of(shell) {
                         if follower.is_some() {
-                            faces.extend(Face::of(nodes));
+                            faces.extend(Face::of(&nodes));
                             continue;
                         }
                         let x: Vec<Vec3> = nodes.iter().map(|&node| self.model.nodes[node].x).collect();

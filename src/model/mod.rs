@@ -11,12 +11,17 @@ mod expects;
 mod links;
 mod loads;
 mod materials;
+mod meshes;
+mod path;
 mod places;
+mod rigid;
 mod sections;
 mod shells;
 mod supports;
+mod unused;
 
 pub use build::{build, read};
+pub use meshes::Input;
 
 use crate::amplitude::Amplitude;
 use crate::elements::beam::Yielding;
@@ -56,7 +61,35 @@ pub struct Model {
     pub base_accelerations: Vec<BaseAcceleration>,
     pub damping: Damping,
     pub expects: Vec<Expect>,
+    /// Bodies that parts make up, whose elements have left the model.
+    pub rigid: Vec<Rigid>,
+    /// The file that the deck names.
+    pub mesh: Option<MeshFile>,
     pub output: Output,
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone)]
+pub struct Rigid {
+    /// Index into [`Model::bodies`].
+    pub body: usize,
+    /// "shell `roof`".
+    pub parts: Vec<String>,
+    /// Elements left out.
+    pub elements: usize,
+}
+
+#[derive(Debug, Clone)]
+pub struct MeshFile {
+    /// As messages name it.
+    pub path: String,
+    /// SHA-256 of its bytes.
+    pub digest: [u8; 32],
+    /// In the file.
+    pub nodes: usize,
+    pub elements: usize,
+    /// Of these, in parts of the deck.
+    pub used: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,6 +108,37 @@ pub struct Analysis {
     pub least_step: f64,
     /// Leave out-of-plane motion out of the unknowns where nothing can cause it.
     pub plane: bool,
+    pub control: Control,
+}
+
+/// What leads a static analysis on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Control {
+    /// The time, in given steps.
+    Time,
+    /// The way along the path of equilibria; the time follows, and may fall.
+    ArcLength(ArcLength),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArcLength {
+    /// Where the path ends, unless `end_time` is reached before.
+    pub stop: Option<Passage>,
+    /// The run ends after so many steps, wherever it is.
+    pub steps: Option<usize>,
+    /// Longest arc over that of the first step.
+    pub growth: f64,
+}
+
+/// A displacement on its way through a value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Passage {
+    pub node: usize,
+    /// 0..3: ux, uy, uz.
+    pub dof: usize,
+    pub value: f64,
+    /// Which time it does so, from 1.
+    pub pass: usize,
 }
 
 #[derive(Debug, Clone)]
@@ -148,6 +212,11 @@ pub enum Shape {
         inner_radius: f64,
         length: f64,
         axis: Vec3,
+    },
+    /// Faces of three or four corners, lines of two, as indices into points about the centre of mass.
+    Faces {
+        points: Vec<Vec3>,
+        faces: Vec<Vec<usize>>,
     },
 }
 
@@ -341,20 +410,25 @@ pub struct Expect {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ExpectAt {
+    /// The time, which follows where the path is followed by arc length.
+    Analysis,
     Node(usize),
     /// Columns of energy.csv.
     Energy,
     /// Columns of links.csv.
     Link(usize),
     /// Largest values over a shell: of von Mises stress and plastic strain.
-    Shell(usize),
+    Shells(usize, usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
+    /// With arc-length: the first time the load comes to it, from below.
     Time(f64),
+    /// With arc-length alone.
+    Passing(Passage),
     Max,
     Min,
     /// Greatest absolute value.

@@ -1,4 +1,4 @@
-//! What the names of a deck stand for: points, bodies, sets, beams, bars, shells and their edges, links.
+//! What the names of a deck stand for: points, bodies, sets, beams, bars, shells and their edges, links, groups of the mesh.
 
 use super::build::{Builder, Owner, vec3};
 use crate::deck::words::{Maybe, Names};
@@ -6,7 +6,7 @@ use crate::diagnostic::{At, Diagnostic, Span};
 use crate::math::Vec3;
 
 /// What a name stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Place {
     /// By its node.
     Point(usize),
@@ -19,6 +19,8 @@ pub(super) enum Place {
     /// Of a shell, counted from 0.
     Edge(usize, usize),
     Link(usize),
+    /// Of the mesh.
+    Group(usize),
 }
 
 /// A node that a list of names covers.
@@ -66,12 +68,14 @@ impl<'d> Builder<'d> {
     /// Names of parts whose nodes come later, so that lists may mention them.
     pub fn register_names(&mut self) {
         let deck = self.deck;
+        let rigid = std::mem::take(&mut self.rigid.body_of);
+        let part = |part: Place| rigid.get(&part).map_or(part, |&body| Place::Body(body));
         for (index, (name, _)) in deck.sets.0.iter().enumerate() {
             self.name(name, Place::Set(index));
         }
         for (index, beam) in deck.beams.iter().enumerate() {
-            if let Some(name) = &beam.name {
-                self.name(name, Place::Beam(index));
+            if let Some(name) = beam.name.as_ref().or(beam.group.as_ref()) {
+                self.name(name, part(Place::Beam(index)));
             }
         }
         for (index, bar) in deck.bars.iter().enumerate() {
@@ -80,8 +84,8 @@ impl<'d> Builder<'d> {
             }
         }
         for (index, shell) in deck.shells.iter().enumerate() {
-            if let Some(name) = &shell.name {
-                self.name(name, Place::Shell(index));
+            if let Some(name) = shell.name.as_ref().or(shell.group.as_ref()) {
+                self.name(name, part(Place::Shell(index)));
             }
         }
         for (index, link) in deck.links.iter().enumerate() {
@@ -89,6 +93,8 @@ impl<'d> Builder<'d> {
                 self.name(name, Place::Link(index));
             }
         }
+        self.rigid.body_of = rigid;
+        self.register_groups();
         for (index, (_, members)) in deck.sets.0.iter().enumerate() {
             for member in &members.values {
                 self.lookup(member);
@@ -122,17 +128,30 @@ impl<'d> Builder<'d> {
         if let Some((place, _)) = self.places.get(name) {
             return Some(*place);
         }
+        if let Some(node) = self.mesh_node(name) {
+            return Some(Place::Point(node));
+        }
         let (shell, edge) = name.rsplit_once(".edge")?;
-        let Some((Place::Shell(index), _)) = self.places.get(shell) else { return None };
+        let index = match self.places.get(shell)?.0 {
+            Place::Shell(index) => index,
+            // A rigid one.
+            Place::Body(_) => {
+                self.deck.shells.iter().position(|s| s.name.as_ref().is_some_and(|n| n.value == shell))?
+            }
+            _ => return None,
+        };
         // Where the corners are wrong, that is said there.
-        let three = self.deck.shells[*index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
+        let three = self.deck.shells[index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
         let corners = if three { 3 } else { 4 };
-        (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(*index, k - 1))
+        (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(index, k - 1))
     }
 
     /// What a name stands for; reports a name that stands for nothing.
     pub fn lookup(&mut self, name: &At<String>) -> Option<Place> {
         if let Some(place) = self.place(name) {
+            if let Place::Group(group) = place {
+                self.meshed.named[group] = true;
+            }
             return Some(place);
         }
         let is_link = |place: &Place| matches!(place, Place::Link(_));
@@ -144,7 +163,18 @@ impl<'d> Builder<'d> {
 
     /// The node of a point; `key` wants nothing else.
     pub fn point(&mut self, key: &str, name: &At<String>) -> Option<usize> {
-        match self.place(name) {
+        let place = self.place(name);
+        if let Some(set @ (Place::Group(_) | Place::Set(_))) = place {
+            return match self.nodes_of(set)[..] {
+                [node] => self.lookup(name).map(|_| node),
+                ref nodes => {
+                    let (kind, count) = (set.kind(), nodes.len());
+                    let message = format!("`{key}` wants points, and `{}` is {kind} of {count} nodes", name.value);
+                    self.error(&name.span, message)
+                }
+            };
+        }
+        match place {
             Some(Place::Point(node)) => Some(node),
             Some(place) => {
                 let message = format!("`{key}` wants points, and `{}` is {}", name.value, place.kind());
@@ -176,7 +206,11 @@ impl<'d> Builder<'d> {
         let mut seen = std::collections::HashSet::new();
         for name in &names.values {
             let Some(place) = self.lookup(name) else { continue };
-            if reach == Reach::Nodes && matches!(place, Place::Beam(_) | Place::Bar(_) | Place::Link(_)) {
+            let is_part = match place {
+                Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
+                place => matches!(place, Place::Bar(_) | Place::Link(_)),
+            };
+            if reach == Reach::Nodes && is_part {
                 let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
                 self.error_with::<()>(&name.span, message, "name its points");
                 continue;
@@ -199,7 +233,7 @@ impl<'d> Builder<'d> {
         point.or_else(body).unwrap_or(part)
     }
 
-    fn nodes_of(&self, place: Place) -> Vec<usize> {
+    pub fn nodes_of(&self, place: Place) -> Vec<usize> {
         let (mut nodes, mut todo, mut seen) = (Vec::new(), vec![place], vec![false; self.deck.sets.0.len()]);
         while let Some(place) = todo.pop() {
             match place {
@@ -212,6 +246,7 @@ impl<'d> Builder<'d> {
                     nodes.extend(self.shell_edges.get(shell).and_then(|edges| edges.get(edge)).into_iter().flatten());
                 }
                 Place::Link(_) => {}
+                Place::Group(group) => nodes.extend(self.group_nodes(group)),
                 Place::Set(set) if std::mem::replace(&mut seen[set], true) => {}
                 Place::Set(set) => {
                     let members = self.deck.sets.0[set].1.values.iter().rev();
@@ -228,16 +263,23 @@ impl<'d> Builder<'d> {
 }
 
 impl Place {
-    pub fn kind(self) -> &'static str {
+    /// "a shell", "an edge of a shell".
+    pub fn kind(self) -> String {
+        let noun = self.noun();
+        format!("{} {noun}", if noun.starts_with('e') { "an" } else { "a" })
+    }
+
+    pub fn noun(self) -> &'static str {
         match self {
-            Place::Point(_) => "a point",
-            Place::Body(_) => "a body",
-            Place::Set(_) => "a set",
-            Place::Beam(_) => "a beam",
-            Place::Bar(_) => "a bar",
-            Place::Shell(_) => "a shell",
-            Place::Edge(..) => "an edge of a shell",
-            Place::Link(_) => "a link",
+            Place::Point(_) => "point",
+            Place::Body(_) => "body",
+            Place::Set(_) => "set",
+            Place::Beam(_) => "beam",
+            Place::Bar(_) => "bar",
+            Place::Shell(_) => "shell",
+            Place::Edge(..) => "edge of a shell",
+            Place::Link(_) => "link",
+            Place::Group(_) => "group of the mesh",
         }
     }
 }

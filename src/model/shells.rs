@@ -2,12 +2,14 @@
 
 use super::beams::mass_kind;
 use super::build::{Builder, Owner, span, vec3_or_zero};
-use super::{Shell, ShellElement};
+use super::places::Place;
+use super::{MassKind, Shell, ShellElement};
 use crate::deck::shells as deck;
 use crate::deck::words::{OneOrMany, Table};
 use crate::diagnostic::At;
 use crate::elements::shell::{DRILLING, MOST_LAYERS, Plate, Yielding};
 use crate::math::{Mat3, Vec3};
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
 /// More elements along an edge are a slip of the keyboard, and would only exhaust memory.
@@ -118,11 +120,15 @@ impl Map {
 impl<'d> Builder<'d> {
     pub fn shells(&mut self) {
         for (index, shell) in self.deck.shells.iter().enumerate() {
-            let name = shell.name.as_ref().map_or_else(|| format!("shells.{index}"), |name| name.value.clone());
+            let name = shell.name.as_ref().or(shell.group.as_ref());
+            let name = name.map_or_else(|| format!("shells.{index}"), |name| name.value.clone());
             let owner = Owner { what: format!("shell `{name}`"), span: &shell.span };
-            self.need(&owner, "name", &shell.name);
+            if shell.group.is_none() {
+                self.need(&owner, "name", &shell.name);
+            }
             self.shell_nodes.push(Vec::new());
             self.shell_edges.push(Vec::new());
+            self.shell_parts.push(0..0);
             self.shell(index, name, &owner, shell);
         }
     }
@@ -130,17 +136,32 @@ impl<'d> Builder<'d> {
     /// Goes as far as it can, so that all errors of the shell are found; `None` means there were some.
     fn shell(&mut self, index: usize, name: String, owner: &Owner<'d>, shell: &'d deck::Shell) -> Option<()> {
         let mass = mass_kind(&shell.mass);
-        let thickness = self.need_positive(owner, "thickness", &shell.thickness);
-        let material = self.need(owner, "material", &shell.material);
-        let material = material.and_then(|name| Some((name, self.find("material", &self.deck.materials, name)?)));
+        let plate = self.plate(owner, shell, mass);
+        if let Some(group) = &shell.group {
+            let strays = [
+                ("corners", span(&shell.corners)),
+                ("elements", span(&shell.elements)),
+                ("kind", span(&shell.kind)),
+                ("surface", span(&shell.surface)),
+            ];
+            self.stray("a shell made of a group of the mesh", &strays);
+            let part = plate.map(|(plate, density, yielding, axis)| Shell {
+                name,
+                plate,
+                density,
+                mass,
+                yielding,
+                axis,
+                corners: 0,
+                elements: Vec::new(),
+            });
+            return self.meshed_shell(index, owner, group, part);
+        }
+        if self.is_spoiled(owner.span, "group") {
+            return None;
+        }
         let corners = self.corners(owner, shell);
         let counts = self.need(owner, "elements", &shell.elements).and_then(|counts| self.shell_counts(counts));
-        let (material_name, (_, material)) = material?;
-        let density = self.density(material_name, material, mass, &owner.what);
-        let what = format!("material `{}`, of which {} is made,", material_name.value, owner.what);
-        let nu = self.need(&Owner { what, span: &material.span }, "poisson_ratio", &material.poisson_ratio);
-        let yielding = self.layers(owner, shell);
-        let axis = shell.axis.as_ref().map_or(Some(Vec3::x()), |axis| self.unit("axis", axis));
         let corners = corners?;
         let triangles = match &shell.kind {
             Some(at) if at.value == deck::Kind::Quadrilateral && corners.len() == 3 => {
@@ -155,13 +176,7 @@ impl<'d> Builder<'d> {
             let place = span(&shell.elements).unwrap_or(owner.span);
             return self.error(place, "a patch of three corners has as many elements along each edge: give one number");
         }
-        let plate = Plate {
-            thickness: thickness?,
-            E: material.youngs_modulus.as_ref()?.value,
-            nu: nu?.value,
-            drilling: DRILLING,
-        };
-        let (density, yielding, axis) = (density?, yielding?, axis?);
+        let (plate, density, yielding, axis) = plate?;
 
         let (nodes, normals) = self.patch(index, &name, owner, &map, &corners, [n, m])?;
         let at = |i: usize, j: usize| j * (n + 1) + i;
@@ -197,6 +212,7 @@ impl<'d> Builder<'d> {
             let message = format!("{} folds back on itself", owner.what);
             return self.error_with(owner.span, message, "corners go round the patch, each at its own place");
         }
+        self.shell_parts[index] = self.model.shells.len()..self.model.shells.len() + 1;
         self.model.shells.push(Shell { name, plate, density, mass, yielding, axis, corners, elements });
         Some(())
     }
@@ -208,6 +224,95 @@ impl<'d> Builder<'d> {
             let normal = (x(k + 1) - x(k)).cross(&(x(k + corners - 1) - x(k)));
             normal.dot(&element.normals[k]) <= 0.0 || element.normals[k].dot(&element.normals[0]) <= 0.0
         })
+    }
+
+    /// The shell that a name stands for, a rigid one and one made of the group of this name too; by its index in the deck.
+    pub fn shell_of(&self, place: Place) -> Option<usize> {
+        let group = |group: usize| Some(self.input?.mesh.groups[group].name.as_str());
+        match place {
+            Place::Shell(shell) => Some(shell),
+            Place::Body(body) => self.rigid.body_of.iter().find_map(|(part, of)| match part {
+                Place::Shell(shell) if *of == body => Some(*shell),
+                _ => None,
+            }),
+            Place::Group(index) => {
+                let name = group(index)?;
+                self.deck.shells.iter().position(|shell| shell.group.as_ref().is_some_and(|group| group.value == name))
+            }
+            _ => None,
+        }
+    }
+
+    /// Nodes of the faces of a shell, also of a rigid one.
+    pub fn faces_of(&self, shell: usize) -> Vec<Vec<usize>> {
+        if let Some(faces) = self.rigid.faces.get(&shell) {
+            return faces.clone();
+        }
+        let parts = &self.model.shells[self.shell_parts[shell].clone()];
+        parts.iter().flat_map(|part| part.elements.iter().map(|e| e.nodes[..part.corners].to_vec())).collect()
+    }
+
+    /// Pairs of nodes along which a load per length acts: the segments of a group, or edges of shells between nodes of a set,
+    /// those at the border if there are any.
+    pub fn line_of(&mut self, place: Place, name: &At<String>) -> Vec<[usize; 2]> {
+        if let Place::Group(group) = place {
+            let segments = self.group_segments(group);
+            if !segments.is_empty() {
+                return segments;
+            }
+        }
+        let set: HashSet<usize> = self.nodes_of(place).into_iter().collect();
+        // Each edge between two of them, with the number of its faces; in order of first appearance.
+        let (mut edges, mut places): (Vec<([usize; 2], usize)>, _) = (Vec::new(), HashMap::new());
+        let mut whole = false;
+        for shell in 0..self.deck.shells.len() {
+            for face in self.faces_of(shell) {
+                whole |= face.iter().all(|node| set.contains(node));
+                for (k, &a) in face.iter().enumerate() {
+                    let b = face[(k + 1) % face.len()];
+                    if set.contains(&a) && set.contains(&b) {
+                        let next = edges.len();
+                        let place = *places.entry([a.min(b), a.max(b)]).or_insert(next);
+                        if place == next {
+                            edges.push(([a, b], 0));
+                        }
+                        edges[place].1 += 1;
+                    }
+                }
+            }
+        }
+        let border: Vec<[usize; 2]> = edges.iter().filter(|edge| edge.1 == 1).map(|edge| edge.0).collect();
+        if !border.is_empty() {
+            return border;
+        }
+        if whole {
+            let message = format!("`{}` holds whole elements, not an edge", name.value);
+            self.error_with::<()>(&name.span, message, "name the nodes along one line");
+        } else if edges.is_empty() && self.sure {
+            let message = format!("no edge of a shell lies between two nodes of `{}`", name.value);
+            self.error_with::<()>(&name.span, message, "a load per length acts along edges of shells or segments");
+        }
+        edges.into_iter().map(|edge| edge.0).collect()
+    }
+
+    /// What a shell is made of: plate, density, how it yields.
+    fn plate(
+        &mut self,
+        owner: &Owner<'d>,
+        shell: &'d deck::Shell,
+        mass: MassKind,
+    ) -> Option<(Plate, f64, Option<Yielding>, Vec3)> {
+        let thickness = self.need_positive(owner, "thickness", &shell.thickness);
+        let name = self.need(owner, "material", &shell.material)?;
+        let (_, material) = self.find("material", &self.deck.materials, name)?;
+        let density = self.density(name, material, mass, &owner.what);
+        let what = format!("material `{}`, of which {} is made,", name.value, owner.what);
+        let nu = self.need(&Owner { what, span: &material.span }, "poisson_ratio", &material.poisson_ratio);
+        let yielding = self.layers(owner, shell);
+        let axis = shell.axis.as_ref().map_or(Some(Vec3::x()), |axis| self.unit("axis", axis));
+        let E = material.youngs_modulus.as_ref()?.value;
+        let plate = Plate { thickness: thickness?, E, nu: nu?.value, drilling: DRILLING };
+        Some((plate, density?, yielding?, axis?))
     }
 
     /// Nodes of three or four corners.

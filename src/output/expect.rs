@@ -11,11 +11,12 @@ use std::io;
 /// The names `quantity` may take, in the order of the columns they are.
 pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
+        ExpectAt::Analysis => vec!["time"],
         ExpectAt::Node(_) => [&nodes_csv::COLUMNS[..], &bodies_csv::COLUMNS[QUATERNION]].concat(),
         ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
         ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
         ExpectAt::Elements(..) => vec!["plastic_strain"],
-        ExpectAt::Shell(_) => vec!["von_mises", "plastic_strain"],
+        ExpectAt::Shells(..) => vec!["von_mises", "plastic_strain"],
     }
 }
 
@@ -79,13 +80,17 @@ impl Expectations {
 impl Observer for Expectations {
     fn see(&mut self, frame: &Frame) -> io::Result<()> {
         let time = frame.state.time;
-        for watch in &mut self.watches {
+        for (index, watch) in self.watches.iter_mut().enumerate() {
+            if matches!(watch.expect.when, When::Passing(_)) && !frame.passed.contains(&index) {
+                continue;
+            }
             if matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time) {
                 continue;
             }
             let Some(value) = watch.column.and_then(|column| sample(watch.expect.at, column, frame)) else { continue };
             let better = |old: Sample| match watch.expect.when {
                 When::Time(t) => (time - t).abs() < (old.time - t).abs(),
+                When::Passing(_) => false,
                 When::Max => value > old.value,
                 When::Min => value < old.value,
                 When::Abs => value.abs() > old.value.abs(),
@@ -108,11 +113,12 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
                 Some(column) => Some(bodies_csv::values(now)[QUATERNION][column]),
             }
         }
+        ExpectAt::Analysis => Some(frame.state.time),
         ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
         ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
-        ExpectAt::Shell(shell) => {
+        ExpectAt::Shells(from, to) => {
             let of = [shells_csv::von_mises, shells_csv::plastic_strain][column];
-            frame.shells.iter().filter(|state| state.shell == shell).map(of).reduce(f64::max)
+            frame.shells.iter().filter(|state| (from..to).contains(&state.shell)).map(of).reduce(f64::max)
         }
         ExpectAt::Elements(from, to) => frame.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
     }
@@ -132,6 +138,7 @@ impl Watch {
             _ if passed => None,
             (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
+            (_, None, When::Passing(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
             (_, Some(sample), _) => Some(format!(
                 "{} at time {} is not {expected} within {tolerance}{}",

@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 pub struct Log {
     path: PathBuf,
     file: File,
+    /// Negative pivots and direction of the load in the last step.
+    path_before: Option<(usize, f64)>,
 }
 
 impl Log {
@@ -19,7 +21,7 @@ impl Log {
         let mut options = OpenOptions::new();
         options.create(true).write(true).append(resume).truncate(!resume);
         let file = std::fs::create_dir_all(dir).and_then(|()| options.open(&path)).map_err(|e| at(&path, e))?;
-        Ok(Log { path, file })
+        Ok(Log { path, file, path_before: None })
     }
 
     /// One or more lines; the last may do without its line break.
@@ -30,14 +32,32 @@ impl Log {
 }
 
 impl Observer for Log {
-    /// Notes the steps that had to be cut.
+    /// Notes the steps that had to be cut, and what a path goes through.
     fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        self.see_path(frame)?;
         if frame.cuts == 0 {
             return Ok(());
         }
         let times = if frame.cuts == 1 { "once".into() } else { format!("{} times", frame.cuts) };
         let (step, time, dt) = (frame.step, frame.state.time, frame.dt);
         self.say(&format!("step {step} to t = {time}: cut {times}, accepted with dt = {dt}"))
+    }
+}
+
+impl Log {
+    /// Limit points and bifurcations: an eigenvalue of the matrix changes its sign, and at a limit point the load turns, which
+    /// may show a step later.
+    fn see_path(&mut self, frame: &Frame) -> io::Result<()> {
+        let Some(now) = frame.negative_pivots else { return Ok(()) };
+        let (before, dt) = self.path_before.replace((now, frame.dt)).unwrap_or((now, frame.dt));
+        let what = match (dt * frame.dt < 0.0, now == before) {
+            (true, true) => "the load turns".to_string(),
+            (true, false) => format!("the load turns, a limit point: negative pivots {before}, now {now}"),
+            (false, false) => format!("a limit point or a bifurcation: negative pivots {before}, now {now}"),
+            (false, true) => return Ok(()),
+        };
+        let (step, time) = (frame.step, frame.state.time);
+        self.say(&format!("step {step} to t = {time}: {what}"))
     }
 }
 

@@ -141,7 +141,7 @@ pub fn wanted(model: &Model) -> Wanted {
             && (model.output.sections
                 || model.output.layers
                 || model.output.fields.is_some()
-                || expects(|at| matches!(at, ExpectAt::Shell(_)))),
+                || expects(|at| matches!(at, ExpectAt::Shells(..)))),
         plastic_strains: yields(model)
             && (model.output.fields.is_some() || expects(|at| matches!(at, ExpectAt::Elements(..)))),
     }

@@ -39,7 +39,7 @@ pub struct Report {
     /// One sentence; empty when done.
     pub reason: String,
     pub version: String,
-    /// SHA-256 of the deck with its overrides, hexadecimal.
+    /// SHA-256 of the deck with its overrides and its mesh, hexadecimal.
     pub deck_hash: String,
     pub plan: serde_json::Value,
     pub counts: Counts,

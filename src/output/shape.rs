@@ -21,6 +21,15 @@ impl Surface {
             Shape::Box { size, axes } => cuboid(size, axes),
             Shape::Sphere { radius } => sphere(radius),
             Shape::Cylinder { radius, inner_radius, length, axis } => cylinder(radius, inner_radius, length, axis),
+            Shape::Faces { ref points, ref faces } => {
+                let kind = |face: &[usize]| match face.len() {
+                    2 => Cell::Line,
+                    3 => Cell::Triangle,
+                    _ => Cell::Quad,
+                };
+                let cells = faces.iter().map(|face| (kind(face), face.clone())).collect();
+                Surface { points: points.clone(), cells }
+            }
         }
     }
 

@@ -4,7 +4,8 @@ use super::Plan;
 use crate::elements::beam::Rule;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
-use crate::model::{Kind as Analysis, Method, Model, Update};
+use crate::model::{Control, DIRECTIONS, Kind as Analysis, MeshFile, Method, Model, Update};
+use crate::names::{joined, short};
 use std::fmt::Write;
 
 /// What the reader of a result must know of Wilson-θ.
@@ -22,7 +23,20 @@ impl Plan {
         let analysis = &model.analysis;
         let steps = (analysis.end_time / analysis.time_step - 1e-9).ceil().max(1.0);
         match analysis.kind {
-            Analysis::Static => line("analysis", format!("static, {steps} load steps")),
+            Analysis::Static => match &analysis.control {
+                Control::Time => line("analysis", format!("static, {steps} load steps")),
+                Control::ArcLength(control) => {
+                    let end = match control.stop {
+                        None => String::new(),
+                        Some(stop) => {
+                            let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+                            format!(", or {direction} of {node} = {}", stop.value)
+                        }
+                    };
+                    let to = format!("to t = {}{end}", analysis.end_time);
+                    line("analysis", format!("static, by arc length {to}, the first step {} of t", analysis.time_step));
+                }
+            },
             Analysis::Dynamic => {
                 let Scheme::WilsonTheta(scheme) = &model.scheme;
                 let time = format!("to t = {} in {steps} steps of {}", analysis.end_time, analysis.time_step);
@@ -45,6 +59,16 @@ impl Plan {
         let parts: Vec<String> =
             parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
         line("model", parts.join(", "));
+        if let Some(mesh) = &model.mesh {
+            let MeshFile { path, nodes, elements, used, .. } = mesh;
+            line("mesh", format!("`{path}`: {nodes} nodes, {elements} elements, {used} of them in parts"));
+        }
+        for rigid in &model.rigid {
+            let body = &model.bodies[rigid.body];
+            let words: Vec<&str> = rigid.parts.iter().map(String::as_str).collect();
+            line("rigid", format!("{} as body `{}`, mass {}", joined(&words), body.name, short(body.mass)));
+            line("  left out", format!("its {} elements and the nodes that nothing else needs", rigid.elements));
+        }
         line("unknowns", self.unknowns.to_string());
         for omission in &self.omissions {
             line("  left out", format!("{} {}", omission.count, omission.what));
@@ -74,8 +98,10 @@ impl Plan {
             let what = format!("{} layers, yield under membrane stress; transverse shear elastic", yielding.layers);
             line("yields", format!("shell `{}`: {what}", shell.name));
         }
+        let along = matches!(analysis.control, Control::ArcLength(_));
         if system.history > 0 {
             let method = match model.iteration.method {
+                _ if along => "tangent stiffness: along a path nothing else tells where it goes",
                 Method::TangentStiffness => "tangent stiffness: the matrix is the derivative of the stress",
                 Method::InitialLoad => {
                     "initial load: the matrix is elastic, plastic stress stands on the right-hand side (11)"
@@ -91,6 +117,7 @@ impl Plan {
         line("matrix", matrix.to_string());
         let mixes = system.history > 0 && model.iteration.method != Method::TangentStiffness;
         let update = match (self.linear, model.iteration.update) {
+            _ if along => "in every iteration: a step needs the path's direction at hand",
             (true, _) => "once per length of step: the scene is linear",
             (_, Update::Iteration) => "in every iteration",
             (_, Update::Auto) if analysis.kind == Analysis::Static && !mixes => {

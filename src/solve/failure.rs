@@ -12,6 +12,12 @@ pub enum Failure {
     NotConverged { iterations: usize, largest: Vec<Largest> },
     /// A step of the deck needs too many pieces.
     Crawling { pieces: usize, dt: f64 },
+    /// No equilibrium lies on the arc of a step.
+    Bend { largest: Vec<Largest> },
+    /// Nothing moves with the time that could lead on along a path.
+    Idle { time: f64 },
+    /// A path went on for ever.
+    Endless { steps: usize },
     /// A number stopped being one.
     NotFinite { largest: Vec<Largest> },
 }
@@ -61,6 +67,20 @@ impl fmt::Display for Failure {
                 f,
                 "the step was cut into {pieces} pieces, the last of {dt:.1e}, and has not ended: the loads are too large or \
                  `time_step` is too long for this motion"
+            ),
+            Failure::Bend { largest } => {
+                write!(
+                    f,
+                    "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are"
+                )?;
+                list(f, largest)
+            }
+            Failure::Idle { time } => {
+                write!(f, "no load or held motion changes with the time at t = {time}: nothing leads on along the path")
+            }
+            Failure::Endless { steps } => write!(
+                f,
+                "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"
             ),
             Failure::NotFinite { largest } => {
                 write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;

@@ -7,7 +7,7 @@ use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{Frame, LinkState, Observer, SectionPoint, ShellState};
-use crate::model::{Cadence, Kind, Method, Model, Update};
+use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
@@ -54,9 +54,9 @@ pub struct Counts {
 
 /// A run of one scene.
 pub struct Run<'a> {
-    stepper: Stepper<'a>,
+    pub(super) stepper: Stepper<'a>,
     wanted: Wanted,
-    stop: &'a AtomicBool,
+    pub(super) stop: &'a AtomicBool,
     pub counts: Counts,
     /// Time spent in the observer.
     pub observing: Duration,
@@ -65,6 +65,17 @@ pub struct Run<'a> {
     plastic_strains: Vec<f64>,
     sections: Vec<SectionPoint>,
     shells: Vec<ShellState>,
+}
+
+/// A step as it is shown.
+pub(super) struct Step<'s> {
+    pub dt: f64,
+    pub taken: &'s Taken,
+    pub cuts: usize,
+    /// Whatever the cadence says.
+    pub due: bool,
+    /// See [`Frame::passed`].
+    pub passed: &'s [usize],
 }
 
 /// Halvings of a step that are ever tried; the deck's least step may stop earlier.
@@ -87,16 +98,18 @@ impl<'a> Run<'a> {
         // A node with nothing to move it stays where it is and costs nothing.
         let moves = |i: &usize| !rides[*i] && (driven[*i] || (0..6).any(|d| plan.is_unknown(*i, d)));
         let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
-        // Load steps are long and few, and there is no mass to steady an old matrix.
-        let method = model.iteration.method;
+        // Load steps are long and few, and there is no mass to steady an old matrix; along a path an old one leads astray.
+        let along = matches!(model.analysis.control, Control::ArcLength(_));
+        let method = if along { Method::TangentStiffness } else { model.iteration.method };
         let mixes = system.history > 0 && method != Method::TangentStiffness;
         let update = match (model.analysis.kind, model.iteration.update) {
+            _ if along => Update::Iteration,
             (Kind::Static, Update::Auto) if !mixes => Update::Iteration,
             (_, update) => update,
         };
         let length = extent(&at_rest);
         let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
-        let stepper = Stepper {
+        let mut stepper = Stepper {
             model,
             plan,
             system,
@@ -104,8 +117,9 @@ impl<'a> Run<'a> {
             solver,
             assembly,
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
-            search: (system.history > 0).then(|| Search::new(plan.unknowns, n)),
+            search: (system.history > 0 && !along).then(|| Search::new(plan.unknowns, n)),
             anderson: mixes.then(|| Anderson::new(weights)),
+            path: None,
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
             trial: at_rest,
@@ -121,6 +135,10 @@ impl<'a> Run<'a> {
             solves: 0,
             drift: 0.0,
         };
+        if along {
+            stepper.solver.expect_indefinite();
+            stepper.path = Some(stepper.new_path());
+        }
         Run {
             stepper,
             wanted,
@@ -159,8 +177,14 @@ impl<'a> Run<'a> {
     fn march(&mut self, state: &mut State, observer: &mut dyn Observer) -> Result<(), Outcome> {
         let initial = self.wanted.energy.then(|| self.stepper.system.energy(state, None));
         let balance = initial.map(|e| e.total);
-        let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
-        self.show(state, observer, balance, 0.0, &still, 0, true)?;
+        let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to: 0.0 };
+        let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, passed: &[] };
+        if let Control::ArcLength(control) = &self.stepper.model.analysis.control {
+            self.settle(state).map_err(|failure| Outcome::Failed { time: 0.0, failure })?;
+            self.show(state, observer, balance, &first)?;
+            return self.follow(state, observer, balance, control);
+        }
+        self.show(state, observer, balance, &first)?;
         for stretch in stretches(self.stepper.model) {
             for k in 1..=stretch.steps {
                 self.advance(state, &stretch, k, observer, balance)?;
@@ -198,7 +222,7 @@ impl<'a> Run<'a> {
                     pieces += 1;
                     let last = at == whole;
                     let due = last && k == stretch.steps && stretch.due;
-                    self.show(state, observer, balance, dt, &taken, cuts, due)?;
+                    self.show(state, observer, balance, &Step { dt, taken: &taken, cuts, due, passed: &[] })?;
                     cuts = 0;
                     if pieces >= MOST_PIECES && !last {
                         let failure = Failure::Crawling { pieces, dt };
@@ -231,19 +255,16 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    #[allow(clippy::too_many_arguments)]
-    fn show(
+    pub(super) fn show(
         &mut self,
         state: &State,
         observer: &mut dyn Observer,
         balance: Option<f64>,
-        dt: f64,
-        taken: &Taken,
-        cuts: usize,
-        due: bool,
+        step: &Step,
     ) -> Result<(), Outcome> {
         let model = self.stepper.model;
-        if dt > 0.0 {
+        let &Step { dt, taken, cuts, due, passed } = step;
+        if taken.iterations > 0 {
             self.counts.steps += 1;
             self.counts.iterations += taken.iterations;
         }
@@ -273,6 +294,8 @@ impl<'a> Run<'a> {
             plastic_strains: &self.plastic_strains,
             sections: &self.sections,
             shells: &self.shells,
+            passed,
+            negative_pivots: self.stepper.path.as_ref().map(|_| self.stepper.solver.negatives()),
         };
         observer.see(&frame).map_err(Outcome::Io)?;
         self.observing += began.elapsed();

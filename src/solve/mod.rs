@@ -1,9 +1,11 @@
 //! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 
 mod accelerate;
+mod arc;
 mod convergence;
 mod failure;
 mod march;
+mod path;
 mod refresh;
 mod search;
 mod start;
@@ -47,6 +49,10 @@ pub struct Frame<'a> {
     pub shells: &'a [ShellState],
     /// Empty unless `due` and wanted.
     pub sections: &'a [SectionPoint],
+    /// Indices into [`Model::expects`] of those whose passage this step lands on.
+    pub passed: &'a [usize],
+    /// Of the last matrix of a step by arc length.
+    pub negative_pivots: Option<usize>,
 }
 
 /// Whoever watches a run. Errors are input/output errors; they end the run with exit code 6.

@@ -1,6 +1,7 @@
 //! One step: predict, then residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
 
 use super::accelerate::Anderson;
+use super::arc::{Condition, Path};
 use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::refresh::{Advice, Refresh};
@@ -28,6 +29,8 @@ pub struct Stepper<'a> {
     /// Where the matrix may be far from the derivative because material yields.
     pub anderson: Option<Anderson>,
     pub search: Option<Search>,
+    /// Where the load is unknown.
+    pub path: Option<Path>,
     /// Motion at the instant of equilibrium.
     pub trial: Vec<Node>,
     pub increments: Vec<Increment>,
@@ -59,6 +62,8 @@ pub struct Taken {
     pub refactorizations: usize,
     /// Relative to the largest force or moment at a node.
     pub residual: f64,
+    /// Where it ends.
+    pub to: f64,
 }
 
 /// Largest translations and rotations of a set of increments.
@@ -88,21 +93,39 @@ impl<'a> Stepper<'a> {
     /// # Errors
     /// See [`Failure`].
     pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
-        let dt = to - state.time;
-        let scheme = self.coefficients(dt);
-        let since = scheme.instant * dt;
-        self.give(state.time, to, scheme.instant);
+        let scheme = self.coefficients(to - state.time);
         self.predict(state, &scheme);
-        let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0 };
-        let mut convergence = Convergence::new(self.model.iteration.tolerance, self.plan.linear);
+        let taken = self.equilibrate(state, &scheme, to, None)?;
+        self.accept(state, &scheme, to);
+        Ok(taken)
+    }
+
+    /// Finds the motion from `state` to its equilibrium at `to`, from the increments at hand; or, with a condition in place
+    /// of the time, to where that holds, from the time `to` on.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn equilibrate(
+        &mut self,
+        state: &State,
+        scheme: &Coefficients,
+        to: f64,
+        condition: Option<Condition>,
+    ) -> Result<Taken, Failure> {
+        self.give(state.time, to, scheme.instant);
+        let mut taken = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to };
+        let exact = self.plan.linear && condition.is_none();
+        let mut convergence = Convergence::new(self.model.iteration.tolerance, exact);
         let mut limit = self.model.iteration.limit;
         loop {
-            self.move_trial(state, &scheme);
+            let dt = taken.to - state.time;
+            let since = scheme.instant * dt;
+            self.move_trial(state, scheme);
             let now = Now { nodes: &self.trial, past: &state.history, since };
             let scale = self.system.residual(&now, &self.given[2], &mut self.forces);
             taken.residual = self.gather(&scale);
             if !taken.residual.is_finite() {
-                if !self.once_more(state, &scheme) {
+                if !self.once_more(state, scheme) {
                     return Err(self.not_finite());
                 }
                 convergence.forget();
@@ -118,7 +141,7 @@ impl<'a> Stepper<'a> {
                 continue;
             }
             if self.refresh.due(taken.iterations, dt) {
-                self.form_matrix(state, &scheme, since)?;
+                self.form_matrix(state, scheme, since)?;
                 self.refresh.done(dt);
                 self.forget_corrections();
                 taken.refactorizations += 1;
@@ -128,6 +151,9 @@ impl<'a> Stepper<'a> {
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
+            if let Some(condition) = condition {
+                taken.to = self.close(state, taken.to, condition)?;
+            }
             // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
             let plain = self.search.is_some().then(|| self.prepare());
             let (mut correction, motion) = self.correct();
@@ -143,29 +169,28 @@ impl<'a> Stepper<'a> {
             let judgement = convergence.judge(size, taken.residual);
             // Between elastic and plastic one contraction says little of the next, and what is small against positions may be
             // large against elastic strains: the residual must have come down as well, or nothing but rounding be left.
-            let sure = self.search.is_none() || taken.residual <= 1e3 * self.model.iteration.tolerance;
+            let sure = self.system.history == 0 || taken.residual <= 1e3 * self.model.iteration.tolerance;
             let rounding = judgement.stalled() && self.is_rounding(correction, fresh && sure);
             if rounding || sure && judgement.converged() {
                 break;
             }
             if taken.iterations >= limit {
-                if !self.once_more(state, &scheme) {
+                if !self.once_more(state, scheme) {
                     return Err(self.not_converged(&taken));
                 }
                 convergence.forget();
                 limit += self.model.iteration.limit;
             } else if judgement.seen && self.refresh.watch(fresh, &judgement) == Advice::Restart {
-                self.predict(state, &scheme);
+                self.predict(state, scheme);
                 convergence.forget();
             }
         }
         self.refresh.accepted(taken.iterations);
-        self.accept(state, &scheme, to);
         Ok(taken)
     }
 
     /// Loads and held motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
-    fn give(&mut self, from: f64, to: f64, instant: f64) {
+    pub(super) fn give(&mut self, from: f64, to: f64, instant: f64) {
         let [start, end, at] = &mut self.given;
         self.drive.loading(from, Side::After, start);
         self.drive.loading(to, Side::Before, end);
@@ -199,7 +224,7 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    fn predict(&mut self, state: &State, scheme: &Coefficients) {
+    pub(super) fn predict(&mut self, state: &State, scheme: &Coefficients) {
         self.forget_corrections();
         for &node in &self.movers {
             let start = &state.nodes[node];
@@ -209,7 +234,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.
-    fn move_trial(&mut self, state: &State, scheme: &Coefficients) {
+    pub(super) fn move_trial(&mut self, state: &State, scheme: &Coefficients) {
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
@@ -228,7 +253,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Residual per unknown; returns its largest entry relative to the forces (moments) it is made of.
-    fn gather(&mut self, scale: &Scale) -> f64 {
+    pub(super) fn gather(&mut self, scale: &Scale) -> f64 {
         let mut largest = [0.0f64; 2];
         for (r, &(node, dof)) in self.r.iter_mut().zip(&self.plan.directions) {
             *r = self.forces.on_nodes[node][dof];
@@ -341,10 +366,11 @@ impl<'a> Stepper<'a> {
     }
 
     /// State at the end of the step, written once.
-    fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
+    pub(super) fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
         let dt = to - state.time;
         let mut damping_power = 0.0;
         let remembers = self.system.history > 0;
+        let dynamic = self.model.analysis.kind == Kind::Dynamic;
         if self.wants_forces || remembers {
             self.move_trial(state, scheme);
         } else {
@@ -357,7 +383,7 @@ impl<'a> Stepper<'a> {
         let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
         if self.wants_forces {
             self.system.residual(&now, &self.given[2], &mut self.forces);
-            if self.system.is_damped() && self.model.analysis.kind == Kind::Dynamic {
+            if self.system.is_damped() && dynamic {
                 damping_power = self.system.damping_power(&now);
             }
         }
@@ -379,8 +405,10 @@ impl<'a> Stepper<'a> {
             let start = &state.nodes[node];
             let end = &mut self.trial[node];
             end.advance(start, &self.increments[node], scheme.rotation);
-            let change = join(&(end.a - start.a), &(end.alpha - start.alpha));
-            state.jerk[node] = change / dt;
+            if dynamic {
+                let change = join(&(end.a - start.a), &(end.alpha - start.alpha));
+                state.jerk[node] = change / dt;
+            }
         }
         for rider in &self.system.attachments {
             rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);

@@ -174,6 +174,30 @@ impl System {
             crate::elements::subtract(&mut F[damping.node], 0, &(damping.translation * node.v));
             crate::elements::subtract(&mut F[damping.node], 3, &(damping.rotation * node.omega));
         }
+        self.add_loads(nodes, loading, F, &mut scale);
+        self.lift(nodes, forces);
+        scale
+    }
+
+    /// Loads and weight alone, in a static analysis: with rates for a loading, how the residual changes with the time.
+    pub fn external(&self, nodes: &[Node], loading: &Loading, forces: &mut Forces) {
+        let F = &mut forces.on_nodes[..];
+        let mut scale = Scale::default();
+        F.fill([0.0; 6]);
+        for inertia in &self.inertias {
+            let f = inertia.force(&nodes[inertia.node], &loading.field, false, &mut scale);
+            for (sum, f) in F[inertia.node].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
+        for mass in &self.consistent {
+            mass.add_forces(nodes, &loading.field, false, 0.0, F);
+        }
+        self.add_loads(nodes, loading, F, &mut scale);
+        self.lift(nodes, forces);
+    }
+
+    fn add_loads(&self, nodes: &[Node], loading: &Loading, F: &mut [Force], scale: &mut Scale) {
         for (load, factor) in self.loads.iter().zip(&loading.factors) {
             let (f, m) = load_on(load, *factor, &nodes[load.node]);
             let f = [f.x, f.y, f.z, m.x, m.y, m.z];
@@ -187,11 +211,14 @@ impl System {
                 scale.force = scale.force.max(face.add_forces(*p, nodes, F));
             }
         }
+    }
+
+    fn lift(&self, nodes: &[Node], forces: &mut Forces) {
+        let F = &mut forces.on_nodes[..];
         for (rider, force) in self.attachments.iter().zip(&mut forces.on_riders).rev() {
             *force = Vec3::new(F[rider.node][0], F[rider.node][1], F[rider.node][2]);
             rider.lift(nodes, F);
         }
-        scale
     }
 
     /// Work of loads and weight over a step, by the mean of the forces at its ends; of pressures that follow, by the volume

@@ -68,6 +68,24 @@ impl<'a> Drive<'a> {
         }
     }
 
+    /// Rates of the loads at time t, into `loading`: to the right of a kink.
+    pub fn rates(&self, t: f64, loading: &mut Loading) {
+        let plain = match self.model.analysis.kind {
+            Kind::Dynamic => 0.0,
+            Kind::Static => 1.0 / self.model.analysis.end_time,
+        };
+        let rate = |i: usize| self.model.amplitudes[i].rate(t);
+        loading.factors.clear();
+        loading.factors.extend(self.model.loads.iter().map(|load| load.amplitude.map_or(plain, rate)));
+        loading.pressures.clear();
+        let pressures = self.model.pressures.iter();
+        loading.pressures.extend(pressures.map(|load| load.pressure * load.amplitude.map_or(plain, rate)));
+        loading.field = plain * self.model.gravity;
+        for base in &self.model.base_accelerations {
+            loading.field -= rate(base.amplitude) * base.direction;
+        }
+    }
+
     /// Motion of the held directions at time t, in the model's order. A static analysis has places but no rates, or
     /// dampers would act in it.
     pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {

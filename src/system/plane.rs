@@ -23,7 +23,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
         |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.amax()));
 
     // Shells bend out of any plane they lie in.
-    if !model.shells.is_empty() || !model.pressures.is_empty() {
+    if model.shells.iter().any(|shell| !shell.elements.is_empty()) || !model.pressures.is_empty() {
         return false;
     }
     let Some(first) = model.nodes.first() else { return false };

@@ -46,7 +46,14 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
     Model {
         title: String::new(),
         units: None,
-        analysis: Analysis { kind, end_time, time_step, least_step: time_step * 1e-3, plane: false },
+        analysis: Analysis {
+            kind,
+            end_time,
+            time_step,
+            least_step: time_step * 1e-3,
+            plane: false,
+            control: Control::Time,
+        },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-12, limit: 30 },
         nodes: vec![],
@@ -66,6 +73,8 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         base_accelerations: vec![],
         damping: Damping::default(),
         expects: vec![],
+        rigid: vec![],
+        mesh: None,
         output: Output {
             nodes: vec![],
             cadence: Cadence::Steps(1),

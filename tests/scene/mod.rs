@@ -44,7 +44,14 @@ pub fn model() -> Model {
     Model {
         title: "one of each".into(),
         units: None,
-        analysis: Analysis { kind: Kind::Dynamic, end_time: 1.0, time_step: 0.1, least_step: 1e-6, plane: false },
+        analysis: Analysis {
+            kind: Kind::Dynamic,
+            end_time: 1.0,
+            time_step: 0.1,
+            least_step: 1e-6,
+            plane: false,
+            control: Control::Time,
+        },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-8, limit: 20 },
         nodes,
@@ -79,6 +86,8 @@ pub fn model() -> Model {
         base_accelerations: vec![],
         damping: Damping::default(),
         expects: vec![],
+        rigid: vec![],
+        mesh: None,
         output: Output {
             nodes: vec![2, 0],
             cadence: Cadence::Steps(1),
@@ -164,6 +173,8 @@ impl Extras {
             plastic_strains: &[],
             sections: &self.sections,
             shells: &self.shells,
+            passed: &[],
+            negative_pivots: None,
         }
     }
 }

@@ -22,7 +22,8 @@ pub fn decks() -> PathBuf {
 fn source(name: &str, sets: &[String]) -> Source {
     let path = decks().join(name).join("deck.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    Source::new(format!("{name}/deck.toml"), text, sets)
+    // The folder counts: a mesh is found from there.
+    Source::new(path.display().to_string(), text, sets)
 }
 
 /// What reading a deck says, messages alone.

@@ -6,6 +6,7 @@ use super::{Moduli, Now};
 use crate::elements::Layer;
 use crate::materials::{Law, PlaneStress, Spent};
 use crate::math::quadrature;
+use nalgebra::SMatrix;
 use std::array::from_fn;
 use std::ops::Range;
 use std::sync::Arc;
@@ -73,21 +74,54 @@ impl<const M: usize> Layered<M> {
     /// Calls for every layer of every point: its point, [z, weight], strain, memory.
     #[inline(always)]
     fn each(&self, strain: &[[f64; M]; 2], past: &[f64], mut of: impl FnMut(&Spread<M>, [f64; 2], &[f64; 3], &[f64])) {
-        let mut memories = past[self.share()].chunks_exact(self.layers.memory);
-        for point in &self.points {
-            let [e, k] = Self::strain(point, strain);
-            for (&[z, w], past) in self.layers.at.iter().zip(&mut memories) {
-                of(point, [z, w * point.weight], &from_fn(|i| e[i] + z * k[i]), past);
-            }
+        let all = self.layers.at.len() * self.layers.memory;
+        for (point, past) in self.points.iter().zip(past[self.share()].chunks_exact(all)) {
+            self.through(point, strain, past, |[z, w], strain, past| of(point, [z, w * point.weight], strain, past));
         }
     }
 
+    /// Calls for every layer of a point: [z, share of the thickness], strain, memory.
     #[inline(always)]
-    fn add(point: &Spread<M>, [z, w]: [f64; 2], sigma: &[f64; 3], stress: &mut [[f64; M]; 2]) {
+    fn through(
+        &self,
+        point: &Spread<M>,
+        strain: &[[f64; M]; 2],
+        past: &[f64],
+        mut of: impl FnMut([f64; 2], &[f64; 3], &[f64]),
+    ) {
+        let [e, k] = Self::strain(point, strain);
+        for (&[z, w], past) in self.layers.at.iter().zip(past.chunks_exact(self.layers.memory)) {
+            of([z, w], &from_fn(|i| e[i] + z * k[i]), past);
+        }
+    }
+
+    /// Adds the stress of a point: N and M of the section there.
+    #[inline(always)]
+    fn add(point: &Spread<M>, section: &[[f64; 3]; 2], stress: &mut [[f64; M]; 2]) {
+        for (stress, section) in stress.iter_mut().zip(section) {
+            for m in 0..M {
+                stress[m] += point.weight * (0..3).map(|i| point.A[(i, m)] * section[i]).sum::<f64>();
+            }
+        }
+    }
+}
+
+/// N and M grow by the stress of a layer.
+#[inline(always)]
+fn pile(section: &mut [[f64; 3]; 2], [z, w]: [f64; 2], sigma: &[f64; 3]) {
+    for i in 0..3 {
+        section[0][i] += w * sigma[i];
+        section[1][i] += w * z * sigma[i];
+    }
+}
+
+/// K −= w Aᵀ C A.
+#[inline(always)]
+fn subtract<const M: usize>(w: f64, A: &SMatrix<f64, 3, M>, C: &[[f64; 3]; 3], K: &mut [[f64; M]; M]) {
+    for n in 0..M {
+        let column: [f64; 3] = from_fn(|i| w * (0..3).map(|j| C[i][j] * A[(j, n)]).sum::<f64>());
         for m in 0..M {
-            let s = w * (0..3).map(|i| point.A[(i, m)] * sigma[i]).sum::<f64>();
-            stress[0][m] += s;
-            stress[1][m] += z * s;
+            K[m][n] -= (0..3).map(|i| A[(i, m)] * column[i]).sum::<f64>();
         }
     }
 }
@@ -99,9 +133,14 @@ impl<const M: usize> Section<M> for Layered<M> {
 
     fn stress(&self, strain: &[[f64; M]; 2], now: &Now) -> [[f64; M]; 2] {
         let mut stress = [[0.0; M]; 2];
-        self.each(strain, now.past, |point, at, strain, past| {
-            Self::add(point, at, &self.layers.law.stress(PlaneStress, strain, now.since, past), &mut stress);
-        });
+        let all = self.layers.at.len() * self.layers.memory;
+        for (point, past) in self.points.iter().zip(now.past[self.share()].chunks_exact(all)) {
+            let mut section = [[0.0; 3]; 2];
+            self.through(point, strain, past, |at, strain, past| {
+                pile(&mut section, at, &self.layers.law.stress(PlaneStress, strain, now.since, past));
+            });
+            Self::add(point, &section, &mut stress);
+        }
         stress
     }
 
@@ -118,25 +157,38 @@ impl<const M: usize> Section<M> for Layered<M> {
         }
         let mut stress = [[0.0; M]; 2];
         let mut yields = false;
-        *room = self.elastic.clone();
-        self.each(strain, now.past, |point, at, strain, past| {
-            let (sigma, C) = self.layers.law.linearise(PlaneStress, strain, now.since, past);
-            Self::add(point, at, &sigma, &mut stress);
-            let Some(C) = C else { return };
-            yields = true;
-            let [z, w] = at;
-            let loss: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| w * (self.layers.stiffness[i][j] - C[i][j])));
-            for n in 0..M {
-                let column: [f64; 3] = from_fn(|i| (0..3).map(|j| loss[i][j] * point.A[(j, n)]).sum());
-                for m in 0..M {
-                    let c: f64 = (0..3).map(|i| point.A[(i, m)] * column[i]).sum();
-                    room.N[m][n] -= c;
-                    room.NM[m][n] -= z * c;
-                    room.M[m][n] -= z * z * c;
+        let all = self.layers.at.len() * self.layers.memory;
+        for (point, past) in self.points.iter().zip(now.past[self.share()].chunks_exact(all)) {
+            let mut section = [[0.0; 3]; 2];
+            // By the power of z.
+            let mut loss = [[[0.0; 3]; 3]; 3];
+            let mut here = false;
+            self.through(point, strain, past, |[z, w], strain, past| {
+                let (sigma, C) = self.layers.law.linearise(PlaneStress, strain, now.since, past);
+                pile(&mut section, [z, w], &sigma);
+                let Some(C) = C else { return };
+                here = true;
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let lost = w * (self.layers.stiffness[i][j] - C[i][j]);
+                        loss[0][i][j] += lost;
+                        loss[1][i][j] += z * lost;
+                        loss[2][i][j] += z * z * lost;
+                    }
+                }
+            });
+            Self::add(point, &section, &mut stress);
+            if here {
+                if !yields {
+                    room.clone_from(&self.elastic);
+                    (room.coupled, yields) = (true, true);
+                }
+                let Spread { A, weight } = point;
+                for (loss, K) in loss.iter().zip([&mut room.N, &mut room.NM, &mut room.M]) {
+                    subtract(*weight, A, loss, K);
                 }
             }
-        });
-        room.coupled = yields;
+        }
         (stress, if yields { room } else { &self.elastic })
     }
 

@@ -17,6 +17,9 @@
 //!
 //! Where the material yields, a point of the element strains as its stress modes have it while elastic; nothing inside an
 //! element needs iteration or memory but the layers themselves.
+//! Nodes that drill do not bulge the edges next to them, though that would cure bending in the plane of distorted elements:
+//! membrane forces would then pull at the rotations, about normals that differ from element to element, and in thin sheets
+//! under tension nothing holds the rotations against it.
 //! Left out: change of thickness, curvature in the volume element (h/R against 1), initial stress.
 
 mod arc;

@@ -1,0 +1,456 @@
+//! Gmsh in ASCII, versions 4.1 and 2.2. Groups are the physical ones of dimension 0, 1 and 2; one without a name is called
+//! `physical_7` by its tag, or `physical_7_lines` where its tag has several dimensions without names.
+
+use super::Kind;
+use super::draft::{Draft, RawGroup, short};
+use super::text::{Fault, Line, Text, Word, Words};
+use crate::math::Vec3;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// What one number of an element's type stands for.
+enum Type {
+    Point,
+    Known(Kind),
+    Other(String),
+}
+
+fn of(number: u64) -> Type {
+    Type::Other(match number {
+        1 => return Type::Known(Kind::Segment),
+        2 => return Type::Known(Kind::Triangle),
+        3 => return Type::Known(Kind::Quadrilateral),
+        15 => return Type::Point,
+        4 => "tetrahedra".to_owned(),
+        5 => "hexahedra".to_owned(),
+        6 => "prisms".to_owned(),
+        7 => "pyramids".to_owned(),
+        8 => "3-node lines".to_owned(),
+        9 => "6-node triangles".to_owned(),
+        10 => "9-node quadrilaterals".to_owned(),
+        11 => "10-node tetrahedra".to_owned(),
+        16 => "8-node quadrilaterals".to_owned(),
+        17 => "20-node hexahedra".to_owned(),
+        other => format!("elements of type {other}"),
+    })
+}
+
+/// Dimension and tag of a physical group.
+type Physical = (u8, u64);
+
+/// Physical groups, and the names of them.
+#[derive(Default)]
+struct Groups {
+    list: Vec<(Physical, RawGroup)>,
+    places: HashMap<Physical, usize>,
+    names: HashMap<Physical, String>,
+    /// By dimension and tag of an entity: its physical groups, and whether these turn its elements round.
+    entities: HashMap<(u8, i64), (Vec<usize>, bool)>,
+}
+
+impl Groups {
+    fn place(&mut self, dimension: u8, tag: u64) -> usize {
+        let next = self.list.len();
+        let place = *self.places.entry((dimension, tag)).or_insert(next);
+        if place == next {
+            self.list.push(((dimension, tag), RawGroup::default()));
+        }
+        place
+    }
+
+    /// Groups by name: one that is given in several dimensions holds all of it.
+    fn named(mut self) -> Vec<RawGroup> {
+        let alone = |&(dimension, tag): &Physical| {
+            let same = |other: &Physical| other.1 == tag && other.0 != dimension && !self.names.contains_key(other);
+            !self.places.keys().any(same)
+        };
+        let name = |key: &Physical| match self.names.get(key) {
+            Some(name) => name.clone(),
+            None if alone(key) => format!("physical_{}", key.1),
+            None => format!("physical_{}_{}", key.1, ["points", "lines", "faces"][key.0.min(2) as usize]),
+        };
+        let names: Vec<String> = self.list.iter().map(|(key, _)| name(key)).collect();
+        let mut groups: Vec<RawGroup> = Vec::new();
+        let mut known: HashMap<String, usize> = HashMap::new();
+        for ((_, group), name) in self.list.drain(..).zip(names) {
+            let next = groups.len();
+            let at = *known.entry(name.clone()).or_insert(next);
+            if at == next {
+                groups.push(RawGroup { name, ..group });
+            } else {
+                groups[at].nodes.extend(group.nodes);
+                groups[at].elements.extend(group.elements);
+                groups[at].skipped += group.skipped;
+            }
+        }
+        groups
+    }
+}
+
+pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
+    let first = text.line().ok_or_else(|| text.fault("the file is empty", 1))?;
+    if first.bytes != b"$MeshFormat" {
+        return Err(text.fault("a Gmsh file begins with $MeshFormat", first.number));
+    }
+    let line = within(text, "MeshFormat")?;
+    let mut words = Numbers::of(text, line);
+    let version = words.word("the version")?;
+    let four = match version.bytes {
+        b"4.1" => true,
+        b"2.2" | b"2.1" | b"2" => false,
+        _ => {
+            let mut fault =
+                text.fault_at(format!("Gmsh format {} is not read; 4.1 and 2.2 are", version.text()), &version);
+            fault.hints.push("write it with Mesh.MshFileVersion = 4.1".to_owned());
+            return Err(fault);
+        }
+    };
+    if words.whole("the kind of file")? != 0 {
+        let mut fault = text.fault("binary Gmsh files are not read", line.number);
+        fault.hints.push("write it with Mesh.Binary = 0".to_owned());
+        return Err(fault);
+    }
+    end(text, "MeshFormat")?;
+
+    let (mut groups, mut nodes, mut elements) = (Groups::default(), false, false);
+    while let Some(line) = text.line() {
+        let Some(name) = line.bytes.strip_prefix(b"$") else {
+            return Err(text.fault("this stands outside all sections", line.number));
+        };
+        match name {
+            b"PhysicalNames" => names(text, &mut groups)?,
+            b"Entities" if four => entities(text, &mut groups)?,
+            b"PartitionedEntities" => return Err(text.fault("partitioned meshes are not read", line.number)),
+            b"Nodes" => {
+                nodes = true;
+                if four { nodes_4(text, draft)? } else { nodes_2(text, draft)? }
+            }
+            b"Elements" => {
+                elements = true;
+                if four { elements_4(text, draft, &mut groups)? } else { elements_2(text, draft, &mut groups)? }
+            }
+            other => {
+                let name = String::from_utf8_lossy(other).into_owned();
+                let close = format!("$End{name}");
+                loop {
+                    match text.line() {
+                        Some(line) if line.bytes == close.as_bytes() => break,
+                        Some(_) => {}
+                        None => return Err(text.fault_at_end(format!("the file ends within ${name}"))),
+                    }
+                }
+                if name != "Comments" {
+                    draft.skip(&format!("${name}"), 1, line.number);
+                }
+                continue;
+            }
+        }
+        end(text, &String::from_utf8_lossy(name))?;
+    }
+    for (there, name) in [(nodes, "$Nodes"), (elements, "$Elements")] {
+        if !there {
+            return Err(text.fault_at_end(format!("the file has no {name}")));
+        }
+    }
+    draft.groups = groups.named();
+    Ok(())
+}
+
+/// The next line of a section, which must not end before.
+fn within<'t>(text: &mut Text<'t>, section: &str) -> Result<Line<'t>, Fault> {
+    match text.line() {
+        Some(line) if line.bytes.starts_with(b"$") => {
+            Err(text.fault(format!("${section} has fewer lines than it says"), line.number))
+        }
+        Some(line) => Ok(line),
+        None => Err(text.fault_at_end(format!("the file ends within ${section}"))),
+    }
+}
+
+fn end(text: &mut Text, section: &str) -> Result<(), Fault> {
+    match text.line() {
+        Some(line) if line.bytes.strip_prefix(b"$End").is_some_and(|name| name == section.as_bytes()) => Ok(()),
+        Some(line) => Err(text.fault(format!("$End{section} should stand here"), line.number)),
+        None => Err(text.fault_at_end(format!("the file ends before $End{section}"))),
+    }
+}
+
+/// The words of a line as numbers.
+struct Numbers<'a, 't> {
+    text: &'a Text<'t>,
+    line: Line<'t>,
+    words: Words<'t>,
+}
+
+impl<'a, 't> Numbers<'a, 't> {
+    fn of(text: &'a Text<'t>, line: Line<'t>) -> Self {
+        Numbers { text, line, words: line.words() }
+    }
+
+    fn word(&mut self, what: &str) -> Result<Word<'t>, Fault> {
+        self.words.next().ok_or_else(|| self.text.fault(format!("this line lacks {what}"), self.line.number))
+    }
+
+    fn whole(&mut self, what: &str) -> Result<u64, Fault> {
+        let word = self.word(what)?;
+        word.whole().ok_or_else(|| self.text.fault_at(format!("{what} must be a whole number"), &word))
+    }
+
+    fn signed(&mut self, what: &str) -> Result<i64, Fault> {
+        let word = self.word(what)?;
+        word.signed().ok_or_else(|| self.text.fault_at(format!("{what} must be a whole number"), &word))
+    }
+
+    fn number(&mut self, what: &str) -> Result<f64, Fault> {
+        let word = self.word(what)?;
+        word.number().ok_or_else(|| self.text.fault_at(format!("{what} must be a finite number"), &word))
+    }
+
+    fn vector(&mut self) -> Result<Vec3, Fault> {
+        Ok(Vec3::new(self.number("x")?, self.number("y")?, self.number("z")?))
+    }
+
+    fn nodes(&mut self, kind: Kind) -> Result<[u64; 4], Fault> {
+        let mut nodes = [0; 4];
+        for node in &mut nodes[..kind.size()] {
+            *node = self.whole("a node")?;
+        }
+        Ok(nodes)
+    }
+
+    /// Nothing more on this line.
+    fn end(mut self) -> Result<(), Fault> {
+        match self.words.next() {
+            Some(word) => Err(self.text.fault_at("this is one number too many", &word)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// dimension tag "name"
+fn names(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
+    let line = within(text, "PhysicalNames")?;
+    for _ in 0..Numbers::of(text, line).whole("the number of names")? {
+        let line = within(text, "PhysicalNames")?;
+        let mut words = Numbers::of(text, line);
+        let (dimension, tag) = (words.whole("the dimension")?, words.signed("the tag")?);
+        let quoted = String::from_utf8_lossy(line.bytes);
+        let name = quoted.split_once('"').and_then(|(_, rest)| rest.rsplit_once('"')).map(|(name, _)| name);
+        let Some(name) = name.filter(|name| !name.is_empty()) else {
+            return Err(text.fault("this line lacks a name in quotes", line.number));
+        };
+        if dimension > 3 {
+            return Err(text.fault("the dimension must lie between 0 and 3", line.number));
+        }
+        if dimension < 3 {
+            let key = (dimension as u8, tag.unsigned_abs());
+            groups.names.insert(key, name.to_owned());
+            groups.place(key.0, key.1);
+        }
+    }
+    Ok(())
+}
+
+/// Points: tag x y z n groups…; others: tag with six bounds, n groups…, and what bounds them.
+fn entities(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
+    let line = within(text, "Entities")?;
+    let mut words = Numbers::of(text, line);
+    let mut counts = [0; 4];
+    for count in &mut counts {
+        *count = words.whole("a number of entities")?;
+    }
+    for (dimension, count) in counts.into_iter().enumerate() {
+        for _ in 0..count {
+            let line = within(text, "Entities")?;
+            let mut words = Numbers::of(text, line);
+            let tag = words.signed("the tag")?;
+            for _ in 0..if dimension == 0 { 3 } else { 6 } {
+                words.number("a coordinate")?;
+            }
+            let (mut places, mut turned) = (Vec::new(), true);
+            for _ in 0..words.whole("the number of physical groups")? {
+                // A negative one wants the elements the other way round; version 2.2 writes them so.
+                let group = words.signed("a physical group")?;
+                turned &= group < 0;
+                if dimension < 3 {
+                    places.push(groups.place(dimension as u8, group.unsigned_abs()));
+                }
+            }
+            let turned = turned && !places.is_empty();
+            groups.entities.insert((dimension as u8, tag), (places, turned));
+        }
+    }
+    Ok(())
+}
+
+/// Blocks by entity: all numbers, then all coordinates.
+fn nodes_4(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
+    let line = within(text, "Nodes")?;
+    let mut words = Numbers::of(text, line);
+    let (blocks, all) = (words.whole("the number of blocks")?, words.whole("the number of nodes")?);
+    let before = draft.nodes.len();
+    let mut ids = Vec::new();
+    for _ in 0..blocks {
+        let line = within(text, "Nodes")?;
+        let mut words = Numbers::of(text, line);
+        words.signed("the dimension")?;
+        words.signed("the entity")?;
+        words.whole("the mark of parameters")?;
+        let count = words.whole("the number of nodes")?;
+        words.end()?;
+        ids.clear();
+        for _ in 0..count {
+            let line = within(text, "Nodes")?;
+            let mut words = Numbers::of(text, line);
+            ids.push((words.whole("a node")?, line.number));
+            words.end()?;
+        }
+        for (id, at) in ids.drain(..) {
+            let line = within(text, "Nodes")?;
+            let x = Numbers::of(text, line).vector()?;
+            draft.node(id, x, at);
+        }
+    }
+    counted(text, line, "Nodes", "nodes", all, draft.nodes.len() - before)
+}
+
+fn nodes_2(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
+    let line = within(text, "Nodes")?;
+    for _ in 0..Numbers::of(text, line).whole("the number of nodes")? {
+        let line = within(text, "Nodes")?;
+        let mut words = Numbers::of(text, line);
+        let id = words.whole("a node")?;
+        let x = words.vector()?;
+        words.end()?;
+        draft.node(id, x, line.number);
+    }
+    Ok(())
+}
+
+fn counted(text: &Text, line: Line, section: &str, what: &str, said: u64, found: usize) -> Result<(), Fault> {
+    if said == found as u64 {
+        return Ok(());
+    }
+    Err(text.fault(format!("${section} says {said} {what} and has {found}"), line.number))
+}
+
+/// Blocks by entity, which knows its groups.
+fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result<(), Fault> {
+    let line = within(text, "Elements")?;
+    let mut words = Numbers::of(text, line);
+    let (blocks, all) = (words.whole("the number of blocks")?, words.whole("the number of elements")?);
+    let mut found = 0;
+    for _ in 0..blocks {
+        let line = within(text, "Elements")?;
+        let mut words = Numbers::of(text, line);
+        let dimension = words.whole("the dimension")?;
+        let entity = words.signed("the entity")?;
+        let kind = of(words.whole("the type")?);
+        let count = words.whole("the number of elements")?;
+        words.end()?;
+        let places = u8::try_from(dimension).ok().and_then(|dimension| groups.entities.get(&(dimension, entity)));
+        let (places, turned) = places.map_or((&[][..], false), |(places, turned)| (places.as_slice(), *turned));
+        for _ in 0..count {
+            let line = within(text, "Elements")?;
+            found += 1;
+            let mut words = Numbers::of(text, line);
+            let id = words.whole("an element")?;
+            element(&mut words, (id, &kind), line, draft, (&mut groups.list, places))?;
+            if let (Type::Known(kind), Some(element), true) = (&kind, draft.elements.last_mut(), turned) {
+                element.nodes[..kind.size()].reverse();
+            }
+            if !matches!(kind, Type::Other(_)) {
+                words.end()?;
+            }
+        }
+    }
+    counted(text, line, "Elements", "elements", all, found)
+}
+
+/// number type n tags… nodes…; the first tag is the physical group, 0 for none.
+fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result<(), Fault> {
+    let line = within(text, "Elements")?;
+    // An element of several groups is written once for each, under other numbers.
+    let mut known: HashMap<(Kind, [u64; 4]), u32, BuildHasherDefault<Mix>> = HashMap::default();
+    for _ in 0..Numbers::of(text, line).whole("the number of elements")? {
+        let line = within(text, "Elements")?;
+        let mut words = Numbers::of(text, line);
+        let id = words.whole("an element")?;
+        let kind = of(words.whole("the type")?);
+        let mut physical = 0;
+        for tag in 0..words.whole("the number of tags")? {
+            let value = words.signed("a tag")?.unsigned_abs();
+            if tag == 0 {
+                physical = value;
+            }
+        }
+        let dimension = match &kind {
+            Type::Point => Some(0),
+            Type::Known(Kind::Segment) => Some(1),
+            Type::Known(_) => Some(2),
+            Type::Other(what) if what.ends_with("lines") => Some(1),
+            Type::Other(what) if what.ends_with("triangles") || what.ends_with("quadrilaterals") => Some(2),
+            Type::Other(_) => None,
+        };
+        let place = dimension.filter(|_| physical > 0).map(|dimension| groups.place(dimension, physical));
+        if let Type::Known(kind) = kind {
+            let nodes = words.nodes(kind)?;
+            words.end()?;
+            let element = match place {
+                Some(_) => *known.entry((kind, nodes)).or_insert_with(|| draft.element(id, kind, nodes, line.number)),
+                None => draft.element(id, kind, nodes, line.number),
+            };
+            if let Some(place) = place {
+                groups.list[place].1.elements.push(element);
+            }
+            continue;
+        }
+        element(&mut words, (id, &kind), line, draft, (&mut groups.list, place.as_slice()))?;
+    }
+    Ok(())
+}
+
+/// A hash for numbers that nobody chose to collide: a million elements take a second less than with the standard one.
+#[derive(Default)]
+struct Mix(u64);
+
+impl Hasher for Mix {
+    fn finish(&self) -> u64 {
+        // A table takes the low bits, multiplication mixes the high ones.
+        self.0 ^ (self.0 >> 32)
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.0 = (self.0.rotate_left(5) ^ u64::from_le_bytes(word)).wrapping_mul(0x517c_c1b7_2722_0a95);
+        }
+    }
+}
+
+/// The nodes of an element, for the draft and the groups at `places`.
+fn element(
+    words: &mut Numbers,
+    (id, kind): (u64, &Type),
+    line: Line,
+    draft: &mut Draft,
+    (groups, places): (&mut [(Physical, RawGroup)], &[usize]),
+) -> Result<(), Fault> {
+    match kind {
+        Type::Point => {
+            let node = words.whole("a node")?;
+            places.iter().for_each(|&place| groups[place].1.nodes.push((node, short(line.number))));
+        }
+        Type::Known(kind) => {
+            let nodes = words.nodes(*kind)?;
+            let element = draft.element(id, *kind, nodes, line.number);
+            places.iter().for_each(|&place| groups[place].1.elements.push(element));
+        }
+        Type::Other(what) => {
+            draft.skip(what, 1, line.number);
+            places.iter().for_each(|&place| groups[place].1.skipped += 1);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,221 @@
+//! Normals of a surface of triangles and quadrilaterals at their corners.
+//!
+//! Round a node, elements that share an edge there and differ by less than [`FOLD`] are one side; each side has one normal,
+//! the mean of its elements' normals at the node, weighted by their angles there (Thürmer & Wüthrich 1998: it does not
+//! depend on how the faces are cut up). An element turned round counts with the other sign and gets the normal of its own side.
+
+use crate::math::Vec3;
+
+/// Angle between neighbours from which the edge between them is a fold, in degrees: the 12 faces of a coarse cylinder are still
+/// round, plates that meet at an angle are not.
+pub const FOLD: f64 = 31.0;
+
+/// Unit normals at the corners of faces, each seeing its own face go round counter-clockwise, and the number of edges where
+/// two neighbours go round in different senses. `faces`: indices into `x`, three or four corners each.
+pub fn normals<'a>(x: &[Vec3], faces: impl Iterator<Item = &'a [u32]> + Clone) -> (Vec<[Vec3; 4]>, usize) {
+    let corners: Vec<Corner> = faces.clone().enumerate().flat_map(|(face, nodes)| Corner::of(x, face, nodes)).collect();
+    // Corners by node: starts[node]..starts[node + 1] of `order`.
+    let mut starts = vec![0u32; x.len() + 1];
+    corners.iter().for_each(|corner| starts[corner.node as usize + 1] += 1);
+    for node in 0..x.len() {
+        starts[node + 1] += starts[node];
+    }
+    let (mut order, mut next) = (vec![0u32; corners.len()], starts.clone());
+    for (at, corner) in corners.iter().enumerate() {
+        let place = &mut next[corner.node as usize];
+        order[*place as usize] = at as u32;
+        *place += 1;
+    }
+    let mut normals = vec![[Vec3::zeros(); 4]; faces.count()];
+    let (mut against, mut sides) = (0, Sides::default());
+    for node in 0..x.len() {
+        let round = &order[starts[node] as usize..starts[node + 1] as usize];
+        against += sides.join(node as u32, round, &corners);
+        sides.write(round, &corners, &mut normals);
+    }
+    (normals, against)
+}
+
+/// One corner of a face.
+struct Corner {
+    node: u32,
+    face: u32,
+    place: usize,
+    /// Neighbours before and behind on the face's boundary.
+    sides: [u32; 2],
+    /// Of the whole face, and at this corner; unit length.
+    face_normal: Vec3,
+    normal: Vec3,
+    angle: f64,
+}
+
+impl Corner {
+    fn of<'a>(x: &'a [Vec3], face: usize, nodes: &'a [u32]) -> impl Iterator<Item = Corner> + 'a {
+        let n = nodes.len();
+        let at = move |i: usize| x[nodes[i % n] as usize];
+        let spans = move |i: usize| (at(i + 1) - at(i), at(i + n - 1) - at(i));
+        let whole: Vec3 = (0..n).map(|i| spans(i).0.cross(&spans(i).1)).sum();
+        let face_normal = whole.normalize();
+        (0..n).map(move |place| {
+            let (ahead, back) = spans(place);
+            let cross = ahead.cross(&back);
+            Corner {
+                node: nodes[place],
+                face: face as u32,
+                place,
+                sides: [nodes[(place + n - 1) % n], nodes[(place + 1) % n]],
+                face_normal,
+                normal: cross.normalize(),
+                angle: cross.norm().atan2(ahead.dot(&back)),
+            }
+        })
+    }
+}
+
+/// Corners round one node, put together to sides.
+#[derive(Default)]
+struct Sides {
+    /// Of each corner: one of its side, itself for the first, and its sense against that one.
+    parent: Vec<(usize, f64)>,
+    /// (node at the other end, corner, outgoing) of the edges here.
+    edges: Vec<(u32, usize, bool)>,
+    sums: Vec<Vec3>,
+}
+
+impl Sides {
+    fn root(&self, mut corner: usize) -> (usize, f64) {
+        let mut sense = 1.0;
+        while self.parent[corner].0 != corner {
+            sense *= self.parent[corner].1;
+            corner = self.parent[corner].0;
+        }
+        (corner, sense)
+    }
+
+    /// Joins the corners round a node over its edges; returns how many edges to higher nodes have the same sense on both sides.
+    fn join(&mut self, node: u32, round: &[u32], corners: &[Corner]) -> usize {
+        let least = FOLD.to_radians().cos();
+        self.parent.clear();
+        self.parent.extend((0..round.len()).map(|at| (at, 1.0)));
+        self.edges.clear();
+        for (at, &corner) in round.iter().enumerate() {
+            let [back, ahead] = corners[corner as usize].sides;
+            self.edges.extend([(back, at, false), (ahead, at, true)]);
+        }
+        self.edges.sort_unstable();
+        let mut against = 0;
+        let edges = std::mem::take(&mut self.edges);
+        for run in edges.chunk_by(|a, b| a.0 == b.0) {
+            // Neighbours go through their common edge in opposite directions.
+            against += usize::from(run.len() == 2 && run[0].2 == run[1].2 && node < run[0].0);
+            // Where more than two meet, each joins those it goes on with; past ten at one edge, of the last eight.
+            for (i, a) in run.iter().enumerate().skip(1) {
+                for b in &run[i.saturating_sub(8)..i] {
+                    let sense = if a.2 == b.2 { -1.0 } else { 1.0 };
+                    let of = |at: usize| &corners[round[at] as usize].face_normal;
+                    if sense * of(a.1).dot(of(b.1)) < least {
+                        continue;
+                    }
+                    let ((first, s), (second, t)) = (self.root(a.1), self.root(b.1));
+                    let (low, high) = (first.min(second), first.max(second));
+                    if low != high {
+                        self.parent[high] = (low, s * t * sense);
+                    }
+                }
+            }
+        }
+        self.edges = edges;
+        against
+    }
+
+    fn write(&mut self, round: &[u32], corners: &[Corner], normals: &mut [[Vec3; 4]]) {
+        self.sums.clear();
+        self.sums.resize(round.len(), Vec3::zeros());
+        for (at, &corner) in round.iter().enumerate() {
+            let (root, sense) = self.root(at);
+            let corner = &corners[corner as usize];
+            self.sums[root] += sense * corner.angle * corner.normal;
+        }
+        for (at, &corner) in round.iter().enumerate() {
+            let (root, sense) = self.root(at);
+            let corner = &corners[corner as usize];
+            // A side that goes all the way round and back has no mean; its faces keep their own.
+            let mean = (sense * self.sums[root]).try_normalize(1e-9);
+            normals[corner.face as usize][corner.place] = mean.unwrap_or(corner.normal);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A strip of two quadrilaterals that meet at an angle.
+    fn folded(angle: f64, faces: [[u32; 4]; 2]) -> (Vec<[Vec3; 4]>, usize) {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let x = [
+            Vec3::new(-1.0, 0.0, 0.0),
+            Vec3::new(-1.0, 1.0, 0.0),
+            Vec3::new(0.0, 0.0, 0.0),
+            Vec3::new(0.0, 1.0, 0.0),
+            Vec3::new(cos, 0.0, sin),
+            Vec3::new(cos, 1.0, sin),
+        ];
+        normals(&x, faces.iter().map(|face| &face[..]))
+    }
+
+    #[test]
+    fn a_bend_is_shared_and_a_fold_is_not() {
+        let faces = [[0, 2, 3, 1], [2, 4, 5, 3]];
+        let (sin, cos) = 10f64.to_radians().sin_cos();
+        let (n, against) = folded(20.0, faces);
+        assert_eq!(against, 0);
+        for corner in [n[0][1], n[0][2], n[1][0], n[1][3]] {
+            assert!((corner - Vec3::new(-sin, 0.0, cos)).norm() < 1e-15, "{corner}");
+        }
+        assert!((n[0][0] - Vec3::z()).norm() < 1e-15);
+        let (n, _) = folded(40.0, faces);
+        assert!((n[0][1] - Vec3::z()).norm() < 1e-15);
+        assert!((n[1][0] - Vec3::new(-(40f64.to_radians().sin()), 0.0, 40f64.to_radians().cos())).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_face_turned_round_keeps_its_own_sense() {
+        let (straight, _) = folded(20.0, [[0, 2, 3, 1], [2, 4, 5, 3]]);
+        let (n, against) = folded(20.0, [[0, 2, 3, 1], [3, 5, 4, 2]]);
+        assert_eq!(against, 1);
+        assert!((n[0][1] - straight[0][1]).norm() < 1e-15);
+        assert!((n[1][3] + straight[1][0]).norm() < 1e-15);
+    }
+
+    /// Normals of a sphere cut into triangles in no regular way point outwards to first order in the size of the faces, squared.
+    #[test]
+    fn a_sphere_is_round() {
+        let (mut x, mut faces) = (vec![-Vec3::z(), Vec3::z()], Vec::new());
+        let (rings, round) = (16u32, 32u32);
+        for i in 1..rings {
+            for j in 0..round {
+                let (a, b) = (f64::from(i) / f64::from(rings), f64::from(j) / f64::from(round));
+                let (u, v) = (std::f64::consts::PI * (a - 0.5), std::f64::consts::TAU * b);
+                x.push(Vec3::new(u.cos() * v.cos(), u.cos() * v.sin(), u.sin()));
+            }
+        }
+        let at = |i: u32, j: u32| 2 + (i - 1) * round + j % round;
+        for j in 0..round {
+            faces.push(vec![0, at(1, j + 1), at(1, j)]);
+            faces.push(vec![1, at(rings - 1, j), at(rings - 1, j + 1)]);
+            for i in 1..rings - 1 {
+                faces.push(vec![at(i, j), at(i, j + 1), at(i + 1, j + 1)]);
+                faces.push(vec![at(i, j), at(i + 1, j + 1), at(i + 1, j)]);
+            }
+        }
+        let (n, against) = normals(&x, faces.iter().map(Vec::as_slice));
+        assert_eq!(against, 0);
+        for (face, n) in faces.iter().zip(&n) {
+            for (&node, n) in face.iter().zip(n) {
+                // Faces span 0.2; half of its square.
+                assert!((n - x[node as usize]).norm() < 0.02, "{n} at {}", x[node as usize]);
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! A file as lines and words, each with its place for messages.
+
+use crate::diagnostic::{Diagnostic, Excerpt};
+use std::ops::Range;
+
+/// One thing that is wrong with the file.
+pub type Fault = Box<Diagnostic>;
+
+/// The bytes of a file, read line by line.
+pub struct Text<'t> {
+    /// As messages name it.
+    pub path: &'t str,
+    pub bytes: &'t [u8],
+    next: usize,
+    line: usize,
+}
+
+/// A line without its end.
+#[derive(Debug, Clone, Copy)]
+pub struct Line<'t> {
+    pub bytes: &'t [u8],
+    /// Counted from 1.
+    pub number: usize,
+}
+
+/// A part of a line without blanks around it.
+#[derive(Debug, Clone, Copy)]
+pub struct Word<'t> {
+    pub bytes: &'t [u8],
+    /// Bytes of the line before it.
+    pub column: usize,
+    pub line: usize,
+}
+
+impl<'t> Text<'t> {
+    pub fn new(path: &'t str, bytes: &'t [u8]) -> Self {
+        Text { path, bytes, next: 0, line: 0 }
+    }
+
+    /// The next line that is not blank.
+    pub fn line(&mut self) -> Option<Line<'t>> {
+        while self.next < self.bytes.len() {
+            let rest = &self.bytes[self.next..];
+            let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+            self.next += length + 1;
+            self.line += 1;
+            let bytes = rest[..length].trim_ascii_end();
+            if !bytes.is_empty() {
+                return Some(Line { bytes, number: self.line });
+            }
+        }
+        None
+    }
+
+    /// A message about a line.
+    pub fn fault(&self, message: impl Into<String>, line: usize) -> Fault {
+        let text = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default().trim_ascii_end();
+        let first = text.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
+        self.draw(message, line, text, first..text.len())
+    }
+
+    /// A message about a word.
+    pub fn fault_at(&self, message: impl Into<String>, word: &Word) -> Fault {
+        let text = self.bytes.split(|&byte| byte == b'\n').nth(word.line.max(1) - 1).unwrap_or_default();
+        self.draw(message, word.line, text.trim_ascii_end(), word.column..word.column + word.bytes.len())
+    }
+
+    /// A message about a number on a line, the last of that value: an element's own comes before its nodes'.
+    pub fn fault_on(&self, message: impl Into<String>, line: usize, number: Option<u64>) -> Fault {
+        let bytes = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default();
+        let content = Line { bytes, number: line };
+        let word = number.and_then(|number| {
+            let in_words = content.words().filter(|word| word.whole() == Some(number)).last();
+            in_words.or_else(|| content.fields().filter(|word| word.whole() == Some(number)).last())
+        });
+        match word {
+            Some(word) => self.fault_at(message, &word),
+            None => self.fault(message, line),
+        }
+    }
+
+    /// A message about the end of the file.
+    pub fn fault_at_end(&self, message: impl Into<String>) -> Fault {
+        let last = self.bytes.iter().filter(|&&byte| byte == b'\n').count() + usize::from(!self.bytes.ends_with(b"\n"));
+        self.fault(message, last.max(1))
+    }
+
+    fn draw(&self, message: impl Into<String>, line: usize, text: &[u8], columns: Range<usize>) -> Fault {
+        let path = self.path.to_owned();
+        Box::new(Diagnostic::error(message).of(Excerpt::new(path, line, text, columns)))
+    }
+}
+
+impl<'t> Line<'t> {
+    /// Parts between blanks.
+    pub fn words(self) -> Words<'t> {
+        Words { line: self, at: 0 }
+    }
+
+    /// Parts between commas, without the blanks around them; an empty one after a last comma is none.
+    pub fn fields(self) -> impl Iterator<Item = Word<'t>> {
+        let (bytes, line, mut at) = (self.bytes, self.number, 0);
+        std::iter::from_fn(move || {
+            if at >= bytes.len() {
+                return None;
+            }
+            let rest = &bytes[at..];
+            let length = rest.iter().position(|&byte| byte == b',').unwrap_or(rest.len());
+            let blank = rest[..length].len() - rest[..length].trim_ascii_start().len();
+            let column = at + blank;
+            at += length + 1;
+            Some(Word { bytes: rest[..length].trim_ascii(), column, line })
+        })
+    }
+}
+
+/// Parts of a line between blanks.
+pub struct Words<'t> {
+    line: Line<'t>,
+    at: usize,
+}
+
+impl<'t> Iterator for Words<'t> {
+    type Item = Word<'t>;
+
+    fn next(&mut self) -> Option<Word<'t>> {
+        let Line { bytes, number } = self.line;
+        let column = self.at + bytes[self.at..].iter().position(|byte| !byte.is_ascii_whitespace())?;
+        let length = bytes[column..].iter().position(u8::is_ascii_whitespace).unwrap_or(bytes.len() - column);
+        self.at = column + length;
+        Some(Word { bytes: &bytes[column..self.at], column, line: number })
+    }
+}
+
+impl Word<'_> {
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(self.bytes).into_owned()
+    }
+
+    /// A finite number, with the exponent of Fortran too.
+    pub fn number(&self) -> Option<f64> {
+        let text = std::str::from_utf8(self.bytes).ok()?;
+        let read = text.parse().or_else(|error| match text.contains(['d', 'D']) {
+            true => text.replace(['d', 'D'], "e").parse(),
+            false => Err(error),
+        });
+        read.ok().filter(|number: &f64| number.is_finite())
+    }
+
+    /// A whole number, not negative.
+    pub fn whole(&self) -> Option<u64> {
+        std::str::from_utf8(self.bytes).ok()?.parse().ok()
+    }
+
+    pub fn signed(&self) -> Option<i64> {
+        std::str::from_utf8(self.bytes).ok()?.parse().ok()
+    }
+}

@@ -1,0 +1,122 @@
+//! What leads a static analysis on: `control` of `[analysis]` and the words that go with it.
+
+use super::build::{Builder, Owner, span};
+use super::places::Place;
+use super::{ArcLength, Cadence, Control, Kind, Method, Passage, Update};
+use crate::deck::analysis as deck;
+use crate::deck::words::Table;
+use crate::diagnostic::{At, Span};
+
+impl<'d> Builder<'d> {
+    /// After the supports: a displacement to stop at must be free.
+    pub fn control(&mut self) {
+        let Some(analysis) = &self.deck.analysis else { return };
+        if self.is_spoiled(&analysis.span, "control") {
+            // Whatever it was to be, it is not held against the words that go with it.
+            self.model.analysis.control = Control::ArcLength(ArcLength { stop: None, steps: None, growth: 1.0 });
+            return;
+        }
+        let Some(at) = analysis.control.as_ref().filter(|at| at.value == deck::Control::ArcLength) else {
+            let keys = [("stop", span(&analysis.stop)), ("steps", span(&analysis.steps))];
+            return self.stray("`control = \"time\"`", &[&keys[..], &[("growth", span(&analysis.growth))]].concat());
+        };
+        if self.model.analysis.kind != Kind::Static {
+            self.error::<()>(&at.span, "`arc-length` leads a static analysis, and this one is dynamic");
+            return;
+        }
+        self.check_iteration();
+        self.check_history();
+        let stop = analysis.stop.as_ref().and_then(|stop| self.passage("`stop`", stop));
+        let steps = analysis.steps.as_ref().map(|_| self.count("steps", &analysis.steps, 1));
+        let growth = self.positive("growth", &analysis.growth).unwrap_or(f64::INFINITY);
+        if let Some(at) = analysis.growth.as_ref().filter(|at| at.value > 0.0 && at.value < 1.0) {
+            self.error::<()>(&at.span, "`growth` must be at least 1: `time_step` sets the first step");
+        }
+        self.model.analysis.control = Control::ArcLength(ArcLength { stop, steps, growth });
+    }
+
+    /// Only the derivative at hand tells where the path goes.
+    fn check_iteration(&mut self) {
+        let Some(iteration) = &self.deck.iteration else { return };
+        let reason = "arc-length takes the derivative at every iteration";
+        if let Some(at) = iteration.method.as_ref().filter(|at| at.value == deck::Method::InitialLoad) {
+            self.error_with::<()>(&at.span, "`initial-load` cannot follow a path by arc length", reason);
+        }
+        let kept = |at: &&At<deck::Update>| matches!(at.value, deck::Update::Step | deck::Update::Never);
+        if let Some(at) = iteration.update.as_ref().filter(kept) {
+            self.error_with::<()>(&at.span, "`update` must be \"auto\" or \"iteration\" with arc-length", reason);
+        }
+        (self.model.iteration.method, self.model.iteration.update) = (Method::TangentStiffness, Update::Iteration);
+    }
+
+    /// A path goes on where loads and materials do; neither jumps nor rates of a time that may fall belong to it.
+    fn check_history(&mut self) {
+        for (name, material) in &self.deck.materials.0 {
+            if let Some(at) = &material.viscosity {
+                let message = format!("material `{}` is viscous, and with arc-length time is only a load", name.value);
+                self.error::<()>(&at.span, message);
+            }
+        }
+        for (index, (name, amplitude)) in self.deck.amplitudes.0.iter().enumerate() {
+            let jumps = self.model.amplitudes.get(index).is_some_and(|amplitude| !amplitude.jumps().is_empty());
+            if jumps && self.used.contains(&("amplitude", index)) {
+                let message = format!("amplitude `{}` jumps, and no path leads across by arc length", name.value);
+                self.error_with::<()>(&amplitude.span, message, "let it rise over a while");
+            }
+        }
+    }
+
+    /// With arc-length times come as they come.
+    pub fn check_cadence(&mut self, interval: &Span) {
+        if self.is_arc_length() && matches!(self.model.output.cadence, Cadence::Interval(_)) {
+            let hint = "give `every`, in steps";
+            self.error_with::<()>(interval, "with arc-length steps do not land on multiples of a time", hint);
+        }
+    }
+
+    pub fn is_arc_length(&self) -> bool {
+        matches!(self.model.analysis.control, Control::ArcLength(_))
+    }
+
+    /// A displacement that some step is to land on; it must be one of the unknowns.
+    pub fn passage(&mut self, what: &str, passage: &'d At<Table<deck::Passage>>) -> Option<Passage> {
+        let owner = Owner { what: what.to_owned(), span: &passage.span };
+        let words: &'d deck::Passage = &passage.value;
+        let name = self.need(&owner, "at", &words.at);
+        let quantity = self.need(&owner, "quantity", &words.quantity);
+        let value = self.need(&owner, "value", &words.value);
+        let pass = self.count("pass", &words.pass, 1);
+        let name = name?;
+        let node = match self.places.get(name.as_str()).map(|(place, _)| *place) {
+            Some(Place::Point(node)) => node,
+            Some(Place::Body(body)) => self.model.bodies.get(body)?.node,
+            Some(place) => {
+                let message = format!("{what} wants a point or body, and `{}` is {}", name.value, place.kind());
+                return self.error(&name.span, message);
+            }
+            None => {
+                let mut known: Vec<&str> = self.places.keys().copied().collect();
+                known.sort_unstable();
+                return self.unknown("point or body", name, known.into_iter());
+            }
+        };
+        let (quantity, value) = (quantity?, value?);
+        let (dof, word) = match quantity.value {
+            deck::Displacement::Ux => (0, "ux"),
+            deck::Displacement::Uy => (1, "uy"),
+            deck::Displacement::Uz => (2, "uz"),
+        };
+        if let Some(master) = self.master(node, dof) {
+            let master = &self.model.nodes[master].label;
+            let message = format!("`{}` moves with `{master}`", name.value);
+            return self.error_with(&name.span, message, format!("{what} wants one that moves by itself"));
+        }
+        if self.held.contains_key(&(node, dof)) {
+            return self.error(&quantity.span, format!("a support gives {word} of `{}`", name.value));
+        }
+        if value.value == 0.0 {
+            return self.error_with(&value.span, format!("{word} begins at zero"), "a passage lies off the start");
+        }
+        Some(Passage { node, dof, value: value.value, pass })
+    }
+}

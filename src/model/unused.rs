@@ -1,0 +1,84 @@
+//! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
+
+use super::build::Builder;
+use super::{ArcLength, Control, ExpectAt, Model, When};
+use crate::elements::pressure::Face;
+
+impl Builder<'_> {
+    /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
+    /// rigid parts have none.
+    pub fn drop_unused(&mut self) {
+        let model = &mut self.model;
+        if self.input.is_some() || !model.rigid.is_empty() {
+            let kept = kept(model);
+            renumber(model, &kept);
+        }
+        if self.writes_all {
+            let mut is_body = vec![false; model.nodes.len()];
+            model.bodies.iter().for_each(|body| is_body[body.node] = true);
+            model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_body[node]).collect();
+        }
+    }
+}
+
+/// All that names a node, but for what rides.
+fn each(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
+    model.bodies.iter_mut().for_each(|body| of(&mut body.node));
+    model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
+    for beam in &mut model.beams {
+        beam.elements.iter_mut().flat_map(|e| &mut e.nodes[..=beam.order]).for_each(&mut *of);
+    }
+    model.bars.iter_mut().flat_map(|bar| &mut bar.elements).flatten().for_each(&mut *of);
+    for shell in &mut model.shells {
+        shell.elements.iter_mut().flat_map(|e| &mut e.nodes).for_each(&mut *of);
+    }
+    model.links.iter_mut().flat_map(|link| &mut link.ends).for_each(&mut *of);
+    model.held.iter_mut().for_each(|held| of(&mut held.node));
+    model.loads.iter_mut().for_each(|load| of(&mut load.node));
+    model.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
+    model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));
+    model.output.nodes.iter_mut().for_each(&mut *of);
+    for expect in &mut model.expects {
+        if let ExpectAt::Node(node) = &mut expect.at {
+            of(node);
+        }
+        if let When::Passing(passage) = &mut expect.when {
+            of(&mut passage.node);
+        }
+    }
+    if let Control::ArcLength(ArcLength { stop: Some(passage), .. }) = &mut model.analysis.control {
+        of(&mut passage.node);
+    }
+}
+
+fn kept(model: &mut Model) -> Vec<bool> {
+    let mut kept: Vec<bool> = model.nodes.iter().map(|node| node.named).collect();
+    each(model, &mut |node| kept[*node] = true);
+    // What rides needs what it rides on.
+    let mut masters = vec![None; kept.len()];
+    model.riders.iter().for_each(|rider| masters[rider.node] = Some(rider.master));
+    for node in 0..kept.len() {
+        let mut next = if kept[node] { masters[node] } else { None };
+        while let Some(master) = next.filter(|&master| !kept[master]) {
+            kept[master] = true;
+            next = masters[master];
+        }
+    }
+    kept
+}
+
+fn renumber(model: &mut Model, kept: &[bool]) {
+    let mut number = Vec::with_capacity(kept.len());
+    let mut count = 0;
+    for &keep in kept {
+        number.push(count);
+        count += usize::from(keep);
+    }
+    let mut flags = kept.iter();
+    model.nodes.retain(|_| flags.next().copied().unwrap_or(true));
+    model.riders.retain(|rider| kept[rider.node]);
+    for rider in &mut model.riders {
+        (rider.node, rider.master) = (number[rider.node], number[rider.master]);
+    }
+    each(model, &mut |node| *node = number[*node]);
+}

@@ -1,0 +1,174 @@
+//! What is said about wrong meshes and what is made of them, compared as text with `tests/mesh/snapshots`.
+
+use super::{Folder, Plate};
+use insta::assert_snapshot;
+
+const DECK: &str = r#"
+[analysis]
+kind = "static"
+end_time = 1.0
+time_step = 0.5
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+[sections.strip]
+shape = "rectangle"
+width = 0.03
+height = 0.005
+[mesh]
+file = "plate.msh"
+[[shells]]
+group = "plate"
+thickness = 0.02
+material = "steel"
+[[supports]]
+at = "root"
+fix = "all"
+[[loads]]
+at = "tip"
+force_per_length = [0.0, 0.0, 10.0]
+[[beams]]
+name = "rib"
+path = ["p", "q"]
+elements = 2
+material = "steel"
+section = "strip"
+orientation = [0.0, 1.0, 0.0]
+order = 1
+[points]
+p = [0.0, 0.5, -0.1]
+q = [2.0, 0.5, -0.1]
+[[supports]]
+at = "p"
+fix = "all"
+"#;
+
+fn plate() -> String {
+    Plate { n: 2, m: 2, size: [2.0, 1.0] }.msh4()
+}
+
+/// The deck and the mesh with parts replaced.
+fn said(deck: &[(&str, &str)], mesh: &[(&str, &str)]) -> String {
+    let edited = |text: &str, edits: &[(&str, &str)]| {
+        edits.iter().fold(text.to_owned(), |text, (old, new)| {
+            assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once");
+            text.replace(old, new)
+        })
+    };
+    Folder::with(&[("plate.msh", &edited(&plate(), mesh))]).read(&edited(DECK, deck)).1
+}
+
+fn and(more: &str) -> String {
+    Folder::with(&[("plate.msh", &plate())]).read(&format!("{DECK}{more}")).1
+}
+
+fn inp(text: &str) -> String {
+    let deck = DECK.replace("plate.msh", "plate.inp").replace("force_per_length", "force");
+    Folder::with(&[("plate.inp", text)]).read(&deck).1
+}
+
+#[test]
+fn a_sound_mesh_is_silent() {
+    assert_eq!(said(&[], &[]), "");
+}
+
+#[test]
+fn files() {
+    assert_snapshot!("missing", said(&[("plate.msh", "other.msh")], &[]));
+    assert_snapshot!("no_mesh_by_its_name", Folder::with(&[("a.vtu", "")]).read(&DECK.replace("plate.msh", "a.vtu")).1);
+    assert_snapshot!("binary", said(&[], &[("4.1 0 8", "4.1 1 8")]));
+    assert_snapshot!("version", said(&[], &[("4.1 0 8", "4.0 0 8")]));
+    assert_snapshot!("no_file", said(&[("file = \"plate.msh\"", "scale = 1.0")], &[]));
+}
+
+#[test]
+fn gmsh() {
+    assert_snapshot!("truncated", said(&[], &[("$EndElements\n", "")]));
+    assert_snapshot!("unknown_node", said(&[], &[("9 5 6 9 8 ", "9 5 6 77 8 ")]));
+    assert_snapshot!("repeated_node", said(&[], &[("9 5 6 9 8 ", "9 5 6 9 5 ")]));
+    assert_snapshot!("crossed", said(&[], &[("9 5 6 9 8 ", "9 5 9 6 8 ")]));
+    assert_snapshot!("twice", said(&[], &[("9 5 6 9 8 ", "8 5 6 9 8 ")]));
+    assert_snapshot!("not_finite", said(&[], &[("1 0.5 0\n", "1 nan 0\n")]));
+    assert_snapshot!("same_place", said(&[], &[("\n0 0 0\n", "\n0 0.5 0\n")]));
+    assert_snapshot!("a_word", said(&[], &[("9 5 6 9 8 ", "9 5 six 9 8 ")]));
+}
+
+#[test]
+fn abaqus() {
+    let text = Plate { n: 2, m: 2, size: [2.0, 1.0] }.inp();
+    assert_snapshot!("inp_nodes_of_an_element", inp(&text.replace("TYPE=S4R", "TYPE=S3")));
+    assert_snapshot!("inp_no_type", inp(&text.replace("TYPE=S4R, ", "")));
+    assert_snapshot!("inp_unknown_node", inp(&text.replace("*NSET, NSET=tip\n3,", "*NSET, NSET=tip\n333,")));
+    assert_snapshot!("inp_unknown_set", inp(&format!("{text}*ELSET, ELSET=all_of_it\nplate, roof\n")));
+    let keywords = "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*ELEMENT, TYPE=S8R, ELSET=more\n90, 1, 2, 3, 4, 5, 6, 7, 8\n*STEP\n*STEP\n";
+    assert_snapshot!("inp_skipped", inp(&format!("{text}{keywords}")));
+    assert_snapshot!("inp_instance", inp(&format!("{text}*INSTANCE, NAME=one, PART=plate\n1., 0., 0.\n")));
+}
+
+#[test]
+fn parts() {
+    assert_snapshot!("unknown_group", said(&[("group = \"plate\"", "group = \"plat\"")], &[]));
+    assert_snapshot!("group_without_faces", said(&[("group = \"plate\"", "group = \"tip\"")], &[]));
+    assert_snapshot!(
+        "group_twice",
+        and("[[shells]]\nname = \"more\"\ngroup = \"plate\"\nthickness = 0.01\nmaterial = \"steel\"\n")
+    );
+    assert_snapshot!(
+        "stray_keys",
+        said(&[("group = \"plate\"", "group = \"plate\"\nelements = 3\nkind = \"triangle\"")], &[])
+    );
+    assert_snapshot!("no_mesh", said(&[("[mesh]\nfile = \"plate.msh\"\n", "")], &[]));
+    assert_snapshot!(
+        "name_of_a_group",
+        said(&[("p = [0.0", "tip = [0.0"), ("path = [\"p\"", "path = [\"tip\""), ("at = \"p\"", "at = \"tip\"")], &[])
+    );
+    assert_snapshot!("turned_round", said(&[], &[("9 5 6 9 8 ", "9 8 9 6 5 ")]));
+    assert_snapshot!(
+        "left_out",
+        said(
+            &[("group = \"plate\"", "corners = [\"p\", \"q\", \"corner\", \"mesh.7\"]\nelements = 1\nname = \"x\"")],
+            &[]
+        )
+    );
+    assert_snapshot!(
+        "link_to_a_group",
+        and("[[links]]\nname = \"l\"\nfrom = { node = \"tip\" }\nto = { ground = [9.0, 0.0, 0.0] }\nstiffness = 1.0\n")
+    );
+    assert_snapshot!(
+        "value_at_a_group",
+        and("[[expect]]\nat = \"tip\"\nquantity = \"z\"\ntime = 1.0\nvalue = 1.0\ntolerance = 1.0\n")
+    );
+    assert_snapshot!("load_inside", said(&[("at = \"tip\"", "at = \"plate\"")], &[]));
+}
+
+#[test]
+fn rigid() {
+    let plate = ("group = \"plate\"", "group = \"plate\"\nrigid = true");
+    assert_snapshot!("supported", said(&[plate], &[]));
+    let body = |more: &str| and(&format!("[[bodies]]\nname = \"block\"\n{more}\n"));
+    assert_snapshot!("mass_and_parts", body("parts = [\"rib\"]\nmass = 3.0"));
+    assert_snapshot!("unknown_part", body("parts = [\"ribs\"]"));
+    assert_snapshot!("part_twice", body("parts = [\"rib\", \"rib\"]"));
+    let weightless =
+        DECK.replace("static", "dynamic").replace("poisson_ratio = 0.3", "poisson_ratio = 0.3\ndensity = 1.0");
+    let weightless = weightless
+        .replace("elements = 2", "elements = 2\nmass = \"none\"\nrigid = true")
+        .replace("[[supports]]\nat = \"p\"\nfix = \"all\"\n", "");
+    assert_snapshot!("weightless", Folder::with(&[("plate.msh", &super::messages::plate())]).read(&weightless).1);
+}
+
+#[test]
+fn ties() {
+    let tie = |nodes: &str| and(&format!("[[attachments]]\nbeam = \"rib\"\nnodes = {nodes}\n"));
+    assert_eq!(tie("[\"mesh.5\", \"q\"]"), "");
+    assert_snapshot!("not_a_beam", and("[[attachments]]\nbeam = \"plate\"\nnodes = \"q\"\n"));
+    let moved = DECK.replace("q = [2.0", "q = [1.0").replace("elements = 2", "elements = 1");
+    let folder = Folder::with(&[("plate.msh", &plate())]);
+    let tie = "[[attachments]]\nbeam = \"rib\"\nnodes = \"mesh.6\"\n";
+    assert_snapshot!("beyond_the_end", folder.read(&format!("{moved}{tie}")).1);
+    assert_snapshot!(
+        "between_two",
+        folder.read(&format!("{}{}", DECK.replace("elements = 2", "elements = 1"), tie.replace("mesh.6", "mesh.5"))).1
+    );
+}

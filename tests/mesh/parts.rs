@@ -1,0 +1,291 @@
+//! Parts and sets of a mesh against the same patches and paths in the deck.
+
+use super::support::{self, node};
+use super::{Folder, Plate, displacements, positions};
+use rdsolve::math::Vec3;
+
+const PLATE: Plate = Plate { n: 8, m: 3, size: [2.0, 0.6] };
+
+const HEAD: &str = r#"
+[analysis]
+kind = "KIND"
+end_time = 0.05
+time_step = 0.005
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+"#;
+
+fn patch(kind: &str) -> String {
+    format!(
+        "{}{}",
+        HEAD.replace("KIND", kind),
+        r#"
+[points]
+a = [0.0, 0.0, 0.0]
+b = [2.0, 0.0, 0.0]
+c = [2.0, 0.6, 0.0]
+d = [0.0, 0.6, 0.0]
+[[shells]]
+name = "plate"
+corners = ["a", "b", "c", "d"]
+elements = [8, 3]
+thickness = 0.02
+material = "steel"
+[[supports]]
+at = "plate.edge4"
+fix = "all"
+[[loads]]
+at = "plate.edge2"
+force_per_length = [100.0, 0.0, 9000.0]
+[[loads]]
+at = "plate"
+pressure = 1000.0
+[[loads]]
+at = "c"
+force = [0.0, 500.0, 0.0]
+"#
+    )
+}
+
+fn meshed(kind: &str, file: &str) -> String {
+    let corner = if file.ends_with("inp") { "Corner" } else { "corner" };
+    format!(
+        "{}[mesh]\nfile = \"{file}\"\n{}",
+        HEAD.replace("KIND", kind),
+        r#"
+[[shells]]
+group = "plate"
+thickness = 0.02
+material = "steel"
+[[supports]]
+at = "root"
+fix = "all"
+[[loads]]
+at = "tip"
+force_per_length = [100.0, 0.0, 9000.0]
+[[loads]]
+at = "plate"
+pressure = 1000.0
+[[loads]]
+at = "CORNER"
+force = [0.0, 500.0, 0.0]
+"#
+        .replace("CORNER", corner)
+    )
+}
+
+/// The three formats and the patch: the same plate, statically at large deflection and swinging. Nodes are numbered in another
+/// order, so sums round differently; iterations stop at 1e-8 of the forces, far below that after the last one.
+#[test]
+fn a_cantilever_from_three_formats_is_the_patch() {
+    let folder = Folder::with(&[("a.msh", &PLATE.msh4()), ("b.msh", &PLATE.msh2()), ("c.inp", &PLATE.inp())]);
+    for kind in ["static", "dynamic"] {
+        let exact = positions(&folder.model(&patch(kind)), "c");
+        let label = format!("mesh.{}", PLATE.node(PLATE.n, PLATE.m));
+        let found = ["a.msh", "b.msh", "c.inp"].map(|file| positions(&folder.model(&meshed(kind, file)), &label));
+        assert_eq!(found[0], found[1], "the same bytes");
+        assert_eq!(found[0], found[2], "the same bytes");
+        let largest = exact.iter().map(|x| x[2].abs()).fold(0.0, f64::max);
+        assert!(largest > 0.1, "it bends: {largest}");
+        for (x, exact) in found[0].iter().zip(&exact) {
+            let off = (Vec3::from(*x) - Vec3::from(*exact)).norm();
+            println!("{kind}: {:.6} off by {off:.1e}", exact[2]);
+            assert!(off < 1e-11 * largest.max(1.0), "{kind}: {x:?} {exact:?}"); // 27 nodes × κ of the iteration matrix
+        }
+    }
+}
+
+/// Every node of the mesh moves as the patch's node at its place; a set named in `output` brings nodes to nodes.csv, which
+/// holds named points alone by default.
+#[test]
+fn sets_and_names() {
+    let folder = Folder::with(&[("a.msh", &PLATE.msh4())]);
+    let deck = meshed("static", "a.msh");
+    let model = folder.model(&deck);
+    assert_eq!((model.nodes.len(), model.shells.len(), model.shells[0].elements.len()), (36, 1, 24));
+    assert!(model.output.nodes.is_empty());
+    let with = |nodes: &str| folder.model(&format!("{deck}\n[output]\nnodes = {nodes}\n"));
+    let labels = |nodes: &str| -> Vec<String> {
+        let model = with(nodes);
+        model.output.nodes.iter().map(|&node| model.nodes[node].label.clone()).collect()
+    };
+    assert_eq!(labels("\"tip\""), ["mesh.9", "mesh.18", "mesh.27", "mesh.36"]);
+    assert_eq!(labels("[\"mesh.5\", \"corner\"]"), ["mesh.5", "mesh.36"]);
+    assert_eq!(labels("\"all\"").len(), 36);
+    // Values and links at a set of one node.
+    let more = r#"
+[sets]
+one = ["corner"]
+[[expect]]
+at = "corner"
+quantity = "z"
+time = 0.05
+value = 1.0
+tolerance = 0.1
+[[expect]]
+at = "one"
+quantity = "z"
+time = 0.05
+value = 1.0
+tolerance = 0.1
+[[links]]
+name = "spring"
+from = { node = "corner" }
+to = { ground = [2.0, 0.6, -1.0] }
+stiffness = 1.0
+"#;
+    let model = folder.model(&format!("{deck}{more}"));
+    let at = node(&model, "mesh.36");
+    assert_eq!(model.links[0].ends[0], at);
+    let expected = rdsolve::model::ExpectAt::Node(at);
+    assert!(model.expects.iter().all(|expect| expect.at == expected));
+}
+
+/// Scaled, and nodes that no part uses left out.
+#[test]
+fn scale_and_what_is_left_out() {
+    let millimetres = Plate { size: [2000.0, 600.0], ..PLATE };
+    let text = millimetres.msh2().replace("$Nodes\n36\n", "$Nodes\n37\n1000 7 7 7\n");
+    let folder = Folder::with(&[("a.msh", &PLATE.msh4()), ("mm.msh", &text)]);
+    let one = displacements(&folder.model(&meshed("static", "a.msh")));
+    let deck = meshed("static", "mm.msh").replace("file = \"mm.msh\"", "file = \"mm.msh\"\nscale = 1e-3");
+    let two = displacements(&folder.model(&deck));
+    assert_eq!(one.len(), two.len());
+    for ((label, u), (other, v)) in one.iter().zip(&two) {
+        assert_eq!(label, other);
+        // Coordinates that differ in the last digit.
+        assert!((Vec3::from(*u) - Vec3::from(*v)).norm() < 1e-10, "{label}: {u:?} {v:?}");
+    }
+}
+
+/// Triangles and quadrilaterals of one group are one part: mass, pressure and values by its name cover both.
+#[test]
+fn a_group_of_both_kinds() {
+    let text = PLATE.inp().replace(
+        "*nset, nset=root",
+        "*NODE\n101, 3., 0.3, 0.\n*ELEMENT, TYPE=S3, ELSET=plate\n101, 9, 101, 18\n102, 18, 101, 27\n103, 27, 101, 36\n*nset, nset=root",
+    );
+    let folder = Folder::with(&[("a.inp", &text)]);
+    let deck = meshed("static", "a.inp")
+        .replace("\"elastic\"", "\"elastic-plastic\"\nyield_stress = 200e6\nhardening_modulus = 1e9");
+    let more = "[[expect]]\nat = \"plate\"\nquantity = \"plastic_strain\"\ntime = 0.05\nvalue = 0.0\nabsolute_tolerance = 1.0\n";
+    let model = folder.model(&format!("{deck}{more}[environment]\ngravity = [0.0, 0.0, -9.81]\n"));
+    assert_eq!(
+        model.shells.iter().map(|shell| (shell.name.as_str(), shell.corners)).collect::<Vec<_>>(),
+        [("plate", 4), ("plate", 3)]
+    );
+    assert_eq!(model.expects[0].at, rdsolve::model::ExpectAt::Shells(0, 2));
+    let system = rdsolve::system::System::new(&model).unwrap();
+    let mass: f64 = system.inertias.iter().map(|inertia| inertia.mass).sum();
+    // ρ h (1.2 + 0.3)
+    assert!((mass / (7850.0 * 0.02 * 1.5) - 1.0).abs() < 1e-14, "{mass}");
+    let pressure: f64 = model.loads.iter().map(|load| load.force.z).sum();
+    assert!((pressure - (9000.0 * 0.6 - 1000.0 * 1.5)).abs() < 1e-9, "{pressure}");
+}
+
+/// An edge load on the segments of a group, on a set of nodes at the border, on one inside: the same resultant.
+#[test]
+fn loads_along_edges() {
+    let text = PLATE.inp()
+        + "*NSET, NSET=middle\n5, 14, 23, 32\n*NSET, NSET=border, GENERATE\n1, 9\n*NSET, NSET=border\n9, 18, 27, 36\n";
+    let folder = Folder::with(&[("a.inp", &text)]);
+    for (set, length) in [("tip", 0.6), ("middle", 0.6), ("border", 2.6)] {
+        let deck = meshed("static", "a.inp")
+            .replace("at = \"tip\"", &format!("at = \"{set}\""))
+            .replace("pressure = 1000.0", "pressure = 0.0");
+        let model = folder.model(&deck);
+        let sum: f64 = model.loads.iter().map(|load| load.force.z).sum();
+        assert!((sum - 9000.0 * length).abs() < 1e-9, "{set}: {sum}");
+    }
+}
+
+/// Two tubes of a mesh against the same path; the orders of the elements, with inner nodes.
+#[test]
+fn beams_of_segments() {
+    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n7 0 0 0\n3 1 0 1\n8 2 0.5 1\n$EndNodes\n\
+                $Elements\n2\n1 1 2 5 1 7 3\n2 1 2 5 1 3 8\n$EndElements\n";
+    let folder = Folder::with(&[("a.msh", text)]);
+    let tail = r#"
+material = "steel"
+section = "tube"
+orientation = [0.0, 1.0, 0.2]
+order = ORDER
+[sections.tube]
+shape = "tube"
+radius = 0.02
+thickness = 0.002
+"#;
+    for order in 1..=4 {
+        let tail = tail.replace("ORDER", &order.to_string());
+        let head = HEAD.replace("KIND", "dynamic");
+        let path = format!(
+            "{head}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 1.0]\nc = [2.0, 0.5, 1.0]\n\
+             [[beams]]\nname = \"posts\"\npath = [\"a\", \"b\", \"c\"]\nelements = 1{tail}\
+             [[supports]]\nat = \"a\"\nfix = \"all\"\n[[loads]]\nat = \"c\"\nforce = [0.0, 100.0, -300.0]\n"
+        );
+        let mesh = format!(
+            "{head}[mesh]\nfile = \"a.msh\"\n[[beams]]\nname = \"posts\"\ngroup = \"physical_5\"{tail}\
+             [[supports]]\nat = \"mesh.7\"\nfix = \"all\"\n[[loads]]\nat = \"mesh.8\"\nforce = [0.0, 100.0, -300.0]\n"
+        );
+        let (one, two) = (positions(&folder.model(&path), "c"), positions(&folder.model(&mesh), "mesh.8"));
+        for (a, b) in one.iter().zip(&two) {
+            assert!((Vec3::from(*a) - Vec3::from(*b)).norm() < 1e-12, "order {order}: {a:?} {b:?}");
+        }
+        assert!((one.last().unwrap()[2] - 1.0).abs() > 0.01, "it moves");
+    }
+}
+
+#[test]
+fn the_plan_says_what_came_from_the_mesh() {
+    let folder = Folder::with(&[("a.msh", &PLATE.msh4())]);
+    let model = folder.model(&meshed("static", "a.msh"));
+    let system = rdsolve::system::System::new(&model).unwrap();
+    let text = rdsolve::plan::Plan::new(&model, &system, 1).explain(&model, &system);
+    assert!(text.contains("36 nodes, 30 elements, 24 of them in parts"), "{text}");
+}
+
+/// A quarter of a ring, whose normals the patch knows and the mesh takes from its faces, one-sided at the ends: what that does
+/// falls faster than the square of the size of the elements, and so faster than their own error.
+#[test]
+fn normals_of_a_mesh_bend_as_those_of_the_surface() {
+    let head = HEAD.replace("KIND", "static").replace("time_step = 0.005", "time_step = 0.05");
+    let off = |n: usize| {
+        let mut text = "*NODE\n".to_owned();
+        for j in 0..=2 {
+            for i in 0..=n {
+                let (sin, cos) = (std::f64::consts::FRAC_PI_2 * i as f64 / n as f64).sin_cos();
+                text += &format!("{}, {sin}, {}, {}\n", 1 + i + j * (n + 1), 0.2 * j as f64, 1.0 - cos);
+            }
+        }
+        text += "*ELEMENT, TYPE=S4, ELSET=s\n";
+        for (i, j) in (0..2).flat_map(|j| (0..n).map(move |i| (i, j))) {
+            let a = 1 + i + j * (n + 1);
+            text += &format!("{}, {a}, {}, {}, {}\n", 1 + i + j * n, a + 1, a + n + 2, a + n + 1);
+        }
+        let set = |name: &str, first: usize| {
+            format!("*NSET, NSET={name}, GENERATE\n{first}, {}, {}\n", first + 2 * (n + 1), n + 1)
+        };
+        text += &(set("root", 1) + &set("tip", n + 1));
+        let tail = "thickness = 0.01\nmaterial = \"steel\"\n[[supports]]\nat = \"ROOT\"\nfix = \"all\"\n\
+                    [[loads]]\nat = \"TIP\"\nforce_per_length = [0.0, 200.0, -2000.0]\n";
+        let mesh = format!("{head}[mesh]\nfile = \"a.inp\"\n[[shells]]\ngroup = \"s\"\n{tail}")
+            .replace("ROOT", "root")
+            .replace("TIP", "tip");
+        let patch = format!(
+            "{head}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 1.0]\nc = [1.0, 0.4, 1.0]\nd = [0.0, 0.4, 0.0]\n\
+             [[shells]]\nname = \"s\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [{n}, 2]\n\
+             surface = {{ kind = \"cylinder\", axis = [0.0, 1.0, 0.0], center = [0.0, 0.0, 1.0] }}\n{tail}"
+        );
+        let patch = patch.replace("ROOT", "s.edge4").replace("TIP", "s.edge2");
+        let folder = Folder::with(&[("a.inp", &text)]);
+        let one = positions(&folder.model(&mesh), &format!("mesh.{}", n + 1)).last().unwrap()[2] - 1.0;
+        let two = positions(&folder.model(&patch), "b").last().unwrap()[2] - 1.0;
+        (one / two - 1.0).abs()
+    };
+    let points = [8, 16, 32].map(|n| (1.0 / n as f64, off(n)));
+    println!("{points:?}");
+    assert!(support::slope(&points) > 2.0 && points[0].1 < 2e-3, "{points:?}");
+}
