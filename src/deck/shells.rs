@@ -27,7 +27,7 @@ pub struct Shell {
     pub material: Maybe<String>,
     /// Default: "quadrilateral"; a patch of three corners has triangles.
     pub kind: Maybe<Kind>,
-    /// Points through the thickness, 2 to 7. Default: 5. Shells whose material yields.
+    /// Points through the thickness, 2 to 10. Default: 5. Shells whose material yields.
     pub layers: Maybe<u64>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
     pub surface: Maybe<Table<Surface>>,

@@ -1,7 +1,7 @@
 //! `[amplitudes.x]`, `[[loads]]`, `[environment]`, `[damping]`.
 
 use super::attachments::directions;
-use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
+use super::build::{Builder, Owner, span, vec3_or_zero};
 use super::places::{Place, Reach};
 use super::{BaseAcceleration, Damping, Load, NodalDamping, Pressure};
 use crate::amplitude::Amplitude;
@@ -212,80 +212,5 @@ impl<'d> Builder<'d> {
             }
         }
         self.model.damping = Damping { mass_factor, stiffness_factor, nodal };
-    }
-
-    /// Motion at t = 0: as the tables say, then made to agree with supports and attachments.
-    pub fn initial(&mut self) {
-        for initial in &self.deck.initial {
-            let owner = Owner { what: "`[[initial]]`".to_owned(), span: &initial.span };
-            let everything = initial.at.as_ref().is_some_and(|at| at.values.iter().any(|name| name.value == "all"));
-            let nodes: Vec<usize> = if everything {
-                (0..self.model.nodes.len()).collect()
-            } else {
-                let spots = self.spots(&owner, "at", &initial.at, Reach::Parts);
-                for spot in spots.iter().filter(|spot| spot.direct) {
-                    if let Some(master) = self.master(spot.node, 0) {
-                        let master = &self.model.nodes[master].label;
-                        let message = format!("`{}` moves with `{master}`", spot.name);
-                        self.error_with::<()>(spot.span, message, "give the velocity to that");
-                    }
-                }
-                spots.iter().map(|spot| spot.node).collect()
-            };
-            let unread = ["velocity", "angular_velocity"].iter().any(|key| self.is_spoiled(owner.span, key));
-            if initial.velocity.is_none() && initial.angular_velocity.is_none() && !unread {
-                let hint = "give it `velocity` or `angular_velocity`";
-                self.error_with::<()>(owner.span, "this initial motion is empty", hint);
-            }
-            let (v, omega) = (vec3_or_zero(&initial.velocity), vec3_or_zero(&initial.angular_velocity));
-            for node in nodes {
-                let node = &mut self.model.nodes[node];
-                node.omega = omega;
-                node.v = match &initial.about {
-                    Some(about) => v + omega.cross(&(node.x - vec3(about))),
-                    None => v,
-                };
-            }
-        }
-        self.hold_still();
-        self.carry();
-    }
-
-    /// Nothing moves at t = 0 where it is held at rest.
-    fn hold_still(&mut self) {
-        for held in self.model.held.iter().filter(|held| held.motion.is_none()) {
-            let node = &mut self.model.nodes[held.node];
-            match held.dof {
-                dof @ 0..3 => node.v[dof] = 0.0,
-                dof => node.omega[dof - 3] = 0.0,
-            }
-        }
-    }
-
-    /// What rides moves as its master does; masters first.
-    fn carry(&mut self) {
-        let mut done = vec![false; self.model.riders.len()];
-        for start in 0..done.len() {
-            let (mut chain, mut next) = (Vec::new(), Some(start));
-            while let Some(rider) = next.filter(|&rider| !std::mem::replace(&mut done[rider], true)) {
-                chain.push(rider);
-                next = self.rides.get(&self.model.riders[rider].master).map(|(rider, _)| *rider);
-            }
-            for rider in chain.into_iter().rev() {
-                let rider = &self.model.riders[rider];
-                let master = &self.model.nodes[rider.master];
-                let omega = master.omega;
-                let v = master.v + omega.cross(&(self.model.nodes[rider.node].x - master.x));
-                let node = &mut self.model.nodes[rider.node];
-                for i in 0..3 {
-                    if rider.dofs[i] {
-                        node.v[i] = v[i];
-                    }
-                    if rider.dofs[3 + i] {
-                        node.omega[i] = omega[i];
-                    }
-                }
-            }
-        }
     }
 }

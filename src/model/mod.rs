@@ -8,6 +8,7 @@ mod bodies;
 mod build;
 mod check;
 mod expects;
+mod initial;
 mod links;
 mod loads;
 mod materials;

@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Gauss points through the thickness at most.
-pub const MOST_LAYERS: usize = 7;
+pub const MOST_LAYERS: usize = 10;
 
 /// How the material of a shell yields.
 #[derive(Debug, Clone)]

@@ -1,0 +1,163 @@
+//! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
+
+use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
+use super::places::{Reach, Spot};
+use crate::amplitude::Amplitude;
+use crate::deck::initial::{Initial, Profile};
+use crate::deck::words::Table;
+use crate::diagnostic::At;
+use crate::math::Vec3;
+
+/// A factor by place.
+struct Factor {
+    amplitude: Amplitude,
+    center: Vec3,
+    /// Of length 1. With an axis: across it, and the angle is counted from it.
+    direction: Vec3,
+    axis: Option<Vec3>,
+}
+
+impl Factor {
+    fn at(&self, x: &Vec3) -> f64 {
+        let arm = x - self.center;
+        let along = arm.dot(&self.direction);
+        self.amplitude.value(match self.axis {
+            None => along,
+            Some(axis) => arm.dot(&axis.cross(&self.direction)).atan2(along),
+        })
+    }
+}
+
+impl<'d> Builder<'d> {
+    pub fn initial(&mut self) {
+        let deck = self.deck;
+        for initial in &deck.initial {
+            self.initial_motion(initial);
+        }
+        self.hold_still();
+        self.carry();
+    }
+
+    fn initial_motion(&mut self, initial: &'d At<Table<Initial>>) {
+        let owner = Owner { what: "`[[initial]]`".to_owned(), span: &initial.span };
+        let everything = initial.at.as_ref().is_some_and(|at| at.values.iter().any(|name| name.value == "all"));
+        let spots = if everything { Vec::new() } else { self.spots(&owner, "at", &initial.at, Reach::Parts) };
+        for spot in spots.iter().filter(|spot| spot.direct) {
+            if let Some(master) = self.master(spot.node, 0) {
+                let master = &self.model.nodes[master].label;
+                let message = format!("`{}` moves with `{master}`", spot.name);
+                self.error_with::<()>(spot.span, message, "give the velocity to that");
+            }
+        }
+        let nodes: Vec<usize> = match everything {
+            true => (0..self.model.nodes.len()).collect(),
+            false => spots.iter().map(|spot| spot.node).collect(),
+        };
+        let words = ["velocity", "angular_velocity", "normal_velocity"];
+        let unread = words.iter().any(|key| self.is_spoiled(owner.span, key));
+        let normal = initial.normal_velocity.as_ref();
+        if initial.velocity.is_none() && initial.angular_velocity.is_none() && normal.is_none() && !unread {
+            let hint = "give it `velocity`, `angular_velocity` or `normal_velocity`";
+            self.error_with::<()>(owner.span, "this initial motion is empty", hint);
+        }
+        if normal.is_some() {
+            let others = [("velocity", span(&initial.velocity)), ("about", span(&initial.about))];
+            self.stray("a velocity along normals", &others);
+        } else if let (Some(_), Some(profile)) = (&initial.about, &initial.profile) {
+            self.stray("the motion of a rigid body", &[("profile", Some(&profile.span))]);
+        }
+        let profile = initial.profile.as_ref().map_or(&[][..], |profile| &profile.value);
+        let factors: Vec<Factor> = profile.iter().filter_map(|entry| self.factor(entry)).collect();
+        let normals = normal.map(|_| self.normals(&spots));
+        let (v, omega) = (vec3_or_zero(&initial.velocity), vec3_or_zero(&initial.angular_velocity));
+        for node in nodes {
+            let x = self.x(node);
+            let v = match (&initial.about, &normals) {
+                (Some(about), _) => v + omega.cross(&(x - vec3(about))),
+                (None, Some(normals)) => normal.map_or(0.0, |normal| normal.value) * normals[node],
+                (None, None) => v,
+            };
+            let factor: f64 = factors.iter().map(|factor| factor.at(&x)).product();
+            let node = &mut self.model.nodes[node];
+            (node.v, node.omega) = (factor * v, factor * omega);
+        }
+    }
+
+    fn factor(&mut self, profile: &'d At<Table<Profile>>) -> Option<Factor> {
+        let owner = Owner { what: "an entry of `profile`".to_owned(), span: &profile.span };
+        let amplitude = self.need(&owner, "amplitude", &profile.amplitude).and_then(|name| self.amplitude(name));
+        let direction = self.need(&owner, "direction", &profile.direction);
+        let mut unit = direction.and_then(|direction| self.unit("direction", direction));
+        let axis = match &profile.axis {
+            Some(axis) => Some(self.unit("axis", axis)?),
+            None => None,
+        };
+        if let (Some(axis), Some(from), Some(at)) = (axis, unit, direction) {
+            let across = from - from.dot(&axis) * axis;
+            if across.norm() < 1e-9 {
+                return self.error(&at.span, "`direction` lies along `axis`: angles need one across it");
+            }
+            unit = Some(across.normalize());
+        }
+        let amplitude = self.model.amplitudes[amplitude?].clone();
+        Some(Factor { amplitude, center: vec3_or_zero(&profile.center), direction: unit?, axis })
+    }
+
+    /// By node, zero where there is no shell: an error for those of the deck's list.
+    fn normals(&mut self, spots: &[Spot<'d>]) -> Vec<Vec3> {
+        let mut normals = vec![Vec3::zeros(); self.model.nodes.len()];
+        for shell in &self.model.shells {
+            for element in &shell.elements {
+                for (&node, normal) in element.nodes[..shell.corners].iter().zip(&element.normals) {
+                    normals[node] += normal;
+                }
+            }
+        }
+        let (mut told, sure) = (None, self.sure);
+        for spot in spots.iter().filter(|spot| sure && normals[spot.node] == Vec3::zeros()) {
+            if told.replace(spot.span) != Some(spot.span) {
+                let message = format!("no shell has a normal at `{}`", spot.name);
+                self.error_with::<()>(spot.span, message, "name shells or their edges");
+            }
+        }
+        normals.iter().map(|normal| normal.try_normalize(0.0).unwrap_or_default()).collect()
+    }
+
+    /// Nothing moves at t = 0 where it is held at rest.
+    fn hold_still(&mut self) {
+        for held in self.model.held.iter().filter(|held| held.motion.is_none()) {
+            let node = &mut self.model.nodes[held.node];
+            match held.dof {
+                dof @ 0..3 => node.v[dof] = 0.0,
+                dof => node.omega[dof - 3] = 0.0,
+            }
+        }
+    }
+
+    /// What rides moves as its master does; masters first.
+    fn carry(&mut self) {
+        let mut done = vec![false; self.model.riders.len()];
+        for start in 0..done.len() {
+            let (mut chain, mut next) = (Vec::new(), Some(start));
+            while let Some(rider) = next.filter(|&rider| !std::mem::replace(&mut done[rider], true)) {
+                chain.push(rider);
+                next = self.rides.get(&self.model.riders[rider].master).map(|(rider, _)| *rider);
+            }
+            for rider in chain.into_iter().rev() {
+                let rider = &self.model.riders[rider];
+                let master = &self.model.nodes[rider.master];
+                let omega = master.omega;
+                let v = master.v + omega.cross(&(self.model.nodes[rider.node].x - master.x));
+                let node = &mut self.model.nodes[rider.node];
+                for i in 0..3 {
+                    if rider.dofs[i] {
+                        node.v[i] = v[i];
+                    }
+                    if rider.dofs[3 + i] {
+                        node.omega[i] = omega[i];
+                    }
+                }
+            }
+        }
+    }
+}
