@@ -392,6 +392,22 @@ fn loads_and_values() {
         portal_and("[output]\nnodes = [\"block\", \"knee_left\"]\nevery = 0\nfields = { every = 2 }")
     );
     assert_snapshot!("initial", portal_and("[[initial]]\nat = [\"portal\", \"everything\"]"));
+    assert_snapshot!("initial_normal", portal_and("[[initial]]\nat = \"portal\"\nnormal_velocity = 1.0"));
+    assert_snapshot!(
+        "initial_normal_and_more",
+        portal_and(
+            "[[initial]]\nat = \"block\"\nvelocity = [1.0, 0.0, 0.0]\nnormal_velocity = 1.0\n
+[[initial]]\nat = \"block\"\nvelocity = [1.0, 0.0, 0.0]\nabout = [0.0, 0.0, 0.0]\nprofile = []"
+        )
+    );
+    assert_snapshot!(
+        "initial_profile",
+        portal_and(
+            "[[initial]]\nat = \"block\"\nvelocity = [1.0, 0.0, 0.0]\nprofile = [\n  {},\n
+  { amplitude = \"wave\", direction = [0.0, 0.0, 0.0] },\n
+  { amplitude = \"wave\", direction = [1.0, 0.0, 0.0], axis = [-2.0, 0.0, 0.0] },\n]"
+        )
+    );
 }
 
 /// Whatever is done to a deck, it is answered, by a model or by errors, and every answer can be drawn.

@@ -8,6 +8,8 @@ mod dynamics;
 mod element;
 #[path = "shells/frequencies.rs"]
 mod frequencies;
+#[path = "shells/linear.rs"]
+mod linear;
 #[path = "shells/loads.rs"]
 mod loads;
 #[path = "shells/pressure.rs"]
@@ -15,3 +17,5 @@ mod pressure;
 #[path = "shells/results.rs"]
 mod results;
 mod support;
+#[path = "shells/symmetry.rs"]
+mod symmetry;

@@ -33,6 +33,8 @@ struct Map {
     axes: Mat3,
     /// Of the corners; between them they are bilinear.
     corners: [Vec3; 4],
+    /// From the centre to the corners, for what is pushed out; bilinear too.
+    radii: [f64; 4],
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -53,8 +55,9 @@ impl Map {
         let far = Vec3::ith(axis.iamin(), 1.0);
         let e2 = axis.cross(&far).normalize();
         let axes = Mat3::from_columns(&[e2.cross(axis), e2, *axis]);
-        let size = corners.iter().map(|x| (x - center).norm()).fold(0.0, f64::max);
-        let mut map = Map { kind, center, axes, corners };
+        let radii = corners.map(|x| (x - center).norm());
+        let size = radii.into_iter().fold(0.0, f64::max);
+        let mut map = Map { kind, center, axes, corners, radii };
         let mut last: Option<f64> = None;
         for corner in &mut map.corners {
             let y = axes.tr_mul(&(*corner - center));
@@ -104,8 +107,7 @@ impl Map {
                 [self.center + value.x * out, by_s, by_t]
             }
             Coordinates::Pushed => {
-                let radius: [f64; 4] = self.corners.map(|x| (x - self.center).norm());
-                let [a, b, c, d] = radius;
+                let [a, b, c, d] = self.radii;
                 let r = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * d + s * c);
                 let by = [(1.0 - t) * (b - a) + t * (c - d), (1.0 - s) * (d - a) + s * (c - b)];
                 let y = value - self.center;
@@ -389,6 +391,8 @@ impl<'d> Builder<'d> {
         if three {
             let [a, b, c, _] = map.corners;
             map.corners = [a, b, b + c - a, c];
+            let [a, b, c, _] = map.radii;
+            map.radii = [a, b, b + c - a, c];
         }
         Some(map)
     }

@@ -95,7 +95,7 @@ fn cantilever_rolled_up() {
 }
 
 /// A static deck of one elastic material; `e_nu_h`, then points, shells, supports and loads as text.
-fn deck(title: &str, steps: usize, [e, nu, h]: [f64; 3], body: &str) -> String {
+pub fn deck(title: &str, steps: usize, [e, nu, h]: [f64; 3], body: &str) -> String {
     format!(
         "title = \"{title}\"\n[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = {}\n[iteration]\nlimit = 40\n\
          [materials.m]\nmodel = \"elastic\"\nyoungs_modulus = {e:?}\npoisson_ratio = {nu:?}\n{}",
@@ -104,11 +104,11 @@ fn deck(title: &str, steps: usize, [e, nu, h]: [f64; 3], body: &str) -> String {
     )
 }
 
-fn point(name: &str, [x, y, z]: [f64; 3]) -> String {
+pub fn point(name: &str, [x, y, z]: [f64; 3]) -> String {
     format!("{name} = [{x:?}, {y:?}, {z:?}]\n")
 }
 
-fn shell(name: &str, corners: &str, elements: [usize; 2], kind: &str, surface: &str) -> String {
+pub fn shell(name: &str, corners: &str, elements: [usize; 2], kind: &str, surface: &str) -> String {
     let corners: Vec<String> = corners.split_whitespace().map(|c| format!("{c:?}")).collect();
     let surface = if surface.is_empty() { String::new() } else { format!("surface = {{ {surface} }}\n") };
     format!(
@@ -117,12 +117,12 @@ fn shell(name: &str, corners: &str, elements: [usize; 2], kind: &str, surface: &
     )
 }
 
-fn fix(at: &str, dofs: &str) -> String {
+pub fn fix(at: &str, dofs: &str) -> String {
     let dofs: Vec<String> = dofs.split_whitespace().map(|c| format!("{c:?}")).collect();
     format!("[[supports]]\nat = \"{at}\"\nfix = [{}]\n", dofs.join(", "))
 }
 
-fn load(at: &str, key: &str, f: [f64; 3]) -> String {
+pub fn load(at: &str, key: &str, f: [f64; 3]) -> String {
     format!("[[loads]]\nat = \"{at}\"\n{key} = {f:?}\n")
 }
 
@@ -184,7 +184,7 @@ fn hemisphere_with_a_hole() {
     }
 }
 
-fn quarter_cylinder(radius: f64, length: f64, kind: &str, n: usize) -> String {
+pub fn quarter_cylinder(radius: f64, length: f64, kind: &str, n: usize) -> String {
     let mut body = String::from("[points]\n");
     body += &point("crown", [0.0, 0.0, radius]);
     body += &point("side", [radius, 0.0, 0.0]);
