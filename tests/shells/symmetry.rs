@@ -96,13 +96,13 @@ impl Panel {
     }
 }
 
-/// The largest difference is rounding: the iteration's tolerance of 1e-12, times how slender the panel is.
+/// The largest difference is rounding, at the end of an iteration that goes on to 1e-12.
 fn same(what: &str, a: &[Vec3], b: &[Vec3]) {
     let far = a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     let size = a.iter().map(|a| a.norm()).fold(0.0, f64::max);
     println!("{what}: {far:.1e} of {size:.2}");
     assert!(size > 0.15, "{what} hardly moves: {size}");
-    assert!(a.len() == b.len() && far < 1e-9 * size, "{what}: {far:e} of {size}");
+    assert!(a.len() == b.len() && far < 1e-12 * size, "{what}: {far:e} of {size}");
 }
 
 fn all(mut check: impl FnMut(&str, Panel)) {
@@ -168,7 +168,8 @@ fn order_in_the_time_step() {
         let points = steps.map(|step| (step, support::error(&run(step), &finest, 0)));
         let slope = support::slope(&points);
         println!("{kind}: {points:?}, slope {slope:.2}");
-        // The reference is eight times as fine as the last, which takes 1/64 off its error: 0.01 of the slope.
-        assert!((slope - 2.0).abs() < 0.15, "{kind}: slope {slope}");
+        // The reference is eight times as fine as the last, which takes 1/64 off its error: 0.01 of the slope; the longest step
+        // is a tenth of the shortest period that matters.
+        assert!((slope - 2.0).abs() < 0.08, "{kind}: slope {slope}");
     }
 }
