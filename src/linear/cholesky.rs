@@ -1,10 +1,11 @@
-//! Supernodal Cholesky factorisation K = L Lᵀ by faer, or L D Lᵀ where K is not positive definite.
+//! Supernodal Cholesky factorisation K = L Lᵀ by fronts, or by faer L D Lᵀ where K is not positive definite.
 //!
 //! Assembly writes straight into the lower triangle in the order of elimination, the one form faer takes without
-//! permuting the matrix at each factorisation. L D Lᵀ goes without pivoting: beyond a buckling load it holds as well as
+//! permuting the matrix at each factorisation. L has the form that faer gives it, whose substitutions serve both. L D Lᵀ goes without pivoting: beyond a buckling load it holds as well as
 //! the leading minors stay away from zero, and the residual of the caller tells.
 
 use super::elimination::Elimination;
+use super::fronts::Fronts;
 use super::graph::Graph;
 use super::{Singular, Stats, VANISHED};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -26,6 +27,7 @@ pub struct Cholesky {
     /// Pattern of the lower triangle in the order of elimination; each column begins with its diagonal.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: supernodal::SymbolicSupernodalCholesky<usize>,
+    fronts: Fronts,
     par: Par,
     /// Lower triangle, and the spare place. Written by assembly.
     values: Vec<f64>,
@@ -54,8 +56,7 @@ impl Cholesky {
             true => Par::rayon(threads),
             false => Par::Seq,
         };
-        let definite =
-            supernodal::factorize_supernodal_numeric_llt_scratch::<usize, f64>(&symbolic, par, Default::default());
+        let fronts = Fronts::new(&symbolic, &pattern, par != Par::Seq);
         Cholesky {
             ordering: elimination.name,
             flops: elimination.flops,
@@ -64,7 +65,8 @@ impl Cholesky {
             diagonal: diagonal(&symbolic),
             definite: true,
             x: vec![0.0; external.len()],
-            buffer: MemBuffer::new(definite.or(solve_scratch(&symbolic))),
+            buffer: MemBuffer::new(solve_scratch(&symbolic)),
+            fronts,
             ready_for_indefinite: false,
             graph,
             position,
@@ -93,18 +95,7 @@ impl Cholesky {
     /// L Lᵀ first, always: an answer that depended on the matrices before could not be resumed bit for bit.
     /// Allocates only on several threads, whose pool does.
     pub(super) fn factor(&mut self) -> Result<(), Singular> {
-        let nonzeros = self.values.len() - 1;
-        let K = SparseColMatRef::new(self.pattern.as_ref(), &self.values[..nonzeros]);
-        self.definite = supernodal::factorize_supernodal_numeric_llt(
-            &mut self.L,
-            K,
-            Default::default(),
-            &self.symbolic,
-            self.par,
-            MemStack::new(&mut self.buffer),
-            Default::default(),
-        )
-        .is_ok();
+        self.definite = self.fronts.factor(&self.values, &mut self.L);
         if !self.definite {
             self.factor_indefinite()?;
         }

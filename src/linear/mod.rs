@@ -8,6 +8,7 @@
 mod block_lu;
 mod cholesky;
 mod elimination;
+mod fronts;
 mod graph;
 mod kernel;
 mod kind;
