@@ -7,7 +7,7 @@
 use super::elimination::Elimination;
 use super::fronts::Fronts;
 use super::graph::Graph;
-use super::{Singular, Stats, VANISHED};
+use super::{Singular, Stats, Tile, VANISHED};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
@@ -82,6 +82,21 @@ impl Cholesky {
         let (p, q) = (p.max(q), p.min(q));
         let place = self.pattern.row_idx_of_col_raw(q).binary_search(&p).ok()?;
         Some(self.pattern.col_ptr()[q] + place)
+    }
+
+    pub(super) fn tile(&self, rows: &[u32; 6], cols: &[u32; 6]) -> Option<(Tile, bool)> {
+        let first = |rows: &[u32; 6]| {
+            let group = *self.graph.group.get(rows[0] as usize)? as usize;
+            let (own, size) = (self.graph.first[group], self.graph.sizes[group]);
+            let whole = size == 6 && (0..6).all(|i| rows[i] as usize == own + i);
+            whole.then(|| self.position[own])
+        };
+        let (p, q) = (first(rows)?, first(cols)?);
+        let (lower, upper) = (p.max(q), p.min(q));
+        let column = self.pattern.row_idx_of_col_raw(upper);
+        let place = column.binary_search(&lower).ok()?;
+        let at = (self.pattern.col_ptr()[upper] + place) as u32;
+        Some((Tile { at, step: column.len() as u32 - 1 }, p < q))
     }
 
     pub(super) fn values(&mut self) -> &mut [f64] {

@@ -9,9 +9,9 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::matmul::{matmul, triangular};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::prelude::{Reborrow, ReborrowMut};
 use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
-use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par};
 use std::ops::Range;
 
@@ -331,9 +331,5 @@ fn subtract_product(A: MatRef<f64>, B: MatRef<f64>, U: MatMut<f64>, threads: boo
     }
     let (upper, lower) = B.split_at_row(n / 2);
     let (left, right) = U.split_at_col_mut(n / 2);
-    both(
-        threads,
-        || subtract_product(A, upper, left, threads),
-        || subtract_product(A, lower, right, threads),
-    );
+    both(threads, || subtract_product(A, upper, left, threads), || subtract_product(A, lower, right, threads));
 }

@@ -63,6 +63,21 @@ pub struct Stats {
     pub ordering: &'static str,
 }
 
+/// A block of 6×6 in a symmetric matrix; of one on the diagonal the lower triangle is there.
+#[derive(Debug, Clone, Copy)]
+pub struct Tile {
+    at: u32,
+    step: u32,
+}
+
+impl Tile {
+    /// Where its column `j` begins in [`Solver::values`]. Each column of the matrix begins with its diagonal: they get shorter.
+    #[inline]
+    pub fn column(&self, j: usize) -> usize {
+        self.at as usize + j * self.step as usize - j * j.saturating_sub(1) / 2
+    }
+}
+
 /// A factorisation with its matrix.
 pub enum Solver {
     Block3(Box<BlockLu<3>>),
@@ -104,6 +119,15 @@ impl Solver {
     /// Searches: for planning, not for assembly.
     pub fn slot(&self, row: usize, col: usize) -> Option<usize> {
         each!(self, inner => inner.slot(row, col))
+    }
+
+    /// Where the block of two groups of six stands, given their rows (external numbers), and whether it is that of `cols` and
+    /// `rows`; none where a matrix is not symmetric, or a group smaller.
+    pub fn tile(&self, rows: &[u32; 6], cols: &[u32; 6]) -> Option<(Tile, bool)> {
+        match self {
+            Solver::Cholesky(inner) => inner.tile(rows, cols),
+            _ => None,
+        }
     }
 
     /// The numbers of the matrix, to be set to zero and filled before each `factor`, which may overwrite them.

@@ -125,7 +125,7 @@ impl<'a> Run<'a> {
             trial: at_rest,
             increments: vec![Increment::ZERO; n],
             history: vec![0.0; system.history],
-            forces: Forces::new(system, n),
+            forces: Forces::new(system, n).on_threads(plan.threads),
             r: vec![0.0; plan.unknowns],
             given: [Loading::default(), Loading::default(), Loading::default()],
             held: [Vec::new(), Vec::new(), Vec::new()],
@@ -175,7 +175,7 @@ impl<'a> Run<'a> {
     }
 
     fn march(&mut self, state: &mut State, observer: &mut dyn Observer) -> Result<(), Outcome> {
-        let initial = self.wanted.energy.then(|| self.stepper.system.energy(state, None));
+        let initial = self.wanted.energy.then(|| self.stepper.system.energy(state, None, self.stepper.plan.threads));
         let balance = initial.map(|e| e.total);
         let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to: 0.0 };
         let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, passed: &[] };
@@ -320,7 +320,7 @@ impl<'a> Run<'a> {
             return;
         }
         if self.wanted.energy {
-            self.energy = Some(system.energy(state, balance));
+            self.energy = Some(system.energy(state, balance, self.stepper.plan.threads));
         }
         if self.wanted.links {
             system.link_states(&state.nodes, &mut self.links);

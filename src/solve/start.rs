@@ -77,10 +77,11 @@ impl Stepper<'_> {
         }
         if self.system.history > 0 {
             // What has yielded before the start is no one's work.
-            self.system.remember(&state.now(), 1.0, &mut self.history);
+            self.system.remember(&state.now(), 1.0, &mut self.history, self.plan.threads);
             std::mem::swap(&mut state.history, &mut self.history);
         }
-        state.work.damping_power = if dynamic { self.system.damping_power(&state.now()) } else { 0.0 };
+        state.work.damping_power =
+            if dynamic { self.system.damping_power(&state.now(), self.plan.threads) } else { 0.0 };
         self.trial.clone_from(&state.nodes);
         Ok(state)
     }

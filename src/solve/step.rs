@@ -384,13 +384,14 @@ impl<'a> Stepper<'a> {
         if self.wants_forces {
             self.system.residual(&now, &self.given[2], &mut self.forces);
             if self.system.is_damped() && dynamic {
-                damping_power = self.system.damping_power(&now);
+                damping_power = self.system.damping_power(&now, self.plan.threads);
             }
         }
         if remembers {
             // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a
             // straight line: at the end itself stiff parts are not at rest, and would yield from step to step.
-            state.work.material += self.system.remember(&now, 1.0 / scheme.instant, &mut self.history);
+            state.work.material +=
+                self.system.remember(&now, 1.0 / scheme.instant, &mut self.history, self.plan.threads);
         }
         for &node in &self.movers {
             let start = &state.nodes[node];

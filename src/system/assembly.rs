@@ -1,6 +1,7 @@
 //! From the matrices of elements and masses to the matrix of the system, through slots computed once. What belongs to a
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
+use super::tiles::Tiles;
 use super::{Forces, Loading, System, follower_stiffness};
 use crate::elements::{Block, Moduli};
 use crate::linear::Solver;
@@ -16,8 +17,6 @@ pub type Rows = [[u32; 6]];
 
 /// Elements whose matrices are filled side by side before they are added, one after the other, in deck order.
 const CHUNK: usize = 256;
-/// Below this many elements threads cost more than they save.
-const PARALLEL: usize = 1024;
 
 /// Where every matrix goes. All but `scratch` is constant over a run.
 pub struct Assembly {
@@ -29,9 +28,10 @@ pub struct Assembly {
     /// Of the faces under pressures that follow, in their order.
     faces: Vec<Place>,
     scatter: Scatter,
+    tiles: Tiles,
     /// Per node: the nodes it ends up on by riding, or itself.
     roots: Vec<Vec<usize>>,
-    threads: usize,
+    threads: bool,
     /// C(r) and other unsymmetric terms are kept.
     unsymmetric: bool,
     scratch: Scratch,
@@ -42,6 +42,8 @@ struct Place {
     /// Nodes onto which it is carried first; empty where no node rides and it goes in as it is.
     targets: Vec<usize>,
     entries: Entries,
+    /// In place of entries, where the matrix goes in by blocks: a range of [`Tiles`].
+    tiles: [u32; 2],
 }
 
 /// Entries of a local matrix that reach the system's: ranges of [`Scatter`].
@@ -147,6 +149,7 @@ impl Assembly {
         let nodes = rows.len();
         let roots = roots(system, nodes);
         let mut scatter = Scatter(Vec::new());
+        let mut tiles = Tiles::new();
         let mut most = roots.iter().map(Vec::len).max().unwrap_or(0);
         // A matrix over 6×6 blocks of targets, each column-major.
         let mut carried = |scatter: &mut Scatter, of: &[usize], keep: &dyn Fn(usize, usize) -> bool| {
@@ -163,17 +166,24 @@ impl Assembly {
                 if keep(i, j) { (rows[targets[block / m]][i], rows[targets[block % m]][j]) } else { (NONE, NONE) }
             };
             let entries = scatter.push(solver, 36 * m * m, entry);
-            Place { targets, entries }
+            Place { targets, entries, tiles: [0; 2] }
         };
         // Of an element with `d` directions a node, row-major.
         let mut local = |scatter: &mut Scatter, of: &[usize], d: usize| {
             if of.iter().any(|&n| roots[n] != [n]) {
                 return carried(scatter, of, &|_, _| true);
             }
+            if d == 6 {
+                let (from, rows): (_, Vec<_>) = (tiles.len() as u32, of.iter().map(|&n| rows[n]).collect());
+                if tiles.push(solver, &rows) {
+                    let none = Entries { from: 0, halves: 0, to: 0 };
+                    return Place { targets: Vec::new(), entries: none, tiles: [from, tiles.len() as u32] };
+                }
+            }
             let size = d * of.len();
             let row = |i: usize| rows[of[i / d]][i % d];
             let entries = scatter.push(solver, size * size, |k| (row(k / size), row(k % size)));
-            Place { targets: Vec::new(), entries }
+            Place { targets: Vec::new(), entries, tiles: [0; 2] }
         };
         let groups: Vec<Vec<Place>> = system
             .groups
@@ -214,7 +224,8 @@ impl Assembly {
             masses,
             faces,
             scatter,
-            threads,
+            tiles,
+            threads: system.splits(threads),
             unsymmetric: !solver.symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
@@ -274,7 +285,7 @@ impl Assembly {
                 let last = (first + CHUNK).min(block.len());
                 let Scratch { local, carry: maps, carried, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
-                if self.threads > 1 && block.len() >= PARALLEL {
+                if self.threads {
                     local
                         .par_chunks_mut(length)
                         .enumerate()
@@ -286,7 +297,14 @@ impl Assembly {
                         .for_each(|(k, K)| block.tangent(first + k, now, rate, moduli, K));
                 }
                 for (e, K) in (first..last).zip(local.chunks(length)) {
-                    add_local(K, block.nodes(e), &places[e], (&self.scatter, &self.roots, maps), carried, values);
+                    add_local(
+                        K,
+                        block.nodes(e),
+                        &places[e],
+                        (&self.scatter, &self.tiles, &self.roots, maps),
+                        carried,
+                        values,
+                    );
                 }
             }
         }
@@ -300,7 +318,7 @@ impl Assembly {
                 let mut K = [0.0; 12 * 12];
                 let K = &mut K[..(3 * face.nodes().len()).pow(2)];
                 face.stiffness(*p, nodes, K);
-                add_local(K, face.nodes(), place, (&self.scatter, &self.roots, maps), carried, values);
+                add_local(K, face.nodes(), place, (&self.scatter, &self.tiles, &self.roots, maps), carried, values);
             }
         }
     }
@@ -371,10 +389,14 @@ fn add_local(
     K: &[f64],
     nodes: &[usize],
     place: &Place,
-    (scatter, roots, maps): (&Scatter, &[Vec<usize>], &[Vec<Mat6>]),
+    (scatter, tiles, roots, maps): (&Scatter, &Tiles, &[Vec<usize>], &[Vec<Mat6>]),
     carried: &mut [[f64; 36]],
     values: &mut [f64],
 ) {
+    let [from, to] = place.tiles;
+    if from < to {
+        return tiles.add(K, from as usize..to as usize, values);
+    }
     if place.targets.is_empty() {
         return scatter.add(K, place.entries, values);
     }

@@ -1,6 +1,7 @@
 //! From the model's parts to blocks of like elements and to masses at nodes.
 
 use super::inertia::{ConsistentMass, Lumped};
+use super::lanes::MOST_IN_GROUP;
 use super::results::Watched;
 use super::{Group, GroupKind, Inertia};
 use crate::elements::Block;
@@ -12,6 +13,7 @@ use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Tria
 use crate::math::{Mat3, Vec3, quadrature};
 use crate::model::{self, MassKind, Model};
 use crate::sections;
+use std::ops::Range;
 
 /// Inertia of bodies, point masses and elements, at their nodes or spread over them.
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
@@ -69,14 +71,26 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
 /// Elements by part, beams first, and the links as the deck lists them. `plane`: the normal of a plane motion.
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, Vec<Watched>) {
     let beta = model.damping.stiffness_factor;
-    let structure = |block| Group { block, kind: GroupKind::Structure, history: 0..0 };
-    let beams = model.beams.iter().map(|part| structure(beams(part, model, x, beta, plane)));
-    let bars = model.bars.iter().map(|part| structure(bars(part, x, beta)));
-    let shells = model.shells.iter().map(|part| structure(shells(part, x, beta)));
+    let mut groups = Vec::new();
+    let mut add = |block: Box<dyn Block>, kind, part, first| {
+        if !block.is_empty() {
+            groups.push(Group { block, kind, part, first, history: 0..0 });
+        }
+    };
+    for (k, part) in model.beams.iter().enumerate() {
+        pieces(part.elements.len())
+            .for_each(|piece| add(beams(part, piece.clone(), model, x, beta, plane), GroupKind::Beam, k, piece.start));
+    }
+    for (k, part) in model.bars.iter().enumerate() {
+        pieces(part.elements.len())
+            .for_each(|piece| add(bars(part, piece.clone(), x, beta), GroupKind::Bar, k, piece.start));
+    }
+    for (k, part) in model.shells.iter().enumerate() {
+        pieces(part.elements.len())
+            .for_each(|piece| add(shells(part, piece.clone(), x, beta), GroupKind::Shell, k, piece.start));
+    }
     let (links, watched) = links(model, x);
-    let links = links.into_iter().map(|block| Group { block, kind: GroupKind::Link, history: 0..0 });
-    let mut groups: Vec<Group> =
-        beams.chain(bars).chain(shells).chain(links).filter(|group| !group.block.is_empty()).collect();
+    links.into_iter().for_each(|block| add(block, GroupKind::Link, 0, 0));
     let mut end = 0;
     for group in &mut groups {
         group.history = end..end + group.block.history();
@@ -85,23 +99,37 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, V
     (groups, watched)
 }
 
-fn beams(part: &model::Beam, model: &Model, x: &[Vec3], beta: f64, plane: Option<usize>) -> Box<dyn Block> {
-    match part.order {
-        1 => beams_of::<2>(part, model, x, beta, plane),
-        2 => beams_of::<3>(part, model, x, beta, plane),
-        3 => beams_of::<4>(part, model, x, beta, plane),
-        _ => beams_of::<5>(part, model, x, beta, plane),
-    }
+/// Ranges of elements for a group each, as even as can be.
+fn pieces(elements: usize) -> impl Iterator<Item = Range<usize>> {
+    let count = elements.div_ceil(MOST_IN_GROUP);
+    (0..count).map(move |k| k * elements / count..(k + 1) * elements / count)
 }
 
-fn beams_of<const N: usize>(
+fn beams(
     part: &model::Beam,
+    piece: Range<usize>,
     model: &Model,
     x: &[Vec3],
     beta: f64,
     plane: Option<usize>,
 ) -> Box<dyn Block> {
-    let elements = part.elements.iter().map(|e| Description {
+    match part.order {
+        1 => beams_of::<2>(part, piece, model, x, beta, plane),
+        2 => beams_of::<3>(part, piece, model, x, beta, plane),
+        3 => beams_of::<4>(part, piece, model, x, beta, plane),
+        _ => beams_of::<5>(part, piece, model, x, beta, plane),
+    }
+}
+
+fn beams_of<const N: usize>(
+    part: &model::Beam,
+    piece: Range<usize>,
+    model: &Model,
+    x: &[Vec3],
+    beta: f64,
+    plane: Option<usize>,
+) -> Box<dyn Block> {
+    let elements = part.elements[piece].iter().map(|e| Description {
         nodes: &e.nodes,
         frame: &e.frame,
         stiffness: &model.stiffnesses[e.section],
@@ -125,20 +153,22 @@ pub fn in_plane(part: &model::Beam, plane: Option<usize>) -> Option<bool> {
     if across(1) { Some(true) } else { across(2).then_some(false) }
 }
 
-fn bars(part: &model::Bar, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+fn bars(part: &model::Bar, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+    let elements = &part.elements[piece];
     match &part.yielding {
-        None => Box::new(bar::links(&part.elements, part.axial_stiffness, part.tension_only, x, beta)),
+        None => Box::new(bar::links(elements, part.axial_stiffness, part.tension_only, x, beta)),
         Some(law) => {
             let stiffness = part.axial_stiffness;
-            Box::new(YieldingBars::new(&part.elements, stiffness, law, part.tension_only, x, beta))
+            Box::new(YieldingBars::new(elements, stiffness, law, part.tension_only, x, beta))
         }
     }
 }
 
-fn shells(part: &model::Shell, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn Block> {
     let corners = part.corners;
-    let elements =
-        part.elements.iter().map(|e| shell::Description { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
+    let elements = part.elements[piece]
+        .iter()
+        .map(|e| shell::Description { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
     match (&part.yielding, corners) {
         (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
         (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),

@@ -1,6 +1,6 @@
 //! Energies and momenta of a state.
 
-use super::{GroupKind, System};
+use super::{GroupKind, System, lanes};
 use crate::math::Vec3;
 use crate::state::State;
 
@@ -32,13 +32,15 @@ pub struct Energy {
 
 impl System {
     /// `initial`: the total at t = 0, against which the balance is drawn.
-    pub fn energy(&self, state: &State, initial: Option<f64>) -> Energy {
+    pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.now(), state.work);
-        let stored = |kind| -> f64 {
-            let groups = self.groups.iter().filter(|g| g.kind == kind);
-            groups.map(|g| g.block.energy(&g.share(&now))).sum()
+        let stored = |links: bool| -> f64 {
+            lanes::sum(&self.groups, self.splits(threads), &|group| match (group.kind == GroupKind::Link) == links {
+                true => group.block.energy(&group.share(&now)),
+                false => 0.0,
+            })
         };
-        let (strain, links) = (stored(GroupKind::Structure) + work.material.stored, stored(GroupKind::Link));
+        let (strain, links) = (stored(false) + work.material.stored, stored(true));
         let mut kinetic = 0.0;
         let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
         for inertia in &self.inertias {

@@ -5,9 +5,11 @@ pub mod assembly;
 mod build;
 pub mod energy;
 mod inertia;
+mod lanes;
 mod motion;
 mod plane;
 pub mod results;
+mod tiles;
 
 pub use inertia::Inertia;
 pub use motion::{Drive, Prescribed, Side, between};
@@ -20,12 +22,17 @@ use crate::math::{Mat3, Vec3, rotation, skew};
 use crate::model::{self, Model};
 use crate::state::{Node, Now};
 use inertia::ConsistentMass;
+use lanes::Lane;
 use std::ops::Range;
 
-/// A group of like elements and where its energy is booked.
+/// A group of like elements, of one part: all of them, or some in a row where they are many.
 pub struct Group {
     pub block: Box<dyn Block>,
     pub kind: GroupKind,
+    /// The part's place in the model's list.
+    pub part: usize,
+    /// The part's number of its first element.
+    pub first: usize,
     /// Its share of [`crate::state::State::history`].
     pub history: Range<usize>,
 }
@@ -40,7 +47,9 @@ impl Group {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GroupKind {
-    Structure,
+    Beam,
+    Bar,
+    Shell,
     Link,
 }
 
@@ -83,11 +92,24 @@ pub struct Forces {
     pub on_nodes: Vec<Force>,
     /// The forces so handed over, in the order of [`System::attachments`].
     pub on_riders: Vec<Vec3>,
+    lanes: Vec<Lane>,
+    threads: bool,
 }
 
 impl Forces {
+    /// For one thread.
     pub fn new(system: &System, nodes: usize) -> Self {
-        Forces { on_nodes: vec![[0.0; 6]; nodes], on_riders: vec![Vec3::zeros(); system.attachments.len()] }
+        Forces {
+            on_nodes: vec![[0.0; 6]; nodes],
+            on_riders: vec![Vec3::zeros(); system.attachments.len()],
+            lanes: lanes::lanes(system),
+            threads: false,
+        }
+    }
+
+    /// The same, summed on several threads where that pays.
+    pub fn on_threads(self, threads: usize) -> Self {
+        Forces { threads: threads > 1, ..self }
     }
 }
 
@@ -150,9 +172,7 @@ impl System {
         let F = &mut forces.on_nodes[..];
         F.fill([0.0; 6]);
         let mut scale = Scale::default();
-        for group in &self.groups {
-            group.block.subtract_forces(&group.share(now), F);
-        }
+        lanes::subtract_forces(&self.groups, now, &mut forces.lanes, forces.threads, F);
         for f in F.iter() {
             scale.meet(f);
         }
@@ -248,18 +268,25 @@ impl System {
 
     /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
     /// became of the work of plastic strains on it.
-    pub fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
-        let mut spent = Spent::default();
-        for group in self.groups.iter().filter(|group| !group.history.is_empty()) {
-            spent += group.block.remember(&group.share(now), part, &mut history[group.history.clone()]);
-        }
-        spent
+    pub fn remember(&self, now: &Now, part: f64, history: &mut [f64], threads: usize) -> Spent {
+        lanes::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
+            if group.history.is_empty() {
+                return Spent::default();
+            }
+            group.block.remember(&group.share(now), part, history)
+        })
+    }
+
+    /// True where work on elements is worth that many threads.
+    fn splits(&self, threads: usize) -> bool {
+        threads > 1 && lanes::is_large(&self.groups)
     }
 
     /// Power that dampers take.
-    pub fn damping_power(&self, now: &Now) -> f64 {
+    pub fn damping_power(&self, now: &Now, threads: usize) -> f64 {
         let nodes = now.nodes;
-        let mut power: f64 = self.groups.iter().map(|g| g.block.damping_power(&g.share(now))).sum();
+        let mut power: f64 =
+            lanes::sum(&self.groups, self.splits(threads), &|group| group.block.damping_power(&group.share(now)));
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();

@@ -69,7 +69,7 @@ impl System {
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order.
     pub fn plastic_strains(&self, now: &Now, out: &mut Vec<f64>) {
         out.clear();
-        for group in self.groups.iter().filter(|group| group.kind == GroupKind::Structure) {
+        for group in self.groups.iter().filter(|group| group.kind != GroupKind::Link) {
             let past = group.share(now).past;
             out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
         }
@@ -78,15 +78,13 @@ impl System {
     /// Stress resultants of all elements of all shells in deck order.
     pub fn shell_states(&self, model: &Model, now: &Now, out: &mut Vec<ShellState>) {
         out.clear();
-        // Shells come after beams and bars, a group per part.
-        let before = model.beams.iter().filter(|part| !part.elements.is_empty()).count()
-            + model.bars.iter().filter(|part| !part.elements.is_empty()).count();
-        let parts = model.shells.iter().enumerate().filter(|(_, part)| !part.elements.is_empty());
-        for ((shell, part), group) in parts.zip(&self.groups[before..]) {
+        for group in self.groups.iter().filter(|group| group.kind == GroupKind::Shell) {
+            let (shell, part) = (group.part, &model.shells[group.part]);
             let now = group.share(now);
-            for (element, spec) in part.elements.iter().enumerate() {
-                let start = spec.nodes.map(|node| model.nodes[node].x);
-                let resultants = group.block.resultants(element, &part.axis, &start[..part.corners], &now);
+            for e in 0..group.block.len() {
+                let element = group.first + e;
+                let start = part.elements[element].nodes.map(|node| model.nodes[node].x);
+                let resultants = group.block.resultants(e, &part.axis, &start[..part.corners], &now);
                 let Some(mut at) = resultants else { continue };
                 if at.layers().is_empty() {
                     at.surfaces(part.plate.thickness);
@@ -99,15 +97,19 @@ impl System {
     /// Stress resultants at all integration points of all beams in deck order.
     pub fn section_points(&self, model: &Model, now: &Now, out: &mut Vec<SectionPoint>) {
         out.clear();
-        // Beams are the first groups, one per part, in deck order.
-        let groups = model.beams.iter().filter(|b| !b.elements.is_empty()).enumerate().zip(&self.groups);
-        for ((beam, part), group) in groups {
-            let mut start = 0.0;
+        let mut start = 0.0;
+        for group in self.groups.iter().filter(|group| group.kind == GroupKind::Beam) {
+            let (beam, part) = (group.part, &model.beams[group.part]);
             let now = group.share(now);
-            for (element, spec) in part.elements.iter().enumerate() {
+            if group.first == 0 {
+                start = 0.0;
+            }
+            for e in 0..group.block.len() {
+                let element = group.first + e;
+                let spec = &part.elements[element];
                 let frame: &Mat3 = &spec.frame;
                 for point in 0..group.block.points() {
-                    let Some(mut at) = group.block.point(element, point, frame, &now) else { continue };
+                    let Some(mut at) = group.block.point(e, point, frame, &now) else { continue };
                     at.s += start;
                     out.push(SectionPoint { beam, element, point, at });
                 }

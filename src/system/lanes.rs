@@ -1,0 +1,119 @@
+//! Large scenes on several threads: which groups of elements go side by side, and how what they give is summed. The cut rests
+//! on the scene alone and sums keep their order, so bits do not depend on the number of threads.
+
+use super::{Group, System};
+use crate::elements::Force;
+use crate::state::Now;
+use rayon::prelude::*;
+use std::ops::{AddAssign, Range};
+
+/// Elements in a group at most.
+pub(super) const MOST_IN_GROUP: usize = 512;
+/// Below this many elements threads cost more than they save.
+const WORTH_THREADS: usize = 1024;
+/// Each takes an array of forces.
+const MOST_LANES: usize = 16;
+
+/// Groups whose forces are summed apart from those of others.
+#[derive(Debug, Clone)]
+pub struct Lane {
+    groups: Range<usize>,
+    /// Nodes that they act on.
+    nodes: Vec<Range<usize>>,
+    /// By node. Written by [`subtract_forces`].
+    F: Vec<Force>,
+}
+
+/// True where elements are many enough for several threads.
+pub(super) fn is_large(groups: &[Group]) -> bool {
+    groups.iter().map(|group| group.block.len()).sum::<usize>() >= WORTH_THREADS
+}
+
+/// None in a small scene.
+pub(super) fn lanes(system: &System) -> Vec<Lane> {
+    let groups = &system.groups;
+    if !is_large(groups) {
+        return Vec::new();
+    }
+    let count = groups.len().min(MOST_LANES);
+    let bound = |k: usize| k * groups.len() / count;
+    (0..count).map(|k| lane(groups, bound(k)..bound(k + 1))).collect()
+}
+
+fn lane(all: &[Group], groups: Range<usize>) -> Lane {
+    let of = |group: &Group| (0..group.block.len()).flat_map(|e| group.block.nodes(e)).copied().collect::<Vec<_>>();
+    let mut touched: Vec<usize> = all[groups.clone()].iter().flat_map(of).collect();
+    touched.sort_unstable();
+    touched.dedup();
+    let nodes = touched.chunk_by(|a, b| a + 1 == *b).map(|run| run[0]..run[run.len() - 1] + 1).collect();
+    Lane { groups, nodes, F: vec![[0.0; 6]; touched.last().map_or(0, |last| last + 1)] }
+}
+
+/// Subtracts the internal forces of all elements from `F`.
+pub(super) fn subtract_forces(groups: &[Group], now: &Now, lanes: &mut [Lane], threads: bool, F: &mut [Force]) {
+    if lanes.is_empty() {
+        return groups.iter().for_each(|group| group.block.subtract_forces(&group.share(now), F));
+    }
+    let run = |lane: &mut Lane| {
+        lane.nodes.iter().for_each(|run| lane.F[run.clone()].fill([0.0; 6]));
+        for group in &groups[lane.groups.clone()] {
+            group.block.subtract_forces(&group.share(now), &mut lane.F);
+        }
+    };
+    if threads {
+        lanes.par_iter_mut().for_each(run);
+    } else {
+        lanes.iter_mut().for_each(run);
+    }
+    for lane in lanes {
+        for run in &lane.nodes {
+            let pairs = F[run.clone()].as_flattened_mut().iter_mut().zip(lane.F[run.clone()].as_flattened());
+            pairs.for_each(|(sum, f)| *sum += f);
+        }
+    }
+}
+
+/// Σ over groups, by halves.
+pub(super) fn sum<T>(groups: &[Group], threads: bool, of: &(impl Fn(&Group) -> T + Sync)) -> T
+where
+    T: Default + AddAssign + Send,
+{
+    match groups {
+        [] => T::default(),
+        [group] => of(group),
+        _ => {
+            let (left, right) = groups.split_at(groups.len() / 2);
+            let (mut sum, right) = both(threads, || sum(left, threads, of), || sum(right, threads, of));
+            sum += right;
+            sum
+        }
+    }
+}
+
+/// The same with each group's own part of `history`, which is that of `groups`.
+pub(super) fn sum_with<T>(
+    groups: &[Group],
+    history: &mut [f64],
+    threads: bool,
+    of: &(impl Fn(&Group, &mut [f64]) -> T + Sync),
+) -> T
+where
+    T: Default + AddAssign + Send,
+{
+    match groups {
+        [] => T::default(),
+        [group] => of(group, history),
+        _ => {
+            let (left, right) = groups.split_at(groups.len() / 2);
+            let (of_left, of_right) = history.split_at_mut(right[0].history.start - left[0].history.start);
+            let (mut sum, right) =
+                both(threads, || sum_with(left, of_left, threads, of), || sum_with(right, of_right, threads, of));
+            sum += right;
+            sum
+        }
+    }
+}
+
+fn both<A: Send, B: Send>(threads: bool, a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    if threads { rayon::join(a, b) } else { (a(), b()) }
+}
