@@ -24,6 +24,10 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
         show(&loaded.warnings, &loaded.source);
     }
     let threads = args.threads.map_or_else(available_threads, usize::from);
+    if threads > 1 {
+        // As many as asked for; where the pool is there already, as many as it has.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    }
     let timings = Timings { read_s: began.elapsed().as_secs_f64(), ..Timings::default() };
     let report = compute(&loaded, &folder, threads, args.quiet, timings, began).map_err(|error| {
         complain(&format!("cannot write results: {error}"));
