@@ -65,7 +65,7 @@ impl Cholesky {
             diagonal: diagonal(&symbolic),
             definite: true,
             x: vec![0.0; external.len()],
-            buffer: MemBuffer::new(solve_scratch(&symbolic)),
+            buffer: MemBuffer::new(StackReq::EMPTY),
             fronts,
             ready_for_indefinite: false,
             graph,
@@ -131,8 +131,7 @@ impl Cholesky {
                 self.par,
                 Default::default(),
             );
-            let definite = StackReq::new::<u8>(self.buffer.len());
-            self.buffer = MemBuffer::new(indefinite.or(definite).or(solve_scratch(&self.symbolic)));
+            self.buffer = MemBuffer::new(indefinite.or(solve_scratch(&self.symbolic)));
             self.ready_for_indefinite = true;
         }
     }
@@ -162,28 +161,19 @@ impl Cholesky {
         })
     }
 
-    /// On one thread whatever the matrix: faer's solution depends in its last bits on the number of threads.
     pub(super) fn solve(&mut self, b: &mut [f64]) {
         for (x, &row) in self.x.iter_mut().zip(&self.external) {
             *x = b[row];
         }
-        let n = self.x.len();
-        let x = MatMut::from_column_major_slice_mut(&mut self.x, n, 1);
-        let stack = MemStack::new(&mut self.buffer);
         if self.definite {
-            supernodal::SupernodalLltRef::new(&self.symbolic, &self.L).solve_in_place_with_conj(
-                Conj::No,
-                x,
-                Par::Seq,
-                stack,
-            );
+            self.fronts.solve(&self.L, &mut self.x);
         } else {
-            supernodal::SupernodalLdltRef::new(&self.symbolic, &self.L).solve_in_place_with_conj(
-                Conj::No,
-                x,
-                Par::Seq,
-                stack,
-            );
+            // On one thread: faer's solution depends in its last bits on their number.
+            let n = self.x.len();
+            let x = MatMut::from_column_major_slice_mut(&mut self.x, n, 1);
+            let stack = MemStack::new(&mut self.buffer);
+            let factor = supernodal::SupernodalLdltRef::new(&self.symbolic, &self.L);
+            factor.solve_in_place_with_conj(Conj::No, x, Par::Seq, stack);
         }
         for (x, &row) in self.x.iter().zip(&self.external) {
             b[row] = *x;

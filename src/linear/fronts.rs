@@ -23,44 +23,54 @@ const WORTH_CUTTING: f64 = 5e7;
 const DENSE: usize = 192;
 
 pub(super) struct Fronts {
-    tree: Tree,
-    subtrees: Vec<(Range<usize>, Room)>,
+    pub(super) tree: Tree,
+    pub(super) subtrees: Vec<(Range<usize>, Room)>,
     /// Supernodes above the subtrees.
-    above: (Vec<usize>, Room),
-    threads: bool,
+    pub(super) above: (Vec<usize>, Room),
+    pub(super) threads: bool,
+    /// For [`super::substitution`]: what is known above the subtrees.
+    pub(super) done: Vec<f64>,
 }
 
-struct Tree {
+pub(super) struct Tree {
     /// One more at the end.
-    fronts: Vec<Front>,
+    pub fronts: Vec<Front>,
     children: Vec<u32>,
-    /// For each row below a supernode: its row in the front of the parent.
-    places: Vec<u32>,
+    /// Rows below each supernode, in the order of elimination.
+    pub rows: Vec<u32>,
+    /// For each of them: its row in the front of the parent.
+    pub places: Vec<u32>,
     /// For each number of the matrix: where it goes in the panel of its supernode.
     entries: Vec<u32>,
 }
 
 /// Updates that no front has taken yet, the last on top, and what the dense kernels need.
-struct Room {
+pub(super) struct Room {
     stack: Vec<f64>,
     top: usize,
     scratch: MemBuffer,
+    /// The same for right-hand sides: a stack, and one front.
+    pub vectors: Vec<f64>,
+    pub front: Vec<f64>,
 }
 
 /// A supernode: a panel of columns with the rows below them.
-struct Front {
-    columns: usize,
+pub(super) struct Front {
+    /// Its first column.
+    pub begin: usize,
+    pub columns: usize,
     /// Rows below the square on the diagonal.
-    rows: usize,
+    pub rows: usize,
     /// Where its panel starts in L, its rows in `places`, its numbers in the matrix, its children in `children`; the ends are
     /// where the next one starts.
-    panel: usize,
-    place: usize,
+    pub panel: usize,
+    pub place: usize,
     entry: usize,
     child: usize,
-    /// Where its update lies on a stack, and of which subtree; none for those above.
+    /// Where its update lies on a stack, that of right-hand sides on theirs, and of which subtree; none for those above.
     update: usize,
-    subtree: Option<usize>,
+    pub vector: usize,
+    pub subtree: Option<usize>,
 }
 
 impl Tree {
@@ -88,6 +98,7 @@ impl Tree {
                 local[row] = at as u32;
             }
             fronts.push(Front {
+                begin: columns(s).start,
                 columns: columns(s).len(),
                 rows: rows(s).len(),
                 panel: symbolic.col_ptr_for_val()[s],
@@ -95,6 +106,7 @@ impl Tree {
                 entry: entries.len(),
                 child: children.len(),
                 update: 0,
+                vector: 0,
                 subtree: None,
             });
             children.extend(&offspring[s]);
@@ -108,12 +120,24 @@ impl Tree {
             }
         }
         let (place, entry, child) = (first_place[count], entries.len(), children.len());
-        let panel = symbolic.len_val();
-        fronts.push(Front { columns: 0, rows: 0, panel, place, entry, child, update: 0, subtree: None });
-        Tree { fronts, children, places, entries }
+        let (begin, panel) = (symbolic.nrows(), symbolic.len_val());
+        fronts.push(Front {
+            begin,
+            columns: 0,
+            rows: 0,
+            panel,
+            place,
+            entry,
+            child,
+            update: 0,
+            vector: 0,
+            subtree: None,
+        });
+        let all = (0..count).flat_map(|s| rows(s).iter().map(|&row| row as u32)).collect();
+        Tree { fronts, children, rows: all, places, entries }
     }
 
-    fn children(&self, s: usize) -> impl Iterator<Item = usize> {
+    pub fn children(&self, s: usize) -> impl Iterator<Item = usize> {
         self.children[self.fronts[s].child..self.fronts[s + 1].child].iter().map(|&child| child as usize)
     }
 
@@ -155,18 +179,30 @@ impl Tree {
 
     /// Room for the given supernodes, by walking through them as a factorisation does.
     fn room(&mut self, supernodes: impl Iterator<Item = usize>, subtree: Option<usize>) -> Room {
-        let (mut top, mut highest, mut widest) = (0, 0, 0);
+        let (mut top, mut highest, mut vector, mut longest) = (0, 0, 0, 0);
+        let (mut widest, mut tallest) = (0, 0);
         for s in supernodes {
-            let size = self.fronts[s].rows.pow(2);
-            highest = highest.max(top + size);
-            widest = widest.max(self.fronts[s].columns);
-            let children = self.children(s).map(|child| &self.fronts[child]);
-            top -= children.filter(|child| child.subtree == subtree).map(|child| child.rows.pow(2)).sum::<usize>();
-            (self.fronts[s].update, self.fronts[s].subtree) = (top, subtree);
-            top += size;
+            let Front { columns, rows, .. } = self.fronts[s];
+            highest = highest.max(top + rows * rows);
+            (widest, tallest) = (widest.max(columns), tallest.max(columns + rows));
+            for child in self.children(s).map(|child| &self.fronts[child]).filter(|child| child.subtree == subtree) {
+                top -= child.rows * child.rows;
+                vector -= child.rows;
+            }
+            let front = &mut self.fronts[s];
+            (front.update, front.vector, front.subtree) = (top, vector, subtree);
+            top += rows * rows;
+            vector += rows;
+            longest = longest.max(vector);
         }
         let scratch = cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
-        Room { stack: vec![0.0; highest], top: 0, scratch: MemBuffer::new(scratch) }
+        Room {
+            stack: vec![0.0; highest],
+            top: 0,
+            scratch: MemBuffer::new(scratch),
+            vectors: vec![0.0; longest],
+            front: vec![0.0; tallest],
+        }
     }
 
     /// Factors subtrees; `L` begins at `base` of the whole.
@@ -246,12 +282,12 @@ impl Fronts {
         let subtrees = subtrees.into_iter().enumerate();
         let subtrees = subtrees.map(|(t, range)| (range.clone(), tree.room(range, Some(t)))).collect();
         let room = tree.room(above.iter().copied(), None);
-        Fronts { tree, subtrees, above: (above, room), threads }
+        Fronts { tree, subtrees, above: (above, room), threads, done: vec![0.0; symbolic.nrows()] }
     }
 
     /// L from the numbers of the matrix; false if a pivot is not positive.
     pub fn factor(&mut self, K: &[f64], L: &mut [f64]) -> bool {
-        let Fronts { tree, subtrees, above: (above, room), threads } = self;
+        let Fronts { tree, subtrees, above: (above, room), threads, .. } = self;
         room.top = 0;
         tree.subtrees(subtrees, K, L, 0, *threads)
             && above.iter().all(|&s| {
@@ -277,7 +313,11 @@ fn take(from: &[f64], places: &[u32], (columns, rows): (usize, usize), panel: &m
     }
 }
 
-fn both<A: Send, B: Send>(threads: bool, a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+pub(super) fn both<A: Send, B: Send>(
+    threads: bool,
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
     if threads { rayon::join(a, b) } else { (a(), b()) }
 }
 

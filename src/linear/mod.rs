@@ -12,6 +12,7 @@ mod fronts;
 mod graph;
 mod kernel;
 mod kind;
+mod substitution;
 
 pub use block_lu::BlockLu;
 pub use cholesky::Cholesky;
