@@ -106,6 +106,7 @@ fn no_step_after_the_first_allocates() {
         }
     }
     shells_neither();
+    large_scenes_neither();
 }
 
 /// Shells of both kinds and masses, elastic and yielding, on a body, under pressure that follows.
@@ -130,6 +131,18 @@ fn shells_neither() {
     m.iteration.method = Method::Auto;
     let state = assert_none(&m, rdsolve::linear::Kind::Block);
     assert!(state.work.material.plastic > 0.01, "{:?}", state.work);
+}
+
+/// Shells enough for lanes of forces and for fronts above subtrees, on one thread.
+fn large_scenes_neither() {
+    let mut m = empty(Kind::Dynamic, 0.07, 0.001);
+    m.iteration.tolerance = 1e-8;
+    let nodes = shell(&mut m, [Vec3::zeros(), 2.0 * Vec3::x(), Vec3::y()], [36, 30], 4, MassKind::Lumped);
+    (0..31).for_each(|row| fix(&mut m, nodes[37 * row], 0..6));
+    let pulse = sine_squared(&mut m, 0.07);
+    press(&mut m, 0.1, Some(pulse));
+    m.iteration.update = Update::Step;
+    assert_none(&m, rdsolve::linear::Kind::Cholesky);
 }
 
 fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
