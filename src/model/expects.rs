@@ -107,6 +107,10 @@ impl<'d> Builder<'d> {
             // Where a shell has errors, these have been said.
             Some(Place::Shell(shell)) if !self.shell_parts[shell].is_empty() => {
                 let Range { start, end } = self.shell_parts[shell];
+                if self.model.shells[start..end].iter().all(|part| part.elements.is_empty()) {
+                    let message = format!("`{}` is rigid, so it has no stress and no plastic strain", name.value);
+                    return self.error(&name.span, message);
+                }
                 let yields = self.model.shells[start].yielding.is_some();
                 let columns = if yields { vec!["von_mises", "plastic_strain"] } else { vec!["von_mises"] };
                 Some((ExpectAt::Shells(start, end), columns))

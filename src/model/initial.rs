@@ -7,6 +7,7 @@ use crate::deck::initial::{Initial, Profile};
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 use crate::math::Vec3;
+use std::collections::HashSet;
 
 /// A factor by place.
 struct Factor {
@@ -49,6 +50,7 @@ impl<'d> Builder<'d> {
                 self.error_with::<()>(spot.span, message, "give the velocity to that");
             }
         }
+        self.moves_by_itself(&spots);
         let nodes: Vec<usize> = match everything {
             true => (0..self.model.nodes.len()).collect(),
             false => spots.iter().map(|spot| spot.node).collect(),
@@ -80,6 +82,18 @@ impl<'d> Builder<'d> {
             let factor: f64 = factors.iter().map(|factor| factor.at(&x)).product();
             let node = &mut self.model.nodes[node];
             (node.v, node.omega) = (factor * v, factor * omega);
+        }
+    }
+
+    /// Names of which all nodes ride on something that is not named: its motion is theirs.
+    fn moves_by_itself(&mut self, spots: &[Spot<'d>]) {
+        let named: HashSet<usize> = spots.iter().map(|spot| spot.node).collect();
+        for spots in spots.chunk_by(|a, b| a.span == b.span).filter(|spots| !spots[0].direct) {
+            let masters: Option<Vec<usize>> = spots.iter().map(|spot| self.master(spot.node, 0)).collect();
+            if let Some(&[master, ..]) = masters.as_deref().filter(|m| m.iter().all(|node| !named.contains(node))) {
+                let message = format!("all of this moves with `{}`", self.model.nodes[master].label);
+                self.error_with::<()>(spots[0].span, message, "give the velocity to that");
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::attachments::directions;
 use super::build::{Builder, Owner, span, vec3_or_zero};
-use super::places::{Place, Reach};
+use super::places::{Place, Reach, Spot};
 use super::{BaseAcceleration, Damping, Load, NodalDamping, Pressure};
 use crate::amplitude::Amplitude;
 use crate::deck::amplitudes as deck;
@@ -146,6 +146,10 @@ impl<'d> Builder<'d> {
                 }
                 Some(place @ (Place::Group(_) | Place::Set(_))) if load.force_per_length.is_some() => {
                     for pair in self.line_of(place, name) {
+                        let spot = |node| Spot { node, name: name.as_str(), span: &name.span, direct: false };
+                        if pair.iter().any(|&node| self.is_loose(&spot(node), "this load")) {
+                            continue;
+                        }
                         let half = 0.5 * (self.x(pair[1]) - self.x(pair[0])).norm();
                         pair.iter().for_each(|&node| *forces.entry(node).or_default() += half * line);
                     }

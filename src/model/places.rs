@@ -140,6 +140,10 @@ impl<'d> Builder<'d> {
             }
             _ => return None,
         };
+        // A group has no corners.
+        if self.deck.shells[index].group.is_some() {
+            return None;
+        }
         // Where the corners are wrong, that is said there.
         let three = self.deck.shells[index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
         let corners = if three { 3 } else { 4 };
@@ -216,7 +220,12 @@ impl<'d> Builder<'d> {
                 continue;
             }
             let direct = matches!(place, Place::Point(_) | Place::Body(_));
-            for node in self.nodes_of(place) {
+            let nodes = self.nodes_of(place);
+            if nodes.is_empty() && matches!(place, Place::Group(_)) {
+                let hint = "its elements are of kinds that are skipped, or there are none";
+                self.error_with::<()>(&name.span, format!("the group `{}` has no nodes", name.value), hint);
+            }
+            for node in nodes {
                 if seen.insert(node) {
                     let label = if direct { name.as_str() } else { self.label(node, name) };
                     spots.push(Spot { node, name: label, span: &name.span, direct });

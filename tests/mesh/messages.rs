@@ -172,3 +172,31 @@ fn ties() {
         folder.read(&format!("{}{}", DECK.replace("elements = 2", "elements = 1"), tie.replace("mesh.6", "mesh.5"))).1
     );
 }
+
+/// Names that would hold, load or move nothing.
+#[test]
+fn names_of_nothing() {
+    let rigid = "[[bodies]]\nname = \"block\"\nparts = [\"plate\"]\n";
+    assert_snapshot!("edge_of_a_group", and("[[supports]]\nat = \"plate.edge1\"\nfix = \"all\"\n"));
+    assert_snapshot!(
+        "velocity_of_a_rigid_part",
+        and(&format!("{rigid}[[initial]]\nat = \"plate\"\nvelocity = [1.0, 0.0, 0.0]\n"))
+    );
+    assert_snapshot!(
+        "value_of_a_rigid_part",
+        and(&format!(
+            "{rigid}[[expect]]\nat = \"plate\"\nquantity = \"von_mises\"\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1\n"
+        ))
+    );
+    let mesh = Plate { n: 2, m: 2, size: [2.0, 1.0] }.inp().replace(
+        "*nset, nset=root",
+        "*NODE\n101, 9., 9., 0.\n102, 9., 8., 0.\n*ELEMENT, TYPE=B31, ELSET=elsewhere\n101, 101, 102\n\
+         *nset, nset=void\n*nset, nset=root",
+    );
+    let folder = Folder::with(&[("plate.inp", &mesh)]);
+    let deck = DECK.replace("plate.msh", "plate.inp");
+    let held = "[[supports]]\nat = \"void\"\nfix = \"all\"\n";
+    let load = "[[loads]]\nat = \"elsewhere\"\nforce_per_length = [0.0, 0.0, 1.0]\n";
+    assert_snapshot!("group_of_nothing", folder.read(&format!("{deck}{held}")).1);
+    assert_snapshot!("load_on_nothing", folder.read(&format!("{deck}{load}")).1);
+}
