@@ -3,6 +3,8 @@
 //! Prescribed motion needs all of them: an amplitude may be a displacement, a velocity or an acceleration, and the other
 //! two follow. At a kink or a jump the value to the right counts; the impulse of a jump's derivative is left out.
 
+use std::f64::consts::PI;
+
 /// A factor over time. `start` and `end` bound where it acts; `end` may be infinite.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Amplitude {
@@ -45,6 +47,45 @@ impl Amplitude {
         };
         // What is left of a sine that ends at a zero is rounding of its argument.
         all.into_iter().filter(|j| j.time.is_finite() && (j.after - j.before).abs() > 1e-12).collect()
+    }
+
+    /// The first time from 0 to `end` at which the value, having risen, falls or, having fallen, rises. Jumps are left out.
+    pub fn turn(&self, end: f64) -> Option<f64> {
+        // First zero of the rate inside where the sine acts; what comes within rounding of an end is no turn.
+        let inside = |from: f64, to: f64, zero: &dyn Fn(f64) -> f64, spacing: f64| {
+            let (low, high) = (from.max(0.0), to.min(end));
+            let slack = 1e-9 * end;
+            let k = ((low + slack - zero(0.0)) / spacing).ceil();
+            let t = zero(k);
+            (t.is_finite() && t < high - slack).then_some(t)
+        };
+        match *self {
+            Amplitude::Table { ref points } => {
+                let mut way = 0.0;
+                points.windows(2).filter(|p| p[1][0] > 0.0 && p[0][0] < end && p[0][0] < p[1][0]).find_map(|p| {
+                    let rise = p[1][1] - p[0][1];
+                    let turned = rise * way < 0.0;
+                    way = if rise == 0.0 { way } else { rise.signum() };
+                    turned.then_some(p[0][0])
+                })
+            }
+            Amplitude::Sine { angular_frequency: w, phase, start, end } => {
+                let side = w.signum();
+                inside(start, end, &|k| start + ((k + 0.5) * PI - phase * side) / w.abs(), PI / w.abs())
+            }
+            Amplitude::SineSquared { angular_frequency: w, start, end } => {
+                inside(start, end, &|k| start + 0.5 * k * PI / w.abs(), 0.5 * PI / w.abs())
+            }
+            Amplitude::Ramp { .. } | Amplitude::Step { .. } | Amplitude::Constant => None,
+        }
+    }
+
+    /// Where a table begins; others are given at all times.
+    pub fn begin(&self) -> f64 {
+        match self {
+            Amplitude::Table { points } => points.first().map_or(0.0, |p| p[0]),
+            _ => 0.0,
+        }
     }
 
     pub fn value(&self, t: f64) -> f64 {
@@ -290,6 +331,32 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn turns_lie_inside() {
+        let sine = |phase: f64, end: f64| Amplitude::Sine { angular_frequency: PI, phase, start: 0.0, end };
+        let squared = |w: f64, start: f64| Amplitude::SineSquared { angular_frequency: w, start, end: f64::INFINITY };
+        let table = |points: &[[f64; 2]]| Amplitude::Table { points: points.to_vec() };
+        let none = [
+            sine(0.0, 0.5),
+            sine(0.5 * PI, 1.0),
+            squared(0.5 * PI, 0.0),
+            squared(PI, 0.5),
+            squared(0.0, 0.0),
+            table(&[[-1.0, 3.0], [0.0, 0.0], [0.5, 1.0], [0.6, 1.0], [1.0, 2.0], [2.0, 0.0]]),
+            Amplitude::Ramp { start: 0.2, end: 0.3 },
+            Amplitude::Constant,
+        ];
+        none.iter().for_each(|a| assert_eq!(a.turn(1.0), None, "{a:?}"));
+        let some = [
+            (sine(0.0, 1.0), 0.5),
+            (sine(-0.25 * PI, 1.0), 0.75),
+            (Amplitude::Sine { angular_frequency: -PI, phase: 0.25 * PI, start: 0.0, end: 1.0 }, 0.75),
+            (squared(PI, 0.25), 0.75),
+            (table(&[[0.0, 0.0], [0.5, 1.0], [0.75, 1.0], [1.0, 0.0]]), 0.75),
+        ];
+        some.iter().for_each(|(a, t)| assert!((a.turn(1.0).unwrap() - t).abs() < 1e-15, "{a:?} {:?}", a.turn(1.0)));
     }
 
     #[test]

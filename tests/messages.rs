@@ -593,6 +593,18 @@ fn paths() {
                    viscosity = { law = \"linear\", rate = 1.0 }\n";
     let edits = [("force = [0.0, 0.0, -60.0]\n", jump), ("axial_stiffness = 1000.0\nmass_per_length = 0.0\n", viscous)];
     assert_snapshot!("path_across_a_jump", path(&edits));
+    let turn =
+        jump.replace("kind = \"step\"\nstart = 0.5", "kind = \"table\"\npoints = [[0.0, 0.0], [0.5, 1.0], [1.0, 0.5]]");
+    assert_snapshot!("path_that_turns", path(&[("force = [0.0, 0.0, -60.0]\n", &turn)]));
+    // A set of one point stands for it.
+    let sets = "[sets]\none = [\"crown\"]\nfeet = [\"left\", \"right\"]\n[points]";
+    let stop_at =
+        |name: &str| path(&[("at = \"crown\", quantity", &format!("at = \"{name}\", quantity")), ("[points]", sets)]);
+    assert_eq!(stop_at("one").lines().filter(|line| line.starts_with("error")).count(), 0);
+    assert_snapshot!("stop_at_a_set", stop_at("feet"));
+    let loose =
+        [("at = \"crown\", quantity", "at = \"loose\", quantity"), ("[points]", "[points]\nloose = [0.0, 0.0, 2.0]")];
+    assert_snapshot!("stop_where_nothing_acts", path(&loose));
     let both = expect.replace("value = 0.6", "time = 0.5\nvalue = 0.6");
     assert_snapshot!("when_and_time", path(&[("[[loads]]", &both)]));
 }

@@ -89,14 +89,7 @@ impl<'d> Builder<'d> {
         if name.value == "analysis" && !self.places.contains_key("analysis") {
             return Some((ExpectAt::Analysis, vec!["time"]));
         }
-        let place = self.place(name).map(|place| match place {
-            Place::Set(_) | Place::Group(_) => match self.nodes_of(place)[..] {
-                [node] => Place::Point(node),
-                _ => place,
-            },
-            place => place,
-        });
-        match place {
+        match self.place_or_node(name) {
             Some(Place::Point(node)) => Some((ExpectAt::Node(node), [&MOTION[..], &DIRECTIONS].concat())),
             Some(Place::Body(body)) => {
                 let columns = [&MOTION[..], &DIRECTIONS, &QUATERNION].concat();

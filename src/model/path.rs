@@ -2,10 +2,11 @@
 
 use super::build::{Builder, Owner, span};
 use super::places::Place;
-use super::{ArcLength, Cadence, Control, Kind, Method, Passage, Update};
+use super::{ArcLength, Cadence, Control, Held, History, Kind, Method, Passage, Update};
 use crate::deck::analysis as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
+use crate::names::short;
 
 impl<'d> Builder<'d> {
     /// After the supports: a displacement to stop at must be free.
@@ -63,6 +64,20 @@ impl<'d> Builder<'d> {
                 let message = format!("amplitude `{}` jumps, and no path leads across by arc length", name.value);
                 self.error_with::<()>(&amplitude.span, message, "let it rise over a while");
             }
+            // A velocity that turns leaves a motion that may not.
+            let moves = |held: &Held| {
+                let motion = held.motion.as_ref().filter(|motion| motion.amplitude == index);
+                motion.is_some_and(|motion| motion.history != History::Displacement)
+            };
+            let turn = self.model.amplitudes.get(index).and_then(|read| read.turn(self.model.analysis.end_time));
+            if let Some(time) = turn
+                && self.used.contains(&("amplitude", index))
+                && !self.model.held.iter().any(moves)
+            {
+                let message = format!("amplitude `{}` turns at t = {}", name.value, short(time));
+                let hint = "with arc-length a load that turns leads back along its path: let it only rise or only fall";
+                self.error_with::<()>(&amplitude.span, message, hint);
+            }
         }
     }
 
@@ -87,7 +102,7 @@ impl<'d> Builder<'d> {
         let value = self.need(&owner, "value", &words.value);
         let pass = self.count("pass", &words.pass, 1);
         let name = name?;
-        let node = match self.places.get(name.as_str()).map(|(place, _)| *place) {
+        let node = match self.place_or_node(name) {
             Some(Place::Point(node)) => node,
             Some(Place::Body(body)) => self.model.bodies.get(body)?.node,
             Some(place) => {
@@ -113,6 +128,10 @@ impl<'d> Builder<'d> {
         }
         if self.held.contains_key(&(node, dof)) {
             return self.error(&quantity.span, format!("a support gives {word} of `{}`", name.value));
+        }
+        if self.sure && !self.is_taken(node, dof) {
+            let message = format!("nothing acts on `{}` in direction {word}", name.value);
+            return self.error_with(&quantity.span, message, format!("{what} wants a displacement that is an unknown"));
         }
         if value.value == 0.0 {
             return self.error_with(&value.span, format!("{word} begins at zero"), "a passage lies off the start");

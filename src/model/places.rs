@@ -150,6 +150,17 @@ impl<'d> Builder<'d> {
         (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(index, k - 1))
     }
 
+    /// What a name stands for; a set or group of one node stands for that node.
+    pub fn place_or_node(&self, name: &str) -> Option<Place> {
+        self.place(name).map(|place| match place {
+            Place::Set(_) | Place::Group(_) => match self.nodes_of(place)[..] {
+                [node] => Place::Point(node),
+                _ => place,
+            },
+            place => place,
+        })
+    }
+
     /// What a name stands for; reports a name that stands for nothing.
     pub fn lookup(&mut self, name: &At<String>) -> Option<Place> {
         if let Some(place) = self.place(name) {
