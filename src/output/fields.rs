@@ -176,9 +176,7 @@ impl Fields {
 
     /// Every so many steps, and the first and the last.
     pub fn see(&mut self, frame: &Frame) -> io::Result<()> {
-        let end = frame.model.analysis.end_time;
-        let last = frame.state.time >= end - 1e-9 * end;
-        if frame.step.is_multiple_of(self.every.max(1)) || last { self.write(frame) } else { Ok(()) }
+        if frame.step.is_multiple_of(self.every.max(1)) || frame.last { self.write(frame) } else { Ok(()) }
     }
 
     fn write(&mut self, frame: &Frame) -> io::Result<()> {

@@ -74,6 +74,8 @@ pub(super) struct Step<'s> {
     pub cuts: usize,
     /// Whatever the cadence says.
     pub due: bool,
+    /// The run ends with it.
+    pub last: bool,
     /// See [`Frame::passed`].
     pub passed: &'s [usize],
 }
@@ -178,7 +180,7 @@ impl<'a> Run<'a> {
         let initial = self.wanted.energy.then(|| self.stepper.system.energy(state, None, self.stepper.plan.threads));
         let balance = initial.map(|e| e.total);
         let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to: 0.0 };
-        let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, passed: &[] };
+        let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, last: false, passed: &[] };
         if let Control::ArcLength(control) = &self.stepper.model.analysis.control {
             self.settle(state).map_err(|failure| Outcome::Failed { time: 0.0, failure })?;
             self.show(state, observer, balance, &first)?;
@@ -222,7 +224,10 @@ impl<'a> Run<'a> {
                     pieces += 1;
                     let last = at == whole;
                     let due = last && k == stretch.steps && stretch.due;
-                    self.show(state, observer, balance, &Step { dt, taken: &taken, cuts, due, passed: &[] })?;
+                    // No other step comes within rounding of the end.
+                    let ends = last && to >= self.stepper.model.analysis.end_time * (1.0 - 1e-9);
+                    let step = Step { dt, taken: &taken, cuts, due, last: ends, passed: &[] };
+                    self.show(state, observer, balance, &step)?;
                     cuts = 0;
                     if pieces >= MOST_PIECES && !last {
                         let failure = Failure::Crawling { pieces, dt };
@@ -263,7 +268,7 @@ impl<'a> Run<'a> {
         step: &Step,
     ) -> Result<(), Outcome> {
         let model = self.stepper.model;
-        let &Step { dt, taken, cuts, due, passed } = step;
+        let &Step { dt, taken, cuts, due, last, passed } = step;
         if taken.iterations > 0 {
             self.counts.steps += 1;
             self.counts.iterations += taken.iterations;
@@ -275,7 +280,6 @@ impl<'a> Run<'a> {
             };
         let began = Instant::now();
         // Fields are drawn by steps, and at the end.
-        let last = state.time >= model.analysis.end_time * (1.0 - 1e-9);
         let drawn = model.output.fields.is_some_and(|every| self.counts.steps.is_multiple_of(every.max(1)) || last);
         self.derive(state, due, drawn, balance);
         let frame = Frame {
@@ -288,6 +292,7 @@ impl<'a> Run<'a> {
             residual: taken.residual,
             cuts,
             due,
+            last,
             energy: self.energy.as_ref(),
             reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
             links: &self.links,

@@ -36,6 +36,8 @@ pub struct Frame<'a> {
     pub cuts: usize,
     /// True when the output cadence asks for this step; t = 0 and the last step always are.
     pub due: bool,
+    /// The run ends with it.
+    pub last: bool,
     /// Present when `due` and wanted.
     pub energy: Option<&'a Energy>,
     /// In the order of [`Model::held`]; force or moment on the structure, global components. Empty unless `due` and wanted.

@@ -22,7 +22,9 @@ const STRAIGHT: f64 = 0.8;
 /// material begins to yield a path has kinks, which no step is too short for.
 const BENT: f64 = 0.2;
 const TRIES: usize = 3;
-/// More steps are no path that anybody wants.
+/// Of the reach of the model: shorter motions are lost in the rounding of positions.
+const STILL: f64 = 1e-12;
+/// More steps are no path that anybody wants, unless the deck asks for them.
 const MOST_STEPS: usize = 100_000;
 /// Landings tried in a step before it is cut: what it passes may lie in another order than between straight lines.
 const LANDINGS: usize = 8;
@@ -157,7 +159,7 @@ impl Run<'_> {
                 return Err(Outcome::Stopped { time: state.time });
             }
             let (to, condition) = match unit {
-                None => (size * analysis.time_step, None),
+                None => (state.time + size * analysis.time_step, None),
                 Some(unit) => (state.time, Some(Condition::Arc(size * unit))),
             };
             let found = self.stepper.find(state, to, condition, &stations);
@@ -183,27 +185,30 @@ impl Run<'_> {
             };
             stations.pass(&self.stepper, state, taken.to, landed);
             self.stepper.keep_motion(&motion);
-            // A first step may have been cut short where it passed something.
-            let whole = analysis.time_step / taken.to.abs().max(least * analysis.time_step);
-            if *unit.get_or_insert(motion.length * whole) == 0.0 {
+            let dt = taken.to - state.time;
+            // Until loads begin there is nothing to go along, only time: a motion that positions cannot hold is none.
+            if unit.is_none() && motion.length > STILL * self.stepper.reach {
+                // A first step may have been cut short where it passed something.
+                unit = Some(motion.length * analysis.time_step / dt.abs().max(least * analysis.time_step));
+            }
+            if unit.is_none() && landed.is_some_and(|i| stations.0[i].what == What::Time && stations.0[i].ends) {
                 let failure = Failure::Idle { time: state.time };
                 return Err(Outcome::Failed { time: state.time, failure });
             }
-            let dt = taken.to - state.time;
             self.stepper.accept(state, &load_steps::coefficients(), taken.to);
             let ends = landed.is_some_and(|i| stations.0[i].ends)
                 || control.steps.is_some_and(|steps| self.counts.steps + 1 >= steps);
             let passed = landed.map_or(&[][..], |i| &stations.0[i].expects);
             let due = landed.is_some() || ends;
-            self.show(state, observer, balance, &Step { dt, taken: &taken, cuts, due, passed })?;
+            self.show(state, observer, balance, &Step { dt, taken: &taken, cuts, due, last: ends, passed })?;
             if ends {
                 return Ok(());
             }
-            if self.counts.steps >= MOST_STEPS {
+            if self.counts.steps >= control.steps.unwrap_or(MOST_STEPS) {
                 let failure = Failure::Endless { steps: self.counts.steps };
                 return Err(Outcome::Failed { time: state.time, failure });
             }
-            if landed.is_none() {
+            if landed.is_none() && unit.is_some() {
                 let mut change = (DESIRED / taken.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
                 if cuts > 0 || motion.cosine < STRAIGHT {
                     change = change.min(1.0);

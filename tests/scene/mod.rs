@@ -167,6 +167,7 @@ impl Extras {
             residual: 1e-9,
             cuts: step % 2,
             due: step.is_multiple_of(2) || step == 10,
+            last: step == 10,
             energy: Some(&self.energy),
             reactions: &self.reactions,
             links: &self.links,
