@@ -484,3 +484,99 @@ fn a_load_that_stays_leads_nowhere() {
     assert!(failure.to_string().contains("no load or held motion changes with the time"), "{failure}");
     assert!((time - 20.0).abs() < 0.01, "{time}");
 }
+
+/// The end of a run may be where its loads come to rest: the step that passes it goes on beyond. The amplitude is the load.
+#[test]
+fn a_path_ends_where_its_amplitude_ends() {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let amplitudes: [(&str, fn(f64) -> f64); 4] = [
+        ("kind = \"ramp\"\nend = 60.0", |t| t),
+        ("kind = \"table\"\npoints = [[0.0, 0.0], [60.0, 1.0]]", |t| t),
+        (&format!("kind = \"sine\"\nangular_frequency = {}\nend = 120.0", quarter / 60.0), |t| {
+            60.0 * (std::f64::consts::FRAC_PI_2 * t / 60.0).sin()
+        }),
+        (&format!("kind = \"sine-squared\"\nangular_frequency = {}", quarter / 60.0), |t| {
+            60.0 * (std::f64::consts::FRAC_PI_2 * t / 60.0).sin().powi(2)
+        }),
+    ];
+    for (amplitude, load) in amplitudes {
+        let load_of_it = format!("{ON_CROWN}amplitude = \"grows\"\n[amplitudes.grows]\n{amplitude}\n");
+        let done = follow_to_the_end(&read(&format!("{TRUSS}{load_of_it}")), &[("crown", 2)]);
+        assert_eq!(done.rows.last().unwrap()[0], 60.0, "{amplitude}");
+        for row in &done.rows {
+            assert!((load(row[0]) - truss(-row[1])).abs() < 1e-8 * 60.0, "{amplitude} {row:?}");
+        }
+    }
+}
+
+/// The same for a motion.
+#[test]
+fn a_held_motion_may_end_with_the_run() {
+    let driven = r#"
+[[links]]
+name = "spring"
+from = { node = "crown" }
+to = { node = "hand" }
+direction = [0.0, 0.0, 1.0]
+stiffness = 4.0
+[[supports]]
+at = "hand"
+motion = { uz = { amplitude = "down", scale = -2.0 } }
+[amplitudes.down]
+kind = "ramp"
+end = 2.0
+"#;
+    let deck = format!("{TRUSS}{driven}")
+        .replace("crown = [", "hand = [0.0, 0.0, 1.0]\ncrown = [")
+        .replace("end_time = 60.0\ntime_step = 5.0", "end_time = 2.0\ntime_step = 0.05")
+        .replace("axial_stiffness = 1000.0", "axial_stiffness = 40.0");
+    let done = follow_to_the_end(&read(&deck), &[("crown", 2), ("hand", 2)]);
+    assert_eq!(done.rows.last().unwrap()[0], 2.0);
+    for row in &done.rows {
+        let exact = -row[1] + truss(-row[1]) * 40.0 / 1000.0 / 4.0;
+        // Positions are of the size of one.
+        assert!((row[0] - exact).abs() < 1e-8 && (row[2] + row[0]).abs() < 1e-15 * 4.0, "{row:?} {exact}");
+    }
+}
+
+/// Steps of load, here below the limit, lead to where loads begin; rounding of that time (three times 0.1) sets no scale.
+#[test]
+fn loads_may_begin_late() {
+    for begin in ["0.2", "0.3"] {
+        let late = format!("amplitude = \"late\"\n[amplitudes.late]\nkind = \"ramp\"\nstart = {begin}\nend = 1.3\n");
+        let deck = format!("{TRUSS}{ON_CROWN}{late}")
+            .replace("-60.0", "-30.0")
+            .replace("end_time = 60.0\ntime_step = 5.0", "end_time = 1.3\ntime_step = 0.1");
+        let done = follow_to_the_end(&read(&deck), &[("crown", 2)]);
+        let begin: f64 = begin.parse().unwrap();
+        for row in &done.rows {
+            let load = 30.0 * (row[0] - begin).max(0.0) / (1.3 - begin);
+            assert!((load - truss(-row[1])).abs() < 1e-8 * 60.0, "{row:?}");
+        }
+        assert!(done.counts.steps < 60, "{}", done.counts.steps);
+    }
+}
+
+/// Whatever ends a run, its last step is told.
+#[test]
+fn the_last_step_is_told() {
+    let stop = "stop = { at = \"crown\", quantity = \"uz\", value = -0.3 }";
+    for more in ["", "steps = 4", stop] {
+        let deck = format!("{TRUSS}{ON_CROWN}").replace("time_step = 5.0", &format!("time_step = 5.0\n{more}"));
+        for deck in [
+            deck.clone(),
+            deck.replace(more, "").replace("arc-length", "time").replace("end_time = 60.0", "end_time = 5.0"),
+        ] {
+            let done = support::run_to_the_end(&read(&deck), &mut |frame: &Frame| vec![f64::from(frame.last)]);
+            let (last, before) = done.rows.split_last().unwrap();
+            assert!(last[0] == 1.0 && before.iter().all(|row| row[0] == 0.0), "{more}");
+        }
+    }
+}
+
+#[test]
+fn more_steps_than_usual_may_be_asked_for() {
+    let deck =
+        format!("{TRUSS}{ON_CROWN}").replace("time_step = 5.0", "time_step = 1e-5\nsteps = 100001\ngrowth = 1.0");
+    assert_eq!(follow_to_the_end(&read(&deck), &[("crown", 2)]).counts.steps, 100_001);
+}

@@ -151,8 +151,12 @@ impl<'a> Stepper<'a> {
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
+            // Loads are curves over the time: a correction δt leaves them wrong by its square, whatever the motion.
+            let mut curved = 0.0;
             if let Some(condition) = condition {
-                taken.to = self.close(state, taken.to, condition)?;
+                let to = self.close(state, taken.to, condition)?;
+                curved = ((to - taken.to) / self.model.analysis.end_time).powi(2);
+                taken.to = to;
             }
             // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
             let plain = self.search.is_some().then(|| self.prepare());
@@ -169,7 +173,8 @@ impl<'a> Stepper<'a> {
             let judgement = convergence.judge(size, taken.residual);
             // Between elastic and plastic one contraction says little of the next, and what is small against positions may be
             // large against elastic strains: the residual must have come down as well, or nothing but rounding be left.
-            let sure = self.system.history == 0 || taken.residual <= 1e3 * self.model.iteration.tolerance;
+            let tolerance = self.model.iteration.tolerance;
+            let sure = (self.system.history == 0 || taken.residual <= 1e3 * tolerance) && curved <= tolerance;
             let rounding = judgement.stalled() && self.is_rounding(correction, fresh && sure);
             if rounding || sure && judgement.converged() {
                 break;

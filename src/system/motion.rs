@@ -3,7 +3,7 @@
 use super::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
-use crate::model::{Held, History, Kind, Model, Motion};
+use crate::model::{Control, Held, History, Kind, Model, Motion};
 
 /// Displacement, velocity and acceleration of a held direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,15 +27,74 @@ pub struct Drive<'a> {
     jumps: Vec<Vec<Jump>>,
     /// Times that differ by less are the same.
     slack: f64,
+    /// Of each amplitude, then of each held direction, along a path: its iterates pass the ends of the run, and what is given
+    /// there must go on.
+    loads: Vec<Beyond>,
+    motions: Vec<Beyond>,
+}
+
+/// A given function as a line beyond the ends of a run.
+#[derive(Debug, Clone, Copy)]
+struct Beyond {
+    begin: f64,
+    end: f64,
+    /// Before the beginning its slope there; after the end, where only iterates come, the slope of the chord over the last
+    /// [`TAIL`] of the run: a function that comes to rest at the end would lead nowhere.
+    slopes: [f64; 2],
+}
+
+/// Part of a run.
+const TAIL: f64 = 0.01;
+
+impl Beyond {
+    fn new(begin: f64, end: f64, value: impl Fn(f64) -> f64, rate: impl Fn(f64) -> f64) -> Beyond {
+        let tail = TAIL * (end - begin);
+        Beyond { begin, end, slopes: [rate(begin), (value(end) - value(end - tail)) / tail] }
+    }
+
+    /// Outside the run: its nearest end, and the slope there.
+    fn at(&self, t: f64) -> Option<(f64, f64)> {
+        match t {
+            _ if t < self.begin => Some((self.begin, self.slopes[0])),
+            _ if t > self.end => Some((self.end, self.slopes[1])),
+            _ => None,
+        }
+    }
+
+    /// A function within the run, and the line that continues it.
+    fn value(&self, t: f64, value: impl Fn(f64) -> f64) -> f64 {
+        self.at(t).map_or_else(|| value(t), |(end, slope)| value(end) + slope * (t - end))
+    }
 }
 
 impl<'a> Drive<'a> {
     pub fn new(model: &'a Model) -> Self {
         let jumps = model.amplitudes.iter().map(Amplitude::jumps).collect();
-        Drive { model, jumps, slack: 1e-9 * model.analysis.end_time }
+        let mut drive =
+            Drive { model, jumps, slack: 1e-9 * model.analysis.end_time, loads: Vec::new(), motions: Vec::new() };
+        if matches!(model.analysis.control, Control::ArcLength(_)) {
+            let end = model.analysis.end_time;
+            let loads = model.amplitudes.iter();
+            drive.loads = loads.map(|a| Beyond::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
+            let beyond = |held: &Held| {
+                let Some(motion) = &held.motion else { return Beyond::new(0.0, end, |_| 0.0, |_| 0.0) };
+                let amplitude = &model.amplitudes[motion.amplitude];
+                let given = |t: f64| prescribed(motion, amplitude, t);
+                Beyond::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
+            };
+            drive.motions = model.held.iter().map(beyond).collect();
+        }
+        drive
     }
 
     fn factor(&self, amplitude: usize, t: f64, side: Side) -> f64 {
+        match self.loads.get(amplitude) {
+            Some(beyond) => beyond.value(t, |t| self.within(amplitude, t, side)),
+            None => self.within(amplitude, t, side),
+        }
+    }
+
+    fn within(&self, amplitude: usize, t: f64, side: Side) -> f64 {
         match self.jumps[amplitude].iter().find(|jump| (jump.time - t).abs() <= self.slack) {
             Some(jump) if side == Side::Before => jump.before,
             Some(jump) => jump.after,
@@ -74,7 +133,8 @@ impl<'a> Drive<'a> {
             Kind::Dynamic => 0.0,
             Kind::Static => 1.0 / self.model.analysis.end_time,
         };
-        let rate = |i: usize| self.model.amplitudes[i].rate(t);
+        let beyond = |i: usize| self.loads.get(i).and_then(|beyond| beyond.at(t));
+        let rate = |i: usize| beyond(i).map_or_else(|| self.model.amplitudes[i].rate(t), |(_, slope)| slope);
         loading.factors.clear();
         loading.factors.extend(self.model.loads.iter().map(|load| load.amplitude.map_or(plain, rate)));
         loading.pressures.clear();
@@ -91,11 +151,15 @@ impl<'a> Drive<'a> {
     pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == Kind::Dynamic;
         out.clear();
-        out.extend(self.model.held.iter().map(|held: &Held| match &held.motion {
+        out.extend(self.model.held.iter().enumerate().map(|(i, held)| match &held.motion {
             None => Prescribed::default(),
             Some(motion) => {
-                let given = prescribed(motion, &self.model.amplitudes[motion.amplitude], t);
-                if dynamic { given } else { Prescribed { u: given.u, ..Prescribed::default() } }
+                let given = |t: f64| prescribed(motion, &self.model.amplitudes[motion.amplitude], t);
+                match self.motions.get(i) {
+                    Some(beyond) => Prescribed { u: beyond.value(t, |t| given(t).u), ..Prescribed::default() },
+                    None if dynamic => given(t),
+                    None => Prescribed { u: given(t).u, ..Prescribed::default() },
+                }
             }
         }));
     }
