@@ -174,9 +174,9 @@ impl<'a> Stepper<'a> {
             // Between elastic and plastic one contraction says little of the next, and what is small against positions may be
             // large against elastic strains: the residual must have come down as well, or nothing but rounding be left.
             let tolerance = self.model.iteration.tolerance;
-            let sure = (self.system.history == 0 || taken.residual <= 1e3 * tolerance) && curved <= tolerance;
+            let sure = self.system.history == 0 || taken.residual <= 1e3 * tolerance;
             let rounding = judgement.stalled() && self.is_rounding(correction, fresh && sure);
-            if rounding || sure && judgement.converged() {
+            if curved <= tolerance && (rounding || sure && judgement.converged()) {
                 break;
             }
             if taken.iterations >= limit {
