@@ -80,6 +80,24 @@ impl Amplitude {
         }
     }
 
+    /// How long from t = 0 the value stays as it is then; infinite where for ever.
+    pub fn rest(&self) -> f64 {
+        match *self {
+            Amplitude::Table { ref points } => {
+                let change = points.windows(2).find(|p| p[1][0] > 0.0 && p[0][1] != p[1][1]);
+                change.map_or(f64::INFINITY, |p| p[0][0].max(0.0))
+            }
+            Amplitude::Sine { angular_frequency: w, start, end, .. }
+            | Amplitude::SineSquared { angular_frequency: w, start, end }
+                if w != 0.0 && end > 0.0 =>
+            {
+                start.max(0.0)
+            }
+            Amplitude::Ramp { start, end } | Amplitude::Step { start, end } if end > 0.0 => start.max(0.0),
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Where a table begins; others are given at all times.
     pub fn begin(&self) -> f64 {
         match self {

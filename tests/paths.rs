@@ -541,15 +541,18 @@ end = 2.0
     }
 }
 
-/// Steps of load, here below the limit, lead to where loads begin; rounding of that time (three times 0.1) sets no scale.
+/// The first step begins where loads do; they stay below the limit, for they cannot be less than nothing.
 #[test]
 fn loads_may_begin_late() {
     for begin in ["0.2", "0.3"] {
-        let late = format!("amplitude = \"late\"\n[amplitudes.late]\nkind = \"ramp\"\nstart = {begin}\nend = 1.3\n");
+        let late = format!(
+            "amplitude = \"late\"\n[amplitudes.late]\nkind = \"ramp\"\nstart = {begin}\nend = 1.3\n[[expect]]\nat = \"analysis\"\nquantity = \"time\"\ntime = 0.1\nvalue = 0.1\ntolerance = 1e-12\n"
+        );
         let deck = format!("{TRUSS}{ON_CROWN}{late}")
             .replace("-60.0", "-30.0")
             .replace("end_time = 60.0\ntime_step = 5.0", "end_time = 1.3\ntime_step = 0.1");
         let done = follow_to_the_end(&read(&deck), &[("crown", 2)]);
+        assert!(done.verdicts[0].passed);
         let begin: f64 = begin.parse().unwrap();
         for row in &done.rows {
             let load = 30.0 * (row[0] - begin).max(0.0) / (1.3 - begin);

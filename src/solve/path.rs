@@ -22,8 +22,6 @@ const STRAIGHT: f64 = 0.8;
 /// material begins to yield a path has kinks, which no step is too short for.
 const BENT: f64 = 0.2;
 const TRIES: usize = 3;
-/// Of the reach of the model: shorter motions are lost in the rounding of positions.
-const STILL: f64 = 1e-12;
 /// More steps are no path that anybody wants, unless the deck asks for them.
 const MOST_STEPS: usize = 100_000;
 /// Landings tried in a step before it is cut: what it passes may lie in another order than between straight lines.
@@ -150,6 +148,11 @@ impl Run<'_> {
     ) -> Result<(), Outcome> {
         let analysis = &self.stepper.model.analysis;
         let least = analysis.least_step / analysis.time_step;
+        // The first step is one of load, and there is none before.
+        let begin = self.stepper.drive.begin();
+        if begin >= analysis.end_time {
+            return Err(Outcome::Failed { time: state.time, failure: Failure::Idle { time: state.time } });
+        }
         let mut stations = Stations::new(self.stepper.model, control);
         stations.start(&self.stepper, state);
         // Length of the first step, and that of the next over it.
@@ -159,7 +162,7 @@ impl Run<'_> {
                 return Err(Outcome::Stopped { time: state.time });
             }
             let (to, condition) = match unit {
-                None => (state.time + size * analysis.time_step, None),
+                None => (begin + size * analysis.time_step, None),
                 Some(unit) => (state.time, Some(Condition::Arc(size * unit))),
             };
             let found = self.stepper.find(state, to, condition, &stations);
@@ -186,12 +189,9 @@ impl Run<'_> {
             stations.pass(&self.stepper, state, taken.to, landed);
             self.stepper.keep_motion(&motion);
             let dt = taken.to - state.time;
-            // Until loads begin there is nothing to go along, only time: a motion that positions cannot hold is none.
-            if unit.is_none() && motion.length > STILL * self.stepper.reach {
-                // A first step may have been cut short where it passed something.
-                unit = Some(motion.length * analysis.time_step / dt.abs().max(least * analysis.time_step));
-            }
-            if unit.is_none() && landed.is_some_and(|i| stations.0[i].what == What::Time && stations.0[i].ends) {
+            // A first step may have been cut short where it passed something, even before loads begin.
+            let whole = analysis.time_step / (taken.to - begin).abs().max(least * analysis.time_step);
+            if (unit.is_some() || taken.to > begin) && *unit.get_or_insert(motion.length * whole) == 0.0 {
                 let failure = Failure::Idle { time: state.time };
                 return Err(Outcome::Failed { time: state.time, failure });
             }
@@ -208,7 +208,7 @@ impl Run<'_> {
                 let failure = Failure::Endless { steps: self.counts.steps };
                 return Err(Outcome::Failed { time: state.time, failure });
             }
-            if landed.is_none() && unit.is_some() {
+            if landed.is_none() {
                 let mut change = (DESIRED / taken.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
                 if cuts > 0 || motion.cosine < STRAIGHT {
                     change = change.min(1.0);

@@ -127,6 +127,23 @@ impl<'a> Drive<'a> {
         }
     }
 
+    /// When the first load or held motion of a static analysis begins to change; infinite where none does.
+    pub fn begin(&self) -> f64 {
+        let model = self.model;
+        let rest = |amplitude: Option<usize>| amplitude.map_or(0.0, |i| model.amplitudes[i].rest());
+        let moves = |motion: &Motion| match motion.history {
+            History::Displacement => rest(Some(motion.amplitude)),
+            // A velocity that stays moves on.
+            History::Velocity | History::Acceleration => 0.0,
+        };
+        let loads = model.loads.iter().map(|load| rest(load.amplitude));
+        let pressures = model.pressures.iter().map(|load| rest(load.amplitude));
+        let bases = model.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
+        let held = model.held.iter().filter_map(|held| held.motion.as_ref()).map(moves);
+        let gravity = if model.gravity == Vec3::zeros() { f64::INFINITY } else { 0.0 };
+        loads.chain(pressures).chain(bases).chain(held).fold(gravity, f64::min)
+    }
+
     /// Rates of the loads at time t, into `loading`: to the right of a kink.
     pub fn rates(&self, t: f64, loading: &mut Loading) {
         let plain = match self.model.analysis.kind {
