@@ -491,6 +491,7 @@ fn a_path_ends_where_its_amplitude_ends() {
     use std::f64::consts::FRAC_PI_2;
     let w = FRAC_PI_2 / 60.0;
     // Before the start amplitudes go on along their slopes there; that of sin² is zero, so its load stays below the limit.
+    #[allow(clippy::type_complexity)]
     let amplitudes: [(f64, String, fn(f64) -> f64); 4] = [
         (60.0, "kind = \"ramp\"\nend = 60.0".into(), |t| t / 60.0),
         (60.0, "kind = \"table\"\npoints = [[0.0, 0.0], [60.0, 1.0]]".into(), |t| t / 60.0),

@@ -23,7 +23,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    let threads = args.threads.map_or_else(available_threads, usize::from);
+    let threads = args.threads.map_or_else(available_threads, usize::from).min(MOST_THREADS);
     if threads > 1 {
         // As many as asked for; where the pool is there already, as many as it has.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
@@ -35,6 +35,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     })?;
     conclude(&report, &folder, args.quiet)
 }
+
+/// More gain nothing, and thousands cannot be had.
+const MOST_THREADS: usize = 64;
 
 fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
@@ -107,9 +110,11 @@ fn compute(
 /// A flag that interrupt and termination raise: the run ends after the step in hand, with whole files.
 fn stop_on_signals() -> io::Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
+    // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
+    // two at the same moment.
+    let code = i32::from(Exit::Stopped as u8);
+    signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGINT, code, Arc::clone(&flag))?;
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        // A second signal ends the program at once.
-        signal_hook::flag::register_conditional_shutdown(signal, i32::from(Exit::Stopped as u8), Arc::clone(&flag))?;
         signal_hook::flag::register(signal, Arc::clone(&flag))?;
     }
     Ok(flag)

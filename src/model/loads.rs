@@ -12,7 +12,7 @@ use crate::diagnostic::At;
 use crate::elements::pressure::Face;
 use crate::elements::shell;
 use crate::math::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 impl<'d> Builder<'d> {
     /// One for each of the deck, also for those with errors: others refer to them.
@@ -93,7 +93,8 @@ impl<'d> Builder<'d> {
             let spots = self.spots(&owner, "at", &load.at, Reach::Nodes);
             let amplitude = load.amplitude.as_ref().map(|name| self.amplitude(name));
             let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
-            let unread = self.is_spoiled(owner.span, "force") || self.is_spoiled(owner.span, "moment");
+            let loads = ["force", "moment", "force_per_length", "force_per_area", "pressure"];
+            let unread = loads.iter().any(|key| self.is_spoiled(owner.span, key));
             if load.force.is_none() && load.moment.is_none() && !unread {
                 self.error_with::<()>(owner.span, "this load is empty", "give it `force` or `moment`");
             }
@@ -134,8 +135,17 @@ impl<'d> Builder<'d> {
         let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
         let mut forces: BTreeMap<usize, Vec3> = BTreeMap::new();
         let mut faces = Vec::new();
+        if names.values.is_empty() {
+            self.error::<()>(&names.span, "`at` is empty");
+        }
+        // What is named twice is loaded once, like nodes.
+        let mut seen = HashSet::new();
         for name in &names.values {
-            match self.lookup(name) {
+            let place = self.lookup(name);
+            if place.is_some_and(|place| !seen.insert(self.shell_of(place).map_or(place, Place::Shell))) {
+                continue;
+            }
+            match place {
                 None => {}
                 Some(Place::Edge(shell, edge)) if load.force_per_length.is_some() => {
                     let nodes = self.shell_edges[shell].get(edge).cloned().unwrap_or_default();

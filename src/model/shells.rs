@@ -14,6 +14,7 @@ use std::f64::consts::{PI, TAU};
 
 /// More elements along an edge are a slip of the keyboard, and would only exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
+const MOST_IN_ALL: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 5;
 
 /// An edge between two patches that others may join.
@@ -344,7 +345,12 @@ impl<'d> Builder<'d> {
                 return self.error(&count.span, format!("`elements` must lie between 1 and {MOST_ELEMENTS}"));
             }
         }
-        Some([values.first()?.value as usize, values.last()?.value as usize])
+        let [n, m] = [values.first()?.value as usize, values.last()?.value as usize];
+        if n * m > MOST_IN_ALL {
+            let message = format!("{n} x {m} elements: at most {MOST_IN_ALL} in a patch are taken to be meant");
+            return self.error(&counts.span, message);
+        }
+        Some([n, m])
     }
 
     /// How the shell yields, `Some(None)` where its material is elastic.
