@@ -586,3 +586,62 @@ fn more_steps_than_usual_may_be_asked_for() {
         format!("{TRUSS}{ON_CROWN}").replace("time_step = 5.0", "time_step = 1e-5\nsteps = 100001\ngrowth = 1.0");
     assert_eq!(follow_to_the_end(&read(&deck), &[("crown", 2)]).counts.steps, 100_001);
 }
+
+/// A shallow arch; its limit lies near t = 0.014.
+const ARCH: &str = r#"
+title = "arch"
+[analysis]
+kind = "static"
+control = "arc-length"
+end_time = 1.0
+time_step = STEP
+stop = { at = "crown", quantity = "uz", value = -0.18 }
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+[sections.s]
+shape = "rectangle"
+width = 0.03
+height = 0.01
+[points]
+l = [-1.0, 0.0, 0.0]
+q1 = [-0.5, 0.0, 0.075]
+crown = [0.0, 0.0, 0.1]
+q2 = [0.5, 0.0, 0.075]
+r = [1.0, 0.0, 0.0]
+[[beams]]
+name = "arch"
+path = ["l", "q1", "crown", "q2", "r"]
+elements = 4
+order = 2
+material = "steel"
+section = "s"
+orientation = [0.0, 1.0, 0.0]
+[[supports]]
+at = ["l", "r"]
+fix = "translations"
+[[supports]]
+at = ["l", "r"]
+fix = ["rx", "rz"]
+[[loads]]
+at = "crown"
+force = [0.0, 0.0, -100e3]
+"#;
+
+/// A first step beyond the limit point would land on another branch: it is cut, and the end is that of small steps. Both stand at
+/// the same displacement; the rest is the tolerance of the iteration.
+#[test]
+fn a_first_step_beyond_the_limit_is_cut() {
+    let end = |step: &str| {
+        let done = follow_to_the_end(&read(&ARCH.replace("STEP", step)), &[("crown", 2)]);
+        assert!((done.rows.last().unwrap()[1] + 0.18).abs() < 1e-12);
+        (done.rows.last().unwrap()[0], done.rows.iter().map(|row| row[0]).fold(0.0, f64::max), done.counts.cuts)
+    };
+    let (slow, limit, none) = end("0.001");
+    assert!(none == 0 && limit < 0.02);
+    for step in ["0.05", "0.2"] {
+        let (long, _, cuts) = end(step);
+        assert!(cuts > 0 && (long - slow).abs() < 1e-8 * slow.abs(), "{long} {slow}");
+    }
+}

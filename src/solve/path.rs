@@ -22,6 +22,8 @@ const STRAIGHT: f64 = 0.8;
 /// material begins to yield a path has kinks, which no step is too short for.
 const BENT: f64 = 0.2;
 const TRIES: usize = 3;
+/// Iterations beyond which the first step is tried at half the load.
+const HARD: usize = 12;
 /// More steps are no path that anybody wants, unless the deck asks for them.
 const MOST_STEPS: usize = 100_000;
 /// Landings tried in a step before it is cut: what it passes may lie in another order than between straight lines.
@@ -170,6 +172,12 @@ impl Run<'_> {
             let (taken, landed) = match found {
                 Ok(_) if motion.cosine < BENT && bent < TRIES && 0.5 * size >= least => {
                     (size, cuts, bent) = (0.5 * size, cuts + 1, bent + 1);
+                    self.counts.cuts += 1;
+                    continue;
+                }
+                // Nothing tells yet whether a step of load has left the path, but how hard it was to find.
+                Ok((ref taken, _)) if unit.is_none() && taken.iterations > HARD && 0.5 * size >= least => {
+                    (size, cuts) = (0.5 * size, cuts + 1);
                     self.counts.cuts += 1;
                     continue;
                 }
