@@ -1,6 +1,7 @@
 //! The part of Abaqus and CalculiX input that describes a mesh: *NODE, *ELEMENT, *NSET, *ELSET. Keywords and the names of
-//! sets count whatever their case; a set of nodes and one of elements that share a name are one group. Every other keyword is
-//! skipped with its lines, and said to be.
+//! sets count whatever their case; a set of nodes and one of elements that share a name are one group. A part in an assembly is
+//! read where there is one, and one instance of it that is not moved. What would make other nodes, elements or sets of the
+//! mesh is an error; every other keyword is skipped with its lines, and said to be.
 
 use super::Kind;
 use super::draft::{Draft, Ids, RawGroup, short};
@@ -16,6 +17,32 @@ fn of(name: &str) -> Option<Kind> {
         _ => None,
     }
 }
+
+/// Keywords that change the mesh, with what they do.
+const CHANGES: [(&str, &str); 9] = [
+    ("INCLUDE", "reads another file"),
+    ("NGEN", "makes nodes"),
+    ("NFILL", "makes nodes"),
+    ("NCOPY", "makes nodes"),
+    ("NMAP", "moves nodes"),
+    ("ELGEN", "makes elements"),
+    ("ELCOPY", "makes elements"),
+    ("SYSTEM", "moves nodes"),
+    ("PARAMETER", "stands for numbers"),
+];
+/// The same of options of the keywords that are read.
+const OPTIONS: [(&str, &str, &str); 8] = [
+    ("NODE", "INPUT", "reads another file"),
+    ("NODE", "SYSTEM", "moves nodes"),
+    ("ELEMENT", "INPUT", "reads another file"),
+    ("ELEMENT", "OFFSET", "makes other numbers"),
+    ("NSET", "INPUT", "reads another file"),
+    ("NSET", "ELSET", "makes a set of nodes of elements"),
+    ("ELSET", "INPUT", "reads another file"),
+    ("INSTANCE", "LIBRARY", "reads another file"),
+];
+/// How a file is to be written instead.
+const FLAT: &str = "write the mesh as one flat file: every node and element by itself";
 
 /// A set's members as they are named.
 enum Member {
@@ -75,39 +102,45 @@ impl Sets {
 
 pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     let (mut sets, mut block, mut others) = (Sets::default(), Block::Skipped, Vec::new());
-    let mut next = text.line();
+    let mut frame = Frame::default();
+    let mut next = content(text);
     while let Some(line) = next {
-        next = text.line();
-        if line.bytes.starts_with(b"**") {
-            continue;
-        }
-        // A line that ends in a comma goes on in the next one, of a keyword or of an element.
+        next = content(text);
+        // A line that ends in a comma goes on in the next one, of a keyword, or of an element that lacks nodes.
         let mut words: Vec<Word> = line.fields().collect();
-        let goes_on = line.bytes.starts_with(b"*") || matches!(block, Block::Elements { .. });
+        let wants = match &block {
+            _ if line.bytes.starts_with(b"*") => usize::MAX,
+            Block::Elements { kind, .. } => kind.map_or(usize::MAX, |kind| 1 + kind.size()),
+            _ => 0,
+        };
         let mut last = line;
-        while goes_on && last.bytes.ends_with(b",") {
+        while words.len() < wants && last.bytes.ends_with(b",") {
             let Some(more) = next.filter(|more| !more.bytes.starts_with(b"*")) else { break };
             words.extend(more.fields());
             last = more;
-            next = text.line();
+            next = content(text);
         }
         if line.bytes.starts_with(b"*") {
-            block = keyword(text, draft, &mut sets, line, &words)?;
+            block = keyword(text, draft, &mut sets, &mut frame, line, &words)?;
             continue;
+        }
+        // Blank fields at the end say nothing, but for coordinates.
+        let trims = !matches!(block, Block::Nodes { .. });
+        while trims && words.len() > 1 && words.last().is_some_and(|word| word.bytes.is_empty()) {
+            words.pop();
         }
         match &block {
             Block::Skipped => {}
             Block::Instance => {
-                let mut fault = text.fault("an instance that is moved is not read", line.number);
-                fault.hints.push("write the mesh as one part, where it stands".to_owned());
-                return Err(fault);
+                return Err(refused(text, "an instance that is moved is not read", line.number, ONE));
             }
             Block::Nodes { set } => {
                 let id = number(text, &words, 0, line)?;
                 let mut x = Vec3::zeros();
-                for (i, word) in words.iter().skip(1).take(3).enumerate() {
+                // A blank coordinate is zero.
+                for (i, word) in words.iter().enumerate().skip(1).take(3).filter(|(_, word)| !word.bytes.is_empty()) {
                     let message = "a coordinate must be a finite number";
-                    x[i] = word.number().ok_or_else(|| text.fault_at(message, word))?;
+                    x[i - 1] = word.number().ok_or_else(|| text.fault_at(message, word))?;
                 }
                 if words.len() < 2 {
                     return Err(text.fault(format!("node {id} has no coordinates"), line.number));
@@ -143,6 +176,26 @@ pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     resolve(text, draft, &sets, others)
 }
 
+/// The next line that is no comment.
+fn content<'t>(text: &mut Text<'t>) -> Option<Line<'t>> {
+    std::iter::from_fn(|| text.line()).find(|line| !line.bytes.starts_with(b"**"))
+}
+
+/// What frames the mesh in a file with parts and instances.
+#[derive(Default)]
+struct Frame {
+    parts: usize,
+    instances: usize,
+}
+
+const ONE: &str = "write the mesh as one part, where it stands";
+
+fn refused(text: &Text, message: impl Into<String>, line: usize, hint: &str) -> Fault {
+    let mut fault = text.fault(message, line);
+    fault.hints.push(hint.to_owned());
+    fault
+}
+
 /// A whole number among the words of a line.
 fn number(text: &Text, words: &[Word], at: usize, line: Line) -> Result<u64, Fault> {
     let word = words.get(at).ok_or_else(|| text.fault("this line lacks a number", line.number))?;
@@ -150,7 +203,14 @@ fn number(text: &Text, words: &[Word], at: usize, line: Line) -> Result<u64, Fau
 }
 
 /// NAME, KEY=VALUE, KEY …
-fn keyword(text: &Text, draft: &mut Draft, sets: &mut Sets, line: Line, words: &[Word]) -> Result<Block, Fault> {
+fn keyword(
+    text: &Text,
+    draft: &mut Draft,
+    sets: &mut Sets,
+    frame: &mut Frame,
+    line: Line,
+    words: &[Word],
+) -> Result<Block, Fault> {
     let first = words.first().map(|word| word.text()).unwrap_or_default();
     let name = first.trim_start_matches('*').split_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
     let value = |key: &str| {
@@ -163,6 +223,13 @@ fn keyword(text: &Text, draft: &mut Draft, sets: &mut Sets, line: Line, words: &
     };
     let flag = |key: &str| words[1..].iter().any(|word| word.text().eq_ignore_ascii_case(key));
     let lacks = |key: &str| text.fault(format!("*{name} needs {key}="), line.number);
+    if let Some((_, what)) = CHANGES.iter().find(|(word, _)| *word == name) {
+        return Err(refused(text, format!("*{name} {what}, and is not read"), line.number, FLAT));
+    }
+    let has = |key: &str| flag(key) || value(key).is_some();
+    if let Some((_, key, what)) = OPTIONS.iter().find(|(word, key, _)| *word == name && has(key)) {
+        return Err(refused(text, format!("{key} of *{name} {what}, and is not read"), line.number, FLAT));
+    }
     Ok(match name.as_str() {
         "NODE" => Block::Nodes { set: value("NSET").map(|set| sets.place(&set)) },
         "ELEMENT" => {
@@ -173,9 +240,16 @@ fn keyword(text: &Text, draft: &mut Draft, sets: &mut Sets, line: Line, words: &
             let set = sets.place(&value(&name).ok_or_else(|| lacks(&name))?);
             Block::Set { set, nodes: name == "NSET", generate: flag("GENERATE") }
         }
-        "INSTANCE" => Block::Instance,
+        "PART" | "INSTANCE" => {
+            let count = if name == "PART" { &mut frame.parts } else { &mut frame.instances };
+            *count += 1;
+            if *count > 1 {
+                return Err(refused(text, format!("a second *{name} is not read"), line.number, ONE));
+            }
+            if name == "PART" { Block::Skipped } else { Block::Instance }
+        }
         // What only frames the mesh is no loss.
-        "HEADING" | "PART" | "END PART" | "ASSEMBLY" | "END ASSEMBLY" | "END INSTANCE" => Block::Skipped,
+        "HEADING" | "END PART" | "ASSEMBLY" | "END ASSEMBLY" | "END INSTANCE" => Block::Skipped,
         _ => {
             draft.skip(&format!("*{name}"), 1, line.number);
             Block::Skipped

@@ -147,6 +147,45 @@ U
     assert_eq!(skipped, wanted);
 }
 
+/// Comments between the lines of one element or keyword, blank fields, commas at the end of lines that are whole.
+#[test]
+fn comments_and_blank_fields() {
+    let text = "\
+*NODE, NSET=nall
+1, , ,
+** between nodes
+2, 1., , 0.,
+3, 1., 1.
+4,, 1., 0., ,
+*ELEMENT,
+** of a keyword
+ TYPE=S4, ELSET=plate
+10, 1, 2,
+** of an element
+
+** and one more
+ 3, 4
+11, 1, 2, 3, 4,
+12, 4, 3, 2, 1, ,
+*NSET, NSET=some, GENERATE
+1, 3, ,
+*NSET, NSET=more
+ 4, , 2,
+** of a set
+1
+";
+    let mesh = read("a.inp", text);
+    let x: Vec<[f64; 3]> = mesh.nodes.iter().map(|node| node.x.into()).collect();
+    assert_eq!(x, [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    let elements: Vec<&[u32]> = mesh.elements.iter().map(|e| e.nodes()).collect();
+    assert_eq!(elements, [[0, 1, 2, 3], [0, 1, 2, 3], [3, 2, 1, 0]]);
+    assert_eq!((ids(&mesh, "some"), ids(&mesh, "more")), (vec![1, 2, 3], vec![4, 2, 1]));
+    assert!(mesh.skipped.is_empty());
+    // A blank among the nodes of an element is none.
+    let problems = mesh::read("a.inp", text.replace("11, 1, 2, 3, 4,", "11, 1, , 3, 4").as_bytes()).unwrap_err();
+    assert_eq!(problems[0].message, "this must be a whole number");
+}
+
 /// A small file cut off after every byte, with every byte changed, and with every line left out or doubled: a mesh or
 /// messages, never a panic, and never a mesh with nodes out of range.
 #[test]
