@@ -510,6 +510,10 @@ fn shells() {
     let on = |surface: &str| sheet("[3, 4]", &format!("[3, 4]\nsurface = {{ {surface} }}"));
     assert_snapshot!("shell_corner_on_the_axis", on(r#"kind = "cylinder", axis = [0.0, 0.0, 1.0]"#));
     assert_snapshot!("shell_cylinder_without_axis", on(r#"kind = "cylinder""#));
+    let far = SHEET.replace("a = [0.0, 0.0, 0.0]", "a = [0.0, 0.0, 0.2]");
+    let ball = "[3, 4]\nsurface = { kind = \"sphere\", center = [0.5, 0.5, -1.0] }";
+    assert_eq!(sheet("[3, 4]", ball), "");
+    assert_snapshot!("shell_off_the_sphere", said(&far.replacen("[3, 4]", ball, 1), &[]));
     assert_snapshot!("shell_zero_axis", sheet("[3, 4]", "[3, 4]\naxis = [0.0, 0.0, 0.0]"));
     let load = |load: &str| sheet("at = \"flap\"\npressure = 1e3", load);
     assert_snapshot!("pressure_on_an_edge", load("at = \"flap.edge2\"\npressure = 1e3"));
@@ -607,4 +611,35 @@ fn paths() {
     assert_snapshot!("stop_where_nothing_acts", path(&loose));
     let both = expect.replace("value = 0.6", "time = 0.5\nvalue = 0.6");
     assert_snapshot!("when_and_time", path(&[("[[loads]]", &both)]));
+}
+
+/// Each count is sensible, all together are not; said before they take memory.
+#[test]
+fn elements_beyond_memory() {
+    let beam = |k: usize| {
+        format!(
+            "[[beams]]\nname = \"b{k}\"\npath = [\"knee_left\", \"knee_right\"]\nelements = 900000\n\
+             material = \"steel\"\nsection = \"square\"\norientation = [0.0, 1.0, 0.0]\n"
+        )
+    };
+    let portal = |elements: &str| {
+        PORTAL.replace("elements = 12", &format!("elements = {elements}"))
+            + &beam(1)
+            + "[[shells]]\nname = \"roof\"\ncorners = [\"foot_left\", \"knee_left\", \"knee_right\", \"foot_right\"]\n\
+               elements = [1000, 1000]\nthickness = 0.01\nmaterial = \"steel\"\n"
+    };
+    assert_snapshot!("too_many_elements", said(&portal("1000000"), &[]));
+    assert_snapshot!("too_many_elements_in_all", said(&portal("[100000, 10000, 1]"), &[]));
+}
+
+/// Points of a set that are wrong in the same way are one message, those named one by one keep their places.
+#[test]
+fn many_points_with_one_mistake() {
+    let names: Vec<String> = (0..9).map(|k| format!("p{k}")).collect();
+    let points: String = names.iter().map(|name| format!("{name} = [5.0, 0.0, 0.0]\n")).collect();
+    let deck = PORTAL.replace("[sets]", &format!("{points}[sets]\nlost = {names:?}\npair = [\"p0\", \"p1\"]"));
+    let load = |at: &str| format!("{deck}[[loads]]\nat = {at}\nforce = [1.0, 0.0, 0.0]\n");
+    assert_snapshot!("many_loose_points", said(&load("\"lost\""), &[]));
+    assert_snapshot!("two_loose_points", said(&load("\"pair\""), &[]));
+    assert_eq!(said(&load("[\"p0\", \"p1\", \"p2\"]"), &[]).matches("nothing is connected").count(), 3);
 }

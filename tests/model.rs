@@ -267,12 +267,14 @@ tolerance = 0.1
     let (model, problems) = model::read(&Source::new("path.toml", text, &[]));
     assert!(problems.is_empty(), "{problems:?}");
     let model = model.unwrap();
-    let stop = Passage { node: 1, dof: 1, value: -0.8, pass: 2 };
+    // The words of the directions, with their quotes.
+    let place = |word: &str| text.find(word).map(|start| [start, start + word.len()]).unwrap();
+    let stop = Passage { node: 1, dof: 1, value: -0.8, pass: 2, place: place("\"uy\"") };
     let control = ArcLength { stop: Some(stop), steps: Some(50), growth: 4.0 };
     assert_eq!(model.analysis.control, Control::ArcLength(control));
     let expect = &model.expects[0];
     assert_eq!(expect.at, ExpectAt::Analysis);
-    assert_eq!(expect.when, When::Passing(Passage { node: 1, dof: 0, value: -0.5, pass: 1 }));
+    assert_eq!(expect.when, When::Passing(Passage { node: 1, dof: 0, value: -0.5, pass: 1, place: place("\"ux\"") }));
     assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
     assert_eq!(everything().analysis.control, Control::Time);
 }

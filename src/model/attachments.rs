@@ -96,7 +96,7 @@ impl<'d> Builder<'d> {
                 });
             }
         }
-        let (mut far, mut farthest) = (0, 0.0f64);
+        let (mut far, mut farthest, mut between) = (0, 0.0f64, Vec::new());
         for spot in spots.iter().filter(|spot| !own.contains(&spot.node)) {
             let x = self.x(spot.node);
             let Some((master, second)) = nearest_two(&line, axis, &x, |node| (self.x(node) - x).norm()) else {
@@ -104,10 +104,7 @@ impl<'d> Builder<'d> {
             };
             let distance = (self.x(master) - x).norm();
             if let Some(other) = second.filter(|&other| (self.x(other) - x).norm() <= distance * (1.0 + SAME)) {
-                let [a, b] = [master, other].map(|node| self.model.nodes[node].label.clone());
-                let node = self.model.nodes[spot.node].label.clone();
-                let message = format!("`{node}` is as near to `{a}` as to `{b}` of beam `{}`", name.value);
-                self.error_with::<()>(spot.span, message, "the meshes must match: each node needs its own on the beam");
+                between.push((spot, [spot.node, master, other]));
                 continue;
             }
             if let Some(span) = spans.get(&master) {
@@ -116,6 +113,18 @@ impl<'d> Builder<'d> {
                 farthest = farthest.max(along);
             }
             self.attach(spot, master, &self.model.nodes[master].label.clone(), dofs);
+        }
+        // Of each name in the list the first node, and how many others.
+        for of in between.chunk_by(|a, b| a.0.span == b.0.span) {
+            let (spot, nodes) = &of[0];
+            let [node, a, b] = nodes.map(|node| self.model.nodes[node].label.clone());
+            let message = format!("`{node}` is as near to `{a}` as to `{b}` of beam `{}`", name.value);
+            let error = Diagnostic::error(message).at(spot.span);
+            let error = error.hint("the meshes must match: each node needs its own on the beam");
+            self.problems.push(match of.len() {
+                1 => error,
+                count => error.hint(format!("the same goes for {} more nodes", count - 1)),
+            });
         }
         if far > 0 {
             let message = format!("nodes reach beyond beam `{}` by more than half an element: {far}", name.value);
@@ -160,8 +169,7 @@ impl<'d> Builder<'d> {
     /// Reports a point on which nothing acts at all, `what` being done to it.
     pub fn is_loose(&mut self, spot: &super::places::Spot, what: &str) -> bool {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
-        // Once for a set: it may have thousands.
-        if loose && self.sure && (spot.direct || self.told.insert(("loose", spot.span.start))) {
+        if loose && self.sure {
             let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
             self.error_with::<()>(spot.span, message, "no beam, bar, link, mass or body");
         }

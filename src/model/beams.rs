@@ -229,7 +229,11 @@ impl<'d> Builder<'d> {
             return self.error_with(&elements.span, message, "one for each, or one without brackets for all");
         }
         let count = |segment: usize| elements.values[if elements.single { 0 } else { segment }].value as usize;
-        sound.then(|| (0..segments).map(count).collect())
+        if !sound {
+            return None;
+        }
+        self.made((0..segments).map(count).sum(), &elements.span)?;
+        Some((0..segments).map(count).collect())
     }
 
     pub fn bars(&mut self) {

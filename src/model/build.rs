@@ -61,8 +61,11 @@ pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnost
     b.check();
     b.drop_unused();
     let sound = !b.problems.iter().any(Diagnostic::is_error);
-    (sound.then_some(b.model), b.problems)
+    (sound.then_some(b.model), super::fold::fold(b.problems))
 }
+
+/// Elements of all beams, bars and patches together: more, at some kilobytes each, are a slip of the keyboard.
+const MOST_ELEMENTS: usize = 2_000_000;
 
 /// A model in the making.
 pub(super) struct Builder<'d> {
@@ -78,8 +81,6 @@ pub(super) struct Builder<'d> {
     pub beam_parts: Vec<Range<usize>>,
     pub bar_parts: Vec<Range<usize>>,
     pub shell_parts: Vec<Range<usize>>,
-    /// What has been said of sets, with where their names stand: once is enough for thousands of nodes.
-    pub told: HashSet<(&'static str, usize)>,
     /// All nodes that are left go to nodes.csv.
     pub writes_all: bool,
     /// What the names of points, bodies, sets, beams, bars, shells and links stand for.
@@ -94,6 +95,8 @@ pub(super) struct Builder<'d> {
     /// Nodes of each shell, and of each of its edges in order along it.
     pub shell_nodes: Vec<Vec<usize>>,
     pub shell_edges: Vec<Vec<Vec<usize>>>,
+    /// Of all beams, bars and patches so far.
+    elements: usize,
     /// Edges of all shells so far, each once.
     pub edges: Vec<super::shells::Edge>,
     /// By material: how it yields.
@@ -170,7 +173,6 @@ impl<'d> Builder<'d> {
             beam_parts: Vec::new(),
             bar_parts: Vec::new(),
             shell_parts: Vec::new(),
-            told: HashSet::new(),
             writes_all: false,
             problems: Vec::new(),
             places: HashMap::new(),
@@ -180,6 +182,7 @@ impl<'d> Builder<'d> {
             bar_nodes: Vec::new(),
             shell_nodes: Vec::new(),
             shell_edges: Vec::new(),
+            elements: 0,
             edges: Vec::new(),
             laws: Vec::new(),
             stiffnesses: HashMap::new(),
@@ -316,6 +319,23 @@ impl<'d> Builder<'d> {
             }
             None => self.error(&name.span, message),
         }
+    }
+
+    /// Counts elements that paths and patches are to be cut into, before they take memory: together more than
+    /// [`MOST_ELEMENTS`] are an error.
+    pub fn made(&mut self, elements: usize, place: &Span) -> Option<()> {
+        let before = self.elements;
+        self.elements = before.saturating_add(elements);
+        if self.elements <= MOST_ELEMENTS {
+            return Some(());
+        }
+        // Once: what comes after is too many as well.
+        if before <= MOST_ELEMENTS {
+            let message = format!("with this the deck has {} elements", self.elements);
+            let hint = format!("at most {MOST_ELEMENTS} of all beams, bars and patches are taken to be meant");
+            self.error_with::<()>(place, message, hint);
+        }
+        None
     }
 
     pub fn amplitude(&mut self, name: &At<String>) -> Option<usize> {

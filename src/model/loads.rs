@@ -156,8 +156,11 @@ impl<'d> Builder<'d> {
                 }
                 Some(place @ (Place::Group(_) | Place::Set(_))) if load.force_per_length.is_some() => {
                     for pair in self.line_of(place, name) {
-                        let spot = |node| Spot { node, name: name.as_str(), span: &name.span, direct: false };
-                        if pair.iter().any(|&node| self.is_loose(&spot(node), "this load")) {
+                        let spots = pair.map(|node| {
+                            let name_of = self.label(node, name);
+                            Spot { node, name: name_of, span: &name.span, direct: false }
+                        });
+                        if spots.iter().any(|spot| self.is_loose(spot, "this load")) {
                             continue;
                         }
                         let half = 0.5 * (self.x(pair[1]) - self.x(pair[0])).norm();

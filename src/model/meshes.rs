@@ -85,6 +85,8 @@ pub(super) struct Meshed<'d> {
     parts: HashMap<&'d str, String>,
     /// Per element: it is in a part.
     taken: Vec<bool>,
+    /// Per node of the mesh: its number in the part in hand, from 1; 0 for none.
+    local: Vec<u32>,
 }
 
 impl Meshed<'_> {
@@ -149,6 +151,12 @@ impl<'d> Builder<'d> {
     pub fn mesh_node(&self, name: &str) -> Option<usize> {
         let id = name.strip_prefix("mesh.")?.parse().ok()?;
         Some(self.meshed.first + self.input?.mesh.node(id)?)
+    }
+
+    /// The file's number of a node of the model.
+    pub fn mesh_id(&self, node: usize) -> Option<u64> {
+        let node = node.checked_sub(self.meshed.first)?;
+        self.input?.mesh.nodes.get(node).map(|node| node.id)
     }
 
     pub fn group_nodes(&self, group: usize) -> impl Iterator<Item = usize> + use<'_, 'd> {
@@ -223,38 +231,62 @@ impl<'d> Builder<'d> {
         shell: Option<Shell>,
     ) -> Option<()> {
         let faces = self.take(&owner.what, name, true)?;
-        let (mesh, first) = (&self.input?.mesh, self.meshed.first);
-        let mut seen = HashSet::new();
-        for &node in faces.iter().flat_map(|face| face.nodes()) {
-            if seen.insert(node) {
-                let node = first + node as usize;
-                self.touch(node, true);
-                self.shell_nodes[index].push(node);
-            }
+        let first = self.meshed.first;
+        let (own, local) = self.own_nodes(&faces)?;
+        for &node in &own {
+            self.touch(first + node as usize, true);
+            self.shell_nodes[index].push(first + node as usize);
         }
         let shell = shell?;
-        let x: Vec<Vec3> = mesh.nodes.iter().map(|node| node.x).collect();
-        let (normals, against) = mesh::normals(&x, faces.iter().map(|face| face.nodes()));
+        let mesh = &self.input?.mesh;
+        let x: Vec<Vec3> = own.iter().map(|&node| mesh.nodes[node as usize].x).collect();
+        let sizes = faces.iter().map(|face| face.nodes().len());
+        let (normals, against) = mesh::normals(&x, local.iter().zip(sizes).map(|(nodes, size)| &nodes[..size]));
         if against > 0 {
             let message = format!("the elements of {} are not oriented alike: at {against} edges", owner.what);
             self.warn(&name.span, message, "pressure acts against the normal of each element");
         }
         let begin = self.model.shells.len();
         for corners in [4, 3] {
-            let of = |(face, normals): (&&mesh::Element, &[Vec3; 4])| {
+            let of = |(number, (face, normals)): (usize, (&&mesh::Element, &[Vec3; 4]))| {
                 let at = |k: usize| k.min(corners - 1);
-                (face.nodes().len() == corners).then(|| ShellElement {
+                let element = || ShellElement {
                     nodes: std::array::from_fn(|k| first + face.nodes()[at(k)] as usize),
                     normals: std::array::from_fn(|k| normals[at(k)]),
-                })
+                };
+                (face.nodes().len() == corners).then(|| (number as u32, element()))
             };
-            let elements: Vec<ShellElement> = faces.iter().zip(&normals).filter_map(of).collect();
+            let of = faces.iter().zip(&normals).enumerate().filter_map(of);
+            let (numbers, elements): (Vec<u32>, Vec<ShellElement>) = of.unzip();
             if !elements.is_empty() {
-                self.model.shells.push(Shell { corners, elements, ..shell.clone() });
+                let numbers = if elements.len() < faces.len() { numbers } else { Vec::new() };
+                self.model.shells.push(Shell { corners, elements, numbers, ..shell.clone() });
             }
         }
         self.shell_parts[index] = begin..self.model.shells.len();
         Some(())
+    }
+
+    /// Nodes of faces, each once in the order of the faces, and these by them. Takes no longer than the faces are many.
+    #[allow(clippy::type_complexity)]
+    fn own_nodes(&mut self, faces: &[&mesh::Element]) -> Option<(Vec<u32>, Vec<[u32; 4]>)> {
+        let local = &mut self.meshed.local;
+        local.resize(self.input?.mesh.nodes.len(), 0);
+        let (mut own, mut of) = (Vec::new(), Vec::with_capacity(faces.len()));
+        for face in faces {
+            let mut nodes = [0; 4];
+            for (place, &node) in nodes.iter_mut().zip(face.nodes()) {
+                let number = &mut local[node as usize];
+                if *number == 0 {
+                    own.push(node);
+                    *number = own.len() as u32;
+                }
+                *place = *number - 1;
+            }
+            of.push(nodes);
+        }
+        own.iter().for_each(|&node| local[node as usize] = 0);
+        Some((own, of))
     }
 
     /// The segments of a group as beam elements with inner nodes at `inner` ∈ [−1, 1], ends among them.

@@ -8,6 +8,7 @@ mod bodies;
 mod build;
 mod check;
 mod expects;
+mod fold;
 mod initial;
 mod links;
 mod loads;
@@ -140,6 +141,8 @@ pub struct Passage {
     pub value: f64,
     /// Which time it does so, from 1.
     pub pass: usize,
+    /// Where the deck names the direction: first byte, and the one after the last.
+    pub place: [usize; 2],
 }
 
 #[derive(Debug, Clone)]
@@ -288,6 +291,16 @@ pub struct Shell {
     /// Of each element: 3 or 4.
     pub corners: usize,
     pub elements: Vec<ShellElement>,
+    /// Of each element: its number in the deck's part, which is this shell and its neighbour of the same name. Empty where the
+    /// shell is the whole part: they count from 0.
+    pub numbers: Vec<u32>,
+}
+
+impl Shell {
+    /// An element's number in the deck's part.
+    pub fn number(&self, element: usize) -> usize {
+        self.numbers.get(element).map_or(element, |&number| number as usize)
+    }
 }
 
 #[derive(Debug, Clone)]

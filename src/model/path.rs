@@ -136,6 +136,7 @@ impl<'d> Builder<'d> {
         if value.value == 0.0 {
             return self.error_with(&value.span, format!("{word} begins at zero"), "a passage lies off the start");
         }
-        Some(Passage { node, dof, value: value.value, pass })
+        let place = [quantity.span.start, quantity.span.end];
+        Some(Passage { node, dof, value: value.value, pass, place })
     }
 }

@@ -26,11 +26,29 @@ pub(super) enum Place {
 /// A node that a list of names covers.
 pub(super) struct Spot<'d> {
     pub node: usize,
-    pub name: &'d str,
+    pub name: Label<'d>,
     /// Where the name stands that covers it.
     pub span: &'d Span,
     /// Named itself, and not as part of a set, a beam or everything.
     pub direct: bool,
+}
+
+/// A node in messages.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Label<'d> {
+    /// The deck's name of it, or of the part that it belongs to.
+    Name(&'d str),
+    /// The number of a node of the mesh, as the deck would name it.
+    Mesh(u64),
+}
+
+impl std::fmt::Display for Label<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Label::Name(name) => f.write_str(name),
+            Label::Mesh(id) => write!(f, "mesh.{id}"),
+        }
+    }
 }
 
 /// Which names a list may hold besides points, bodies and sets.
@@ -238,7 +256,7 @@ impl<'d> Builder<'d> {
             }
             for node in nodes {
                 if seen.insert(node) {
-                    let label = if direct { name.as_str() } else { self.label(node, name) };
+                    let label = if direct { Label::Name(name) } else { self.label(node, name) };
                     spots.push(Spot { node, name: label, span: &name.span, direct });
                 }
             }
@@ -247,10 +265,13 @@ impl<'d> Builder<'d> {
     }
 
     /// The name under which the deck knows a node that a set or a part brought in.
-    fn label(&self, node: usize, part: &'d At<String>) -> &'d str {
+    pub fn label(&self, node: usize, part: &'d At<String>) -> Label<'d> {
         let point = self.deck.points.0.get(node).map(|(name, _)| name);
         let body = || self.deck.bodies.get(node.checked_sub(self.deck.points.0.len())?)?.name.as_ref();
-        point.or_else(body).unwrap_or(part)
+        if let Some(name) = point.or_else(body) {
+            return Label::Name(name);
+        }
+        self.mesh_id(node).map_or(Label::Name(part), Label::Mesh)
     }
 
     pub fn nodes_of(&self, place: Place) -> Vec<usize> {

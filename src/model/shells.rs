@@ -6,9 +6,10 @@ use super::places::Place;
 use super::{MassKind, Shell, ShellElement};
 use crate::deck::shells as deck;
 use crate::deck::words::{OneOrMany, Table};
-use crate::diagnostic::At;
+use crate::diagnostic::{At, Span};
 use crate::elements::shell::{DRILLING, MOST_LAYERS, Plate, Yielding};
 use crate::math::{Mat3, Vec3};
+use crate::names::{joined, short};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
@@ -16,6 +17,8 @@ use std::f64::consts::{PI, TAU};
 const MOST_ELEMENTS: u64 = 10_000;
 const MOST_IN_ALL: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 5;
+/// Part of its radius by which corners typed with four digits may miss a sphere.
+const ROUND: f64 = 1e-3;
 
 /// An edge between two patches that others may join.
 pub(super) struct Edge {
@@ -157,6 +160,7 @@ impl<'d> Builder<'d> {
                 axis,
                 corners: 0,
                 elements: Vec::new(),
+                numbers: Vec::new(),
             });
             return self.meshed_shell(index, owner, group, part);
         }
@@ -216,7 +220,8 @@ impl<'d> Builder<'d> {
             return self.error_with(owner.span, message, "corners go round the patch, each at its own place");
         }
         self.shell_parts[index] = self.model.shells.len()..self.model.shells.len() + 1;
-        self.model.shells.push(Shell { name, plate, density, mass, yielding, axis, corners, elements });
+        let numbers = Vec::new();
+        self.model.shells.push(Shell { name, plate, density, mass, yielding, axis, corners, elements, numbers });
         Some(())
     }
 
@@ -350,6 +355,7 @@ impl<'d> Builder<'d> {
             let message = format!("{n} x {m} elements: at most {MOST_IN_ALL} in a patch are taken to be meant");
             return self.error(&counts.span, message);
         }
+        self.made(n * m, &counts.span)?;
         Some([n, m])
     }
 
@@ -379,6 +385,9 @@ impl<'d> Builder<'d> {
         } else if self.is_spoiled(owner.span, "surface") {
             return None;
         }
+        if matches!(kind, Coordinates::Sphere | Coordinates::Pushed) {
+            self.on_a_sphere(place, center, corners)?;
+        }
         let x = |i: usize| self.model.nodes[corners[i]].x;
         let three = corners.len() == 3;
         // Three corners: a corner beyond the third edge makes the coordinates linear.
@@ -401,6 +410,21 @@ impl<'d> Builder<'d> {
             map.radii = [a, b, b + c - a, c];
         }
         Some(map)
+    }
+
+    /// Reports corners of a sphere at different distances from its centre.
+    fn on_a_sphere(&mut self, place: &Span, center: Vec3, corners: &[usize]) -> Option<()> {
+        let distances: Vec<f64> = corners.iter().map(|&corner| (self.x(corner) - center).norm()).collect();
+        let (least, most) = distances.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &r| (a.min(r), b.max(r)));
+        if most - least <= ROUND * most {
+            return Some(());
+        }
+        let of = corners.iter().zip(&distances);
+        let list: Vec<String> =
+            of.map(|(&corner, &r)| format!("`{}` {}", self.model.nodes[corner].label, short(r))).collect();
+        let words: Vec<&str> = list.iter().map(String::as_str).collect();
+        let message = "the corners of a sphere must lie at the same distance from its `center`";
+        self.error_with(place, message, format!("distances: {}", joined(&words)))
     }
 
     fn surface(&mut self, surface: &'d At<Table<deck::Surface>>) -> Option<(Coordinates, Vec3)> {

@@ -76,9 +76,6 @@ impl<'d> Builder<'d> {
     fn riding(&mut self, spot: &Spot, dofs: impl Iterator<Item = usize>) {
         let taken: Vec<usize> = dofs.filter(|&dof| self.master(spot.node, dof).is_some()).collect();
         let Some(master) = taken.first().and_then(|&dof| self.master(spot.node, dof)) else { return };
-        if !spot.direct && !self.told.insert(("riding", spot.span.start)) {
-            return;
-        }
         let master = &self.model.nodes[master].label;
         let message = format!(
             "`{}` is attached to `{master}` in {} and cannot be supported there too",

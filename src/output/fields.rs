@@ -11,7 +11,7 @@ use super::shape::Surface;
 use super::vtu::{self, Cell};
 use super::{at, replace, shells_csv};
 use crate::math::{Mat3, Vec3, rotation};
-use crate::model::Model;
+use crate::model::{Model, Shell};
 use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -74,8 +74,11 @@ impl Grid {
                 grid.curve(Cell::Line, part, nodes, Mat3::identity());
             }
         }
-        for shell in &model.shells {
-            let (part, first) = (next(), grid.places.len());
+        for (part, shell) in model.shells.chunk_by(same).flat_map(|of| {
+            let part = next();
+            of.iter().map(move |shell| (part, shell))
+        }) {
+            let first = grid.places.len();
             let kind = if shell.corners == 3 { Cell::Triangle } else { Cell::Quad };
             // Points of the part's own, one for each of its nodes.
             let mut place = HashMap::new();
@@ -107,11 +110,16 @@ impl Grid {
     }
 }
 
+/// Triangles and quadrilaterals of one part of the deck.
+fn same(a: &Shell, b: &Shell) -> bool {
+    a.name == b.name
+}
+
 /// fields.csv, in the order of [`Grid::of`].
 fn names(model: &Model) -> csv::Result<Vec<u8>> {
     let beams = model.beams.iter().map(|part| ("beam", &part.name));
     let bars = model.bars.iter().map(|part| ("bar", &part.name));
-    let shells = model.shells.iter().map(|part| ("shell", &part.name));
+    let shells = model.shells.chunk_by(same).map(|part| ("shell", &part[0].name));
     let links = model.links.iter().map(|part| ("link", &part.name));
     let bodies = model.bodies.iter().map(|part| ("body", &part.name));
     let mut table = csv::Writer::from_writer(Vec::new());

@@ -39,8 +39,8 @@ enum Format {
     Links(Table),
     Reactions(Table),
     Sections(Table),
-    Shells(Table),
-    Layers(Table),
+    Shells(Table, shells_csv::Order),
+    Layers(Table, shells_csv::Order),
     Steps(Table),
     Fields(Fields),
 }
@@ -57,8 +57,8 @@ impl Format {
             Format::Links(table) => links_csv::write(table, frame),
             Format::Reactions(table) => reactions_csv::write(table, frame),
             Format::Sections(table) => sections_csv::write(table, frame),
-            Format::Shells(table) => shells_csv::write(table, frame),
-            Format::Layers(table) => shells_csv::write_layers(table, frame),
+            Format::Shells(table, order) => shells_csv::write(table, order, frame),
+            Format::Layers(table, order) => shells_csv::write_layers(table, order, frame),
         }
     }
 
@@ -70,8 +70,8 @@ impl Format {
             | Format::Links(table)
             | Format::Reactions(table)
             | Format::Sections(table)
-            | Format::Shells(table)
-            | Format::Layers(table)
+            | Format::Shells(table, _)
+            | Format::Layers(table, _)
             | Format::Steps(table) => table.flush(),
             Format::Fields(_) => Ok(()), // whole after every frame
         }
@@ -93,22 +93,24 @@ impl Files {
         }
         let asked = &model.output;
         let mut formats = Vec::new();
-        let mut table = |asked: bool, format: fn(Table) -> Format, name: &str, header: String| {
+        let mut table = |asked: bool, format: &dyn Fn(Table) -> Format, name: &str, header: String| {
             if asked {
                 formats.push(format(Table::open(dir, name, &header, keep_to)?));
             }
             io::Result::Ok(())
         };
-        table(!asked.nodes.is_empty(), Format::Nodes, "nodes.csv", nodes_csv::header())?;
-        table(!model.bodies.is_empty(), Format::Bodies, "bodies.csv", bodies_csv::header())?;
-        table(asked.energy, Format::Energy, "energy.csv", energy_csv::header())?;
-        table(asked.links && !model.links.is_empty(), Format::Links, "links.csv", links_csv::header())?;
-        table(asked.reactions, Format::Reactions, "reactions.csv", reactions_csv::header())?;
-        table(asked.sections && !model.beams.is_empty(), Format::Sections, "sections.csv", sections_csv::header())?;
+        table(!asked.nodes.is_empty(), &Format::Nodes, "nodes.csv", nodes_csv::header())?;
+        table(!model.bodies.is_empty(), &Format::Bodies, "bodies.csv", bodies_csv::header())?;
+        table(asked.energy, &Format::Energy, "energy.csv", energy_csv::header())?;
+        table(asked.links && !model.links.is_empty(), &Format::Links, "links.csv", links_csv::header())?;
+        table(asked.reactions, &Format::Reactions, "reactions.csv", reactions_csv::header())?;
+        table(asked.sections && !model.beams.is_empty(), &Format::Sections, "sections.csv", sections_csv::header())?;
         let shells = !model.shells.is_empty();
-        table(asked.sections && shells, Format::Shells, "shells.csv", shells_csv::header())?;
-        table(asked.layers && shells, Format::Layers, "layers.csv", shells_csv::header_of_layers())?;
-        table(true, Format::Steps, "steps.csv", steps_csv::header())?;
+        let of_shells = |table| Format::Shells(table, shells_csv::Order::of(model));
+        let of_layers = |table| Format::Layers(table, shells_csv::Order::of(model));
+        table(asked.sections && shells, &of_shells, "shells.csv", shells_csv::header())?;
+        table(asked.layers && shells, &of_layers, "layers.csv", shells_csv::header_of_layers())?;
+        table(true, &Format::Steps, "steps.csv", steps_csv::header())?;
         if let Some(every) = asked.fields {
             formats.push(Format::Fields(Fields::open(dir, model, every, keep_to)?));
         }

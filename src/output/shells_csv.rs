@@ -1,15 +1,42 @@
 //! shells.csv: stress resultants of the shells' elements; layers.csv: stress through their thickness.
 
 use super::table::Table;
+use crate::model::Model;
 use crate::solve::{Frame, ShellState};
 use std::io;
+
+/// In which order elements of shells are written: that of the deck, which is not that of the frame where a part of the mesh has
+/// triangles and quadrilaterals.
+pub(super) struct Order(Vec<u32>);
+
+impl Order {
+    /// Empty where the two are the same.
+    pub fn of(model: &Model) -> Order {
+        if model.shells.iter().all(|shell| shell.numbers.is_empty()) {
+            return Order(Vec::new());
+        }
+        let mut order = Vec::new();
+        for part in model.shells.chunk_by(|a, b| a.name == b.name) {
+            let first = order.len() as u32;
+            let numbers = part.iter().flat_map(|shell| (0..shell.elements.len()).map(|e| shell.number(e)));
+            let mut of: Vec<(usize, u32)> = numbers.zip(first..).collect();
+            of.sort_unstable();
+            order.extend(of.into_iter().map(|(_, place)| place));
+        }
+        Order(order)
+    }
+
+    fn states<'f>(&self, frame: &'f Frame) -> impl Iterator<Item = &'f ShellState> {
+        (0..frame.shells.len()).map(|k| &frame.shells[self.0.get(k).map_or(k, |&place| place as usize)])
+    }
+}
 
 pub(super) fn header() -> String {
     "step,time,shell,element,N11,N22,N12,M11,M22,M12,Q1,Q2,von_mises_bottom,von_mises_top,plastic_strain".into()
 }
 
-pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
-    frame.shells.iter().try_for_each(|state| {
+pub(super) fn write(table: &mut Table, order: &Order, frame: &Frame) -> io::Result<()> {
+    order.states(frame).try_for_each(|state| {
         let at = &state.at;
         table.row(frame.step, frame.state.time).text(&frame.model.shells[state.shell].name).count(state.element);
         table.numbers(&at.N).numbers(&at.M).numbers(&at.Q).numbers(&outer(state)).number(plastic_strain(state)).end()
@@ -20,8 +47,8 @@ pub(super) fn header_of_layers() -> String {
     "step,time,shell,element,layer,z,s11,s22,s12,von_mises,plastic_strain".into()
 }
 
-pub(super) fn write_layers(table: &mut Table, frame: &Frame) -> io::Result<()> {
-    let layers = frame.shells.iter().flat_map(|state| state.at.layers().iter().enumerate().map(move |at| (state, at)));
+pub(super) fn write_layers(table: &mut Table, order: &Order, frame: &Frame) -> io::Result<()> {
+    let layers = order.states(frame).flat_map(|state| state.at.layers().iter().enumerate().map(move |at| (state, at)));
     layers.into_iter().try_for_each(|(state, (number, layer))| {
         table.row(frame.step, frame.state.time).text(&frame.model.shells[state.shell].name).count(state.element);
         table.count(number).number(layer.z).numbers(&layer.stress).number(layer.von_mises());

@@ -93,7 +93,8 @@ impl Plan {
         for bar in model.bars.iter().filter(|bar| bar.yielding.is_some()) {
             line("yields", format!("bar `{}`", bar.name));
         }
-        for shell in &model.shells {
+        for part in model.shells.chunk_by(|a, b| a.name == b.name) {
+            let shell = &part[0];
             let Some(yielding) = &shell.yielding else { continue };
             let what = format!("{} layers, yield under membrane stress; transverse shear elastic", yielding.layers);
             line("yields", format!("shell `{}`: {what}", shell.name));

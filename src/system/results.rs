@@ -34,7 +34,9 @@ pub struct SectionPoint {
 /// A shell element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShellState {
+    /// Index into [`Model::shells`].
     pub shell: usize,
+    /// Its number in the deck's part.
     pub element: usize,
     pub at: Resultants,
 }
@@ -89,7 +91,7 @@ impl System {
                 if at.layers().is_empty() {
                     at.surfaces(part.plate.thickness);
                 }
-                out.push(ShellState { shell, element, at });
+                out.push(ShellState { shell, element: part.number(element), at });
             }
         }
     }

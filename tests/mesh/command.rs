@@ -84,3 +84,32 @@ fn a_rigid_part_is_drawn() {
     assert!(fields.contains("NumberOfPoints=\"15\" NumberOfCells=\"8\""), "{}", &fields[..400]);
     assert!(std::fs::read_to_string(dir.path().join("out/fields.csv")).unwrap().contains("body,plate"));
 }
+
+/// A strip of a quadrilateral, two triangles and a quadrilateral, in this order in the file, bent at its end: one part with
+/// elements 0 to 3, in one order in every file.
+#[test]
+fn a_group_of_both_kinds_is_numbered_once() {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::create_dir(dir.path().join("meshes")).unwrap();
+    let mesh = "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 2., 0.\n4, 3., 0.\n5, 0., 1.\n6, 1., 1.\n7, 2., 1.\n8, 3., 1.\n\
+                *ELEMENT, TYPE=S4, ELSET=plate\n1, 1, 2, 6, 5\n*ELEMENT, TYPE=S3, ELSET=plate\n2, 2, 3, 7\n3, 2, 7, 6\n\
+                *ELEMENT, TYPE=S4, ELSET=plate\n4, 3, 4, 8, 7\n*NSET, NSET=root\n1, 5\n*NSET, NSET=tip\n4, 8\n";
+    std::fs::write(dir.path().join("meshes/plate.inp"), mesh).unwrap();
+    let deck = DECK.replace("plate.msh", "plate.inp").replace("[output]", "[output]\nsections = true\nlayers = true");
+    let deck = deck.replace("\"elastic\"", "\"elastic-plastic\"\nyield_stress = 1e9");
+    std::fs::write(dir.path().join("deck.toml"), deck).unwrap();
+    run(dir.path(), &["deck.toml", "-o", "out", "--quiet"]).code(0);
+    let read = |name: &str| std::fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    let column = |name: &str, at: usize| -> Vec<String> {
+        read(name).lines().skip(1).map(|line| line.split(',').nth(at).unwrap().to_owned()).collect()
+    };
+    assert_eq!(column("shells.csv", 3), ["0", "1", "2", "3", "0", "1", "2", "3"]);
+    let layers: Vec<String> = (0..8).flat_map(|k| std::iter::repeat_n((k % 4).to_string(), 5)).collect();
+    assert_eq!(column("layers.csv", 3), layers);
+    // The moment falls from the root to the tip.
+    let moments: Vec<f64> = column("shells.csv", 7)[4..].iter().map(|m| m.parse::<f64>().unwrap().abs()).collect();
+    assert!((1..3).all(|k| moments[0] > moments[k] && moments[k] > moments[3]), "{moments:?}");
+    assert_eq!(read("fields.csv"), "part,kind,name\n0,shell,plate\n");
+    let told = String::from_utf8(run(dir.path(), &["check", "deck.toml"]).code(0).get_output().stdout.clone()).unwrap();
+    assert_eq!(told.matches("shell `plate`: 5 layers").count(), 1, "{told}");
+}

@@ -200,3 +200,65 @@ fn names_of_nothing() {
     assert_snapshot!("group_of_nothing", folder.read(&format!("{deck}{held}")).1);
     assert_snapshot!("load_on_nothing", folder.read(&format!("{deck}{load}")).1);
 }
+
+/// What makes nodes, elements or sets in a way that is not read would leave them out.
+#[test]
+fn abaqus_that_changes_the_mesh() {
+    let text = Plate { n: 2, m: 2, size: [2.0, 1.0] }.inp();
+    let refused = |line: &str| {
+        let said = inp(&format!("{text}{line}\n"));
+        let word = line.split([',', '\n']).next().unwrap();
+        assert!(said.starts_with("error: ") && said.contains("is not read") && said.contains(word), "{line}: {said}");
+        said
+    };
+    assert_snapshot!("inp_include", refused("*INCLUDE, INPUT=more.inp"));
+    for line in [
+        "*NGEN, NSET=more\n1, 3, 1",
+        "*NFILL, NSET=more\nroot, tip, 4",
+        "*NCOPY, CHANGE NUMBER=100, OLD SET=tip, SHIFT",
+        "*ELGEN, ELSET=more\n1, 4",
+        "*ELCOPY, ELEMENT SHIFT=10, OLD SET=plate, SHIFT NODES=10",
+        "*SYSTEM\n1., 0., 0.",
+        "*NMAP, NSET=tip, TYPE=RECTANGULAR",
+        "*PARAMETER\nx = 1",
+    ] {
+        refused(line);
+    }
+    assert_snapshot!("inp_cylindrical", inp(&text.replace("*Node", "*Node, system=C")));
+    assert_snapshot!("inp_nodes_of_elements", inp(&format!("{text}*NSET, NSET=more, ELSET=plate\n")));
+    let of_file = format!("{text}*ELEMENT, TYPE=S4, INPUT=more.inp\n");
+    assert!(inp(&of_file).starts_with("error: INPUT of *ELEMENT reads another file"), "{}", inp(&of_file));
+    // One part and one instance of it that stays frame the mesh; a second one is another mesh.
+    let (head, rest) = text.split_once("*Node").unwrap();
+    let framed = |more: &str| {
+        let assembly = format!(
+            "*END PART\n*ASSEMBLY, NAME=all\n*INSTANCE, NAME=one, PART=a\n*END INSTANCE\n{more}*END ASSEMBLY\n"
+        );
+        inp(&format!("{head}*PART, NAME=a\n*Node{rest}{assembly}"))
+    };
+    assert_eq!(framed(""), "");
+    assert_snapshot!("inp_second_instance", framed("*INSTANCE, NAME=two, PART=a\n*END INSTANCE\n"));
+    assert_snapshot!("inp_second_part", inp(&format!("*PART, NAME=b\n*END PART\n*PART, NAME=a\n{text}")));
+}
+
+/// Lists of which many nodes are wrong in the same way: one message with the first of them and the count.
+#[test]
+fn many_nodes_with_one_mistake() {
+    let plate = Plate { n: 40, m: 50, size: [2.0, 1.0] };
+    let folder = Folder::with(&[("plate.inp", &plate.inp())]);
+    let deck = DECK.replace("plate.msh", "plate.inp").replace("force_per_length", "force");
+    let hub = "[[bodies]]\nname = \"HUB\"\ncenter = [9.0, 0.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+               [[attachments]]\nbody = \"HUB\"\nnodes = \"tip\"\n";
+    let said = |more: &str| folder.read(&format!("{deck}{more}")).1;
+    assert_snapshot!("many_attached_twice", said(&format!("{hub}{hub}").replacen("HUB", "hub", 2)));
+    assert_snapshot!("many_supported", said(&format!("{hub}[[supports]]\nat = \"tip\"\nfix = \"all\"\n")));
+    let moved = "[[supports]]\nat = \"root\"\nmotion = { ux = { amplitude = \"a\" } }\n\
+                 [amplitudes.a]\nkind = \"ramp\"\nend = 1.0\n";
+    assert_snapshot!("many_held_twice", said(moved));
+    // Nothing is connected to a set of nodes without elements.
+    let loose: String = (0..3000).map(|k| format!("{}, 9., {k}.\n", 5000 + k)).collect();
+    let mesh = plate.inp().replace("*nset, nset=root", &format!("*NODE, NSET=loose\n{loose}*nset, nset=root"));
+    let folder = Folder::with(&[("plate.inp", &mesh)]);
+    let load = "[[loads]]\nat = \"loose\"\nforce = [1.0, 0.0, 0.0]\n";
+    assert_snapshot!("many_loose", folder.read(&format!("{deck}{load}")).1);
+}

@@ -3,6 +3,7 @@
 use super::support::{self, node};
 use super::{Folder, Plate, displacements, positions};
 use rdsolve::math::Vec3;
+use rdsolve::model::Model;
 
 const PLATE: Plate = Plate { n: 8, m: 3, size: [2.0, 0.6] };
 
@@ -288,4 +289,26 @@ fn normals_of_a_mesh_bend_as_those_of_the_surface() {
     let points = [8, 16, 32].map(|n| (1.0 / n as f64, off(n)));
     println!("{points:?}");
     assert!(support::slope(&points) > 2.0 && points[0].1 < 2e-3, "{points:?}");
+}
+
+/// A part is read by itself, whatever else the mesh holds: nodes before it, another part beside it.
+#[test]
+fn a_part_of_a_large_mesh_has_the_normals_of_a_small_one() {
+    let nodes = "1, 0., 0.\n2, 1., 0., .2\n3, 2., 0.\n4, 3., 0., .1\n5, 0., 1.\n6, 1., 1.\n7, 2., 1., .2\n8, 3., 1.\n";
+    let elements = "*ELEMENT, TYPE=S3, ELSET=plate\n1, 1, 2, 6\n2, 1, 6, 5\n*ELEMENT, TYPE=S4, ELSET=plate\n3, 2, 3, 7, 6\n\
+                    4, 3, 4, 8, 7\n*NSET, NSET=root\n1, 5\n*NSET, NSET=tip\n4, 8\n*NSET, NSET=Corner\n8\n";
+    let small = format!("*NODE\n{nodes}{elements}");
+    let others: String = (101..200).map(|id| format!("{id}, {}., 5.\n", id - 100)).collect();
+    let beside = "*ELEMENT, TYPE=S3, ELSET=flap\n9, 4, 8, 101\n10, 8, 4, 102\n";
+    let large = format!("*NODE\n{others}{nodes}{beside}{elements}");
+    let folder = Folder::with(&[("small.inp", &small), ("large.inp", &large)]);
+    let flap = "[[shells]]\ngroup = \"flap\"\nthickness = 0.02\nmaterial = \"steel\"\n[[shells]]\ngroup = \"plate\"";
+    let alone = folder.model(&meshed("static", "small.inp"));
+    let with = folder.model(&meshed("static", "large.inp").replace("[[shells]]\ngroup = \"plate\"", flap));
+    let of = |model: &Model| -> Vec<_> {
+        let plate = model.shells.iter().filter(|shell| shell.name == "plate");
+        plate.flat_map(|shell| shell.elements.iter().map(|e| e.normals)).collect()
+    };
+    assert_eq!(of(&alone).len(), 4);
+    assert_eq!(of(&alone), of(&with), "to the last bit");
 }

@@ -187,7 +187,17 @@ pub fn shell(
     }
     let name = format!("shell{}", model.shells.len());
     let plate = Plate { thickness: 0.1, E: 2e3, nu: 0.3, drilling: DRILLING };
-    model.shells.push(Shell { name, plate, density: 3.0, mass, yielding: None, axis: Vec3::x(), corners, elements });
+    model.shells.push(Shell {
+        name,
+        plate,
+        density: 3.0,
+        mass,
+        yielding: None,
+        axis: Vec3::x(),
+        corners,
+        elements,
+        numbers: vec![],
+    });
     nodes
 }
 
