@@ -79,7 +79,7 @@ fn run(model: &Model) -> (f64, State) {
     let (mut least, mut end) = (f64::INFINITY, None);
     let began = Instant::now();
     while end.is_none() || began.elapsed().as_secs_f64() < 1.0 {
-        let mut run = Run::new(model, &system, &plan, Wanted::default(), &stop);
+        let mut run = Run::new(model, &system, &plan, Wanted::default(), &stop).unwrap();
         let start = Instant::now();
         let (outcome, state) = run.run(&mut ());
         let seconds = (start.elapsed() - run.observing).as_secs_f64();
@@ -110,7 +110,7 @@ fn measure(name: &str, mut model: Model) {
 
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
-    let (mut solver, mut assembly) = plan.build(&system);
+    let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let mut loading = Loading::default();
     Drive::new(&model).loading(state.time, Side::Before, &mut loading);
     let mut forces = Forces::new(&system, model.nodes.len());

@@ -26,7 +26,7 @@ fn measure(name: &str, structure: &Structure, kind: Kind, values: Values, thread
         return;
     }
     let begin = Instant::now();
-    let solver = Solver::new(structure, kind, threads);
+    let solver = Solver::new(structure, kind, threads).unwrap();
     let plan = begin.elapsed().as_secs_f64();
     let slots = slots(&solver, &entries(structure, values, &mut Random(6)));
     let n = structure.sizes.iter().sum();

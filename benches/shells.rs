@@ -121,7 +121,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let (reading, model) = timed(|| read(text));
     let (system_s, system) = timed(|| System::new(&model).expect("a system"));
     let (plan_s, plan) = timed(|| Plan::new(&model, &system, threads));
-    let (build_s, (mut solver, mut assembly)) = timed(|| plan.build(&system));
+    let (build_s, (mut solver, mut assembly)) = timed(|| plan.build(&system).unwrap());
     let nodes = moved(&model);
     let past = vec![0.0; system.history];
     let now = Now { nodes: &nodes, past: &past, since: 1e-5 };

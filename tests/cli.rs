@@ -47,6 +47,11 @@ fn usage_ends_with_2() {
     {
         rdsolve(folder.path(), arguments).code(2);
     }
+    for threads in ["65", "1000"] {
+        let done = rdsolve(folder.path(), &["ball.toml", "--threads", threads]).code(2);
+        assert!(said(&done).contains("1..=64"), "{}", said(&done));
+    }
+    rdsolve(folder.path(), &["ball.toml", "--threads", "64"]).code(0);
 }
 
 #[test]
@@ -171,4 +176,66 @@ fn a_lost_path_names_nodes_and_leaves_what_it_found() {
     let log = read("run.log");
     let limits: Vec<&str> = log.lines().filter(|line| line.contains("limit point")).collect();
     assert!(limits.len() == 2 && limits[0].contains("0, now 1") && limits[1].contains("1, now 0"), "{log}");
+}
+
+/// The truss never comes up: the run ends well, and says that it is not what was asked for.
+#[test]
+fn a_path_that_never_comes_to_its_stop_says_so() {
+    let stop = "analysis.stop={ at = \"crown\", quantity = \"uz\", value = 0.2, pass = 2 }";
+    let folder = folder(TRUSS);
+    let run = |more: &[&str]| {
+        let sets = ["ball.toml", "--overwrite", "--set", "analysis.least_step=1e-3", "--set", stop];
+        rdsolve(folder.path(), &[&sets[..], more].concat()).code(0)
+    };
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("ball.out").join(name)).unwrap();
+    for (more, end) in [(&[][..], "t = 60,"), (&["--set", "analysis.steps=3"], "after 3 steps")] {
+        let told = said(&run(more));
+        let words = "`stop` was not reached: uz of crown never came to 0.2 for pass 2; it is -";
+        assert!(told.starts_with(&format!("warning: {words}")) && told.contains(end), "{told}");
+        let log = read("run.log");
+        assert!(log.lines().last().unwrap().starts_with(&format!("done: {words}")), "{log}");
+        let result: serde_json::Value = serde_json::from_str(&read("result.json")).unwrap();
+        assert_eq!((&result["status"], &result["exit_code"]), (&"done".into(), &0.into()));
+        assert!(result["reason"].as_str().unwrap().starts_with(words), "{result}");
+    }
+    // Where the crown ends is in nodes.csv too.
+    let nodes = read("nodes.csv");
+    let crown = nodes.lines().rfind(|line| line.contains(",crown,")).unwrap();
+    let uz = crown.split(',').nth(8).unwrap();
+    assert!(read("result.json").contains(&format!("it is {uz} at the end")), "{crown}");
+    assert_eq!(said(&run(&["--quiet"])), "");
+    // One that is reached leaves nothing to say; nor does a miss hide it.
+    let reached = stop.replace("0.2, pass = 2", "-0.2");
+    let done =
+        rdsolve(folder.path(), &["ball.toml", "--overwrite", "--set", "analysis.least_step=1e-3", "--set", &reached]);
+    assert_eq!(said(&done.code(0)), "");
+    assert!(read("result.json").contains("\"reason\": \"\""));
+    let expect = "[[expect]]\nat = \"crown\"\nquantity = \"uz\"\ntime = 60.0\nvalue = 1.0\ntolerance = 0.1\n";
+    std::fs::write(folder.path().join("ball.toml"), format!("{TRUSS}{expect}")).unwrap();
+    let sets = ["ball.toml", "--overwrite", "--set", "analysis.least_step=1e-3", "--set", stop];
+    let missed = said(&rdsolve(folder.path(), &sets).code(5));
+    assert!(missed.contains("1 of 1 expected values missed; `stop` was not reached"), "{missed}");
+}
+
+/// The truss is plane, so that its crown never moves to the side: known before the run begins.
+#[test]
+fn a_passage_out_of_the_plane_is_an_error_of_the_deck() {
+    let folder = folder(TRUSS);
+    let stop = "stop = { at = \"crown\", quantity = \"uy\", value = 0.2 }\n[points]";
+    let when = "[[expect]]\nat = \"analysis\"\nquantity = \"time\"\nvalue = 1.0\ntolerance = 0.1\n\
+                when = { at = \"hand\", quantity = \"uy\", value = 0.1 }\n";
+    let deck = TRUSS.replace("[points]", stop) + when;
+    std::fs::write(folder.path().join("ball.toml"), &deck).unwrap();
+    for arguments in [&["ball.toml"][..], &["check", "ball.toml"]] {
+        let told = said(&rdsolve(folder.path(), arguments).code(3));
+        let errors = [
+            "uy of `crown` never changes: the scene is plane, and this is normal to it\n --> ball.toml:8:35",
+            "uy of `hand` never changes: nothing acts on it\n  --> ball.toml:36:34",
+        ];
+        assert!(errors.iter().all(|error| told.contains(error)), "{told}");
+        assert!(told.contains("`ball.toml` has 2 errors"), "{told}");
+    }
+    // What is kept in the scene may move.
+    let when = "expect.0.when.quantity=\"uz\"";
+    rdsolve(folder.path(), &["check", "ball.toml", "--set", "analysis.plane=\"off\"", "--set", when]).code(0);
 }

@@ -250,7 +250,7 @@ fn end_of(model: &Model) -> (Outcome, State) {
     let system = System::new(model).expect("a system");
     let plan = Plan::new(model, &system, 1);
     let stop = AtomicBool::new(false);
-    let (outcome, state) = Run::new(model, &system, &plan, wanted(model), &stop).run(&mut Blind);
+    let (outcome, state) = Run::new(model, &system, &plan, wanted(model), &stop).unwrap().run(&mut Blind);
     (outcome, state.expect("a state"))
 }
 

@@ -5,7 +5,6 @@ mod run;
 mod schema;
 
 use std::io::{IsTerminal, Write};
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -13,7 +12,10 @@ use clap::{Args, Parser, Subcommand};
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Diagnostic, Source};
+use crate::linear::TooLarge;
 use crate::model::{self, Model};
+use crate::plan::Plan;
+use crate::system::System;
 
 /// How the program ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,6 +79,9 @@ struct DeckArgs {
     sets: Vec<String>,
 }
 
+/// More gain nothing, and thousands cannot be had.
+const MOST_THREADS: i64 = 64;
+
 #[derive(Debug, Args)]
 struct RunArgs {
     // As in `DeckArgs`: clap does not find a group within an optional group.
@@ -89,9 +94,9 @@ struct RunArgs {
     /// Folder for the results [default: the deck's name with .out, in the current folder]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Threads to use; results do not depend on it [default: all cores]
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    /// Threads to use, from 1 to 64; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MOST_THREADS))]
+    threads: Option<u8>,
     /// Show errors only
     #[arg(long)]
     quiet: bool,
@@ -150,6 +155,27 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
             Err(Exit::DeckInvalid)
         }
     }
+}
+
+/// What a deck that can be run needs to be run. If that fails, it has been said.
+fn planned(loaded: &Loaded, threads: usize) -> Result<(System, Plan), Exit> {
+    let system = System::new(&loaded.model).map_err(|error| {
+        complain(&error);
+        Exit::Internal
+    })?;
+    let plan = Plan::new(&loaded.model, &system, threads);
+    let problems = plan.never_passed(&loaded.model);
+    if problems.is_empty() {
+        return Ok((system, plan));
+    }
+    show(&problems, &loaded.source);
+    complain(&format!("`{}` has {}", loaded.source.path, counted(problems.len(), "error")));
+    Err(Exit::DeckInvalid)
+}
+
+fn no_room(error: TooLarge) -> Exit {
+    complain(&error.to_string());
+    Exit::Internal
 }
 
 fn hash(source: &Source, sets: &[String], model: &Model) -> String {

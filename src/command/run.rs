@@ -6,15 +6,16 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::{Exit, Loaded, RunArgs, complain, load, output_folder, show};
+use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, load, no_room, output_folder, planned, show};
+use crate::diagnostic::Diagnostic;
+use crate::model::{ArcLength, Control, DIRECTIONS, Model};
 use crate::output::expect::{Expectations, Verdict};
 use crate::output::log::Log;
 use crate::output::progress::Progress;
 use crate::output::result_json::{Counts, Report, Status, Timings, peak_memory_bytes};
 use crate::output::{Files, wanted};
-use crate::plan::Plan;
 use crate::solve::{Frame, Observer, Outcome, Run};
-use crate::system::System;
+use crate::state::State;
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     let began = Instant::now();
@@ -23,47 +24,46 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    let threads = args.threads.map_or_else(available_threads, usize::from).min(MOST_THREADS);
+    let threads = args.threads.map_or_else(available_threads, usize::from);
     if threads > 1 {
         // As many as asked for; where the pool is there already, as many as it has.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     }
-    let timings = Timings { read_s: began.elapsed().as_secs_f64(), ..Timings::default() };
-    let report = compute(&loaded, &folder, threads, args.quiet, timings, began).map_err(|error| {
+    let mut timings = Timings { read_s: began.elapsed().as_secs_f64(), ..Timings::default() };
+    let planning = Instant::now();
+    let (system, plan) = planned(&loaded, threads)?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &stop).map_err(no_room)?;
+    let text = plan.explain(&loaded.model, &system);
+    timings.plan_s = planning.elapsed().as_secs_f64();
+    let computed =
+        stop_on_signals(&stop).and_then(|()| compute(&loaded, &mut run, &text, &folder, args.quiet, timings, began));
+    let report = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
         Exit::InputOutput
     })?;
-    conclude(&report, &folder, args.quiet)
+    conclude(&report, &loaded, &folder, args.quiet)
 }
 
-/// More gain nothing, and thousands cannot be had.
-const MOST_THREADS: usize = 64;
-
+/// All cores, as far as `--threads` goes.
 fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
+    std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS as usize)
 }
 
 /// Runs the scene and writes its files; an error is one of input/output.
 fn compute(
     loaded: &Loaded,
+    run: &mut Run,
+    text: &str,
     folder: &Path,
-    threads: usize,
     quiet: bool,
     mut timings: Timings,
     began: Instant,
 ) -> io::Result<Report> {
     let model = &loaded.model;
-    let planning = Instant::now();
-    let system = System::new(model).map_err(io::Error::other)?;
-    let plan = Plan::new(model, &system, threads);
-    let text = plan.explain(model, &system);
-    let stop = stop_on_signals()?;
-    let mut run = Run::new(model, &system, &plan, wanted(model), &stop);
-    timings.plan_s = planning.elapsed().as_secs_f64();
-
     let mut log = Log::open(folder, false)?;
     log.say(&format!("rdsolve {}, deck {}", env!("CARGO_PKG_VERSION"), loaded.source.path))?;
-    log.say(&text)?;
+    log.say(text)?;
     let mut watchers = Watchers {
         log,
         files: Files::open(folder, model, None)?,
@@ -71,7 +71,7 @@ fn compute(
         progress: Progress::new(quiet),
     };
     let looping = Instant::now();
-    let (outcome, _) = run.run(&mut watchers);
+    let (outcome, end) = run.run(&mut watchers);
     let whole = looping.elapsed();
     timings.loop_s = whole.saturating_sub(run.observing).as_secs_f64();
     timings.write_s = run.observing.as_secs_f64();
@@ -79,8 +79,15 @@ fn compute(
     watchers.files.finish()?;
 
     let expectations = watchers.expectations.verdicts();
-    let (status, reason) = judge(outcome, &expectations)?;
-    watchers.log.say(if reason.is_empty() { "done" } else { &reason })?;
+    let (status, mut reason) = judge(outcome, &expectations)?;
+    if let Some(short) = short_of_stop(model, run, &end) {
+        reason = if reason.is_empty() { short } else { format!("{reason}; {short}") };
+    }
+    watchers.log.say(&match (status, reason.as_str()) {
+        (Status::Done, "") => "done".to_owned(),
+        (Status::Done, reason) => format!("done: {reason}"),
+        (_, reason) => reason.to_owned(),
+    })?;
     let counts = run.counts;
     timings.total_s = began.elapsed().as_secs_f64();
     let report = Report {
@@ -107,17 +114,16 @@ fn compute(
     Ok(report)
 }
 
-/// A flag that interrupt and termination raise: the run ends after the step in hand, with whole files.
-fn stop_on_signals() -> io::Result<Arc<AtomicBool>> {
-    let flag = Arc::new(AtomicBool::new(false));
+/// Interrupt and termination raise the flag: the run ends after the step in hand, with whole files.
+fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
     // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
     // two at the same moment.
     let code = i32::from(Exit::Stopped as u8);
-    signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGINT, code, Arc::clone(&flag))?;
+    signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGINT, code, Arc::clone(flag))?;
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register(signal, Arc::clone(&flag))?;
+        signal_hook::flag::register(signal, Arc::clone(flag))?;
     }
-    Ok(flag)
+    Ok(())
 }
 
 fn judge(outcome: Outcome, expectations: &[Verdict]) -> io::Result<(Status, String)> {
@@ -139,8 +145,25 @@ fn judge(outcome: Outcome, expectations: &[Verdict]) -> io::Result<(Status, Stri
     })
 }
 
+/// A path that ended before its `stop`, in a sentence.
+fn short_of_stop(model: &Model, run: &Run, end: &Option<State>) -> Option<String> {
+    let (Control::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
+        (&model.analysis.control, run.short_of_stop)
+    else {
+        return None;
+    };
+    let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+    let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
+    let (time, steps) = (end.as_ref()?.time, run.counts.steps);
+    Some(format!(
+        "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {value} at the end, t = {time}, \
+         after {steps} steps",
+        stop.value
+    ))
+}
+
 /// Says how the run ended: failures on standard error, the verdicts and the folder on standard output.
-fn conclude(report: &Report, folder: &Path, quiet: bool) -> Result<(), Exit> {
+fn conclude(report: &Report, loaded: &Loaded, folder: &Path, quiet: bool) -> Result<(), Exit> {
     let mut text = String::new();
     for verdict in &report.expectations {
         if !quiet || !verdict.passed {
@@ -162,7 +185,12 @@ fn conclude(report: &Report, folder: &Path, quiet: bool) -> Result<(), Exit> {
     }
     super::print(&text)?;
     let exit = match report.status {
-        Status::Done => return Ok(()),
+        Status::Done => {
+            if !report.reason.is_empty() && !quiet {
+                show(&[Diagnostic::warning(report.reason.as_str())], &loaded.source);
+            }
+            return Ok(());
+        }
         Status::NotConverged => Exit::NotConverged,
         Status::ExpectationMissed => Exit::CheckFailed,
         Status::Stopped => Exit::Stopped,

@@ -7,11 +7,12 @@
 use super::elimination::Elimination;
 use super::fronts::Fronts;
 use super::graph::Graph;
+use super::memory::{TooLarge, room};
 use super::{Singular, Stats, Tile, VANISHED};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
 /// Below this many operations the threads of the dense kernels cost more than they bring.
@@ -43,8 +44,9 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    pub(super) fn new(graph: Graph, threads: usize) -> Self {
+    pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph);
+        room(graph.unknowns(), elimination.nonzeros)?;
         let external: Vec<usize> = elimination.order.iter().flat_map(|&g| graph.first[g]..graph.first[g + 1]).collect();
         let mut position = vec![0; external.len()];
         for (p, &row) in external.iter().enumerate() {
@@ -52,12 +54,14 @@ impl Cholesky {
         }
         let pattern = triangle(&graph, &elimination, &position, |p, q| q >= p);
         let symbolic = symbolic(triangle(&graph, &elimination, &position, |p, q| q <= p).as_ref());
+        let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
+        let symbolic = symbolic.map_err(|_| TooLarge { unknowns: graph.unknowns(), needed: bytes })?;
         let par = match elimination.flops > WORTH_THREADS && threads > 1 {
             true => Par::rayon(threads),
             false => Par::Seq,
         };
         let fronts = Fronts::new(&symbolic, &pattern, par != Par::Seq);
-        Cholesky {
+        Ok(Cholesky {
             ordering: elimination.name,
             flops: elimination.flops,
             values: vec![0.0; pattern.compute_nnz() + 1],
@@ -74,7 +78,7 @@ impl Cholesky {
             pattern,
             symbolic,
             par,
-        }
+        })
     }
 
     pub(super) fn slot(&self, row: usize, col: usize) -> Option<usize> {
@@ -208,7 +212,7 @@ fn triangle(
 }
 
 /// The structure of the factor from that of the upper triangle.
-fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> supernodal::SymbolicSupernodalCholesky<usize> {
+fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> Result<supernodal::SymbolicSupernodalCholesky<usize>, FaerError> {
     let n = upper.ncols();
     let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.compute_nnz())
         .or(supernodal::factorize_supernodal_symbolic_cholesky_scratch::<usize>(n));
@@ -222,7 +226,6 @@ fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> supernodal::SymbolicSupern
         MemStack::new(&mut buffer),
         Default::default(),
     )
-    .expect("the factor fits into memory")
 }
 
 fn solve_scratch(symbolic: &supernodal::SymbolicSupernodalCholesky<usize>) -> StackReq {

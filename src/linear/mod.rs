@@ -12,11 +12,13 @@ mod fronts;
 mod graph;
 mod kernel;
 mod kind;
+mod memory;
 mod substitution;
 
 pub use block_lu::BlockLu;
 pub use cholesky::Cholesky;
 pub use kind::Kind;
+pub use memory::TooLarge;
 
 use graph::Graph;
 use std::fmt;
@@ -99,16 +101,19 @@ macro_rules! each {
 
 impl Solver {
     /// Plans the factorisation. `threads` only matters to a large [`Kind::Cholesky`] and never to the bits of a result.
-    pub fn new(structure: &Structure, kind: Kind, threads: usize) -> Self {
+    ///
+    /// # Errors
+    /// There is no memory for the factor.
+    pub fn new(structure: &Structure, kind: Kind, threads: usize) -> Result<Self, TooLarge> {
         debug_assert!(structure.sizes.iter().all(|&size| size <= 6), "a group has at most 6 unknowns");
         let graph = Graph::new(structure);
-        match kind {
-            Kind::Cholesky => Solver::Cholesky(Box::new(Cholesky::new(graph, threads))),
+        Ok(match kind {
+            Kind::Cholesky => Solver::Cholesky(Box::new(Cholesky::new(graph, threads)?)),
             Kind::Block if structure.sizes.iter().all(|&size| size <= 3) => {
                 Solver::Block3(Box::new(BlockLu::new(graph)))
             }
             Kind::Block => Solver::Block6(Box::new(BlockLu::new(graph))),
-        }
+        })
     }
 
     /// True: one triangle is stored and the caller adds each pair of rows once, with its symmetric value.

@@ -36,7 +36,7 @@ pub struct Report {
     pub status: Status,
     /// That of the status, unless the failure was one of input/output (6).
     pub exit_code: u8,
-    /// One sentence; empty when done.
+    /// One sentence; empty when done, unless a path ended before its `stop`.
     pub reason: String,
     pub version: String,
     /// SHA-256 of the deck with its overrides and its mesh, hexadecimal.

@@ -3,9 +3,10 @@
 
 mod choose;
 mod explain;
+mod passages;
 mod place;
 
-use crate::linear::{Kind, Solver, Structure};
+use crate::linear::{Kind, Solver, Structure, TooLarge};
 use crate::model::Model;
 use crate::system::System;
 use crate::system::assembly::{self, Assembly, NONE};
@@ -84,10 +85,13 @@ impl Plan {
     }
 
     /// The solver and the assembly of this plan.
-    pub fn build(&self, system: &System) -> (Solver, Assembly) {
-        let solver = Solver::new(&self.structure, self.kind, self.threads);
+    ///
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn build(&self, system: &System) -> Result<(Solver, Assembly), TooLarge> {
+        let solver = Solver::new(&self.structure, self.kind, self.threads)?;
         let assembly = Assembly::new(system, &self.rows, &solver, self.threads);
-        (solver, assembly)
+        Ok((solver, assembly))
     }
 
     /// True for directions that ride, are held or are left out: their increments do not come from the solution.

@@ -7,6 +7,7 @@ use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{Frame, LinkState, Observer, SectionPoint, ShellState};
+use crate::linear::TooLarge;
 use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
@@ -60,6 +61,8 @@ pub struct Run<'a> {
     pub counts: Counts,
     /// Time spent in the observer.
     pub observing: Duration,
+    /// Where a path ended that never came to its `stop`: the displacement asked for.
+    pub short_of_stop: Option<f64>,
     energy: Option<Energy>,
     links: Vec<LinkState>,
     plastic_strains: Vec<f64>,
@@ -86,9 +89,17 @@ const DEEPEST: u32 = 40;
 const MOST_PIECES: usize = 4096;
 
 impl<'a> Run<'a> {
-    pub fn new(model: &'a Model, system: &'a System, plan: &'a Plan, wanted: Wanted, stop: &'a AtomicBool) -> Self {
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn new(
+        model: &'a Model,
+        system: &'a System,
+        plan: &'a Plan,
+        wanted: Wanted,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, TooLarge> {
         let n = model.nodes.len();
-        let (solver, assembly) = plan.build(system);
+        let (solver, assembly) = plan.build(system)?;
         let mut rides = vec![false; n];
         system.attachments.iter().filter(|a| a.rigid).for_each(|a| rides[a.node] = true);
         let mut held = vec![[false; 6]; n];
@@ -141,18 +152,19 @@ impl<'a> Run<'a> {
             stepper.solver.expect_indefinite();
             stepper.path = Some(stepper.new_path());
         }
-        Run {
+        Ok(Run {
             stepper,
             wanted,
             stop,
             counts: Counts::default(),
             observing: Duration::ZERO,
+            short_of_stop: None,
             energy: None,
             links: Vec::new(),
             plastic_strains: Vec::new(),
             sections: Vec::new(),
             shells: Vec::new(),
-        }
+        })
     }
 
     /// Largest departure from orthogonality that a truncated rotation update left to be mended.

@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::march::{Outcome, Run, Step};
 use super::step::{Stepper, Taken};
 use crate::integrators::load_steps;
-use crate::model::{ArcLength, Model, When};
+use crate::model::{ArcLength, Model, Passage, When};
 use crate::state::State;
 use std::sync::atomic::Ordering;
 
@@ -110,6 +110,12 @@ impl Stations {
         }
     }
 
+    /// Whether the station that a step landed on is this one.
+    fn ended_at(&self, stop: &Passage, landed: Option<usize>) -> bool {
+        let what = What::Displacement { node: stop.node, dof: stop.dof };
+        landed.is_some_and(|i| self.0[i].ends && self.0[i].what == what)
+    }
+
     fn start(&mut self, stepper: &Stepper, state: &State) {
         for station in &mut self.0 {
             let (from, _) = station.ends(stepper, state, state.time);
@@ -210,6 +216,10 @@ impl Run<'_> {
             let due = landed.is_some() || ends;
             self.show(state, observer, balance, &Step { dt, taken: &taken, cuts, due, last: ends, passed })?;
             if ends {
+                self.short_of_stop = control.stop.filter(|stop| !stations.ended_at(stop, landed)).map(|stop| {
+                    let Passage { node, dof, .. } = stop;
+                    state.nodes[node].x[dof] - self.stepper.model.nodes[node].x[dof]
+                });
                 return Ok(());
             }
             if self.counts.steps >= control.steps.unwrap_or(MOST_STEPS) {

@@ -235,7 +235,7 @@ fn energy_of_rigid_parts() {
         let mut watch = Energies::default();
         let stop = AtomicBool::new(false);
         let wanted = Wanted { energy: true, ..wanted(&model) };
-        let (outcome, _) = Run::new(&model, &system, &plan, wanted, &stop).run(&mut watch);
+        let (outcome, _) = Run::new(&model, &system, &plan, wanted, &stop).unwrap().run(&mut watch);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
         watch.numerical / watch.kinetic
     };

@@ -220,7 +220,7 @@ fn an_edge_of_a_shell_on_a_body() {
         }
     }
     let mut last = Last(Vec::new(), Vec::new());
-    let (outcome, _) = rdsolve::solve::Run::new(&straight, &system, &plan, wanted, &stop).run(&mut last);
+    let (outcome, _) = rdsolve::solve::Run::new(&straight, &system, &plan, wanted, &stop).unwrap().run(&mut last);
     assert!(matches!(outcome, rdsolve::solve::Outcome::Done), "{outcome:?}");
     // Equilibrium of the whole in its deformed place: force and moment about the foot.
     let x = &last.0;

@@ -49,7 +49,7 @@ fn steps(m: &Model) -> (Steps, State, Counts, Outcome) {
     let plan = Plan::new(m, &system, 1);
     let stop = AtomicBool::new(false);
     let wanted = Wanted { energy: true, reactions: true, ..Wanted::default() };
-    let mut run = Run::new(m, &system, &plan, wanted, &stop);
+    let mut run = Run::new(m, &system, &plan, wanted, &stop).unwrap();
     let mut steps = Steps { times: vec![], last: None };
     let (outcome, state) = run.run(&mut steps);
     (steps, state.expect("a start"), run.counts, outcome)

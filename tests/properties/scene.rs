@@ -376,7 +376,7 @@ pub fn run_with(m: &Model, solver: Option<linear::Kind>) -> Record {
     plan.kind = solver.unwrap_or(plan.kind);
     let stop = AtomicBool::new(false);
     let wanted = Wanted { energy: true, reactions: true, ..Wanted::default() };
-    let mut run = Run::new(&m, &system, &plan, wanted, &stop);
+    let mut run = Run::new(&m, &system, &plan, wanted, &stop).unwrap();
     let mut record = Record { states: vec![], energies: vec![], counts: Counts::default() };
     let (outcome, _) = run.run(&mut record);
     record.counts = run.counts;

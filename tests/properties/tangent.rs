@@ -122,7 +122,7 @@ impl Instant {
         let nodes = self.nodes(&self.q);
         let mut forces = Forces::new(&self.system, nodes.len());
         self.system.residual(&Now::of(&nodes), &self.loading, &mut forces);
-        let (mut solver, mut assembly) = self.plan.build(&self.system);
+        let (mut solver, mut assembly) = self.plan.build(&self.system).unwrap();
         let (rate, acceleration) = self.scheme.weights();
         let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
         assembly.tangent(&self.system, &Now::of(&nodes), &self.loading, &forces, weights, &mut solver);

@@ -31,7 +31,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     Drive::new(model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len());
     system.residual(&Now::of(&nodes), &loading, &mut forces);
-    let (mut solver, mut assembly) = plan.build(&system);
+    let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let acceleration = if stiffness { 0.0 } else { 1.0 };
     let weights = Weights { stiffness, rate: 0.0, acceleration, moduli: Moduli::Algorithmic };
     assembly.tangent(&system, &Now::of(&nodes), &loading, &forces, weights, &mut solver);

@@ -72,7 +72,7 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
     let plan = Plan::new(model, &system, 1);
     let stop = AtomicBool::new(false);
     let mut watchers = Watchers { probe, rows: Vec::new(), expectations: Expectations::new(model) };
-    let mut run = Run::new(model, &system, &plan, wanted(model), &stop);
+    let mut run = Run::new(model, &system, &plan, wanted(model), &stop).unwrap();
     let began = std::time::Instant::now();
     let (outcome, _) = run.run(&mut watchers);
     Done {

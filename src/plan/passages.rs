@@ -1,0 +1,36 @@
+//! Displacements that a path is to land on, but which the plan leaves out: they stay zero.
+
+use super::Plan;
+use super::place::Why;
+use crate::diagnostic::Diagnostic;
+use crate::model::{ArcLength, Control, DIRECTIONS, Model, Passage, When};
+
+impl Plan {
+    /// An error for each `stop` and each `when` of the model that no motion can come to, with its place in the deck.
+    pub fn never_passed(&self, model: &Model) -> Vec<Diagnostic> {
+        let stop = match &model.analysis.control {
+            Control::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
+            _ => None,
+        };
+        let expected = model.expects.iter().filter_map(|expect| match &expect.when {
+            When::Passing(passage) => Some(passage),
+            _ => None,
+        });
+        let passages = stop.into_iter().chain(expected);
+        passages.filter_map(|passage| self.why_never(model, passage)).collect()
+    }
+
+    fn why_never(&self, model: &Model, passage: &Passage) -> Option<Diagnostic> {
+        let &Passage { node, dof, place: [start, end], .. } = passage;
+        let why = match self.nodes[node][dof] {
+            // What rides moves with its master, which the deck allows or not.
+            Why::Unknown | Why::Rides => return None,
+            Why::Held => "a support gives it",
+            Why::Nothing => "nothing acts on it",
+            Why::Still => "nothing sets it moving",
+            Why::Plane => "the scene is plane, and this is normal to it",
+        };
+        let message = format!("{} of `{}` never changes: {why}", DIRECTIONS[dof], model.nodes[node].label);
+        Some(Diagnostic::error(message).at(&(start..end)).hint("a passage wants a displacement that is an unknown"))
+    }
+}
