@@ -56,6 +56,8 @@ impl Cholesky {
         let symbolic = symbolic(triangle(&graph, &elimination, &position, |p, q| q <= p).as_ref());
         let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
         let symbolic = symbolic.map_err(|_| TooLarge { unknowns: graph.unknowns(), needed: bytes })?;
+        // Once more: the patterns have taken their part.
+        room(graph.unknowns(), symbolic.len_val())?;
         let par = match elimination.flops > WORTH_THREADS && threads > 1 {
             true => Par::rayon(threads),
             false => Par::Seq,

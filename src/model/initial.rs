@@ -127,12 +127,10 @@ impl<'d> Builder<'d> {
                 }
             }
         }
-        let (mut told, sure) = (None, self.sure);
+        let sure = self.sure;
         for spot in spots.iter().filter(|spot| sure && normals[spot.node] == Vec3::zeros()) {
-            if told.replace(spot.span) != Some(spot.span) {
-                let message = format!("no shell has a normal at `{}`", spot.name);
-                self.error_with::<()>(spot.span, message, "name shells or their edges");
-            }
+            let message = format!("no shell has a normal at `{}`", spot.name);
+            self.error_with::<()>(spot.span, message, "name shells or their edges");
         }
         normals.iter().map(|normal| normal.try_normalize(0.0).unwrap_or_default()).collect()
     }
