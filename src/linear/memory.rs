@@ -3,8 +3,9 @@
 
 use std::fmt;
 
-/// Bytes of a factor, its matrix and the updates of its fronts, at least, over those of the factor alone.
-const LEAST: f64 = 1.5;
+/// Bytes of a factor, its matrix and the updates of its fronts over those of the factor alone. Shells of 250,000 unknowns: 2.05,
+/// from 1250 MB of the process without 4 kB an element, over 529 MB.
+const LEAST: f64 = 2.0;
 
 /// A factor that does not fit into memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,15 +54,15 @@ mod tests {
     #[test]
     fn a_factor_beyond_all_memory_is_refused_in_words() {
         assert_eq!(room(12, 100), Ok(()));
-        // 12 TB; and more than addresses reach.
+        // 16 TB; and more than addresses reach.
         for nonzeros in [1_000_000_000_000, usize::MAX / 16] {
             let error = room(9_000_000, nonzeros).unwrap_err();
-            assert_eq!(error.needed, 12.0 * nonzeros as f64);
+            assert_eq!(error.needed, 16.0 * nonzeros as f64);
         }
         let said = room(9_000_000, 1_000_000_000_000).unwrap_err().to_string();
         assert_eq!(
             said,
-            "the matrix of 9000000 unknowns needs at least 12000.0 GB when factorised: more memory than there is"
+            "the matrix of 9000000 unknowns needs at least 16000.0 GB when factorised: more memory than there is"
         );
     }
 }
