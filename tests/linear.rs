@@ -17,8 +17,8 @@ fn shapes(random: &mut Random) -> Vec<Structure> {
         sheet(5, 6, 5),
         frame(3, 3, 3, 6),
         frame(1, 4, 5, 3),
-        Structure { sizes: vec![6, 2, 3], cliques: vec![] },
-        Structure { sizes: vec![], cliques: vec![] },
+        Structure { sizes: vec![6, 2, 3], cliques: vec![], multipliers: 0 },
+        Structure { sizes: vec![], cliques: vec![], multipliers: 0 },
     ];
     for groups in [2, 5, 17, 40] {
         shapes.push(tree(groups, random));
@@ -208,7 +208,7 @@ fn stiff_directions_do_not_spoil_the_soft_ones() {
 /// A block without a diagonal needs its rows exchanged.
 #[test]
 fn rows_are_exchanged_within_a_block() {
-    let structure = Structure { sizes: vec![6, 6], cliques: vec![vec![0, 1]] };
+    let structure = Structure { sizes: vec![6, 6], cliques: vec![vec![0, 1]], multipliers: 0 };
     let mut solver = Solver::new(&structure, Kind::Block, 1).unwrap();
     let matrix = DMatrix::from_fn(12, 12, |i, j| match ((i + 1) % 6 == j % 6, i / 6 == j / 6) {
         (true, true) => 2.0 + i as f64,
@@ -230,7 +230,7 @@ fn chains_go_to_blocks_and_large_frames_to_cholesky() {
     assert_eq!(Kind::choose(&chain(2, 6)), Kind::Block);
     assert_eq!(Kind::choose(&chain(2000, 6)), Kind::Block);
     assert_eq!(Kind::choose(&frame(10, 6, 6, 6)), Kind::Cholesky);
-    assert_eq!(Kind::choose(&Structure { sizes: vec![], cliques: vec![] }), Kind::Block);
+    assert_eq!(Kind::choose(&Structure { sizes: vec![], cliques: vec![], multipliers: 0 }), Kind::Block);
 }
 
 #[test]
@@ -287,7 +287,7 @@ fn large_sheets_and_frames_leave_no_residual() {
 #[test]
 fn blocks_lie_where_their_entries_do() {
     let structure =
-        Structure { sizes: vec![6, 6, 5, 6, 6, 3], cliques: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]] };
+        Structure { sizes: vec![6, 6, 5, 6, 6, 3], cliques: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]], multipliers: 0 };
     let solver = Solver::new(&structure, Kind::Cholesky, 1).unwrap();
     let first = [0, 6, 12, 17, 23, 29];
     let rows = |g: usize| std::array::from_fn(|i| (first[g] + i) as u32);

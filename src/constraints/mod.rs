@@ -1,3 +1,4 @@
-//! Nodes that follow other nodes.
+//! Nodes that follow other nodes, by elimination or by multipliers.
 
 pub mod attachment;
+pub mod joint;

@@ -25,7 +25,10 @@ pub struct Attachment {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
+    /// Elimination, and multipliers only where a node is attached a second time.
     Auto,
     /// The attached motions leave the unknowns.
     Elimination,
+    /// The motions of both stay unknown, and forces hold them together.
+    Multipliers,
 }

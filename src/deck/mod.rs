@@ -11,6 +11,7 @@ pub mod bodies;
 pub mod environment;
 pub mod expect;
 pub mod initial;
+pub mod joints;
 pub mod links;
 pub mod loads;
 pub mod materials;
@@ -70,6 +71,8 @@ pub struct Deck {
     pub attachments: Vec<At<Table<attachments::Attachment>>>,
     #[serde(default)]
     pub supports: Vec<At<Table<supports::Support>>>,
+    #[serde(default)]
+    pub joints: Vec<At<Table<joints::Joint>>>,
     #[serde(default)]
     pub links: Vec<At<Table<links::Link>>>,
     #[serde(default)]

@@ -63,7 +63,8 @@ impl Cholesky {
             false => Par::Seq,
         };
         let fronts = Fronts::new(&symbolic, &pattern, par != Par::Seq);
-        Ok(Cholesky {
+        let multipliers = graph.multipliers > 0;
+        let mut cholesky = Cholesky {
             ordering: elimination.name,
             flops: elimination.flops,
             values: vec![0.0; pattern.compute_nnz() + 1],
@@ -80,7 +81,11 @@ impl Cholesky {
             pattern,
             symbolic,
             par,
-        })
+        };
+        if multipliers {
+            cholesky.prepare_indefinite();
+        }
+        Ok(cholesky)
     }
 
     pub(super) fn slot(&self, row: usize, col: usize) -> Option<usize> {
@@ -113,10 +118,10 @@ impl Cholesky {
         self.values.len() - 1
     }
 
-    /// L Lᵀ first, always: an answer that depended on the matrices before could not be resumed bit for bit.
+    /// L Lᵀ first, always, but with multipliers: an answer that depended on the matrices before could not be resumed bit for bit.
     /// Allocates only on several threads, whose pool does.
     pub(super) fn factor(&mut self) -> Result<(), Singular> {
-        self.definite = self.fronts.factor(&self.values, &mut self.L);
+        self.definite = self.graph.multipliers == 0 && self.fronts.factor(&self.values, &mut self.L);
         if !self.definite {
             self.factor_indefinite()?;
         }

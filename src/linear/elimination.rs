@@ -31,11 +31,11 @@ pub(super) struct Elimination {
 
 impl Elimination {
     pub fn new(graph: &Graph) -> Self {
-        let degree = Self::fill(graph, minimum_degree(graph), "minimum degree", f64::INFINITY)
+        let degree = Self::fill(graph, late(graph, minimum_degree(graph)), "minimum degree", f64::INFINITY)
             .map(|fill| fill.postorder())
             .and_then(|order| Self::fill(graph, order, "minimum degree", f64::INFINITY));
         let limit = degree.as_ref().map_or(f64::INFINITY, |degree| degree.flops);
-        let natural = Self::fill(graph, (0..graph.groups()).collect(), "natural", limit);
+        let natural = Self::fill(graph, late(graph, (0..graph.groups()).collect()), "natural", limit);
         natural.or(degree).expect("without a limit there is a pattern")
     }
 
@@ -131,6 +131,27 @@ impl Elimination {
 }
 
 const NONE: usize = usize::MAX;
+
+/// The same order, but each multiplier right after the last group that it couples with.
+fn late(graph: &Graph, order: Vec<usize>) -> Vec<usize> {
+    if graph.multipliers == 0 {
+        return order;
+    }
+    let first = graph.groups() - graph.multipliers;
+    let mut waits: Vec<usize> = (first..graph.groups()).map(|g| graph.neighbours(g).len()).collect();
+    let mut late = Vec::with_capacity(order.len());
+    late.extend((first..graph.groups()).filter(|&g| waits[g - first] == 0));
+    for g in order.into_iter().filter(|&g| g < first) {
+        late.push(g);
+        for h in graph.neighbours(g).iter().map(|&h| h as usize).filter(|&h| h >= first) {
+            waits[h - first] -= 1;
+            if waits[h - first] == 0 {
+                late.push(h);
+            }
+        }
+    }
+    late
+}
 
 /// Approximate minimum degree (Amestoy, Davis, Duff 1996) on the graph of groups.
 fn minimum_degree(graph: &Graph) -> Vec<usize> {

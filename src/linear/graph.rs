@@ -11,6 +11,8 @@ pub(super) struct Graph {
     pub first: Vec<usize>,
     /// Group of each external row.
     pub group: Vec<u32>,
+    /// The last groups, so many, wait for their neighbours.
+    pub multipliers: usize,
     start: Vec<usize>,
     neighbours: Vec<u32>,
 }
@@ -41,7 +43,7 @@ impl Graph {
             start[g + 1] += start[g];
         }
         let neighbours = pairs.into_iter().map(|(_, h)| h).collect();
-        Graph { sizes, first, group, start, neighbours }
+        Graph { sizes, first, group, multipliers: structure.multipliers, start, neighbours }
     }
 
     pub fn groups(&self) -> usize {

@@ -31,6 +31,9 @@ pub struct Structure {
     pub sizes: Vec<usize>,
     /// Groups that couple pairwise, for instance the nodes of an element.
     pub cliques: Vec<Vec<usize>>,
+    /// The last so many groups hold multipliers, with next to nothing on their diagonal: each is eliminated after all that it
+    /// couples with. The matrix is then indefinite.
+    pub multipliers: usize,
 }
 
 /// A pivot vanished: the matrix is singular to working accuracy, or holds numbers that are not finite.

@@ -3,6 +3,7 @@
 use super::build::{Builder, Owner};
 use super::places::{Place, Reach, Spot};
 use super::{DIRECTIONS, Rider};
+use crate::deck::attachments::Method;
 use crate::diagnostic::{At, Diagnostic};
 use crate::math::Vec3;
 use crate::names::short;
@@ -31,8 +32,9 @@ impl<'d> Builder<'d> {
             {
                 self.error::<()>(&at.span, "`dofs` is empty, so nothing is attached");
             }
+            let method = attachment.method.as_ref().map(|method| method.value);
             if let Some((name, Some(beam))) = beam {
-                self.tie(name, beam, &spots, dofs);
+                self.tie(name, beam, &spots, dofs, method);
             }
             let Some(body) = body else { continue };
             let master = self.model.bodies[body].node;
@@ -43,21 +45,24 @@ impl<'d> Builder<'d> {
                     let hint = if spot.direct { "leave it out" } else { "it is a member of this set" };
                     self.error_with::<()>(spot.span, message, hint);
                 } else {
-                    self.attach(&spot, master, &body, dofs);
+                    self.attach(&spot, master, &body, dofs, method);
                 }
             }
         }
         self.cycles();
     }
 
-    fn attach(&mut self, spot: &Spot, master: usize, to: &str, dofs: [bool; 6]) {
-        if let Some((rider, _)) = self.rides.get(&spot.node) {
-            let first = self.model.riders[*rider].master;
-            let first = self.model.nodes[first].label.clone();
-            let message = format!("`{}` is attached twice: to `{first}` and to `{to}`", spot.name);
-            let hint = "that would need multipliers, which this version does not have";
-            let way = "a bushing link with a stiff frame can join the two bodies";
-            self.problems.push(Diagnostic::error(message).at(spot.span).hint(hint).hint(way));
+    /// By elimination what rides on nothing yet, by multipliers the rest, unless the deck says which.
+    fn attach(&mut self, spot: &Spot, master: usize, to: &str, dofs: [bool; 6], method: Option<Method>) {
+        let first = self.rides.get(&spot.node).map(|(rider, _)| self.model.riders[*rider].master);
+        if first == Some(master) {
+            self.error_with::<()>(spot.span, format!("`{}` is attached to `{to}` twice", spot.name), "once is enough");
+        } else if method == Some(Method::Multipliers) || first.is_some() && method != Some(Method::Elimination) {
+            self.join(spot, master, to, dofs);
+        } else if let Some(first) = first {
+            let first = &self.model.nodes[first].label;
+            let message = format!("`{}` is attached to `{first}`, so it cannot be eliminated again", spot.name);
+            self.error_with::<()>(spot.span, message, "leave out `method`, or write \"multipliers\"");
         } else {
             self.rides.insert(spot.node, (self.model.riders.len(), spot.span.clone()));
             self.model.riders.push(Rider { node: spot.node, master, dofs });
@@ -77,7 +82,7 @@ impl<'d> Builder<'d> {
     }
 
     /// Each node onto the nearest node of a beam; the beam's own stay.
-    fn tie(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>], dofs: [bool; 6]) {
+    fn tie(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>], dofs: [bool; 6], method: Option<Method>) {
         let own: HashSet<usize> = self.beam_nodes[beam].iter().copied().collect();
         // Along the axis in which the beam is longest, so that a search may stop where nothing nearer can come.
         let (low, high) = own.iter().fold((Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN)), |(low, high), &node| {
@@ -112,7 +117,7 @@ impl<'d> Builder<'d> {
                 far += usize::from(along > 0.5 + SAME);
                 farthest = farthest.max(along);
             }
-            self.attach(spot, master, &self.model.nodes[master].label.clone(), dofs);
+            self.attach(spot, master, &self.model.nodes[master].label.clone(), dofs, method);
         }
         // Of each name in the list the first node, and how many others.
         for of in between.chunk_by(|a, b| a.0.span == b.0.span) {

@@ -48,6 +48,7 @@ pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnost
     b.rigid_bodies();
     b.masses();
     b.links();
+    b.joints();
     b.attachments();
     b.sure = !b.unsure;
     b.supports();
@@ -105,6 +106,8 @@ pub(super) struct Builder<'d> {
     pub stiffnesses: HashMap<(usize, Option<usize>, bool), Option<usize>>,
     /// Directions held, by node and direction; who holds them, and whether they move.
     pub held: BTreeMap<(usize, usize), (super::Held, Span)>,
+    /// Per node that rides and is supported: the point that holds it.
+    pub ghosts: HashMap<usize, usize>,
     /// A part names something unknown, so what is connected to what is not known either.
     pub unsure: bool,
     /// Not so when all parts were read: a point that nothing touches is an error of its own.
@@ -143,6 +146,7 @@ impl<'d> Builder<'d> {
             shells: Vec::new(),
             links: Vec::new(),
             riders: Vec::new(),
+            joints: Vec::new(),
             held: Vec::new(),
             amplitudes: Vec::new(),
             loads: Vec::new(),
@@ -187,6 +191,7 @@ impl<'d> Builder<'d> {
             laws: Vec::new(),
             stiffnesses: HashMap::new(),
             held: BTreeMap::new(),
+            ghosts: HashMap::new(),
             unsure: deck.spoiled.iter().any(|entry| entry.table.as_ref().is_none_or(|table| *table == ROOT)),
             sure: true,
             used: HashSet::new(),

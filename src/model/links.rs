@@ -15,8 +15,8 @@ impl<'d> Builder<'d> {
             let owner = Owner { what: format!("link `{name}`"), span: &link.span };
             self.need(&owner, "name", &link.name);
             let rotations = link.bushing.is_some();
-            let from = self.end(&owner, "from", &link.from, &name, rotations);
-            let to = self.end(&owner, "to", &link.to, &name, rotations);
+            let from = self.end(&owner, "from", &link.from, &name, rotations, None);
+            let to = self.end(&owner, "to", &link.to, &name, rotations, None);
             let ends = from.zip(to).map(|(from, to)| [from, to]);
             let kind = if link.bushing.is_some() { self.bushing(link) } else { self.line(&owner, link, ends) };
             if let Some([from, to]) = ends
@@ -33,14 +33,16 @@ impl<'d> Builder<'d> {
         }
     }
 
-    /// The node at an end: a point's own, or a new one on a body or on the ground.
-    fn end(
+    /// The node at an end: a point's own, or a new one on a body or on the ground. `place`: where on a body, if not its centre,
+    /// when nothing is said.
+    pub fn end(
         &mut self,
         owner: &Owner<'d>,
         key: &str,
         end: &'d Maybe<Table<deck::End>>,
         name: &str,
         rotations: bool,
+        place: Option<Vec3>,
     ) -> Option<usize> {
         let end = self.need(owner, key, end)?;
         let label = format!("{name}.{key}");
@@ -55,6 +57,9 @@ impl<'d> Builder<'d> {
                 match &end.point {
                     Some(point) if vec3(point) != self.x(master) => self.rider(label, vec3(point), master, &point.span),
                     _ if self.is_spoiled(&end.span, "point") => return None,
+                    None if place.is_some_and(|place| place != self.x(master)) => {
+                        self.rider(label, place.unwrap_or_default(), master, &end.span)
+                    }
                     _ => master,
                 }
             }

@@ -10,6 +10,7 @@ mod check;
 mod expects;
 mod fold;
 mod initial;
+mod joints;
 mod links;
 mod loads;
 mod materials;
@@ -26,6 +27,7 @@ pub use build::{build, read};
 pub use meshes::Input;
 
 use crate::amplitude::Amplitude;
+use crate::constraints::joint::Row;
 use crate::elements::beam::Yielding;
 use crate::elements::link::Law;
 use crate::elements::pressure::Face;
@@ -54,6 +56,7 @@ pub struct Model {
     pub links: Vec<Link>,
     /// Nodes tied to other nodes, each at most once, in no particular order.
     pub riders: Vec<Rider>,
+    pub joints: Vec<Joint>,
     /// Degrees of freedom whose motion is given, each at most once, sorted by node and direction.
     pub held: Vec<Held>,
     pub amplitudes: Vec<Amplitude>,
@@ -341,6 +344,17 @@ pub struct Rider {
     pub master: usize,
     /// ux, uy, uz, rx, ry, rz: which are taken from the master.
     pub dofs: [bool; 6],
+}
+
+/// Two nodes held together by multipliers (57).
+#[derive(Debug, Clone)]
+pub struct Joint {
+    pub name: String,
+    /// Nodes at `from` and `to`: riders on a node or body, the node itself, or a held node for the ground.
+    pub ends: [usize; 2],
+    pub rows: Vec<Row>,
+    /// It holds a node that rides elsewhere to its support, whose reactions say what it carries.
+    pub supports: bool,
 }
 
 /// A direction of a node whose motion is given.

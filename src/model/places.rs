@@ -19,6 +19,7 @@ pub(super) enum Place {
     /// Of a shell, counted from 0.
     Edge(usize, usize),
     Link(usize),
+    Joint(usize),
     /// Of the mesh.
     Group(usize),
 }
@@ -67,7 +68,7 @@ impl<'d> Builder<'d> {
         }
     }
 
-    /// Takes a name for something; names of points, bodies, sets, beams, bars, shells and links are all different.
+    /// Takes a name for something; names of points, bodies, sets, beams, bars, shells, links and joints are all different.
     pub fn name(&mut self, name: &'d At<String>, place: Place) {
         if name.is_empty() {
             self.error::<()>(&name.span, "a name must not be empty");
@@ -76,7 +77,7 @@ impl<'d> Builder<'d> {
         } else if self.places.contains_key(name.as_str()) {
             let message = format!("the name `{}` is taken", name.value);
             let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
-            let rule = "points, bodies, sets, beams, bars, shells and links share one space of names";
+            let rule = "points, bodies, sets, beams, bars, shells, links and joints share one space of names";
             self.problems.push(diagnostic.hint(rule));
         } else {
             self.places.insert(&name.value, (place, &name.span));
@@ -109,6 +110,11 @@ impl<'d> Builder<'d> {
         for (index, link) in deck.links.iter().enumerate() {
             if let Some(name) = &link.name {
                 self.name(name, Place::Link(index));
+            }
+        }
+        for (index, joint) in deck.joints.iter().enumerate() {
+            if let Some(name) = &joint.name {
+                self.name(name, Place::Joint(index));
             }
         }
         self.rigid.body_of = rigid;
@@ -187,7 +193,7 @@ impl<'d> Builder<'d> {
             }
             return Some(place);
         }
-        let is_link = |place: &Place| matches!(place, Place::Link(_));
+        let is_link = |place: &Place| matches!(place, Place::Link(_) | Place::Joint(_));
         let known = self.places.iter().filter(|(_, (place, _))| !is_link(place)).map(|(name, _)| *name);
         let mut known: Vec<&str> = known.collect();
         known.sort_unstable();
@@ -241,7 +247,7 @@ impl<'d> Builder<'d> {
             let Some(place) = self.lookup(name) else { continue };
             let is_part = match place {
                 Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
-                place => matches!(place, Place::Bar(_) | Place::Link(_)),
+                place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_)),
             };
             if reach == Reach::Nodes && is_part {
                 let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
@@ -286,7 +292,7 @@ impl<'d> Builder<'d> {
                 Place::Edge(shell, edge) => {
                     nodes.extend(self.shell_edges.get(shell).and_then(|edges| edges.get(edge)).into_iter().flatten());
                 }
-                Place::Link(_) => {}
+                Place::Link(_) | Place::Joint(_) => {}
                 Place::Group(group) => nodes.extend(self.group_nodes(group)),
                 Place::Set(set) if std::mem::replace(&mut seen[set], true) => {}
                 Place::Set(set) => {
@@ -320,6 +326,7 @@ impl Place {
             Place::Shell(_) => "shell",
             Place::Edge(..) => "edge of a shell",
             Place::Link(_) => "link",
+            Place::Joint(_) => "joint",
             Place::Group(_) => "group of the mesh",
         }
     }

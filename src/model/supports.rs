@@ -1,12 +1,11 @@
 //! `[[supports]]`: directions whose motion is given.
 
-use super::attachments::directions;
 use super::build::{Builder, Owner};
 use super::places::{Reach, Spot};
 use super::{DIRECTIONS, Held, History, Kind, Motion};
 use crate::deck::supports as deck;
 use crate::deck::words::Table;
-use crate::diagnostic::{At, Diagnostic, Span};
+use crate::diagnostic::{At, Span};
 
 impl<'d> Builder<'d> {
     pub fn supports(&mut self) {
@@ -27,11 +26,17 @@ impl<'d> Builder<'d> {
                 if self.is_loose(spot, "this support") {
                     continue;
                 }
-                self.riding(spot, (0..6).filter(|&dof| fixed[dof] || motions.iter().any(|motion| motion.0 == dof)));
-                for dof in (0..6).filter(|&dof| fixed[dof]) {
+                let rides: [bool; 6] = std::array::from_fn(|dof| self.master(spot.node, dof).is_some());
+                let fixes = (0..6).filter(|&dof| fixed[dof]).map(|dof| (dof, None, spot.span));
+                let moves = motions.iter().map(|(dof, motion, place)| (*dof, Some(motion.clone()), *place));
+                let riding: Vec<_> = fixes.chain(moves).filter(|(dof, ..)| rides[*dof]).collect();
+                if !riding.is_empty() {
+                    self.hold_rider(spot, &riding);
+                }
+                for dof in (0..6).filter(|&dof| fixed[dof] && !rides[dof]) {
                     self.hold(spot, dof, None, spot.span);
                 }
-                for (dof, motion, place) in &motions {
+                for (dof, motion, place) in motions.iter().filter(|(dof, ..)| !rides[*dof]) {
                     if self.is_taken(spot.node, *dof) {
                         self.hold(spot, *dof, Some(motion.clone()), place);
                     } else if self.sure {
@@ -70,21 +75,6 @@ impl<'d> Builder<'d> {
             read.push((dof, Motion { amplitude, scale, history }, &motion.span));
         }
         read
-    }
-
-    /// Reports directions that a body already determines.
-    fn riding(&mut self, spot: &Spot, dofs: impl Iterator<Item = usize>) {
-        let taken: Vec<usize> = dofs.filter(|&dof| self.master(spot.node, dof).is_some()).collect();
-        let Some(master) = taken.first().and_then(|&dof| self.master(spot.node, dof)) else { return };
-        let master = &self.model.nodes[master].label;
-        let message = format!(
-            "`{}` is attached to `{master}` in {} and cannot be supported there too",
-            spot.name,
-            directions(taken)
-        );
-        let hint = "that would need multipliers, which this version does not have";
-        let way = format!("support `{master}`, or attach `{}` in fewer directions", spot.name);
-        self.problems.push(Diagnostic::error(message).at(spot.span).hint(hint).hint(way));
     }
 
     /// Two supports may fix the same direction; if one of them moves it, they contradict each other.

@@ -13,10 +13,11 @@ use crate::system::assembly::{self, Assembly, NONE};
 
 /// Decisions about a model. Constant over a run.
 pub struct Plan {
-    /// Row of each direction of each node in the system, or [`NONE`].
+    /// Row of each direction of each node in the system, or [`NONE`]; then the rows of the multipliers of each joint.
     pub rows: Vec<[u32; 6]>,
+    /// Directions and multipliers.
     pub unknowns: usize,
-    /// (node, direction) of each row.
+    /// (node, direction) of each row; the rows of multipliers come after them.
     pub directions: Vec<(usize, usize)>,
     pub structure: Structure,
     pub kind: Kind,
@@ -42,7 +43,8 @@ impl Plan {
         let mut rows = vec![[NONE; 6]; nodes.len()];
         let mut directions = Vec::new();
         let mut sizes = Vec::new();
-        let mut group = vec![usize::MAX; nodes.len()];
+        let all = nodes.len() + system.joints.len();
+        let mut group = vec![usize::MAX; all];
         for (node, place) in nodes.iter().enumerate() {
             let before = directions.len();
             for (dof, why) in place.iter().enumerate() {
@@ -56,10 +58,22 @@ impl Plan {
                 sizes.push(directions.len() - before);
             }
         }
-        let cliques = assembly::cliques(system, nodes.len())
+        let (primal, mut unknowns) = (sizes.len(), directions.len());
+        for (joint, group) in system.joints.iter().zip(&mut group[nodes.len()..]) {
+            let mut own = [NONE; 6];
+            own.iter_mut().zip(&joint.rows).zip(unknowns as u32..).for_each(|((own, _), row)| *own = row);
+            rows.push(own);
+            unknowns += joint.rows.len();
+            if !joint.rows.is_empty() {
+                *group = sizes.len();
+                sizes.push(joint.rows.len());
+            }
+        }
+        let multipliers = sizes.len() - primal;
+        let cliques = assembly::cliques(system, all)
             .into_iter()
             .map(|clique| clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect::<Vec<_>>());
-        let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect() };
+        let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect(), multipliers };
         let kind = choose::kind(&structure);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
@@ -71,7 +85,7 @@ impl Plan {
         };
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
         Plan {
-            unknowns: directions.len(),
+            unknowns,
             refresh_cost: choose::refresh_cost(kind),
             linear,
             rows,

@@ -1,6 +1,7 @@
 //! For each direction of each node: unknown, held, riding, or left out, and why.
 
 use super::Omission;
+use crate::constraints::joint::Row;
 use crate::elements::Block;
 use crate::math::Vec3;
 use crate::model::{Kind, Model};
@@ -104,6 +105,11 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
             acts[damping.node][dof] |= if dof < 3 { damping.translation > 0.0 } else { damping.rotation > 0.0 };
         }
     }
+    for joint in &system.joints {
+        for (node, G) in joint.rows.iter().flat_map(|row| joint.nodes.into_iter().zip(reach_of(row))) {
+            acts[node].iter_mut().zip(G).for_each(|(acts, reaches)| *acts |= reaches);
+        }
+    }
     // Per node: whether it has mass, and whether that has inertia.
     let mut massive = vec![None; n];
     system.inertias.iter().for_each(|i| massive[i.node] = Some(i.rotary));
@@ -121,6 +127,18 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         }
     }
     acts
+}
+
+/// Directions of the two nodes on which a row of a joint can ever act.
+fn reach_of(row: &Row) -> [[bool; 6]; 2] {
+    let moves = [true, true, true, false, false, false];
+    let turns = [false, false, false, true, true, true];
+    match row {
+        Row::Global { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
+        Row::Carried { .. } => [moves, [true; 6]],
+        Row::Square { .. } => [turns; 2],
+        Row::Distance { .. } => [moves; 2],
+    }
 }
 
 /// Directions on which an element acts: those of its matrix, but for links along a fixed direction only that one.

@@ -29,6 +29,8 @@ pub struct Path {
     rate: Vec<f64>,
     loading: Loading,
     forces: Forces,
+    /// Change of the gaps of joints with the time.
+    gaps: Vec<f64>,
     /// Motion of the last step, per node.
     last: Vec<Vec6>,
     /// Held directions move with the time.
@@ -76,6 +78,7 @@ impl Stepper<'_> {
                 ..Loading::default()
             },
             forces: self.forces.clone(),
+            gaps: vec![0.0; self.system.multipliers()],
             last: vec![Vec6::zeros(); self.increments.len()],
             driven: self.model.held.iter().any(|held| held.motion.is_some()),
             weight: self.length * self.length,
@@ -91,6 +94,7 @@ impl Stepper<'_> {
         self.rate(&mut path, state, to);
         self.solver.solve(&mut path.rate);
         self.solves += 1;
+        path.forces.multipliers.shift(&mut path.rate[self.plan.directions.len()..]);
         let idle = path.rate.iter().all(|&b| b == 0.0);
         let dt = match condition {
             _ if idle => None,
@@ -120,6 +124,8 @@ impl Stepper<'_> {
         if path.driven {
             let h = 1e-6 * self.model.analysis.end_time;
             path.rate.fill(0.0);
+            path.forces.multipliers.clone_from(&self.forces.multipliers);
+            path.gaps.fill(0.0);
             for side in [1.0, -1.0] {
                 self.give(state.time, to + side * h, 1.0);
                 self.move_trial(state, &load_steps::coefficients());
@@ -128,7 +134,11 @@ impl Stepper<'_> {
                 for (rate, &(node, dof)) in path.rate.iter_mut().zip(&self.plan.directions) {
                     *rate += side * path.forces.on_nodes[node][dof] / (2.0 * h);
                 }
+                let gaps = path.gaps.iter_mut().zip(&path.forces.multipliers.gaps);
+                gaps.for_each(|(rate, gap)| *rate += side * gap / (2.0 * h));
             }
+            path.forces.multipliers.gaps.copy_from_slice(&path.gaps);
+            path.forces.multipliers.ask(&mut path.rate[self.plan.directions.len()..]);
             return;
         }
         self.drive.rates(to, &mut path.loading);
@@ -136,6 +146,8 @@ impl Stepper<'_> {
         for (rate, &(node, dof)) in path.rate.iter_mut().zip(&self.plan.directions) {
             *rate = path.forces.on_nodes[node][dof];
         }
+        // Loads alone do not open joints.
+        path.rate[self.plan.directions.len()..].fill(0.0);
     }
 
     /// |D + a + δt b|² = ℓ²; `None`: no point of the line lies on the arc.
@@ -211,15 +223,17 @@ impl Stepper<'_> {
     }
 
     /// Goes back to a part of the motion that was found, to begin the search for a point on the way.
-    pub(super) fn shorten(&mut self, part: f64) {
+    pub(super) fn shorten(&mut self, state: &State, part: f64) {
         for &node in &self.movers {
             self.increments[node].q *= part;
         }
+        let values = self.forces.multipliers.values.iter_mut().zip(&state.multipliers);
+        values.for_each(|(value, start)| *value = start + part * (*value - start));
     }
 
     /// Where no equilibrium is found at the length of the step.
     pub(super) fn no_way(&mut self) -> Failure {
         self.gather(&Scale::default());
-        Failure::Bend { largest: failure::largest(self.model, &self.plan.directions, &self.r) }
+        Failure::Bend { largest: failure::largest(self.model, self.plan, &self.r) }
     }
 }

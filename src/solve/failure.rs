@@ -1,6 +1,8 @@
 //! Why a step could not be taken, in names.
 
 use crate::model::{DIRECTIONS, Model};
+use crate::plan::Plan;
+use crate::system::System;
 use std::fmt;
 
 /// A step that was given up.
@@ -10,6 +12,8 @@ pub enum Failure {
     Singular { label: String, direction: &'static str },
     /// Iterations did not contract.
     NotConverged { iterations: usize, largest: Vec<Largest> },
+    /// Joints could not be closed at the end of a step.
+    Apart { largest: Vec<Largest> },
     /// A step of the deck needs too many pieces.
     Crawling { pieces: usize, dt: f64 },
     /// No equilibrium lies on the arc of a step.
@@ -31,21 +35,47 @@ pub struct Largest {
 }
 
 impl Failure {
-    pub(super) fn singular(model: &Model, (node, dof): (usize, usize)) -> Failure {
-        Failure::Singular { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof] }
+    pub(super) fn singular(model: &Model, plan: &Plan, system: &System, row: usize) -> Failure {
+        let (label, direction) = name(model, plan, system, row);
+        Failure::Singular { label, direction }
     }
 }
 
-/// The five largest residuals by name.
-pub(super) fn largest(model: &Model, directions: &[(usize, usize)], residual: &[f64]) -> Vec<Largest> {
-    let mut order: Vec<usize> = (0..residual.len()).collect();
-    let size = |i: usize| if residual[i].is_nan() { f64::INFINITY } else { residual[i].abs() };
+/// Of an unknown: its node and direction, or its joint and what that holds.
+fn name(model: &Model, plan: &Plan, system: &System, row: usize) -> (String, &'static str) {
+    match plan.directions.get(row) {
+        Some(&(node, dof)) => (model.nodes[node].label.clone(), DIRECTIONS[dof]),
+        None => multiplier(model, system, row - plan.directions.len()),
+    }
+}
+
+fn multiplier(model: &Model, system: &System, number: usize) -> (String, &'static str) {
+    system.row(number).map_or((String::new(), ""), |(joint, row)| (model.joints[joint].name.clone(), row.word()))
+}
+
+/// The five largest by name.
+fn sorted(values: &[f64], name: impl Fn(usize) -> (String, &'static str)) -> Vec<Largest> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    let size = |i: usize| if values[i].is_nan() { f64::INFINITY } else { values[i].abs() };
     order.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
-    let name = |&i: &usize| {
-        let (node, dof) = directions[i];
-        Largest { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof], residual: residual[i] }
+    let largest = |&i: &usize| {
+        let (label, direction) = name(i);
+        Largest { label, direction, residual: values[i] }
     };
-    order.iter().take(5).map(name).collect()
+    order.iter().take(5).map(largest).collect()
+}
+
+/// The five largest residuals by name.
+pub(super) fn largest(model: &Model, plan: &Plan, residual: &[f64]) -> Vec<Largest> {
+    sorted(&residual[..plan.directions.len()], |row| {
+        let (node, dof) = plan.directions[row];
+        (model.nodes[node].label.clone(), DIRECTIONS[dof])
+    })
+}
+
+/// The five widest gaps of joints by name.
+pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<Largest> {
+    sorted(gaps, |number| multiplier(model, system, number))
 }
 
 impl fmt::Display for Failure {
@@ -61,6 +91,10 @@ impl fmt::Display for Failure {
             ),
             Failure::NotConverged { iterations, largest } => {
                 write!(f, "no convergence in {iterations} iterations; the largest unbalanced forces are")?;
+                list(f, largest)
+            }
+            Failure::Apart { largest } => {
+                write!(f, "joints cannot be closed at the end of the step; the widest gaps are")?;
                 list(f, largest)
             }
             Failure::Crawling { pieces, dt } => write!(

@@ -6,7 +6,7 @@ use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
-use super::{Frame, LinkState, Observer, SectionPoint, ShellState};
+use super::{Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
 use crate::linear::TooLarge;
 use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
@@ -65,6 +65,7 @@ pub struct Run<'a> {
     pub short_of_stop: Option<f64>,
     energy: Option<Energy>,
     links: Vec<LinkState>,
+    joints: Vec<JointState>,
     plastic_strains: Vec<f64>,
     sections: Vec<SectionPoint>,
     shells: Vec<ShellState>,
@@ -122,6 +123,8 @@ impl<'a> Run<'a> {
         };
         let length = extent(&at_rest);
         let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
+        // Of multipliers: gaps.
+        let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
         let mut stepper = Stepper {
             model,
             plan,
@@ -130,8 +133,8 @@ impl<'a> Run<'a> {
             solver,
             assembly,
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
-            search: (system.history > 0 && !along).then(|| Search::new(plan.unknowns, n)),
-            anderson: mixes.then(|| Anderson::new(weights)),
+            search: (system.history > 0 && !along).then(|| Search::new(plan.unknowns, n, system.multipliers())),
+            anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
@@ -147,6 +150,7 @@ impl<'a> Run<'a> {
             factorizations: 0,
             solves: 0,
             drift: 0.0,
+            violation: 0.0,
         };
         if along {
             stepper.solver.expect_indefinite();
@@ -161,6 +165,7 @@ impl<'a> Run<'a> {
             short_of_stop: None,
             energy: None,
             links: Vec::new(),
+            joints: Vec::new(),
             plastic_strains: Vec::new(),
             sections: Vec::new(),
             shells: Vec::new(),
@@ -170,6 +175,11 @@ impl<'a> Run<'a> {
     /// Largest departure from orthogonality that a truncated rotation update left to be mended.
     pub fn rotation_drift(&self) -> f64 {
         self.stepper.drift
+    }
+
+    /// Largest gap of a joint that the end of a step was left with, relative to the largest coordinate.
+    pub fn joint_violation(&self) -> f64 {
+        self.stepper.violation
     }
 
     /// Runs to the end, to a failure, or until stopped. The state it ends with is returned too.
@@ -307,12 +317,15 @@ impl<'a> Run<'a> {
             last,
             energy: self.energy.as_ref(),
             reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
+            joints: &self.joints,
             links: &self.links,
             plastic_strains: &self.plastic_strains,
             sections: &self.sections,
             shells: &self.shells,
             passed,
-            negative_pivots: self.stepper.path.as_ref().map(|_| self.stepper.solver.negatives()),
+            // Each multiplier brings one of its own.
+            negative_pivots: (self.stepper.path.as_ref())
+                .map(|_| self.stepper.solver.negatives().saturating_sub(self.stepper.system.multipliers())),
         };
         observer.see(&frame).map_err(Outcome::Io)?;
         self.observing += began.elapsed();
@@ -323,6 +336,7 @@ impl<'a> Run<'a> {
     fn derive(&mut self, state: &State, due: bool, drawn: bool, balance: Option<f64>) {
         self.energy = None;
         self.links.clear();
+        self.joints.clear();
         self.plastic_strains.clear();
         self.sections.clear();
         self.shells.clear();
@@ -338,6 +352,9 @@ impl<'a> Run<'a> {
         }
         if self.wanted.energy {
             self.energy = Some(system.energy(state, balance, self.stepper.plan.threads));
+        }
+        if self.wanted.reactions {
+            system.joint_states(&state.nodes, &state.multipliers, &mut self.joints);
         }
         if self.wanted.links {
             system.link_states(&state.nodes, &mut self.links);

@@ -4,6 +4,7 @@ mod accelerate;
 mod arc;
 mod convergence;
 mod failure;
+mod joints;
 mod march;
 mod path;
 mod refresh;
@@ -18,6 +19,7 @@ pub use march::{Counts, Outcome, Run, Wanted};
 use crate::model::Model;
 use crate::state::State;
 use crate::system::energy::Energy;
+pub use crate::system::JointState;
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 
 /// One accepted step, read-only.
@@ -42,6 +44,8 @@ pub struct Frame<'a> {
     pub energy: Option<&'a Energy>,
     /// In the order of [`Model::held`]; force or moment on the structure, global components. Empty unless `due` and wanted.
     pub reactions: &'a [f64],
+    /// In the order of [`Model::joints`]. Empty unless `due` and wanted.
+    pub joints: &'a [JointState],
     /// In the order of [`Model::links`]. Empty unless `due` and wanted.
     pub links: &'a [LinkState],
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Empty

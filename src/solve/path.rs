@@ -209,7 +209,8 @@ impl Run<'_> {
                 let failure = Failure::Idle { time: state.time };
                 return Err(Outcome::Failed { time: state.time, failure });
             }
-            self.stepper.accept(state, &load_steps::coefficients(), taken.to);
+            let accepted = self.stepper.accept(state, &load_steps::coefficients(), taken.to);
+            accepted.map_err(|failure| Outcome::Failed { time: state.time, failure })?;
             let ends = landed.is_some_and(|i| stations.0[i].ends)
                 || control.steps.is_some_and(|steps| self.counts.steps + 1 >= steps);
             let passed = landed.map_or(&[][..], |i| &stations.0[i].expects);
@@ -264,7 +265,7 @@ impl Stepper<'_> {
                     (to, Some(Condition::Motion { node, dof, by: station.value - from }))
                 }
             };
-            self.shorten(part);
+            self.shorten(state, part);
             let more = self.equilibrate(state, &scheme, to, condition)?;
             taken = Taken {
                 iterations: taken.iterations + more.iterations,

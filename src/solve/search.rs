@@ -17,6 +17,7 @@ pub struct Search {
     correction: Vec<f64>,
     /// Increments before it, per node.
     before: Vec<Vec6>,
+    multipliers: Vec<f64>,
     /// Work of the residual before it along it.
     at_start: f64,
     tries: usize,
@@ -25,11 +26,12 @@ pub struct Search {
 }
 
 impl Search {
-    pub fn new(unknowns: usize, nodes: usize) -> Self {
+    pub fn new(unknowns: usize, nodes: usize, multipliers: usize) -> Self {
         Search {
             residual: vec![0.0; unknowns],
             correction: vec![0.0; unknowns],
             before: vec![Vec6::zeros(); nodes],
+            multipliers: vec![0.0; multipliers],
             at_start: 0.0,
             tries: TRIES,
             size: f64::INFINITY,
@@ -50,9 +52,10 @@ impl Search {
 
     /// Before `correction` is added to the increments.
     #[inline(never)]
-    pub fn keep_correction(&mut self, correction: &[f64], increments: &[Increment]) {
+    pub fn keep_correction(&mut self, correction: &[f64], increments: &[Increment], multipliers: &[f64]) {
         self.correction.copy_from_slice(correction);
         self.before.iter_mut().zip(increments).for_each(|(before, increment)| *before = increment.q);
+        self.multipliers.copy_from_slice(multipliers);
         self.at_start = dot(&self.residual, correction);
         self.tries = 0;
     }
@@ -60,7 +63,13 @@ impl Search {
     /// With the residual after the correction: shortens it where that pulls back as hard as it pulled forth before. Returns
     /// whether it did.
     #[inline(never)]
-    pub fn shorten(&mut self, residual: &[f64], size: f64, increments: &mut [Increment]) -> bool {
+    pub fn shorten(
+        &mut self,
+        residual: &[f64],
+        size: f64,
+        increments: &mut [Increment],
+        multipliers: &mut [f64],
+    ) -> bool {
         // A correction that was no step downhill, or one that did its work.
         if self.tries >= TRIES || self.at_start <= 0.0 || size <= self.size {
             return false;
@@ -74,6 +83,9 @@ impl Search {
         let factor = if work < 0.0 { zero.clamp(0.1, 0.9) } else { 0.5 };
         for (increment, before) in increments.iter_mut().zip(&self.before) {
             increment.q = before + factor * (increment.q - before);
+        }
+        for (value, before) in multipliers.iter_mut().zip(&self.multipliers) {
+            *value = before + factor * (*value - before);
         }
         self.tries += 1;
         true

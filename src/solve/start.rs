@@ -3,7 +3,6 @@
 use super::failure::Failure;
 use super::step::Stepper;
 use crate::elements::Moduli;
-use crate::linear::Singular;
 use crate::math::{Vec3, Vec6, rotation};
 use crate::model::Kind;
 use crate::state::{Increment, Node, Now, State, Work};
@@ -41,6 +40,7 @@ impl Stepper<'_> {
             history: vec![0.0; self.system.history],
             jerk: vec![Vec6::zeros(); n],
             reactions: vec![0.0; self.model.held.len()],
+            multipliers: vec![0.0; self.system.multipliers()],
             work: Work::default(),
         };
         self.drive.loading(0.0, Side::After, &mut self.given[2]);
@@ -69,7 +69,13 @@ impl Stepper<'_> {
         self.follow(&mut state);
         self.system.residual(&state.now(), &self.given[2], &mut self.forces);
         if dynamic {
-            self.accelerate(&mut state)?;
+            let massless = self.factor_mass(&state.now())?;
+            if !self.system.joints.is_empty() {
+                self.start_on_joints(&mut state.nodes);
+                self.follow(&mut state);
+                self.system.residual(&state.now(), &self.given[2], &mut self.forces);
+            }
+            self.accelerate(&mut state, &massless);
             self.system.residual(&state.now(), &self.given[2], &mut self.forces);
         }
         for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
@@ -109,6 +115,7 @@ impl Stepper<'_> {
         if self.model.analysis.kind == Kind::Static {
             return Ok(());
         }
+        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
         let mut force = |side: Side| {
             self.drive.loading(state.time, side, &mut self.given[2]);
             self.system.residual(&state.now(), &self.given[2], &mut self.forces);
@@ -118,7 +125,8 @@ impl Stepper<'_> {
         for (after, (f, before)) in self.forces.on_nodes.iter_mut().zip(after.iter().zip(&before)) {
             *after = std::array::from_fn(|i| f[i] - before[i]);
         }
-        self.accelerate(state)?;
+        let massless = self.factor_mass(&state.now())?;
+        self.accelerate(state, &massless);
         self.refresh.rejected();
         if self.wants_forces {
             // Reactions jump too, by what the new accelerations leave of the new loads.
@@ -130,19 +138,33 @@ impl Stepper<'_> {
         Ok(())
     }
 
-    /// a ← a + M⁻¹ f. Directions without mass have no equation for their acceleration: it stays.
-    fn accelerate(&mut self, state: &mut State) -> Result<(), Failure> {
-        // Such a direction may lie aslant: a thin rod's axis, or that of an arm with a point mass at its end. It shows as a
-        // pivot that vanishes.
-        let mut massless: Vec<usize> = Vec::new();
-        while let Err(singular) = self.factor_mass(&state.now(), &massless) {
-            if massless.contains(&singular.row) {
-                return Err(Failure::singular(self.model, self.plan.directions[singular.row]));
-            }
-            massless.push(singular.row);
+    /// a ← a + M⁻¹ f with the mass matrix factorised. Directions without mass have no equation for their acceleration: it stays.
+    fn accelerate(&mut self, state: &mut State, massless: &[usize]) {
+        let directions = self.plan.directions.len();
+        for (r, &(node, dof)) in self.r.iter_mut().zip(&self.plan.directions) {
+            *r = self.forces.on_nodes[node][dof];
         }
+        massless.iter().for_each(|&row| self.r[row] = 0.0);
+        self.push(state);
+        // Rows that share what they carry leave a part of it to be found: once more is enough.
+        if !self.system.joints.is_empty() {
+            self.r[..directions].fill(0.0);
+            self.push(state);
+        }
+    }
+
+    /// Solves for accelerations with the forces in `r`, and with what the joints still ask for.
+    fn push(&mut self, state: &mut State) {
+        let directions = self.plan.directions.len();
+        let multipliers = &mut self.forces.multipliers;
+        multipliers.values.copy_from_slice(&state.multipliers);
+        self.system.gaps(&state.nodes, 2, &mut multipliers.gaps);
+        multipliers.ask(&mut self.r[directions..]);
         self.solver.solve(&mut self.r);
         self.solves += 1;
+        multipliers.shift(&mut self.r[directions..]);
+        multipliers.add(&self.r[directions..]);
+        state.multipliers.copy_from_slice(&multipliers.values);
         for (node, rows) in state.nodes.iter_mut().zip(&self.plan.rows) {
             for dof in 0..3 {
                 if rows[dof] != NONE {
@@ -154,31 +176,42 @@ impl Stepper<'_> {
             }
         }
         self.follow(state);
-        Ok(())
     }
 
-    /// Forms and factorises M, and puts the forces into `r`; what has no mass, on the diagonal or by `massless`, is held.
-    fn factor_mass(&mut self, now: &Now, massless: &[usize]) -> Result<(), Singular> {
+    /// Forms and factorises M; returns the rows without mass, whose accelerations stay.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where a mass matrix cannot be inverted.
+    fn factor_mass(&mut self, now: &Now) -> Result<Vec<usize>, Failure> {
         const HELD: f64 = 1e20; // times the mass: what is left of its acceleration is below rounding
-        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
-        self.assembly.tangent(self.system, now, &self.given[2], &self.forces, weights, &mut self.solver);
-        for row in 0..self.plan.unknowns {
-            let (node, dof) = self.plan.directions[row];
-            self.r[row] = self.forces.on_nodes[node][dof];
-            let Some(slot) = self.solver.slot(row, row) else { continue };
-            let diagonal = &mut self.solver.values()[slot];
-            if *diagonal == 0.0 {
-                *diagonal = 1.0;
-                self.r[row] = 0.0;
+        // A direction without mass may lie aslant: a thin rod's axis, or that of an arm with a point mass at its end. It shows
+        // as a pivot that vanishes.
+        let mut aslant: Vec<usize> = Vec::new();
+        loop {
+            let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+            self.assembly.tangent(self.system, now, &self.given[2], &mut self.forces, weights, &mut self.solver);
+            let mut massless = aslant.clone();
+            for row in 0..self.plan.directions.len() {
+                let Some(slot) = self.solver.slot(row, row) else { continue };
+                let diagonal = &mut self.solver.values()[slot];
+                if *diagonal == 0.0 {
+                    *diagonal = 1.0;
+                    massless.push(row);
+                }
+            }
+            for &row in &aslant {
+                if let Some(slot) = self.solver.slot(row, row) {
+                    self.solver.values()[slot] *= HELD;
+                }
+            }
+            self.factorizations += 1;
+            match self.solver.factor() {
+                Ok(()) => return Ok(massless),
+                Err(singular) if aslant.contains(&singular.row) => {
+                    return Err(Failure::singular(self.model, self.plan, self.system, singular.row));
+                }
+                Err(singular) => aslant.push(singular.row),
             }
         }
-        for &row in massless {
-            if let Some(slot) = self.solver.slot(row, row) {
-                self.solver.values()[slot] *= HELD;
-                self.r[row] = 0.0;
-            }
-        }
-        self.factorizations += 1;
-        self.solver.factor()
     }
 }

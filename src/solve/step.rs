@@ -9,6 +9,7 @@ use super::search::Search;
 use crate::elements::Moduli;
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
+use crate::materials::Spent;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, Vec6, bottom, join};
 use crate::model::{Kind, Model};
@@ -53,6 +54,8 @@ pub struct Stepper<'a> {
     pub solves: usize,
     /// Largest departure from orthogonality that a truncated rotation update left to be mended.
     pub drift: f64,
+    /// Largest gap of a joint that the end of a step was left with, relative to the largest coordinate.
+    pub violation: f64,
 }
 
 /// A step that was taken.
@@ -96,7 +99,7 @@ impl<'a> Stepper<'a> {
         let scheme = self.coefficients(to - state.time);
         self.predict(state, &scheme);
         let taken = self.equilibrate(state, &scheme, to, None)?;
-        self.accept(state, &scheme, to);
+        self.accept(state, &scheme, to)?;
         Ok(taken)
     }
 
@@ -132,7 +135,12 @@ impl<'a> Stepper<'a> {
                 continue;
             }
             if let Some(search) = &mut self.search
-                && search.shorten(&self.r, taken.residual, &mut self.increments)
+                && search.shorten(
+                    &self.r,
+                    taken.residual,
+                    &mut self.increments,
+                    &mut self.forces.multipliers.values,
+                )
             {
                 // What was mixed into it no longer tells what it did.
                 if let Some(anderson) = &mut self.anderson {
@@ -146,11 +154,13 @@ impl<'a> Stepper<'a> {
                 self.forget_corrections();
                 taken.refactorizations += 1;
             }
+            self.forces.multipliers.ask(&mut self.r[self.plan.directions.len()..]);
             if let Some(search) = &mut self.search {
                 search.keep_residual(&self.r, taken.residual);
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
+            self.forces.multipliers.shift(&mut self.r[self.plan.directions.len()..]);
             // Loads are curves over the time: a correction δt leaves them wrong by its square, whatever the motion.
             let mut curved = 0.0;
             if let Some(condition) = condition {
@@ -236,6 +246,7 @@ impl<'a> Stepper<'a> {
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
             self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
         }
+        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
     }
 
     /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.
@@ -281,14 +292,14 @@ impl<'a> Stepper<'a> {
         let mut moduli = self.refresh.moduli();
         loop {
             let weights = Weights { stiffness: true, rate, acceleration, moduli };
-            self.assembly.tangent(self.system, &now, &self.given[2], &self.forces, weights, &mut self.solver);
+            self.assembly.tangent(self.system, &now, &self.given[2], &mut self.forces, weights, &mut self.solver);
             self.factorizations += 1;
             match self.solver.factor() {
                 Ok(()) => return Ok(()),
                 Err(_) if moduli == Moduli::Algorithmic && self.system.history > 0 => moduli = Moduli::Elastic,
                 Err(singular) => {
                     self.refresh.rejected();
-                    return Err(Failure::singular(self.model, self.plan.directions[singular.row]));
+                    return Err(Failure::singular(self.model, self.plan, self.system, singular.row));
                 }
             }
         }
@@ -302,7 +313,7 @@ impl<'a> Stepper<'a> {
             anderson.mix(&mut self.r);
         }
         if let Some(search) = &mut self.search {
-            search.keep_correction(&self.r, &self.increments);
+            search.keep_correction(&self.r, &self.increments, &self.forces.multipliers.values);
         }
         plain
     }
@@ -342,6 +353,7 @@ impl<'a> Stepper<'a> {
                 correction.translation = f64::NAN;
             }
         }
+        self.forces.multipliers.add(&self.r[self.plan.directions.len()..]);
         (correction, motion)
     }
 
@@ -371,9 +383,12 @@ impl<'a> Stepper<'a> {
     }
 
     /// State at the end of the step, written once.
-    pub(super) fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) {
+    ///
+    /// # Errors
+    /// As for [`Stepper::close_joints`]; `state` is untouched.
+    pub(super) fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) -> Result<(), Failure> {
         let dt = to - state.time;
-        let mut damping_power = 0.0;
+        let (mut damping_power, mut spent) = (0.0, Spent::default());
         let remembers = self.system.history > 0;
         let dynamic = self.model.analysis.kind == Kind::Dynamic;
         if self.wants_forces || remembers {
@@ -395,8 +410,7 @@ impl<'a> Stepper<'a> {
         if remembers {
             // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a
             // straight line: at the end itself stiff parts are not at rest, and would yield from step to step.
-            state.work.material +=
-                self.system.remember(&now, 1.0 / scheme.instant, &mut self.history, self.plan.threads);
+            spent = self.system.remember(&now, 1.0 / scheme.instant, &mut self.history, self.plan.threads);
         }
         for &node in &self.movers {
             let start = &state.nodes[node];
@@ -411,13 +425,22 @@ impl<'a> Stepper<'a> {
             let start = &state.nodes[node];
             let end = &mut self.trial[node];
             end.advance(start, &self.increments[node], scheme.rotation);
-            if dynamic {
-                let change = join(&(end.a - start.a), &(end.alpha - start.alpha));
-                state.jerk[node] = change / dt;
-            }
         }
         for rider in &self.system.attachments {
             rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
+        }
+        if dynamic && !self.system.joints.is_empty() {
+            self.close_joints(state, scheme, dt)?;
+        }
+        if dynamic {
+            for &node in &self.movers {
+                let (start, end) = (&state.nodes[node], &self.trial[node]);
+                state.jerk[node] = join(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
+            }
+        }
+        state.work.material += spent;
+        for (old, value) in state.multipliers.iter_mut().zip(&self.forces.multipliers.values) {
+            *old += (value - *old) / scheme.instant;
         }
         if self.wants_forces {
             self.account(state, scheme, dt, damping_power);
@@ -427,6 +450,7 @@ impl<'a> Stepper<'a> {
         }
         std::mem::swap(&mut state.nodes, &mut self.trial);
         state.time = to;
+        Ok(())
     }
 
     /// Reactions and dissipation, taken where equilibrium is written and carried to the end of the step on a straight line
@@ -450,14 +474,14 @@ impl<'a> Stepper<'a> {
     fn not_converged(&mut self, taken: &Taken) -> Failure {
         self.refresh.rejected();
         self.gather(&Scale::default());
-        let largest = failure::largest(self.model, &self.plan.directions, &self.r);
+        let largest = failure::largest(self.model, self.plan, &self.r);
         Failure::NotConverged { iterations: taken.iterations, largest }
     }
 
     fn not_finite(&mut self) -> Failure {
         self.refresh.rejected();
         self.gather(&Scale::default());
-        Failure::NotFinite { largest: failure::largest(self.model, &self.plan.directions, &self.r) }
+        Failure::NotFinite { largest: failure::largest(self.model, self.plan, &self.r) }
     }
 }
 

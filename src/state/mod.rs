@@ -96,6 +96,8 @@ pub struct State {
     pub jerk: Vec<Vec6>,
     /// Forces on the held directions, in the order of the model's list.
     pub reactions: Vec<f64>,
+    /// Forces and moments in the joints, a number for each row.
+    pub multipliers: Vec<f64>,
     pub work: Work,
 }
 

@@ -1,6 +1,7 @@
 //! From the matrices of elements and masses to the matrix of the system, through slots computed once. What belongs to a
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
+use super::joints::{self, Diagonal};
 use super::tiles::Tiles;
 use super::{Forces, Loading, System, follower_stiffness};
 use crate::elements::{Block, Moduli};
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 /// A direction of a node that is no unknown.
 pub const NONE: u32 = u32::MAX;
 
-/// Row of each direction of each node in the system, or [`NONE`].
+/// Row of each direction of each node in the system, or [`NONE`]; after the nodes, the rows of the multipliers of each joint.
 pub type Rows = [[u32; 6]];
 
 /// Elements whose matrices are filled side by side before they are added, one after the other, in deck order.
@@ -27,6 +28,8 @@ pub struct Assembly {
     masses: Vec<Place>,
     /// Of the faces under pressures that follow, in their order.
     faces: Vec<Place>,
+    joints: Vec<Place>,
+    diagonals: Vec<Diagonal>,
     scatter: Scatter,
     tiles: Tiles,
     /// Per node: the nodes it ends up on by riding, or itself.
@@ -125,7 +128,8 @@ pub fn roots(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     roots
 }
 
-/// Nodes that are coupled with one another, one list per element or nodal matrix; riders replaced by their roots.
+/// Nodes that are coupled with one another, one list per element or nodal matrix; riders replaced by their roots. `nodes`
+/// counts the joints too: their multipliers are nodes after all others.
 pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let roots = roots(system, nodes);
     let mut cliques: Vec<Vec<usize>> = Vec::new();
@@ -141,6 +145,9 @@ pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     system.consistent_masses().iter().for_each(|m| add(&m.nodes));
     system.pressures.iter().flat_map(|load| &load.faces).for_each(|face| add(face.nodes()));
     (0..nodes).filter(|&n| roots[n] != [n]).for_each(|n| add(&[n]));
+    // The multipliers of a joint are one more of its nodes.
+    let joints = system.joints.iter().zip(nodes - system.joints.len()..);
+    joints.for_each(|(joint, own)| add(&[joint.nodes[0], joint.nodes[1], own]));
     cliques
 }
 
@@ -196,6 +203,16 @@ impl Assembly {
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
         let faces: Vec<Place> = faces.map(|face| local(&mut scatter, face.nodes(), 3)).collect();
 
+        let first = nodes - system.joints.len();
+        let joints = system.joints.iter().zip(first..);
+        let joints: Vec<Place> =
+            joints.map(|(joint, own)| local(&mut scatter, &[joint.nodes[0], joint.nodes[1], own], 6)).collect();
+        let diagonals = system.joints.iter().map(|joint| {
+            let moved = joint.nodes.iter().flat_map(|&n| roots[n].iter().copied());
+            Diagonal::new(moved, rows, solver)
+        });
+        let diagonals = diagonals.collect();
+
         // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
         system.inertias.iter().for_each(|i| has_own[i.node] = true);
@@ -223,6 +240,8 @@ impl Assembly {
             nodes: own,
             masses,
             faces,
+            joints,
+            diagonals,
             scatter,
             tiles,
             threads: system.splits(threads),
@@ -244,7 +263,7 @@ impl Assembly {
         system: &System,
         now: &Now,
         loading: &Loading,
-        forces: &Forces,
+        forces: &mut Forces,
         weights: Weights,
         solver: &mut Solver,
     ) {
@@ -259,6 +278,7 @@ impl Assembly {
         self.form_nodes(system, nodes, loading, forces, weights);
         self.add_nodes(values);
         self.add_masses(system, weights, values);
+        self.add_joints(system, nodes, forces, weights, values);
     }
 
     /// How each rider moves with its roots, by the chain of arms.
@@ -321,6 +341,24 @@ impl Assembly {
                 add_local(K, face.nodes(), place, (&self.scatter, &self.tiles, &self.roots, maps), carried, values);
             }
         }
+    }
+
+    /// Last, for they weigh what the others have added.
+    fn add_joints(
+        &mut self,
+        system: &System,
+        nodes: &[Node],
+        forces: &mut Forces,
+        weights: Weights,
+        values: &mut [f64],
+    ) {
+        let Scratch { carry: maps, carried, .. } = &mut self.scratch;
+        let own = nodes.len();
+        let add = |j: usize, K: &[f64], values: &mut [f64]| {
+            let [a, b] = system.joints[j].nodes;
+            add_local(K, &[a, b, own + j], &self.joints[j], (&self.scatter, &self.tiles, &self.roots, maps), carried, values);
+        };
+        joints::tangents(system, nodes, &self.diagonals, &mut forces.multipliers, weights.stiffness, values, add);
     }
 
     /// The matrices of nodes by themselves.

@@ -4,6 +4,7 @@ use super::inertia::{ConsistentMass, Lumped};
 use super::lanes::MOST_IN_GROUP;
 use super::results::Watched;
 use super::{Group, GroupKind, Inertia};
+use crate::constraints::joint::{Joint, Row};
 use crate::elements::Block;
 use crate::elements::bar::{self, YieldingBars};
 use crate::elements::beam::{Beams, Description, Yielding};
@@ -208,4 +209,14 @@ fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn Block>; 2], Vec<Watched>) {
         }
     }
     ([Box::new(Links(lines)), Box::new(Bushings(bushings))], watched)
+}
+
+/// Joints with the rows that say anything where all moves in a plane.
+pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
+    let joint = |joint: &model::Joint| {
+        let d = x[joint.ends[0]] - x[joint.ends[1]];
+        let says = |row: &&Row| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
+        Joint { nodes: joint.ends, rows: joint.rows.iter().filter(says).copied().collect() }
+    };
+    model.joints.iter().map(joint).collect()
 }

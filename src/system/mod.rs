@@ -5,6 +5,7 @@ pub mod assembly;
 mod build;
 pub mod energy;
 mod inertia;
+pub mod joints;
 mod lanes;
 mod motion;
 mod plane;
@@ -12,10 +13,12 @@ pub mod results;
 mod tiles;
 
 pub use inertia::Inertia;
+pub use joints::{JointState, Multipliers};
 pub use motion::{Drive, Prescribed, Side, between};
 pub use results::{LinkState, SectionPoint, ShellState};
 
 use crate::constraints::attachment::{self, Attachment};
+use crate::constraints::joint::Joint;
 use crate::elements::{Block, Force};
 use crate::materials::Spent;
 use crate::math::{Mat3, Vec3, rotation, skew};
@@ -63,6 +66,8 @@ pub struct System {
     consistent: Vec<ConsistentMass>,
     /// Masters before their riders.
     pub attachments: Vec<Attachment>,
+    /// In the order of the model's list, without the rows that a plane motion does not need.
+    pub joints: Vec<Joint>,
     watched: Vec<results::Watched>,
     loads: Vec<model::Load>,
     pressures: Vec<model::Pressure>,
@@ -92,6 +97,7 @@ pub struct Forces {
     pub on_nodes: Vec<Force>,
     /// The forces so handed over, in the order of [`System::attachments`].
     pub on_riders: Vec<Vec3>,
+    pub multipliers: Multipliers,
     lanes: Vec<Lane>,
     threads: bool,
 }
@@ -102,6 +108,7 @@ impl Forces {
         Forces {
             on_nodes: vec![[0.0; 6]; nodes],
             on_riders: vec![Vec3::zeros(); system.attachments.len()],
+            multipliers: Multipliers::new(system.multipliers()),
             lanes: lanes::lanes(system),
             threads: false,
         }
@@ -149,12 +156,14 @@ impl System {
         let (inertias, consistent) = build::masses(model, &x);
         let plane = plane::normal(model, &inertias, &attachments);
         let (groups, watched) = build::groups(model, &x, plane);
+        let joints = build::joints(model, &x, plane);
         Ok(System {
             history: groups.last().map_or(0, |group| group.history.end),
             groups,
             inertias,
             consistent,
             attachments,
+            joints,
             plane,
             watched,
             loads: model.loads.clone(),
@@ -195,6 +204,7 @@ impl System {
             crate::elements::subtract(&mut F[damping.node], 3, &(damping.rotation * node.omega));
         }
         self.add_loads(nodes, loading, F, &mut scale);
+        self.join(nodes, forces, &mut scale);
         self.lift(nodes, forces);
         scale
     }
@@ -317,6 +327,7 @@ impl System {
     pub fn is_linear(&self) -> bool {
         self.groups.iter().all(|g| g.block.is_linear())
             && self.attachments.is_empty()
+            && self.joints.is_empty()
             && self.loads.iter().all(|l| !l.follower)
             && self.pressures.is_empty()
     }

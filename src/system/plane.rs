@@ -60,5 +60,9 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     });
     // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
     let arms = attachments.iter().all(|a| !pairs_wrongly(&skew(&a.S0)) || a.S0 == Vec3::zeros());
-    beams && links && arms
+    let joints = model.joints.iter().all(|joint| {
+        let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
+        joint.rows.iter().all(|row| row.in_plane(n, &d).is_some())
+    });
+    beams && links && arms && joints
 }

@@ -5,19 +5,19 @@ use rdsolve::linear::{Solver, Structure};
 
 /// Elements of two nodes in a row.
 pub fn chain(groups: usize, size: usize) -> Structure {
-    Structure { sizes: vec![size; groups], cliques: (1..groups).map(|g| vec![g - 1, g]).collect() }
+    Structure { sizes: vec![size; groups], cliques: (1..groups).map(|g| vec![g - 1, g]).collect(), multipliers: 0 }
 }
 
 /// Elements of three nodes in a row, numbered end, middle, end, middle, end.
 pub fn quadratic_chain(elements: usize, size: usize) -> Structure {
     let cliques = (0..elements).map(|e| vec![2 * e, 2 * e + 1, 2 * e + 2]).collect();
-    Structure { sizes: vec![size; 2 * elements + 1], cliques }
+    Structure { sizes: vec![size; 2 * elements + 1], cliques, multipliers: 0 }
 }
 
 /// Each node hangs on a random earlier one.
 pub fn tree(groups: usize, random: &mut Random) -> Structure {
     let sizes = (0..groups).map(|_| 1 + random.below(6)).collect();
-    Structure { sizes, cliques: (1..groups).map(|g| vec![g, random.below(g)]).collect() }
+    Structure { sizes, cliques: (1..groups).map(|g| vec![g, random.below(g)]).collect(), multipliers: 0 }
 }
 
 /// A sheet of four-node elements.
@@ -26,7 +26,7 @@ pub fn sheet(nx: usize, ny: usize, size: usize) -> Structure {
     let cliques = (1..nx)
         .flat_map(|i| (1..ny).map(move |j| vec![node(i - 1, j - 1), node(i, j - 1), node(i, j), node(i - 1, j)]))
         .collect();
-    Structure { sizes: vec![size; nx * ny], cliques }
+    Structure { sizes: vec![size; nx * ny], cliques, multipliers: 0 }
 }
 
 /// A space frame of one beam per member: storeys of nx × ny columns.
@@ -43,14 +43,14 @@ pub fn frame(storeys: usize, nx: usize, ny: usize, size: usize) -> Structure {
             }
         }
     }
-    Structure { sizes: vec![size; storeys * nx * ny], cliques }
+    Structure { sizes: vec![size; storeys * nx * ny], cliques, multipliers: 0 }
 }
 
 /// Random cliques of up to five groups of mixed sizes; some groups may stand alone.
 pub fn cliques(groups: usize, random: &mut Random) -> Structure {
     let sizes = (0..groups).map(|_| 1 + random.below(6)).collect();
     let clique = |random: &mut Random| (0..2 + random.below(4)).map(|_| random.below(groups)).collect();
-    Structure { sizes, cliques: (0..groups).map(|_| clique(random)).collect() }
+    Structure { sizes, cliques: (0..groups).map(|_| clique(random)).collect(), multipliers: 0 }
 }
 
 /// SplitMix64.

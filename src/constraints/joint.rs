@@ -1,0 +1,169 @@
+//! Two nodes held to one another by multipliers (57): what elimination cannot do, because a node already rides elsewhere,
+//! is held, or closes a loop.
+//!
+//! A joint is a list of rows, each one equation c(x, R) = 0 between the positions of its nodes. With a multiplier λ it pulls by
+//! Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it holds. Its derivative is K = λ ∂²c, spatial spins like everywhere.
+
+use crate::math::{Mat3, Vec3, Vec6, join, skew};
+use crate::state::Node;
+
+/// Directions of a multiplier's node: a joint has at most so many rows.
+pub const MOST_ROWS: usize = 6;
+
+/// A joint of two nodes, the first as seen from the second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    pub nodes: [usize; 2],
+    pub rows: Vec<Row>,
+}
+
+/// One equation. Vectors are unit vectors at t = 0, carried by the node they belong to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Row {
+    /// Along a global axis the nodes stay as they were: (x_a − x_b)·e = `at`.
+    Global { axis: usize, at: f64 },
+    /// Along a direction of the second node they do: (x_a − x_b)·R_b e = `at`.
+    Carried { e: Vec3, at: f64 },
+    /// A direction of the first node stays square to one of the second: R_a p · R_b s = 0.
+    Square { p: Vec3, s: Vec3 },
+    /// The distance of the nodes stays: |x_a − x_b| = `length` > 0.
+    Distance { length: f64 },
+}
+
+impl Row {
+    /// c, ċ and c̈.
+    pub fn gap(&self, a: &Node, b: &Node) -> [f64; 3] {
+        let (d, v, w) = (a.x - b.x, a.v - b.v, a.a - b.a);
+        match self {
+            Row::Global { axis, at } => [d[*axis] - at, v[*axis], w[*axis]],
+            Row::Carried { e, at } => {
+                let [e, de, dde] = carried(b, e);
+                [d.dot(&e) - at, v.dot(&e) + d.dot(&de), w.dot(&e) + 2.0 * v.dot(&de) + d.dot(&dde)]
+            }
+            Row::Square { p, s } => {
+                let ([p, dp, ddp], [s, ds, dds]) = (carried(a, p), carried(b, s));
+                [p.dot(&s), dp.dot(&s) + p.dot(&ds), ddp.dot(&s) + 2.0 * dp.dot(&ds) + p.dot(&dds)]
+            }
+            Row::Distance { length } => {
+                let now = d.norm();
+                let u = d / now;
+                let rate = u.dot(&v);
+                [now - length, rate, u.dot(&w) + (v.norm_squared() - rate * rate) / now]
+            }
+        }
+    }
+
+    /// ∂c/∂(x, θ) of the two nodes.
+    pub fn gradient(&self, a: &Node, b: &Node) -> [Vec6; 2] {
+        let zero = Vec3::zeros();
+        let d = a.x - b.x;
+        match self {
+            Row::Global { axis, .. } => {
+                let e = Vec3::ith(*axis, 1.0);
+                [join(&e, &zero), join(&-e, &zero)]
+            }
+            Row::Carried { e, .. } => {
+                let e = b.R() * e;
+                [join(&e, &zero), join(&-e, &e.cross(&d))]
+            }
+            Row::Square { p, s } => {
+                let turn = (a.R() * p).cross(&(b.R() * s));
+                [join(&zero, &turn), join(&zero, &-turn)]
+            }
+            Row::Distance { .. } => {
+                let u = d.normalize();
+                [join(&u, &zero), join(&-u, &zero)]
+            }
+        }
+    }
+
+    /// Calls `add(row, column, k)` for the 3×3 blocks of ∂(Gᵀλ)/∂(x, θ); rows and columns count x_a, θ_a, x_b, θ_b.
+    pub fn stiffness(&self, a: &Node, b: &Node, lambda: f64, mut add: impl FnMut(usize, usize, Mat3)) {
+        let d = a.x - b.x;
+        match self {
+            Row::Global { .. } => {}
+            Row::Carried { e, .. } => {
+                let e = skew(&(b.R() * e)) * lambda;
+                add(0, 3, -e);
+                add(2, 3, e);
+                add(3, 0, e);
+                add(3, 2, -e);
+                add(3, 3, skew(&d) * e);
+            }
+            Row::Square { p, s } => {
+                let (p, s) = (skew(&(a.R() * p)), skew(&(b.R() * s)));
+                let (sp, ps) = (s * p * lambda, p * s * lambda);
+                add(1, 1, sp);
+                add(1, 3, -ps);
+                add(3, 1, -sp);
+                add(3, 3, ps);
+            }
+            Row::Distance { .. } => {
+                let now = d.norm();
+                let u = d / now;
+                let k = (Mat3::identity() - u * u.transpose()) * (lambda / now);
+                for (i, j, sign) in [(0, 0, 1.0), (0, 2, -1.0), (2, 0, -1.0), (2, 2, 1.0)] {
+                    add(i, j, k * sign);
+                }
+            }
+        }
+    }
+
+    /// Its multiplier is a moment, its gap an angle; otherwise they are a force and a length.
+    pub fn turns(&self) -> bool {
+        matches!(self, Row::Square { .. })
+    }
+
+    /// Where all moves in the plane normal to a global axis: whether the row says anything there. `None`: it would push out of
+    /// that plane.
+    pub fn in_plane(&self, normal: usize, d: &Vec3) -> Option<bool> {
+        const SMALL: f64 = 1e-12; // what rounding leaves of a zero
+        let along = |v: &Vec3| v[normal].abs() > 1.0 - SMALL;
+        let across = |v: &Vec3| v[normal].abs() <= SMALL * v.amax();
+        match self {
+            Row::Global { axis, .. } => Some(*axis != normal),
+            Row::Carried { e, .. } if along(e) => Some(false),
+            Row::Carried { e, .. } => (across(e) && across(d)).then_some(true),
+            Row::Square { p, s } if along(p) || along(s) => Some(false),
+            Row::Square { p, s } => (across(p) && across(s)).then_some(true),
+            Row::Distance { .. } => across(d).then_some(true),
+        }
+    }
+
+    /// What it holds, in a word.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Row::Global { axis, .. } => ["ux", "uy", "uz"][*axis],
+            Row::Carried { .. } => "sideways",
+            Row::Square { .. } => "turn",
+            Row::Distance { .. } => "distance",
+        }
+    }
+}
+
+/// A direction of a node with its first two derivatives in time.
+fn carried(node: &Node, e: &Vec3) -> [Vec3; 3] {
+    let e = node.R() * e;
+    let de = node.omega.cross(&e);
+    [e, de, node.alpha.cross(&e) + node.omega.cross(&de)]
+}
+
+/// Rows that keep the nodes together in global directions where they meet, as [`super::attachment`] does.
+pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = Row> {
+    (0..3).filter(move |&axis| dofs[axis]).map(move |axis| Row::Global { axis, at: d[axis] })
+}
+
+/// Rows that keep the nodes from turning against each other about some of the axes of the second: with one axis free a hinge,
+/// with two a universal joint whose cross is square at t = 0. The free axes turn with the nodes.
+pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<Row> {
+    let e = |i: usize| axes.column(i % 3).into_owned();
+    let square = |i: usize, j: usize| Row::Square { p: e(i), s: e(j) };
+    let held: Vec<usize> = (0..3).filter(|&i| dofs[i]).collect();
+    match held.as_slice() {
+        [k] => vec![square(k + 1, k + 2)],
+        // The free axis of the first stays square to the other two of the second.
+        [i, j] => vec![square(3 - i - j, *i), square(3 - i - j, *j)],
+        [] => Vec::new(),
+        _ => vec![square(0, 1), square(1, 2), square(2, 0)],
+    }
+}

@@ -1,0 +1,221 @@
+//! Joints in the equation of motion: their forces, their gaps, their part of the matrix (57). With f the residual without
+//! them the iteration solves
+//!   [K + GᵀsG  Gᵀs ] [δq]   [ f − Gᵀλ ]
+//!   [sG        −ε s] [δμ] = [−s(1+ε)c ],   δλ = s (δμ − c),
+//! which is Newton's equation for f = Gᵀλ, c = 0 with the penalty s for a unit of λ and, which changes nothing but the
+//! path of elimination, with sGᵀ times the second equation added to the first: pivots then have no zeros. O. A. Bauchau,
+//! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Rows that say the same twice share what they carry by
+//! least norm: ε decides, and leaves a fraction ε of a gap to the next iteration.
+
+use super::{Forces, Scale, System};
+use crate::constraints::joint::{Joint, MOST_ROWS, Row};
+use crate::linear::Solver;
+use crate::math::Vec3;
+use crate::state::Node;
+
+/// ε: a repeated row is felt as 1e-16/ε of a length, and a gap shrinks by ε in an iteration.
+const SHARED: f64 = 1e-7;
+
+/// Directions of a local matrix: two nodes, and the joint's multipliers as a third.
+pub(super) const WIDTH: usize = 6 + 6 + MOST_ROWS;
+
+/// What joints carry, a number for each row of all joints.
+#[derive(Debug, Clone, Default)]
+pub struct Multipliers {
+    /// λ: forces and moments. Written by the iteration.
+    pub values: Vec<f64>,
+    /// c: how far the joints gape. Written by [`System::residual`].
+    pub gaps: Vec<f64>,
+    /// s. Written by the tangent.
+    penalties: Vec<f64>,
+}
+
+impl Multipliers {
+    pub fn new(rows: usize) -> Self {
+        Multipliers { values: vec![0.0; rows], gaps: vec![0.0; rows], penalties: vec![0.0; rows] }
+    }
+
+    /// The right-hand side of the second equation.
+    #[inline]
+    pub fn ask(&self, tail: &mut [f64]) {
+        for ((r, s), c) in tail.iter_mut().zip(&self.penalties).zip(&self.gaps) {
+            *r = -s * (1.0 + SHARED) * c;
+        }
+    }
+
+    /// From δμ to δλ/s.
+    #[inline]
+    pub fn shift(&self, tail: &mut [f64]) {
+        tail.iter_mut().zip(&self.gaps).for_each(|(r, c)| *r -= c);
+    }
+
+    /// λ ← λ + s times what [`Multipliers::shift`] has left.
+    #[inline]
+    pub fn add(&mut self, tail: &[f64]) {
+        for ((value, s), r) in self.values.iter_mut().zip(&self.penalties).zip(tail) {
+            *value += s * r;
+        }
+    }
+}
+
+/// Force and moment that a joint exerts on its first node, global components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointState {
+    pub f: Vec3,
+    pub m: Vec3,
+}
+
+impl System {
+    /// Rows of all joints.
+    pub fn multipliers(&self) -> usize {
+        self.joints.iter().map(|joint| joint.rows.len()).sum()
+    }
+
+    /// Each joint with the number of its first row.
+    fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
+        self.joints.iter().scan(0, |next, joint| {
+            let first = *next;
+            *next += joint.rows.len();
+            Some((joint, first))
+        })
+    }
+
+    /// Subtracts Gᵀλ and notes the gaps.
+    pub(super) fn join(&self, nodes: &[Node], forces: &mut Forces, scale: &mut Scale) {
+        let Forces { multipliers, on_nodes: F, .. } = forces;
+        for (joint, first) in self.numbered() {
+            let [a, b] = joint.nodes.map(|n| &nodes[n]);
+            for (k, row) in joint.rows.iter().enumerate() {
+                multipliers.gaps[first + k] = row.gap(a, b)[0];
+                let lambda = multipliers.values[first + k];
+                for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
+                    let pull = lambda * G;
+                    scale.meet(pull.as_ref());
+                    F[node].iter_mut().zip(&pull).for_each(|(f, pull)| *f -= pull);
+                }
+            }
+        }
+    }
+
+    /// Writes the gaps (0) of the joints, or the first or second derivative in time.
+    pub fn gaps(&self, nodes: &[Node], derivative: usize, gaps: &mut [f64]) {
+        for (joint, first) in self.numbered() {
+            let [a, b] = joint.nodes.map(|n| &nodes[n]);
+            for (k, row) in joint.rows.iter().enumerate() {
+                gaps[first + k] = row.gap(a, b)[derivative];
+            }
+        }
+    }
+
+    /// The largest gap over what it is to be measured by: positions of size `reach`, angles of 1.
+    pub fn largest_gap(&self, gaps: &[f64], reach: f64) -> f64 {
+        let rows = self.joints.iter().flat_map(|joint| &joint.rows);
+        let relative = |(row, gap): (&Row, &f64)| if row.turns() { gap.abs() } else { gap.abs() / reach };
+        rows.zip(gaps).map(relative).fold(0.0, |largest, gap| if gap > largest || gap.is_nan() { gap } else { largest })
+    }
+
+    /// The joint and the row of a multiplier.
+    pub fn row(&self, multiplier: usize) -> Option<(usize, &Row)> {
+        let of = |(j, (joint, first)): (usize, (&_, usize))| {
+            let joint: &Joint = joint;
+            (first + joint.rows.len() > multiplier).then(|| (j, first))
+        };
+        let (j, first) = self.numbered().enumerate().find_map(of)?;
+        Some((j, &self.joints[j].rows[multiplier - first]))
+    }
+
+    /// What joints do to their first nodes, in the order of the model's list.
+    pub fn joint_states(&self, nodes: &[Node], values: &[f64], out: &mut Vec<JointState>) {
+        out.clear();
+        out.extend(self.numbered().map(|(joint, first)| {
+            let [a, b] = joint.nodes.map(|n| &nodes[n]);
+            let (mut f, mut m) = (Vec3::zeros(), Vec3::zeros());
+            for (row, lambda) in joint.rows.iter().zip(&values[first..]) {
+                let [G, _] = row.gradient(a, b);
+                f -= *lambda * crate::math::top(&G);
+                m -= *lambda * crate::math::bottom(&G);
+            }
+            JointState { f, m }
+        }));
+    }
+}
+
+/// The diagonal of the matrix where a joint's nodes move: per node that moves, translations and rotations.
+pub(super) struct Diagonal(Vec<[Vec<u32>; 2]>);
+
+impl Diagonal {
+    /// `roots`: the nodes that the joint's nodes move with.
+    pub fn new(roots: impl Iterator<Item = usize>, rows: &super::assembly::Rows, solver: &Solver) -> Self {
+        let slots = |rows: &[u32]| {
+            let slot = |&row: &u32| solver.slot(row as usize, row as usize).map(|slot| slot as u32);
+            rows.iter().filter(|&&row| row != super::assembly::NONE).filter_map(slot).collect()
+        };
+        Diagonal(roots.map(|root| [slots(&rows[root][..3]), slots(&rows[root][3..])]).collect())
+    }
+
+    /// The stiffness of the side that gives way more easily; none where no side resists.
+    fn stiffness(&self, turns: bool, values: &[f64]) -> Option<f64> {
+        let largest = |slots: &Vec<u32>| slots.iter().map(|&slot| values[slot as usize].abs()).fold(0.0, f64::max);
+        let sides = self.0.iter().map(|node| largest(&node[usize::from(turns)])).filter(|&k| k > 0.0);
+        sides.min_by(f64::total_cmp)
+    }
+}
+
+/// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
+/// `stiffness`: with the derivative of its forces.
+pub(super) fn tangents(
+    system: &System,
+    nodes: &[Node],
+    diagonals: &[Diagonal],
+    multipliers: &mut Multipliers,
+    stiffness: bool,
+    values: &mut [f64],
+    mut add: impl FnMut(usize, &[f64], &mut [f64]),
+) {
+    // The matrix at hand, before any joint has added to it.
+    let mut sides = [0.0f64; 2];
+    for diagonal in diagonals {
+        for turns in [false, true] {
+            let side = &mut sides[usize::from(turns)];
+            *side = side.max(diagonal.stiffness(turns, values).unwrap_or(0.0));
+        }
+    }
+    let mut first = 0;
+    for (joint, diagonal) in system.joints.iter().zip(diagonals) {
+        for (k, row) in joint.rows.iter().enumerate() {
+            let own = diagonal.stiffness(row.turns(), values).unwrap_or(sides[usize::from(row.turns())]);
+            multipliers.penalties[first + k] = if own > 0.0 && own.is_finite() { own } else { 1.0 };
+        }
+        first += joint.rows.len();
+    }
+    let mut K = [0.0; WIDTH * WIDTH];
+    let mut first = 0;
+    for (j, joint) in system.joints.iter().enumerate() {
+        K.fill(0.0);
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        for (k, row) in joint.rows.iter().enumerate() {
+            let (s, lambda) = (multipliers.penalties[first + k], multipliers.values[first + k]);
+            if stiffness {
+                row.stiffness(a, b, lambda, |i, j, block| {
+                    for r in 0..3 {
+                        for c in 0..3 {
+                            K[(3 * i + r) * WIDTH + 3 * j + c] += block[(r, c)];
+                        }
+                    }
+                });
+            }
+            let [Ga, Gb] = row.gradient(a, b);
+            let G: [f64; 12] = std::array::from_fn(|i| if i < 6 { Ga[i] } else { Gb[i - 6] });
+            for i in 0..12 {
+                for j in 0..12 {
+                    K[i * WIDTH + j] += s * G[i] * G[j];
+                }
+                K[i * WIDTH + 12 + k] = s * G[i];
+                K[(12 + k) * WIDTH + i] = s * G[i];
+            }
+            K[(12 + k) * (WIDTH + 1)] = -SHARED * s;
+        }
+        add(j, &K, values);
+        first += joint.rows.len();
+    }
+}
