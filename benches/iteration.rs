@@ -91,7 +91,7 @@ fn run(model: &Model) -> (f64, State) {
 }
 
 /// Least seconds of one call over half a second of calls.
-fn least<T>(subject: &mut T, prepare: impl Fn(&mut T), call: impl Fn(&mut T)) -> f64 {
+fn least<T>(subject: &mut T, mut prepare: impl FnMut(&mut T), mut call: impl FnMut(&mut T)) -> f64 {
     let (began, mut least) = (Instant::now(), f64::INFINITY);
     while least.is_infinite() || began.elapsed().as_secs_f64() < 0.5 {
         prepare(subject);
@@ -122,12 +122,12 @@ fn measure(name: &str, mut model: Model) {
     let tangent = least(
         &mut (&mut assembly, &mut solver),
         |_| (),
-        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &forces, weights, solver),
+        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &mut forces, weights, solver),
     );
     // A factorisation overwrites the matrix.
     let factor = least(
         &mut (&mut assembly, &mut solver),
-        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &forces, weights, solver),
+        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &mut forces, weights, solver),
         |(_, solver)| solver.factor().expect("a regular matrix"),
     );
     let solve =

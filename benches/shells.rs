@@ -92,7 +92,7 @@ fn moved(model: &Model) -> Vec<Node> {
 }
 
 /// Least seconds of one call over some seconds of calls.
-fn least<T>(subject: &mut T, prepare: impl Fn(&mut T), call: impl Fn(&mut T)) -> f64 {
+fn least<T>(subject: &mut T, mut prepare: impl FnMut(&mut T), mut call: impl FnMut(&mut T)) -> f64 {
     let (began, mut least, mut calls) = (Instant::now(), f64::INFINITY, 0);
     while calls < 3 || began.elapsed().as_secs_f64() < 1.0 {
         prepare(subject);
@@ -134,11 +134,11 @@ fn measure(name: &str, text: String, threads: usize) {
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&now, &loading, f)));
     let both = &mut (&mut assembly, &mut solver);
-    let tangent = least(both, |_| (), |(a, s)| a.tangent(&system, &now, &loading, &forces, weights, s));
+    let tangent = least(both, |_| (), |(a, s)| a.tangent(&system, &now, &loading, &mut forces, weights, s));
     // A factorisation overwrites the matrix.
     let fill = |(a, s): &mut (&mut _, &mut _)| {
         let a: &mut rdsolve::system::assembly::Assembly = a;
-        a.tangent(&system, &now, &loading, &forces, weights, s)
+        a.tangent(&system, &now, &loading, &mut forces, weights, s)
     };
     let factor = least(both, fill, |(_, s)| s.factor().expect("a regular matrix"));
     let solve = least(&mut (&mut solver, vec![1.0; plan.unknowns]), |(_, b)| b.fill(1.0), |(s, b)| s.solve(b));

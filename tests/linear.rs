@@ -286,8 +286,11 @@ fn large_sheets_and_frames_leave_no_residual() {
 /// Blocks of two groups lie where their entries do.
 #[test]
 fn blocks_lie_where_their_entries_do() {
-    let structure =
-        Structure { sizes: vec![6, 6, 5, 6, 6, 3], cliques: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]], multipliers: 0 };
+    let structure = Structure {
+        sizes: vec![6, 6, 5, 6, 6, 3],
+        cliques: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]],
+        multipliers: 0,
+    };
     let solver = Solver::new(&structure, Kind::Cholesky, 1).unwrap();
     let first = [0, 6, 12, 17, 23, 29];
     let rows = |g: usize| std::array::from_fn(|i| (first[g] + i) as u32);

@@ -1,11 +1,12 @@
 //! `rdsolve check deck.toml`: read, validate, print the plan; run nothing.
 
-use super::{DeckArgs, Exit, load, no_room, planned, show};
+use super::{DeckArgs, Exit, doubts, load, no_room, planned, show};
 
 pub(super) fn check(args: &DeckArgs) -> Result<(), Exit> {
     let loaded = load(&args.deck, &args.sets)?;
     show(&loaded.warnings, &loaded.source);
     let (system, plan) = planned(&loaded, 1)?;
+    show(&doubts(&plan, &loaded.model, &system), &loaded.source);
     let (solver, _) = plan.build(&system).map_err(no_room)?;
     let text = plan.explain(&loaded.model, &system);
     super::print(&format!("{}: no errors\n{text}{:<12}{}\n", loaded.source.path, "  factor", solver.describe()))

@@ -204,6 +204,11 @@ pub fn show(problems: &[Diagnostic], source: &Source) {
     }
 }
 
+/// What the plan has found out about a sound model, as warnings.
+pub fn doubts(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic> {
+    plan.repeated(model, system).into_iter().map(|text| Diagnostic::warning(format!("joints: {text}"))).collect()
+}
+
 /// An error that has no place in a deck.
 pub fn complain(message: &str) {
     let (bold, plain) = if is_styled() { ("\u{1b}[1m\u{1b}[91m", "\u{1b}[0m") } else { ("", "") };

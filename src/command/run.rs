@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, load, no_room, output_folder, planned, show};
+use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, doubts, load, no_room, output_folder, planned, show};
 use crate::diagnostic::Diagnostic;
 use crate::model::{ArcLength, Control, DIRECTIONS, Model};
+use crate::names::short;
 use crate::output::expect::{Expectations, Verdict};
 use crate::output::log::Log;
 use crate::output::progress::Progress;
@@ -19,7 +20,7 @@ use crate::state::State;
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     let began = Instant::now();
-    let loaded = load(&args.deck, &args.sets)?;
+    let mut loaded = load(&args.deck, &args.sets)?;
     let folder = output_folder(args)?;
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
@@ -32,6 +33,11 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     let mut timings = Timings { read_s: began.elapsed().as_secs_f64(), ..Timings::default() };
     let planning = Instant::now();
     let (system, plan) = planned(&loaded, threads)?;
+    let doubts = doubts(&plan, &loaded.model, &system);
+    if !args.quiet {
+        show(&doubts, &loaded.source);
+    }
+    loaded.warnings.extend(doubts);
     let stop = Arc::new(AtomicBool::new(false));
     let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &stop).map_err(no_room)?;
     let text = plan.explain(&loaded.model, &system);
@@ -78,6 +84,17 @@ fn compute(
     watchers.progress.finish();
     watchers.files.finish()?;
 
+    let mut warnings: Vec<String> = loaded.warnings.iter().map(|w| w.message.clone()).collect();
+    // Digits of a deck are not all digits of a number.
+    if run.start_jump() > 1e-5 {
+        let part = short(run.start_jump());
+        let text =
+            format!("initial velocities do not agree with the joints: they were changed by up to {part} of the largest");
+        if !quiet {
+            show(&[Diagnostic::warning(&text)], &loaded.source);
+        }
+        warnings.push(text);
+    }
     let expectations = watchers.expectations.verdicts();
     let (status, mut reason) = judge(outcome, &expectations)?;
     if let Some(short) = short_of_stop(model, run, &end) {
@@ -105,9 +122,10 @@ fn compute(
             cuts: counts.cuts,
         },
         timings,
+        joint_violation: run.joint_violation(),
         rotation_drift: (run.rotation_drift() > 0.0).then(|| run.rotation_drift()),
         peak_memory_bytes: peak_memory_bytes(),
-        warnings: loaded.warnings.iter().map(|w| w.message.clone()).collect(),
+        warnings,
         expectations,
     };
     report.write(folder)?;

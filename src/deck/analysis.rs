@@ -116,6 +116,8 @@ pub struct Iteration {
     pub method: Maybe<Method>,
     /// When the matrix is formed and factorised anew. Default: "auto".
     pub update: Maybe<Update>,
+    /// Where the gyroscopic term of bodies stands: the answer is the same. Default: "auto".
+    pub gyroscopic: Maybe<Gyroscopic>,
     /// Relative, on residual and increment. Default: 1e-8.
     pub tolerance: Maybe<f64>,
     /// Iterations in a step before it is cut. Default: 20; 200 with initial-load.
@@ -131,6 +133,17 @@ pub enum Method {
     InitialLoad,
     /// Whichever costs less.
     Auto,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Gyroscopic {
+    /// In the matrix if that is unsymmetric anyway.
+    Auto,
+    /// In the matrix, which is then unsymmetric: fewer iterations.
+    Left,
+    /// In the residual alone: the matrix may be symmetric.
+    Right,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

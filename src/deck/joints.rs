@@ -6,7 +6,6 @@ use serde::Deserialize;
 use super::links::End;
 use super::words::{Maybe, Table, Vector};
 
-
 /// Two ends held together by multipliers. Axes turn with the bodies.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -45,4 +44,3 @@ pub enum Kind {
     /// Free but for the distance of the ends: a rod without mass.
     Distance,
 }
-

@@ -1,7 +1,7 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
 use super::build::{Builder, Owner};
-use super::{Analysis, Control, Kind, Method, Update};
+use super::{Analysis, Control, Gyroscopic, Kind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::diagnostic::Diagnostic;
@@ -104,6 +104,11 @@ impl<'d> Builder<'d> {
         own.method = method;
         own.limit = limit;
         own.tolerance = iteration.tolerance.as_ref().map_or(own.tolerance, |at| at.value);
+        own.gyroscopic = match iteration.gyroscopic.as_ref().map(|side| side.value) {
+            Some(deck::Gyroscopic::Left) => Gyroscopic::Left,
+            Some(deck::Gyroscopic::Right) => Gyroscopic::Right,
+            Some(deck::Gyroscopic::Auto) | None => Gyroscopic::Auto,
+        };
         own.update = match iteration.update.as_ref().map(|update| update.value) {
             Some(deck::Update::Iteration) => Update::Iteration,
             Some(deck::Update::Step) => Update::Step,

@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::meshes::{Input, Meshed};
 use super::places::Place;
 use super::rigid::RigidParts;
-use super::{Cadence, Control, Damping, Iteration, Kind, Method, Model, Node, Output, Update};
+use super::{Cadence, Control, Damping, Gyroscopic, Iteration, Kind, Method, Model, Node, Output, Update};
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
@@ -136,7 +136,13 @@ impl<'d> Builder<'d> {
                 control: Control::Time,
             },
             scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-            iteration: Iteration { method: Method::Auto, update: Update::Auto, tolerance: 1e-8, limit: 20 },
+            iteration: Iteration {
+                method: Method::Auto,
+                update: Update::Auto,
+                gyroscopic: Gyroscopic::Auto,
+                tolerance: 1e-8,
+                limit: 20,
+            },
             nodes: Vec::new(),
             bodies: Vec::new(),
             masses: Vec::new(),

@@ -152,6 +152,7 @@ pub struct Passage {
 pub struct Iteration {
     pub method: Method,
     pub update: Update,
+    pub gyroscopic: Gyroscopic,
     /// Relative, on residual and increment.
     pub tolerance: f64,
     /// Iterations in a step before it is cut.
@@ -165,6 +166,17 @@ pub enum Method {
     InitialLoad,
     /// Whichever costs less, by counts and contraction.
     Auto,
+}
+
+/// Where the gyroscopic term C(r) (37) stands, which is not symmetric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gyroscopic {
+    /// In the matrix where that costs less.
+    Auto,
+    /// In the matrix.
+    Left,
+    /// In the residual alone.
+    Right,
 }
 
 /// When the matrix is formed and factorised anew.

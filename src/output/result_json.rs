@@ -47,6 +47,9 @@ pub struct Report {
     /// Largest departure from orthogonality that a first- or second-order rotation update left to be mended.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_drift: Option<f64>,
+    /// Largest gap that a joint was left with at the end of a step, relative to the largest coordinate of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_violation: Option<f64>,
     /// `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     pub warnings: Vec<String>,
@@ -108,6 +111,7 @@ mod tests {
             counts: Counts { steps: 3, ..Counts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },
             rotation_drift: None,
+            joint_violation: None,
             peak_memory_bytes: None,
             warnings: vec![],
             expectations: vec![],

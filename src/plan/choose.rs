@@ -1,9 +1,13 @@
 //! Which factorisation, and what it costs against an iteration.
 
 use crate::linear::{Kind, Structure};
+use crate::model::Gyroscopic;
 
-pub fn kind(structure: &Structure) -> Kind {
-    Kind::choose(structure)
+pub fn kind(structure: &Structure, gyroscopic: Gyroscopic) -> Kind {
+    match gyroscopic {
+        Gyroscopic::Left => Kind::Block,
+        Gyroscopic::Auto | Gyroscopic::Right => Kind::choose(structure),
+    }
 }
 
 /// Residuals-with-solves that one forming and factorising is worth: measured on chains of beams and on space frames (see

@@ -4,7 +4,7 @@ use super::Plan;
 use crate::elements::beam::Rule;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
-use crate::model::{Control, DIRECTIONS, Kind as Analysis, MeshFile, Method, Model, Update};
+use crate::model::{Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MeshFile, Method, Model, Update};
 use crate::names::{joined, short};
 use std::fmt::Write;
 
@@ -55,6 +55,7 @@ impl Plan {
             (shells, "shell elements"),
             (model.links.len(), "links"),
             (model.riders.len(), "attached nodes"),
+            (model.joints.len(), "joints"),
         ];
         let parts: Vec<String> =
             parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
@@ -75,6 +76,17 @@ impl Plan {
         }
         for what in self.unneeded(model, system) {
             line("  left out", what.to_string());
+        }
+        if !model.joints.is_empty() {
+            let all: usize = model.joints.iter().map(|joint| joint.rows.len()).sum();
+            let kept = system.multipliers();
+            line("joints", format!("{kept} multipliers, closed at the end of each step (57)"));
+            if all > kept {
+                line("  left out", format!("{} rows out of the plane of the motion", all - kept));
+            }
+            for text in self.repeated(model, system) {
+                line("  repeated", text);
+            }
         }
         for beam in &model.beams {
             let Some(yielding) = &beam.yielding else { continue };
@@ -112,7 +124,13 @@ impl Plan {
             line("method", method.to_string());
         }
         let matrix = match self.kind {
+            Kind::Block if model.iteration.gyroscopic == Gyroscopic::Right => {
+                "gyroscopic term on the right, sparse LU by blocks of nodes; the residual stays exact"
+            }
             Kind::Block => "exact unsymmetric tangent, sparse LU by blocks of nodes",
+            Kind::Cholesky if system.multipliers() > 0 => {
+                "symmetric part of the tangent, sparse L D Lᵀ for the multipliers; the residual stays exact"
+            }
             Kind::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
         };
         line("matrix", matrix.to_string());
@@ -130,6 +148,25 @@ impl Plan {
         };
         line("  refreshed", update.to_string());
         text
+    }
+
+    /// What joints hold more than once, a line for each joint.
+    pub fn repeated(&self, model: &Model, system: &crate::system::System) -> Vec<String> {
+        let Some(repeated) = &self.repeated else {
+            return vec!["not looked for: there are too many joints".to_string()];
+        };
+        let mut lines: Vec<(usize, Vec<&str>)> = Vec::new();
+        for (joint, row) in repeated.iter().filter_map(|&number| system.row(number)) {
+            match lines.last_mut().filter(|(last, _)| *last == joint) {
+                Some((_, words)) => words.push(row.word()),
+                None => lines.push((joint, vec![row.word()])),
+            }
+        }
+        let line = |(joint, words): (usize, Vec<&str>)| {
+            let name = &model.joints[joint].name;
+            format!("joint `{name}`, {}: others hold it too, they share what they carry", joined(&words))
+        };
+        lines.into_iter().map(line).collect()
     }
 
     /// Terms of the equation of motion that this scene does without.

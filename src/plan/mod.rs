@@ -5,6 +5,7 @@ mod choose;
 mod explain;
 mod passages;
 mod place;
+mod repeated;
 
 use crate::linear::{Kind, Solver, Structure, TooLarge};
 use crate::model::Model;
@@ -27,6 +28,8 @@ pub struct Plan {
     /// Iterations that a fresh matrix may cost: forming and factorising it against one residual and one solve.
     pub refresh_cost: f64,
     pub threads: usize,
+    /// Multipliers of joints that say what others say already; `None`: too many to tell.
+    pub repeated: Option<Vec<usize>>,
     nodes: Vec<place::Place>,
 }
 
@@ -74,7 +77,7 @@ impl Plan {
             .into_iter()
             .map(|clique| clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect::<Vec<_>>());
         let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect(), multipliers };
-        let kind = choose::kind(&structure);
+        let kind = choose::kind(&structure, model.iteration.gyroscopic);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
         model.held.iter().filter(|held| held.motion.is_some()).for_each(|held| driven[held.node][held.dof] = true);
@@ -84,7 +87,7 @@ impl Plan {
             unknown > 0 && unknown + count(&|dof| driven[node][dof]) > 1
         };
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
-        Plan {
+        let mut plan = Plan {
             unknowns,
             refresh_cost: choose::refresh_cost(kind),
             linear,
@@ -94,8 +97,18 @@ impl Plan {
             kind,
             omissions,
             threads,
+            repeated: Some(Vec::new()),
             nodes,
+        };
+        if !system.joints.is_empty() {
+            plan.repeated = repeated::repeated(model, system, &plan);
         }
+        plan
+    }
+
+    /// True where joints may share what they carry.
+    pub fn shares(&self) -> bool {
+        self.repeated.as_ref().is_none_or(|repeated| !repeated.is_empty())
     }
 
     /// The solver and the assembly of this plan.

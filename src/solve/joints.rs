@@ -99,15 +99,28 @@ impl Stepper<'_> {
 
     /// At the start, with a factorised mass matrix: velocities that the joints allow, the nearest in kinetic energy.
     pub(super) fn start_on_joints(&mut self, nodes: &mut [Node]) {
-        self.system.gaps(nodes, 1, &mut self.forces.multipliers.gaps);
-        if self.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
-            return;
+        let mut fastest = [0.0f64; 2];
+        for node in nodes.iter() {
+            fastest = [fastest[0].max(node.v.amax()), fastest[1].max(node.omega.amax())];
         }
-        self.solve_for_gaps();
-        for (node, rows) in nodes.iter_mut().zip(&self.plan.rows) {
-            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
-            node.v += Vec3::new(entry(0), entry(1), entry(2));
-            node.omega += Vec3::new(entry(3), entry(4), entry(5));
+        // Rows that share what they carry leave a part of it to the next time: three leave nothing.
+        for _ in 0..3 {
+            self.system.gaps(nodes, 1, &mut self.forces.multipliers.gaps);
+            if self.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
+                break;
+            }
+            self.solve_for_gaps();
+            for (node, rows) in nodes.iter_mut().zip(&self.plan.rows) {
+                let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
+                let change = [Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5))];
+                node.v += change[0];
+                node.omega += change[1];
+                self.start_jump = [0, 1].map(|i| self.start_jump[i].max(change[i].amax()));
+            }
+            self.ride(nodes);
+        }
+        for (jump, fastest) in self.start_jump.iter_mut().zip(fastest) {
+            *jump /= fastest.max(f64::MIN_POSITIVE);
         }
     }
 }

@@ -151,6 +151,7 @@ impl<'a> Run<'a> {
             solves: 0,
             drift: 0.0,
             violation: 0.0,
+            start_jump: [0.0; 2],
         };
         if along {
             stepper.solver.expect_indefinite();
@@ -177,9 +178,14 @@ impl<'a> Run<'a> {
         self.stepper.drift
     }
 
-    /// Largest gap of a joint that the end of a step was left with, relative to the largest coordinate.
-    pub fn joint_violation(&self) -> f64 {
-        self.stepper.violation
+    /// Largest gap of a joint that the end of a step was left with, relative to the largest coordinate; `None`: no joints.
+    pub fn joint_violation(&self) -> Option<f64> {
+        (!self.stepper.system.joints.is_empty()).then_some(self.stepper.violation)
+    }
+
+    /// Largest change, relative, that initial velocities needed to agree with the joints.
+    pub fn start_jump(&self) -> f64 {
+        self.stepper.start_jump[0].max(self.stepper.start_jump[1])
     }
 
     /// Runs to the end, to a failure, or until stopped. The state it ends with is returned too.

@@ -18,8 +18,8 @@ pub use march::{Counts, Outcome, Run, Wanted};
 
 use crate::model::Model;
 use crate::state::State;
-use crate::system::energy::Energy;
 pub use crate::system::JointState;
+use crate::system::energy::Energy;
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 
 /// One accepted step, read-only.

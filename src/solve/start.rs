@@ -66,13 +66,12 @@ impl Stepper<'_> {
             let node = &mut state.nodes[rider.node];
             node.q = rotation::exp(&riding) * node.q;
         }
-        self.follow(&mut state);
+        self.ride(&mut state.nodes);
         self.system.residual(&state.now(), &self.given[2], &mut self.forces);
         if dynamic {
             let massless = self.factor_mass(&state.now())?;
             if !self.system.joints.is_empty() {
                 self.start_on_joints(&mut state.nodes);
-                self.follow(&mut state);
                 self.system.residual(&state.now(), &self.given[2], &mut self.forces);
             }
             self.accelerate(&mut state, &massless);
@@ -92,8 +91,9 @@ impl Stepper<'_> {
         Ok(state)
     }
 
-    fn follow(&mut self, state: &mut State) {
-        for (increment, node) in self.increments.iter_mut().zip(&state.nodes) {
+    /// Rates of what rides, from those of the masters; nothing is displaced.
+    pub(super) fn ride(&mut self, nodes: &mut [Node]) {
+        for (increment, node) in self.increments.iter_mut().zip(&*nodes) {
             *increment = Increment {
                 q: Vec6::zeros(),
                 d: crate::math::join(&node.v, &node.omega),
@@ -101,8 +101,8 @@ impl Stepper<'_> {
             };
         }
         for rider in &self.system.attachments {
-            let start = state.nodes[rider.node];
-            rider.follow(&mut state.nodes, &mut self.increments, &start);
+            let start = nodes[rider.node];
+            rider.follow(nodes, &mut self.increments, &start);
         }
     }
 
@@ -175,7 +175,7 @@ impl Stepper<'_> {
                 }
             }
         }
-        self.follow(state);
+        self.ride(&mut state.nodes);
     }
 
     /// Forms and factorises M; returns the rows without mass, whose accelerations stay.

@@ -56,6 +56,8 @@ pub struct Stepper<'a> {
     pub drift: f64,
     /// Largest gap of a joint that the end of a step was left with, relative to the largest coordinate.
     pub violation: f64,
+    /// What the joints have made of the velocities and angular velocities at t = 0: the largest change over the largest given.
+    pub start_jump: [f64; 2],
 }
 
 /// A step that was taken.
@@ -135,12 +137,7 @@ impl<'a> Stepper<'a> {
                 continue;
             }
             if let Some(search) = &mut self.search
-                && search.shorten(
-                    &self.r,
-                    taken.residual,
-                    &mut self.increments,
-                    &mut self.forces.multipliers.values,
-                )
+                && search.shorten(&self.r, taken.residual, &mut self.increments, &mut self.forces.multipliers.values)
             {
                 // What was mixed into it no longer tells what it did.
                 if let Some(anderson) = &mut self.anderson {
@@ -246,7 +243,12 @@ impl<'a> Stepper<'a> {
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
             self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
         }
-        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
+        // What rows that say the same carry against each other would wander from step to step: it is let go by half, and what
+        // they carry for others comes back with the first correction.
+        let kept = if self.plan.shares() { 0.5 } else { 1.0 };
+        for (value, last) in self.forces.multipliers.values.iter_mut().zip(&state.multipliers) {
+            *value = kept * last;
+        }
     }
 
     /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.

@@ -35,8 +35,8 @@ pub struct Assembly {
     /// Per node: the nodes it ends up on by riding, or itself.
     roots: Vec<Vec<usize>>,
     threads: bool,
-    /// C(r) and other unsymmetric terms are kept.
-    unsymmetric: bool,
+    /// C(r) stands on the left (37); it is in the residual always.
+    gyroscopic: bool,
     scratch: Scratch,
 }
 
@@ -126,6 +126,28 @@ pub fn roots(system: &System, nodes: usize) -> Vec<Vec<usize>> {
         roots[rider.node] = of;
     }
     roots
+}
+
+/// Per node: for each of its roots, how the motion of that moves the node.
+pub fn carries(system: &System, nodes: &[Node], roots: &[Vec<usize>]) -> Vec<Vec<Mat6>> {
+    let mut carry: Vec<_> = roots.iter().map(|r| vec![Mat6::identity(); r.len()]).collect();
+    carry_over(system, nodes, roots, &mut carry);
+    carry
+}
+
+/// How each rider moves with its roots, by the chain of arms.
+fn carry_over(system: &System, nodes: &[Node], roots: &[Vec<usize>], carry: &mut [Vec<Mat6>]) {
+    for rider in &system.attachments {
+        let D = rider.D(nodes);
+        for k in 0..roots[rider.master].len() {
+            carry[rider.node][k] = D * carry[rider.master][k];
+        }
+        if !rider.rigid {
+            let own = roots[rider.node].len() - 1;
+            let free = rider.dofs.map(|taken| if taken { 0.0 } else { 1.0 });
+            carry[rider.node][own] = Mat6::from_diagonal(&free.into());
+        }
+    }
 }
 
 /// Nodes that are coupled with one another, one list per element or nodal matrix; riders replaced by their roots. `nodes`
@@ -245,7 +267,7 @@ impl Assembly {
             scatter,
             tiles,
             threads: system.splits(threads),
-            unsymmetric: !solver.symmetric(),
+            gyroscopic: system.gyroscopic && !solver.symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
                 own: vec![Mat6::zeros(); nodes],
@@ -270,7 +292,7 @@ impl Assembly {
         let nodes = now.nodes;
         let values = solver.values();
         values.fill(0.0);
-        self.carry_over(system, nodes);
+        carry_over(system, nodes, &self.roots, &mut self.scratch.carry);
         if weights.stiffness {
             self.add_elements(system, now, weights, values);
             self.add_pressures(system, nodes, loading, values);
@@ -279,21 +301,6 @@ impl Assembly {
         self.add_nodes(values);
         self.add_masses(system, weights, values);
         self.add_joints(system, nodes, forces, weights, values);
-    }
-
-    /// How each rider moves with its roots, by the chain of arms.
-    fn carry_over(&mut self, system: &System, nodes: &[Node]) {
-        for rider in &system.attachments {
-            let D = rider.D(nodes);
-            for k in 0..self.roots[rider.master].len() {
-                self.scratch.carry[rider.node][k] = D * self.scratch.carry[rider.master][k];
-            }
-            if !rider.rigid {
-                let own = self.roots[rider.node].len() - 1;
-                let free = rider.dofs.map(|taken| if taken { 0.0 } else { 1.0 });
-                self.scratch.carry[rider.node][own] = Mat6::from_diagonal(&free.into());
-            }
-        }
     }
 
     fn add_elements(&mut self, system: &System, now: &Now, Weights { rate, moduli, .. }: Weights, values: &mut [f64]) {
@@ -356,7 +363,14 @@ impl Assembly {
         let own = nodes.len();
         let add = |j: usize, K: &[f64], values: &mut [f64]| {
             let [a, b] = system.joints[j].nodes;
-            add_local(K, &[a, b, own + j], &self.joints[j], (&self.scatter, &self.tiles, &self.roots, maps), carried, values);
+            add_local(
+                K,
+                &[a, b, own + j],
+                &self.joints[j],
+                (&self.scatter, &self.tiles, &self.roots, maps),
+                carried,
+                values,
+            );
         };
         joints::tangents(system, nodes, &self.diagonals, &mut forces.multipliers, weights.stiffness, values, add);
     }
@@ -368,7 +382,7 @@ impl Assembly {
             own[*node] = Mat6::zeros();
         }
         let of_motion = (weights.rate, weights.acceleration);
-        let gyroscopic = self.unsymmetric && weights.stiffness;
+        let gyroscopic = self.gyroscopic && weights.stiffness;
         for inertia in &system.inertias {
             own[inertia.node] += inertia.tangent(&nodes[inertia.node], of_motion, system.mass_damping, gyroscopic);
         }

@@ -73,6 +73,8 @@ pub struct System {
     pressures: Vec<model::Pressure>,
     nodal_damping: Vec<model::NodalDamping>,
     mass_damping: f64,
+    /// The matrix may hold C(r) (37).
+    gyroscopic: bool,
     /// The global axis normal to the motion, where the scene is plane.
     pub plane: Option<usize>,
     /// Inertia does not act in a static analysis; weight does.
@@ -164,6 +166,7 @@ impl System {
             consistent,
             attachments,
             joints,
+            gyroscopic: model.iteration.gyroscopic != model::Gyroscopic::Right,
             plane,
             watched,
             loads: model.loads.clone(),

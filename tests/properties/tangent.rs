@@ -125,7 +125,7 @@ impl Instant {
         let (mut solver, mut assembly) = self.plan.build(&self.system).unwrap();
         let (rate, acceleration) = self.scheme.weights();
         let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
-        assembly.tangent(&self.system, &Now::of(&nodes), &self.loading, &forces, weights, &mut solver);
+        assembly.tangent(&self.system, &Now::of(&nodes), &self.loading, &mut forces, weights, &mut solver);
         let n = self.plan.unknowns;
         DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))
     }

@@ -53,7 +53,13 @@ pub fn model() -> Model {
             control: Control::Time,
         },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-        iteration: Iteration { method: Method::TangentStiffness, update: Update::Auto, tolerance: 1e-8, limit: 20 },
+        iteration: Iteration {
+            method: Method::TangentStiffness,
+            update: Update::Auto,
+            gyroscopic: Gyroscopic::Auto,
+            tolerance: 1e-8,
+            limit: 20,
+        },
         nodes,
         bodies: shapes.into_iter().enumerate().map(body).collect(),
         masses: vec![],
@@ -78,6 +84,7 @@ pub fn model() -> Model {
             kind: LinkKind::Line { law, damping: 0.0, direction: None, free_length: 1.0 },
         }],
         riders: vec![],
+        joints: vec![],
         held: vec![Held { node: 0, dof: 0, motion: None }, Held { node: 0, dof: 5, motion: None }],
         amplitudes: vec![],
         loads: vec![],
@@ -114,7 +121,15 @@ pub fn state(model: &Model, time: f64) -> State {
             state::Node { x: node.x + swing, q, v: swing / 7.0, omega: 5.0 * *axis, a: -swing, alpha: swing * 1e-9 }
         })
         .collect();
-    State { time, nodes, history: vec![], jerk: vec![], reactions: vec![], work: Default::default() }
+    State {
+        time,
+        nodes,
+        history: vec![],
+        jerk: vec![],
+        reactions: vec![],
+        multipliers: vec![],
+        work: Default::default(),
+    }
 }
 
 /// What goes with a state in a frame.
@@ -170,6 +185,7 @@ impl Extras {
             last: step == 10,
             energy: Some(&self.energy),
             reactions: &self.reactions,
+            joints: &[],
             links: &self.links,
             plastic_strains: &[],
             sections: &self.sections,

@@ -34,7 +34,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let acceleration = if stiffness { 0.0 } else { 1.0 };
     let weights = Weights { stiffness, rate: 0.0, acceleration, moduli: Moduli::Algorithmic };
-    assembly.tangent(&system, &Now::of(&nodes), &loading, &forces, weights, &mut solver);
+    assembly.tangent(&system, &Now::of(&nodes), &loading, &mut forces, weights, &mut solver);
     let n = plan.unknowns;
     // A symmetric solver stores one triangle under either name.
     DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))

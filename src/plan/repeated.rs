@@ -1,0 +1,79 @@
+//! Rows of joints that say at t = 0 what others say already: a closed loop of hinges in a plane holds the plane many times.
+
+use super::Plan;
+use crate::math::Vec3;
+use crate::model::Model;
+use crate::state::Node;
+use crate::system::System;
+use crate::system::assembly::{self, NONE};
+
+/// Part of a row that must be new for it to say something.
+const NEW: f64 = 1e-8;
+/// Operations that looking for them may take: more joints than that are not looked at.
+const MOST: f64 = 3e8;
+
+/// Numbers of the multipliers whose rows depend on those before them; `None`: too many to tell.
+pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize>> {
+    let directions = plan.directions.len();
+    let count = plan.unknowns - directions;
+    let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
+    let roots = assembly::roots(system, nodes.len());
+    let carry = assembly::carries(system, &nodes, &roots);
+    let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
+    // What makes rotations comparable.
+    let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+
+    // Columns that joints touch, numbered as they come.
+    let mut column = vec![usize::MAX; directions];
+    let mut columns = 0;
+    let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
+    for joint in &system.joints {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        for row in &joint.rows {
+            let mut entries = Vec::new();
+            for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
+                for (&root, T) in roots[node].iter().zip(&carry[node]) {
+                    let G = T.tr_mul(&G);
+                    for dof in (0..6).filter(|&dof| plan.rows[root][dof] != NONE) {
+                        let at = &mut column[plan.rows[root][dof] as usize];
+                        if *at == usize::MAX {
+                            *at = columns;
+                            columns += 1;
+                        }
+                        entries.push((*at, if dof < 3 { G[dof] } else { G[dof] / length }));
+                    }
+                }
+            }
+            sparse.push(entries);
+        }
+    }
+    if (count * count) as f64 * columns as f64 > MOST {
+        return None;
+    }
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut repeated = Vec::new();
+    for (number, entries) in sparse.iter().enumerate() {
+        let mut v = vec![0.0; columns];
+        entries.iter().for_each(|&(at, value)| v[at] += value);
+        let whole = norm(&v);
+        // Twice is enough (Kahan).
+        for _ in 0..2 {
+            for b in &basis {
+                let part: f64 = v.iter().zip(b).map(|(v, b)| v * b).sum();
+                v.iter_mut().zip(b).for_each(|(v, b)| *v -= part * b);
+            }
+        }
+        let rest = norm(&v);
+        if rest <= NEW * whole || whole == 0.0 {
+            repeated.push(number);
+        } else {
+            v.iter_mut().for_each(|v| *v /= rest);
+            basis.push(v);
+        }
+    }
+    Some(repeated)
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
