@@ -45,38 +45,22 @@ impl Plan {
         let (nodes, omissions) = place::place(model, system);
         let mut rows = vec![[NONE; 6]; nodes.len()];
         let mut directions = Vec::new();
-        let mut sizes = Vec::new();
-        let all = nodes.len() + system.joints.len();
-        let mut group = vec![usize::MAX; all];
         for (node, place) in nodes.iter().enumerate() {
-            let before = directions.len();
             for (dof, why) in place.iter().enumerate() {
                 if *why == place::Why::Unknown {
                     rows[node][dof] = directions.len() as u32;
                     directions.push((node, dof));
                 }
             }
-            if directions.len() > before {
-                group[node] = sizes.len();
-                sizes.push(directions.len() - before);
-            }
         }
-        let (primal, mut unknowns) = (sizes.len(), directions.len());
-        for (joint, group) in system.joints.iter().zip(&mut group[nodes.len()..]) {
+        let mut unknowns = directions.len();
+        for joint in &system.joints {
             let mut own = [NONE; 6];
             own.iter_mut().zip(&joint.rows).zip(unknowns as u32..).for_each(|((own, _), row)| *own = row);
             rows.push(own);
             unknowns += joint.rows.len();
-            if !joint.rows.is_empty() {
-                *group = sizes.len();
-                sizes.push(joint.rows.len());
-            }
         }
-        let multipliers = sizes.len() - primal;
-        let cliques = assembly::cliques(system, all)
-            .into_iter()
-            .map(|clique| clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect::<Vec<_>>());
-        let structure = Structure { sizes, cliques: cliques.filter(|c| c.len() > 1).collect(), multipliers };
+        let structure = structure(system, &rows);
         let kind = choose::kind(&structure, model.iteration.gyroscopic);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
@@ -106,6 +90,13 @@ impl Plan {
         plan
     }
 
+    /// The solver and the assembly of the masses and joints alone.
+    pub fn build_bare(&self, bare: &System) -> (Solver, Assembly) {
+        let solver = Solver::new(&structure(bare, &self.rows), Kind::Block, 1);
+        let assembly = Assembly::new(bare, &self.rows, &solver, 1);
+        (solver, assembly)
+    }
+
     /// True where joints may share what they carry.
     pub fn shares(&self) -> bool {
         self.repeated.as_ref().is_none_or(|repeated| !repeated.is_empty())
@@ -125,4 +116,24 @@ impl Plan {
     pub fn is_unknown(&self, node: usize, dof: usize) -> bool {
         self.nodes[node][dof] == place::Why::Unknown
     }
+}
+
+/// Groups of unknowns, one for each node and each joint that has any, and who couples with whom.
+fn structure(system: &System, rows: &[[u32; 6]]) -> Structure {
+    let mut sizes = Vec::new();
+    let mut multipliers = 0;
+    let mut group = vec![usize::MAX; rows.len()];
+    for (node, rows) in rows.iter().enumerate() {
+        let size = rows.iter().filter(|&&row| row != NONE).count();
+        if size > 0 {
+            group[node] = sizes.len();
+            sizes.push(size);
+            multipliers += usize::from(node >= group.len() - system.joints.len());
+        }
+    }
+    let known = |clique: Vec<usize>| -> Vec<usize> {
+        clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect()
+    };
+    let cliques = assembly::cliques(system, rows.len()).into_iter().map(known).filter(|clique| clique.len() > 1);
+    Structure { sizes, cliques: cliques.collect(), multipliers }
 }

@@ -1,21 +1,84 @@
 //! Joints at the end of a step and at the start of a run. Where a scheme writes equilibrium past the end of the step, the end
 //! itself lies off the joints by its error; there position, velocity and acceleration are put back, one after the other, by the
-//! least change in the norm of the matrix at hand (E. Eich, SIAM J. Numer. Anal. 30 (1993)): joints do not drift, and the
-//! accelerations of one step bring no oscillation into the next.
+//! least change in the norm of the masses (E. Eich, SIAM J. Numer. Anal. 30 (1993)), as if the joints had pushed a little more or
+//! less within the step: they do not drift, and the accelerations of one step bring no oscillation into the next. How the
+//! iteration came there does not matter.
 
 use super::failure::{self, Failure};
 use super::step::Stepper;
+use crate::elements::Moduli;
 use crate::integrators::Coefficients;
+use crate::linear::Solver;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, bottom};
-use crate::state::{Node, State};
-use crate::system::assembly::NONE;
+use crate::plan::Plan;
+use crate::state::{Node, Now, State};
+use crate::system::assembly::{Assembly, NONE, Weights};
+use crate::system::{Forces, Loading, System};
 
-/// Corrections of a position before the step is given up. The matrix is that of another instant, but near it.
+/// Corrections of a position before the step is given up.
 const MOST: usize = 12;
 
 /// Gaps, relative to positions, that rounding may leave.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Of the largest mass: what a direction without mass is given, so that it is the one that gives way.
+const TRACE: f64 = 1e-9;
+
+/// The masses and joints of a scene by themselves, with their own factorisation. Allocated once.
+pub struct Closing {
+    bare: System,
+    solver: Solver,
+    assembly: Assembly,
+    loading: Loading,
+    /// Gaps and right-hand side, then correction, per unknown.
+    forces: Forces,
+    r: Vec<f64>,
+    /// On the diagonal: places and whether they are those of rotations.
+    diagonal: Vec<(usize, bool)>,
+}
+
+impl Closing {
+    pub fn new(plan: &Plan, system: &System, nodes: usize) -> Self {
+        let bare = system.bare();
+        let (solver, assembly) = plan.build_bare(&bare);
+        let slot = |(row, &(_, dof)): (usize, &(usize, usize))| solver.slot(row, row).map(|slot| (slot, dof > 2));
+        Closing {
+            diagonal: plan.directions.iter().enumerate().filter_map(slot).collect(),
+            forces: Forces::new(&bare, nodes),
+            loading: Loading::default(),
+            r: vec![0.0; plan.unknowns],
+            bare,
+            solver,
+            assembly,
+        }
+    }
+
+    /// Factorises masses and joints as they lie; false where the joints leave no way to close them.
+    fn factor(&mut self, nodes: &[Node]) -> bool {
+        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+        let Closing { bare, solver, assembly, forces, loading, .. } = self;
+        assembly.tangent(bare, &Now::of(nodes), loading, forces, weights, solver);
+        let values = self.solver.values();
+        let mut largest = [0.0f64; 2];
+        for &(slot, turns) in &self.diagonal {
+            let largest = &mut largest[usize::from(turns)];
+            *largest = largest.max(values[slot].abs());
+        }
+        for &(slot, turns) in &self.diagonal {
+            let mass = largest[usize::from(turns)];
+            values[slot] += TRACE * if mass > 0.0 { mass } else { 1.0 };
+        }
+        self.solver.factor().is_ok()
+    }
+
+    /// The least motion, velocity or acceleration that closes the gaps at hand, into `r`.
+    fn solve(&mut self, directions: usize) {
+        self.r[..directions].fill(0.0);
+        self.forces.multipliers.ask(&mut self.r[directions..]);
+        self.solver.solve(&mut self.r);
+    }
+}
 
 impl Stepper<'_> {
     /// Puts the trial motion, at the end of a step from `state`, onto the joints; the increments lead there.
@@ -23,51 +86,61 @@ impl Stepper<'_> {
     /// # Errors
     /// [`Failure::Apart`] where the joints cannot be closed from there.
     pub(super) fn close_joints(&mut self, state: &State, scheme: &Coefficients, dt: f64) -> Result<(), Failure> {
+        let Some(mut closing) = self.closing.take() else { return Ok(()) };
+        let closed = closing.factor(&self.trial) && self.close_with(&mut closing, state, scheme, dt);
+        let largest = || failure::gaps(self.model, self.system, &closing.forces.multipliers.gaps);
+        let result = if closed { Ok(()) } else { Err(Failure::Apart { largest: largest() }) };
+        self.closing = Some(closing);
+        if !closed {
+            self.refresh.rejected();
+        }
+        result
+    }
+
+    fn close_with(&mut self, closing: &mut Closing, state: &State, scheme: &Coefficients, dt: f64) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..MOST {
-            let gap = self.gap(0);
+            let gap = self.gap(closing, 0);
             // At rounding, or no longer falling next to it.
             if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
                 self.violation = self.violation.max(gap);
-                // Rates only depend on what stands: one correction is exact but for the age of the matrix.
+                // Rates are linear in themselves: one correction is exact but for what the positions have changed since.
                 for derivative in [1, 2] {
                     let mut last = f64::INFINITY;
-                    for _ in 0..MOST {
-                        let gap = self.gap(derivative);
-                        if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last {
+                    loop {
+                        let gap = self.gap(closing, derivative);
+                        if gap * dt.powi(derivative as i32) <= ROUNDING || !(gap < 0.1 * last) {
                             break;
                         }
                         last = gap;
-                        self.close_gap(state, scheme, derivative);
+                        self.close_gap(closing, state, scheme, derivative);
                     }
                 }
-                return Ok(());
+                return true;
             }
             if gap.is_nan() {
-                break;
+                return false;
             }
             last = gap;
-            self.close_gap(state, scheme, 0);
+            self.close_gap(closing, state, scheme, 0);
         }
-        let largest = failure::gaps(self.model, self.system, &self.forces.multipliers.gaps);
-        self.refresh.rejected();
-        Err(Failure::Apart { largest })
+        false
     }
 
     /// The largest gap of the trial motion, or of its derivative, relative.
-    fn gap(&mut self, derivative: usize) -> f64 {
-        let gaps = &mut self.forces.multipliers.gaps;
+    fn gap(&self, closing: &mut Closing, derivative: usize) -> f64 {
+        let gaps = &mut closing.forces.multipliers.gaps;
         self.system.gaps(&self.trial, derivative, gaps);
         self.system.largest_gap(gaps, self.reach)
     }
 
     /// One correction of the motion, its velocity or its acceleration.
-    fn close_gap(&mut self, state: &State, scheme: &Coefficients, derivative: usize) {
-        self.solve_for_gaps();
+    fn close_gap(&mut self, closing: &mut Closing, state: &State, scheme: &Coefficients, derivative: usize) {
+        closing.solve(self.plan.directions.len());
         for &node in &self.movers {
             let rows = &self.plan.rows[node];
             let theta = bottom(&self.increments[node].q);
-            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
+            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { closing.r[rows[i] as usize] };
             let turn = inverse_tangent(&theta, &Vec3::new(entry(3), entry(4), entry(5)));
             let increment = &mut self.increments[node];
             let change = match derivative {
@@ -88,15 +161,6 @@ impl Stepper<'_> {
         }
     }
 
-    /// The least motion that closes the gaps at hand, into `r`.
-    pub(super) fn solve_for_gaps(&mut self) {
-        let directions = self.plan.directions.len();
-        self.r[..directions].fill(0.0);
-        self.forces.multipliers.ask(&mut self.r[directions..]);
-        self.solver.solve(&mut self.r);
-        self.solves += 1;
-    }
-
     /// At the start, with a factorised mass matrix: velocities that the joints allow, the nearest in kinetic energy.
     pub(super) fn start_on_joints(&mut self, nodes: &mut [Node]) {
         let mut fastest = [0.0f64; 2];
@@ -109,7 +173,11 @@ impl Stepper<'_> {
             if self.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
                 break;
             }
-            self.solve_for_gaps();
+            let directions = self.plan.directions.len();
+            self.r[..directions].fill(0.0);
+            self.forces.multipliers.ask(&mut self.r[directions..]);
+            self.solver.solve(&mut self.r);
+            self.solves += 1;
             for (node, rows) in nodes.iter_mut().zip(&self.plan.rows) {
                 let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
                 let change = [Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5))];

@@ -2,6 +2,7 @@
 
 use super::accelerate::Anderson;
 use super::failure::Failure;
+use super::joints::Closing;
 use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
@@ -136,6 +137,8 @@ impl<'a> Run<'a> {
             search: (system.history > 0 && !along).then(|| Search::new(plan.unknowns, n, system.multipliers())),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
+            closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty())
+                .then(|| Closing::new(plan, system, n)),
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
             trial: at_rest,

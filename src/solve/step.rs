@@ -4,6 +4,7 @@ use super::accelerate::Anderson;
 use super::arc::{Condition, Path};
 use super::convergence::Convergence;
 use super::failure::{self, Failure};
+use super::joints::Closing;
 use super::refresh::{Advice, Refresh};
 use super::search::Search;
 use crate::elements::Moduli;
@@ -32,6 +33,8 @@ pub struct Stepper<'a> {
     pub search: Option<Search>,
     /// Where the load is unknown.
     pub path: Option<Path>,
+    /// Where a motion in time has joints.
+    pub closing: Option<Closing>,
     /// Motion at the instant of equilibrium.
     pub trial: Vec<Node>,
     pub increments: Vec<Increment>,
@@ -431,9 +434,7 @@ impl<'a> Stepper<'a> {
         for rider in &self.system.attachments {
             rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
         }
-        if dynamic && !self.system.joints.is_empty() {
-            self.close_joints(state, scheme, dt)?;
-        }
+        self.close_joints(state, scheme, dt)?;
         if dynamic {
             for &node in &self.movers {
                 let (start, end) = (&state.nodes[node], &self.trial[node]);

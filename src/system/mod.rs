@@ -177,6 +177,26 @@ impl System {
         })
     }
 
+    /// Masses at nodes, what rides on what, and the joints, without all that resists: what joints are closed with.
+    pub fn bare(&self) -> System {
+        System {
+            groups: Vec::new(),
+            history: 0,
+            inertias: self.inertias.clone(),
+            consistent: Vec::new(),
+            attachments: self.attachments.clone(),
+            joints: self.joints.clone(),
+            watched: Vec::new(),
+            loads: Vec::new(),
+            pressures: Vec::new(),
+            nodal_damping: Vec::new(),
+            mass_damping: 0.0,
+            gyroscopic: false,
+            plane: self.plane,
+            dynamic: self.dynamic,
+        }
+    }
+
     /// Sums f_ext − f_int − C v − M a per node and hands the forces on constrained directions to their masters (58).
     /// Returns the magnitude of what was summed.
     pub fn residual(&self, now: &Now, loading: &Loading, forces: &mut Forces) -> Scale {
