@@ -88,8 +88,9 @@ fn compute(
     // Digits of a deck are not all digits of a number.
     if run.start_jump() > 1e-5 {
         let part = short(run.start_jump());
-        let text =
-            format!("initial velocities do not agree with the joints: they were changed by up to {part} of the largest");
+        let text = format!(
+            "initial velocities do not agree with the joints: they were changed by up to {part} of the largest"
+        );
         if !quiet {
             show(&[Diagnostic::warning(&text)], &loaded.source);
         }

@@ -91,10 +91,13 @@ impl Plan {
     }
 
     /// The solver and the assembly of the masses and joints alone.
-    pub fn build_bare(&self, bare: &System) -> (Solver, Assembly) {
-        let solver = Solver::new(&structure(bare, &self.rows), Kind::Block, 1);
+    ///
+    /// # Errors
+    /// As for [`Plan::build`].
+    pub fn build_bare(&self, bare: &System) -> Result<(Solver, Assembly), TooLarge> {
+        let solver = Solver::new(&structure(bare, &self.rows), Kind::Block, 1)?;
         let assembly = Assembly::new(bare, &self.rows, &solver, 1);
-        (solver, assembly)
+        Ok((solver, assembly))
     }
 
     /// True where joints may share what they carry.

@@ -8,7 +8,7 @@ use super::failure::{self, Failure};
 use super::step::Stepper;
 use crate::elements::Moduli;
 use crate::integrators::Coefficients;
-use crate::linear::Solver;
+use crate::linear::{Solver, TooLarge};
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, bottom};
 use crate::plan::Plan;
@@ -39,11 +39,13 @@ pub struct Closing {
 }
 
 impl Closing {
-    pub fn new(plan: &Plan, system: &System, nodes: usize) -> Self {
+    /// # Errors
+    /// As for [`Plan::build`].
+    pub fn new(plan: &Plan, system: &System, nodes: usize) -> Result<Self, TooLarge> {
         let bare = system.bare();
-        let (solver, assembly) = plan.build_bare(&bare);
+        let (solver, assembly) = plan.build_bare(&bare)?;
         let slot = |(row, &(_, dof)): (usize, &(usize, usize))| solver.slot(row, row).map(|slot| (slot, dof > 2));
-        Closing {
+        Ok(Closing {
             diagonal: plan.directions.iter().enumerate().filter_map(slot).collect(),
             forces: Forces::new(&bare, nodes),
             loading: Loading::default(),
@@ -51,7 +53,7 @@ impl Closing {
             bare,
             solver,
             assembly,
-        }
+        })
     }
 
     /// Factorises masses and joints as they lie; false where the joints leave no way to close them.

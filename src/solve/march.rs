@@ -138,7 +138,8 @@ impl<'a> Run<'a> {
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
             closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty())
-                .then(|| Closing::new(plan, system, n)),
+                .then(|| Closing::new(plan, system, n))
+                .transpose()?,
             length,
             reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
             trial: at_rest,
