@@ -319,13 +319,53 @@ fn names() {
 }
 
 #[test]
+fn joints() {
+    let joint = |text: &str| portal_and(&format!("[[joints]]\nname = \"pin\"\n{text}"));
+    let ends = "from = { node = \"knee_right\" }\nto = { ground = [1.5, 0.0, 2.0] }";
+    assert_snapshot!("joint_empty", portal_and("[[joints]]"));
+    assert_snapshot!("joint_kind", joint(&format!("kind = \"hing\"\n{ends}")));
+    assert_snapshot!("joint_without_axis", joint(&format!("kind = \"hinge\"\n{ends}")));
+    assert_snapshot!("joint_with_axis", joint(&format!("kind = \"ball\"\naxis = [1.0, 0.0, 0.0]\n{ends}")));
+    assert_snapshot!("joint_axis_zero", joint(&format!("kind = \"slider\"\naxis = [0.0, 0.0, 0.0]\n{ends}")));
+    assert_snapshot!(
+        "joint_cross",
+        joint(&format!("kind = \"universal\"\naxis = [1.0, 0.0, 0.0]\ncross_axis = [1.0, 1.0, 0.0]\n{ends}"))
+    );
+    assert_snapshot!(
+        "joint_apart",
+        joint("kind = \"ball\"\nfrom = { node = \"knee_right\" }\nto = { body = \"block\", point = [0.0, 0.0, 2.0] }")
+    );
+    assert_snapshot!(
+        "joint_nowhere",
+        joint(
+            "kind = \"distance\"\nfrom = { node = \"knee_right\" }\nto = { body = \"block\", point = [1.5, 0.0, 2.0] }"
+        )
+    );
+    assert_snapshot!(
+        "joint_to_itself",
+        joint("kind = \"ball\"\nfrom = { body = \"block\" }\nto = { body = \"block\" }")
+    );
+    assert_snapshot!(
+        "joint_unknown",
+        joint("kind = \"ball\"\nfrom = { node = \"knee_rihgt\" }\nto = { body = \"blok\" }")
+    );
+    assert_snapshot!(
+        "joint_for_point",
+        portal_and(&format!(
+            "[[joints]]\nname = \"pin\"\nkind = \"ball\"\n{ends}\n\n[[loads]]\nat = \"pin\"\nforce = [1.0, 0.0, 0.0]"
+        ))
+    );
+}
+
+#[test]
 fn constraints() {
     let second = "[[bodies]]\nname = \"second\"\ncenter = [3.0, 0.0, 2.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n";
     assert_snapshot!(
         "attached_twice",
         portal_and(&format!(
             "{second}[[attachments]]\nbody = \"block\"\nnodes = \"knee_right\"\n
-[[attachments]]\nbody = \"second\"\nnodes = [\"knee_right\"]\ndofs = \"translations\""
+[[attachments]]\nbody = \"second\"\nnodes = [\"knee_right\"]\nmethod = \"elimination\"\n
+[[attachments]]\nbody = \"block\"\nnodes = [\"knee_right\"]"
         ))
     );
     assert_snapshot!(
@@ -341,14 +381,6 @@ fn constraints() {
             ("[sets]\n", "[sets]\nright = [\"block\", \"knee_right\"]\n"),
             ("[[supports]]", "[[attachments]]\nbody = \"block\"\nnodes = \"right\"\n\n[[supports]]"),
         ])
-    );
-    assert_snapshot!(
-        "attached_and_supported",
-        portal_and("[[attachments]]\nbody = \"block\"\nnodes = \"foot_left\"\ndofs = \"translations\"")
-    );
-    assert_snapshot!(
-        "multipliers",
-        portal_and("[[attachments]]\nbody = \"block\"\nnodes = \"knee_right\"\nmethod = \"multipliers\"")
     );
     assert_snapshot!(
         "fixed_and_moved",

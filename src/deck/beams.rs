@@ -68,6 +68,8 @@ pub struct Bar {
     pub mass_per_length: Maybe<f64>,
     /// Slack when shortened. Default: false.
     pub tension_only: Maybe<bool>,
+    /// Of the whole path, without force: shorter than it lies pulls from the start, longer hangs. Default: as it lies at t = 0.
+    pub free_length: Maybe<f64>,
     /// Default: "lumped".
     pub mass: Maybe<Mass>,
 }

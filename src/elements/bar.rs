@@ -6,10 +6,18 @@ use crate::materials::{Bar, Law, Spent};
 use crate::math::{Mat3, Vec3};
 use crate::state::{Node, Now};
 
-/// An elastic bar is a line spring of stiffness EA/L; `damping` is the factor of stiffness-proportional damping (time).
-pub fn links(elements: &[[usize; 2]], axial_stiffness: f64, tension_only: bool, x: &[Vec3], damping: f64) -> Links {
+/// An elastic bar is a line spring of stiffness EA/L, L its length without force, `free` times that at t = 0; `damping` is the
+/// factor of stiffness-proportional damping (time).
+pub fn links(
+    elements: &[[usize; 2]],
+    axial_stiffness: f64,
+    tension_only: bool,
+    free: f64,
+    x: &[Vec3],
+    damping: f64,
+) -> Links {
     let link = |&nodes: &[usize; 2]| {
-        let length = (x[nodes[1]] - x[nodes[0]]).norm();
+        let length = free * (x[nodes[1]] - x[nodes[0]]).norm();
         let stiffness = axial_stiffness / length;
         let law = match tension_only {
             true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
@@ -44,17 +52,18 @@ struct Stretch {
 }
 
 impl YieldingBars {
-    /// `x`: initial positions of all nodes.
+    /// `x`: initial positions of all nodes; `free`: length without force over that at t = 0.
     pub fn new(
         elements: &[[usize; 2]],
         axial_stiffness: f64,
         law: &Law,
         tension_only: bool,
+        free: f64,
         x: &[Vec3],
         damping: f64,
     ) -> Self {
         YieldingBars {
-            elements: elements.iter().map(|&nodes| (nodes, (x[nodes[1]] - x[nodes[0]]).norm())).collect(),
+            elements: elements.iter().map(|&nodes| (nodes, free * (x[nodes[1]] - x[nodes[0]]).norm())).collect(),
             area: axial_stiffness / law.elastic().E,
             law: law.clone(),
             tension_only,

@@ -260,6 +260,8 @@ impl<'d> Builder<'d> {
         };
         let (counts, (axial_stiffness, mass_per_length)) = (counts?, stiffness?);
         lengths?;
+        let whole: f64 = path.windows(2).map(|pair| (self.x(pair[1]) - self.x(pair[0])).norm()).sum();
+        let free = self.positive("free_length", &bar.free_length).map_or(1.0, |free| free / whole);
         let mut nodes = vec![path[0]];
         for (segment, &count) in counts.iter().enumerate() {
             let [x0, x1] = [self.x(path[segment]), self.x(path[segment + 1])];
@@ -275,7 +277,16 @@ impl<'d> Builder<'d> {
         self.bar_nodes[index] = nodes;
         let tension_only = bar.tension_only.as_ref().is_some_and(|only| only.value);
         let yielding = self.yielding_of(&bar.material)?;
-        self.model.bars.push(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, yielding, elements });
+        self.model.bars.push(Bar {
+            name,
+            axial_stiffness,
+            mass_per_length,
+            mass,
+            tension_only,
+            free,
+            yielding,
+            elements,
+        });
         Some(())
     }
 

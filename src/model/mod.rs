@@ -288,6 +288,8 @@ pub struct Bar {
     pub mass_per_length: f64,
     pub mass: MassKind,
     pub tension_only: bool,
+    /// Length without force over that at t = 0.
+    pub free: f64,
     /// `None`: the material is elastic.
     pub yielding: Option<crate::materials::Law>,
     pub elements: Vec<[usize; 2]>,

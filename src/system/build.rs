@@ -42,7 +42,7 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
     }
     for part in &model.bars {
         for nodes in &part.elements {
-            let mass = part.mass_per_length * (x[nodes[1]] - x[nodes[0]]).norm();
+            let mass = part.mass_per_length * part.free * (x[nodes[1]] - x[nodes[0]]).norm();
             match part.mass {
                 MassKind::Lumped => nodes.iter().for_each(|&n| lumped.add(n, 0.5 * mass, &Mat3::zeros())),
                 MassKind::Consistent => consistent.push(ConsistentMass::new(nodes, mass)),
@@ -157,10 +157,10 @@ pub fn in_plane(part: &model::Beam, plane: Option<usize>) -> Option<bool> {
 fn bars(part: &model::Bar, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn Block> {
     let elements = &part.elements[piece];
     match &part.yielding {
-        None => Box::new(bar::links(elements, part.axial_stiffness, part.tension_only, x, beta)),
+        None => Box::new(bar::links(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),
         Some(law) => {
             let stiffness = part.axial_stiffness;
-            Box::new(YieldingBars::new(elements, stiffness, law, part.tension_only, x, beta))
+            Box::new(YieldingBars::new(elements, stiffness, law, part.tension_only, part.free, x, beta))
         }
     }
 }
