@@ -6,7 +6,6 @@
 
 use rdsolve::diagnostic::Source;
 use rdsolve::elements::Moduli;
-use rdsolve::integrators::Scheme;
 use rdsolve::model::{self, Model, Update};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};
@@ -114,7 +113,7 @@ fn measure(name: &str, mut model: Model) {
     let mut loading = Loading::default();
     Drive::new(&model).loading(state.time, Side::Before, &mut loading);
     let mut forces = Forces::new(&system, model.nodes.len());
-    let Scheme::WilsonTheta(scheme) = &model.scheme;
+    let scheme = &model.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.time_step).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 

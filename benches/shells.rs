@@ -6,7 +6,6 @@
 
 use rdsolve::diagnostic::Source;
 use rdsolve::elements::Moduli;
-use rdsolve::integrators::Scheme;
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Node, Now};
@@ -128,7 +127,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let mut loading = Loading::default();
     Drive::new(&model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);
-    let Scheme::WilsonTheta(scheme) = &model.scheme;
+    let scheme = &model.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.time_step).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 

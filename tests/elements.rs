@@ -115,7 +115,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("link along a direction", Box::new(Links(vec![link(linear, Some(d))])), &ends);
     let table = Law::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
     add("table link", Box::new(Links(vec![link(table, None)])), &ends);
-    add("bar", Box::new(rdsolve::elements::bar::links(&[[0, 1]], 40.0, false, &ends, 0.2)), &ends);
+    add("bar", Box::new(rdsolve::elements::bar::links(&[[0, 1]], 40.0, false, 0.97, &ends, 0.2)), &ends);
     let bushing = Bushing {
         nodes: [0, 1],
         axes: frame,
@@ -184,7 +184,7 @@ fn yielding(rng: &mut StdRng, firmness: f64) -> Vec<Kind> {
             for (rope, what) in [(false, "bar"), (true, "rope")] {
                 let frame = rotation::matrix(&turn(rng));
                 let x = nodes_of(2, &frame, vector(rng, 2.0));
-                let block = Box::new(YieldingBars::new(&[[0, 1]], 40.0, &law, rope, &x, damping));
+                let block = Box::new(YieldingBars::new(&[[0, 1]], 40.0, &law, rope, 1.0, &x, damping));
                 let past = vec![0.0; block.history()];
                 kinds.push(Kind { name: format!("{damped}{name} {what}"), block, x, past });
             }

@@ -88,8 +88,18 @@ pub enum Plane {
 pub struct Integrator {
     /// Default: "wilson-theta".
     pub scheme: Maybe<Scheme>,
-    /// Equilibrium is written at t + theta * time_step. Default: 1.4; unconditionally stable from 1.366 on.
+    /// Equilibrium is written at t + theta * time_step. Default: 1.4; unconditionally stable from 1.366 on. wilson-theta.
     pub theta: Maybe<f64>,
+    /// Default: 0.5. newmark.
+    pub gamma: Maybe<f64>,
+    /// Default: (gamma + 0.5)^2 / 4. newmark.
+    pub beta: Maybe<f64>,
+    /// From -1/3 to 0. Default: -0.05. hht-alpha.
+    pub alpha: Maybe<f64>,
+    /// What is left after a step of motion it does not resolve, from 0 to 1. Default: 0.8. generalized-alpha.
+    pub spectral_radius: Maybe<f64>,
+    /// The part of the step that the first stage covers. Default: 0.585786437626905, which lets one matrix serve both. bathe.
+    pub split: Maybe<f64>,
     /// How rotations follow from their increments. Default: "exponential", which is exact.
     pub rotation_update: Maybe<RotationUpdate>,
 }
@@ -98,6 +108,11 @@ pub struct Integrator {
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
     WilsonTheta,
+    Newmark,
+    HhtAlpha,
+    GeneralizedAlpha,
+    /// The trapezoidal rule, then backward differences: two stages.
+    Bathe,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -1,11 +1,13 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
-use super::build::{Builder, Owner};
+use super::build::{Builder, Owner, span};
 use super::{Analysis, Control, Gyroscopic, Kind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
+use crate::deck::words::Maybe;
 use crate::diagnostic::Diagnostic;
-use crate::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use crate::integrators::{Bathe, GeneralizedAlpha, RotationUpdate, Scheme, WilsonTheta, hht_alpha, newmark};
+use crate::names::short;
 
 /// Wilson-θ is unconditionally stable from here on.
 const STABLE_THETA: f64 = 1.366;
@@ -68,7 +70,49 @@ impl<'d> Builder<'d> {
         };
     }
 
-    fn scheme(&mut self, integrator: &deck::Integrator) {
+    fn scheme(&mut self, integrator: &'d deck::Integrator) {
+        let rotation = match integrator.rotation_update.as_ref().map(|update| update.value) {
+            Some(deck::RotationUpdate::FirstOrder) => RotationUpdate::FirstOrder,
+            Some(deck::RotationUpdate::SecondOrder) => RotationUpdate::SecondOrder,
+            Some(deck::RotationUpdate::Exponential) | None => RotationUpdate::Exponential,
+        };
+        let word = integrator.scheme.as_ref().map_or(deck::Scheme::WilsonTheta, |scheme| scheme.value);
+        let keys = [
+            ("theta", &integrator.theta, deck::Scheme::WilsonTheta),
+            ("gamma", &integrator.gamma, deck::Scheme::Newmark),
+            ("beta", &integrator.beta, deck::Scheme::Newmark),
+            ("alpha", &integrator.alpha, deck::Scheme::HhtAlpha),
+            ("spectral_radius", &integrator.spectral_radius, deck::Scheme::GeneralizedAlpha),
+            ("split", &integrator.split, deck::Scheme::Bathe),
+        ];
+        let strays = keys.iter().filter(|(.., of)| *of != word).map(|(key, value, _)| (*key, span(value)));
+        let strays: Vec<_> = strays.collect();
+        self.model.scheme = match word {
+            deck::Scheme::WilsonTheta => {
+                let theta = self.theta(integrator);
+                Scheme::WilsonTheta(WilsonTheta { theta, rotation })
+            }
+            deck::Scheme::Newmark => {
+                let (gamma, beta) = self.newmark(integrator);
+                Scheme::Newmark(newmark(gamma, beta, rotation))
+            }
+            deck::Scheme::HhtAlpha => {
+                let alpha = self.between("alpha", &integrator.alpha, [-1.0 / 3.0, 0.0], -0.05);
+                Scheme::HhtAlpha(hht_alpha(alpha, rotation))
+            }
+            deck::Scheme::GeneralizedAlpha => {
+                let radius = self.between("spectral_radius", &integrator.spectral_radius, [0.0, 1.0], 0.8);
+                Scheme::GeneralizedAlpha(GeneralizedAlpha::new(radius, rotation))
+            }
+            deck::Scheme::Bathe => {
+                let split = self.between("split", &integrator.split, [0.05, 0.95], 2.0 - 2.0_f64.sqrt());
+                Scheme::Bathe(Bathe { split, rotation })
+            }
+        };
+        self.stray(&format!("the scheme \"{}\"", self.model.scheme.word()), &strays);
+    }
+
+    fn theta(&mut self, integrator: &deck::Integrator) -> f64 {
         let theta = integrator.theta.as_ref().map_or(1.4, |theta| theta.value);
         if let Some(at) = &integrator.theta {
             if theta < 1.0 {
@@ -78,12 +122,42 @@ impl<'d> Builder<'d> {
                 self.warn(&at.span, format!("Wilson-theta with theta = {theta} is not unconditionally stable"), limit);
             }
         }
-        let rotation = match integrator.rotation_update.as_ref().map(|update| update.value) {
-            Some(deck::RotationUpdate::FirstOrder) => RotationUpdate::FirstOrder,
-            Some(deck::RotationUpdate::SecondOrder) => RotationUpdate::SecondOrder,
-            Some(deck::RotationUpdate::Exponential) | None => RotationUpdate::Exponential,
-        };
-        self.model.scheme = Scheme::WilsonTheta(WilsonTheta { theta, rotation });
+        theta
+    }
+
+    /// γ and β; what is not second order or not unconditionally stable is said.
+    fn newmark(&mut self, integrator: &deck::Integrator) -> (f64, f64) {
+        let gamma = integrator.gamma.as_ref().map_or(0.5, |gamma| gamma.value);
+        let beta = integrator.beta.as_ref().map_or(0.25 * (gamma + 0.5).powi(2), |beta| beta.value);
+        if let Some(at) = &integrator.gamma {
+            if gamma < 0.5 {
+                self.error_with::<()>(&at.span, "`gamma` must be at least 0.5", "below, every motion grows");
+            } else if gamma > 0.5 {
+                let text = format!("Newmark with gamma = {gamma} is of first order");
+                self.warn(&at.span, text, "\"generalized-alpha\" damps as well and is of second order");
+            }
+        }
+        if let Some(at) = &integrator.beta {
+            if beta <= 0.0 {
+                self.error_with::<()>(&at.span, "`beta` must be above zero", "at zero the scheme is explicit");
+            } else if 2.0 * beta < gamma {
+                let text = format!("Newmark with beta = {beta} is not unconditionally stable");
+                self.warn(&at.span, text, format!("below {} long steps may grow without bound", 0.5 * gamma));
+            }
+        }
+        (gamma, beta)
+    }
+
+    fn between(&mut self, key: &str, value: &Maybe<f64>, [low, high]: [f64; 2], default: f64) -> f64 {
+        match value {
+            Some(at) if !(low..=high).contains(&at.value) => {
+                let range = format!("from {} to {}", short(low), short(high));
+                self.error_with::<()>(&at.span, format!("`{key}` lies out of its range"), range);
+                default
+            }
+            Some(at) => at.value,
+            None => default,
+        }
     }
 
     fn iteration(&mut self, iteration: &deck::Iteration) {

@@ -8,9 +8,38 @@ use crate::model::{Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MeshFile, 
 use crate::names::{joined, short};
 use std::fmt::Write;
 
-/// What the reader of a result must know of Wilson-θ.
-const WEAKNESS: &str = "Wilson-theta damps modes shorter than about 10 steps a period and overshoots their accelerations and \
-                        velocities in the first steps; equilibrium holds at t + theta dt, reactions are taken there";
+/// The scheme with its parameters.
+fn words(scheme: &Scheme) -> String {
+    let word = scheme.word();
+    match scheme {
+        Scheme::WilsonTheta(scheme) => format!("{word} with theta = {}", scheme.theta),
+        Scheme::Newmark(scheme) => format!("{word} with gamma = {}, beta = {}", scheme.gamma, scheme.beta),
+        Scheme::HhtAlpha(scheme) => format!("{word} with alpha = {}", -scheme.alpha_f),
+        Scheme::GeneralizedAlpha(scheme) => {
+            format!("{word} with a spectral radius of {}", short(scheme.alpha_f / (1.0 - scheme.alpha_f)))
+        }
+        Scheme::Bathe(scheme) => format!("{word} split at {}", short(scheme.split)),
+    }
+}
+
+/// What the reader of a result must know of a scheme.
+fn note(scheme: &Scheme) -> Option<&'static str> {
+    match scheme {
+        Scheme::WilsonTheta(_) => Some(
+            "Wilson-theta damps modes shorter than about 10 steps a period and overshoots their accelerations and \
+             velocities in the first steps; equilibrium holds at t + theta dt, reactions are taken there",
+        ),
+        Scheme::Newmark(scheme) if scheme.gamma == 0.5 => Some(
+            "the trapezoidal rule damps nothing: modes that no step resolves go on ringing in velocities, accelerations and \
+             reactions",
+        ),
+        Scheme::Newmark(_) => Some("with gamma above 0.5 the scheme is of first order and damps low modes too"),
+        Scheme::HhtAlpha(_) | Scheme::GeneralizedAlpha(_) => {
+            Some("equilibrium holds between t and t + dt, reactions are taken there and carried to t + dt")
+        }
+        Scheme::Bathe(_) => None,
+    }
+}
 
 impl Plan {
     /// Lines of plain text: what will be computed, what is left out and why.
@@ -38,10 +67,11 @@ impl Plan {
                 }
             },
             Analysis::Dynamic => {
-                let Scheme::WilsonTheta(scheme) = &model.scheme;
                 let time = format!("to t = {} in {steps} steps of {}", analysis.end_time, analysis.time_step);
-                line("analysis", format!("dynamic, {time}, wilson-theta with theta = {}", scheme.theta));
-                line("  note", WEAKNESS.to_string());
+                line("analysis", format!("dynamic, {time}, {}", words(&model.scheme)));
+                if let Some(note) = note(&model.scheme) {
+                    line("  note", note.to_string());
+                }
             }
         }
         let beams: usize = model.beams.iter().map(|b| b.elements.len()).sum();

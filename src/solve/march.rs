@@ -137,6 +137,8 @@ impl<'a> Run<'a> {
             search: (system.history > 0 && !along).then(|| Search::new(plan.unknowns, n, system.multipliers())),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
+            bases: None,
+            composite: None,
             closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty())
                 .then(|| Closing::new(plan, system, n))
                 .transpose()?,

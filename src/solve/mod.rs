@@ -2,6 +2,7 @@
 
 mod accelerate;
 mod arc;
+mod composite;
 mod convergence;
 mod failure;
 mod joints;

@@ -2,6 +2,7 @@
 
 use super::accelerate::Anderson;
 use super::arc::{Condition, Path};
+use super::composite::Composite;
 use super::convergence::Convergence;
 use super::failure::{self, Failure};
 use super::joints::Closing;
@@ -33,6 +34,10 @@ pub struct Stepper<'a> {
     pub search: Option<Search>,
     /// Where the load is unknown.
     pub path: Option<Path>,
+    /// What a second stage takes in place of velocities and accelerations, per node.
+    pub bases: Option<Vec<[Vec6; 2]>>,
+    /// Room for a scheme of two stages.
+    pub composite: Option<Composite>,
     /// Where a motion in time has joints.
     pub closing: Option<Closing>,
     /// Motion at the instant of equilibrium.
@@ -92,7 +97,7 @@ impl<'a> Stepper<'a> {
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         match (self.model.analysis.kind, &self.model.scheme) {
             (Kind::Static, _) => load_steps::coefficients(),
-            (Kind::Dynamic, Scheme::WilsonTheta(scheme)) => scheme.coefficients(dt),
+            (Kind::Dynamic, scheme) => scheme.coefficients(dt),
         }
     }
 
@@ -101,10 +106,17 @@ impl<'a> Stepper<'a> {
     /// # Errors
     /// See [`Failure`].
     pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
+        if let (Kind::Dynamic, Scheme::Bathe(bathe)) = (self.model.analysis.kind, &self.model.scheme) {
+            return self.composite(state, to, bathe);
+        }
         let scheme = self.coefficients(to - state.time);
-        self.predict(state, &scheme);
-        let taken = self.equilibrate(state, &scheme, to, None)?;
-        self.accept(state, &scheme, to)?;
+        self.stage(state, &scheme, to)
+    }
+
+    pub(super) fn stage(&mut self, state: &mut State, scheme: &Coefficients, to: f64) -> Result<Taken, Failure> {
+        self.predict(state, scheme);
+        let taken = self.equilibrate(state, scheme, to, None)?;
+        self.accept(state, scheme, to)?;
         Ok(taken)
     }
 
@@ -148,9 +160,10 @@ impl<'a> Stepper<'a> {
                 }
                 continue;
             }
-            if self.refresh.due(taken.iterations, dt) {
+            let key = self.key(scheme, dt);
+            if self.refresh.due(taken.iterations, key) {
                 self.form_matrix(state, scheme, since)?;
-                self.refresh.done(dt);
+                self.refresh.done(key);
                 self.forget_corrections();
                 taken.refactorizations += 1;
             }
@@ -202,6 +215,11 @@ impl<'a> Stepper<'a> {
         }
         self.refresh.accepted(taken.iterations);
         Ok(taken)
+    }
+
+    /// What the matrix of a step depends on besides the motion: a time, the length of the step or what its rates are taken over.
+    fn key(&self, scheme: &Coefficients, dt: f64) -> f64 {
+        if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
     }
 
     /// Loads and held motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
@@ -259,6 +277,7 @@ impl<'a> Stepper<'a> {
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+            let [v, a] = self.bases.as_ref().map_or([v, a], |bases| bases[node]);
             scheme.differentiate(&mut self.increments[node], &v, &a);
         }
         for (held, given) in self.model.held.iter().zip(&self.held[2]) {
@@ -402,6 +421,7 @@ impl<'a> Stepper<'a> {
             for &node in &self.movers {
                 let start = &state.nodes[node];
                 let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+                let [v, a] = self.bases.as_ref().map_or([v, a], |bases| bases[node]);
                 scheme.differentiate(&mut self.increments[node], &v, &a);
             }
         }
@@ -420,6 +440,7 @@ impl<'a> Stepper<'a> {
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+            let [v, a] = self.bases.as_ref().map_or([v, a], |bases| bases[node]);
             self.increments[node] = scheme.finish(&self.increments[node], &v, &a);
         }
         for (i, held) in self.model.held.iter().enumerate() {

@@ -168,6 +168,7 @@ pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_lengt
         mass_per_length,
         mass,
         tension_only: false,
+        free: 1.0,
         yielding: None,
         elements: vec![ends],
     });

@@ -6,7 +6,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::Moduli;
 use rdsolve::elements::pressure::Face;
-use rdsolve::integrators::{Coefficients, RotationUpdate, Scheme, load_steps};
+use rdsolve::integrators::{Coefficients, RotationUpdate, load_steps};
 use rdsolve::linear;
 use rdsolve::math::rotation::{exp, inverse_tangent};
 use rdsolve::math::{Vec3, Vec6, bottom, join};
@@ -38,7 +38,7 @@ impl Instant {
         let plan = Plan::new(&m, &system, 1);
         let scheme = match (m.analysis.kind, &m.scheme) {
             (Kind::Static, _) => load_steps::coefficients(),
-            (Kind::Dynamic, Scheme::WilsonTheta(scheme)) => scheme.coefficients(m.analysis.time_step),
+            (Kind::Dynamic, scheme) => scheme.coefficients(m.analysis.time_step),
         };
         let mut loading = Loading::default();
         Drive::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);

@@ -75,6 +75,7 @@ pub fn model() -> Model {
             mass_per_length: 0.0,
             mass: MassKind::None,
             tension_only: false,
+            free: 1.0,
             yielding: None,
             elements: vec![[5, 0]],
         }],
