@@ -25,7 +25,7 @@ fn owned(sets: &[&str]) -> Vec<String> {
 /// rule never damps the stiff mode: its a2 is the phase of that after 38 steps, which rounding of 1e7 leaves four digits of.
 #[test]
 fn digits_on_the_stiff_chain() {
-    let table = [
+    let table: [[f64; 5]; 8] = [
         [2.360702, -2.418524, 0.091840, -0.210728, -697.700],
         [2.341194, -1.701167, -0.108389, 0.974059, 0.553198],
         [2.355349, -2.099897, 0.104431, 0.850347, -14.7274],

@@ -15,6 +15,8 @@ pub const MOST_ROWS: usize = 6;
 pub struct Joint {
     pub nodes: [usize; 2],
     pub rows: Vec<Row>,
+    /// The second node only moves as it is held.
+    pub supports: bool,
 }
 
 /// One equation. Vectors are unit vectors at t = 0, carried by the node they belong to.

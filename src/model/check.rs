@@ -42,6 +42,7 @@ impl<'d> Builder<'d> {
         // What an error has left out may be all that used it.
         if self.deck.spoiled.is_empty() && !self.problems.iter().any(Diagnostic::is_error) {
             self.check_use();
+            self.check_joints();
         }
         self.check_mesh();
         if self.model.analysis.kind == super::Kind::Static {

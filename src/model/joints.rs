@@ -3,9 +3,9 @@
 use super::attachments::directions;
 use super::build::{Builder, Owner, span};
 use super::places::Spot;
-use super::{Held, Joint};
+use super::{Held, History, Joint, Kind};
 use crate::constraints::joint::{Row, rotations, translations};
-use crate::deck::joints::{Joint as Deck, Kind};
+use crate::deck::joints::{Joint as Deck, Kind as Word};
 use crate::diagnostic::Span;
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
@@ -18,7 +18,7 @@ impl<'d> Builder<'d> {
             self.need(&owner, "name", &joint.name);
             let kind = self.need(&owner, "kind", &joint.kind).map(|kind| kind.value);
             let from = self.end(&owner, "from", &joint.from, &name, true, None);
-            let place = from.map(|from| self.x(from)).filter(|_| kind != Some(Kind::Distance));
+            let place = from.map(|from| self.x(from)).filter(|_| kind != Some(Word::Distance));
             let to = self.end(&owner, "to", &joint.to, &name, true, place);
             let axes = kind.and_then(|kind| self.joint_axes(&owner, joint, kind));
             let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
@@ -30,15 +30,15 @@ impl<'d> Builder<'d> {
     }
 
     /// Axes whose first is the joint's, whose second is that of its cross.
-    fn joint_axes(&mut self, owner: &Owner<'d>, joint: &'d Deck, kind: Kind) -> Option<Mat3> {
+    fn joint_axes(&mut self, owner: &Owner<'d>, joint: &'d Deck, kind: Word) -> Option<Mat3> {
         let cross = [("cross_axis", span(&joint.cross_axis))];
         match kind {
-            Kind::Ball | Kind::Fixed | Kind::Distance => {
+            Word::Ball | Word::Fixed | Word::Distance => {
                 let word = format!("a joint of kind \"{}\"", format!("{kind:?}").to_lowercase());
                 self.stray(&word, &[("axis", span(&joint.axis)), cross[0]]);
                 Some(Mat3::identity())
             }
-            Kind::Hinge | Kind::Slider | Kind::Cylinder => {
+            Word::Hinge | Word::Slider | Word::Cylinder => {
                 self.stray("a joint with one axis", &cross);
                 let axis = self.need(owner, "axis", &joint.axis)?;
                 let x = self.unit("axis", axis)?;
@@ -46,7 +46,7 @@ impl<'d> Builder<'d> {
                 let y = x.cross(&Vec3::ith(x.iamin(), 1.0)).normalize();
                 Some(Mat3::from_columns(&[x, y, x.cross(&y)]))
             }
-            Kind::Universal => {
+            Word::Universal => {
                 let axis = self.need(owner, "axis", &joint.axis);
                 let cross = self.need(owner, "cross_axis", &joint.cross_axis);
                 let x = axis.and_then(|axis| self.unit("axis", axis));
@@ -61,13 +61,13 @@ impl<'d> Builder<'d> {
         }
     }
 
-    fn joint_rows(&mut self, owner: &Owner<'d>, kind: Kind, ends: [usize; 2], axes: &Mat3) -> Option<Vec<Row>> {
+    fn joint_rows(&mut self, owner: &Owner<'d>, kind: Word, ends: [usize; 2], axes: &Mat3) -> Option<Vec<Row>> {
         if ends[0] == ends[1] {
             let node = &self.model.nodes[ends[0]].label;
             return self.error(owner.span, format!("{} joins `{node}` to itself", owner.what));
         }
         let d = self.x(ends[0]) - self.x(ends[1]);
-        if kind == Kind::Distance {
+        if kind == Word::Distance {
             if d.norm() == 0.0 {
                 let message = format!("the ends of {} lie at the same place, so there is no distance", owner.what);
                 return self.error_with(owner.span, message, "a \"ball\" holds two points together");
@@ -86,13 +86,40 @@ impl<'d> Builder<'d> {
             square.chain(rows).collect()
         };
         Some(match kind {
-            Kind::Ball | Kind::Distance => meet(Vec::new()),
-            Kind::Hinge => meet(rotations([false, true, true], axes)),
-            Kind::Fixed => meet(rotations([true; 3], axes)),
-            Kind::Universal => meet(rotations([false, false, true], axes)),
-            Kind::Slider => slide(rotations([true; 3], axes)),
-            Kind::Cylinder => slide(rotations([false, true, true], axes)),
+            Word::Ball | Word::Distance => meet(Vec::new()),
+            Word::Hinge => meet(rotations([false, true, true], axes)),
+            Word::Fixed => meet(rotations([true; 3], axes)),
+            Word::Universal => meet(rotations([false, false, true], axes)),
+            Word::Slider => slide(rotations([true; 3], axes)),
+            Word::Cylinder => slide(rotations([false, true, true], axes)),
         })
+    }
+
+    /// Reports joints of the deck between things that cannot move against each other. The deck is sound otherwise.
+    pub fn check_joints(&mut self) {
+        let mut held = vec![[false; 6]; self.model.nodes.len()];
+        self.model.held.iter().filter(|held| held.motion.is_none()).for_each(|h| held[h.node][h.dof] = true);
+        for (index, joint) in self.deck.joints.iter().enumerate() {
+            let ends = self.model.joints[index].ends.map(|node| self.carrier(node));
+            let name = &self.model.joints[index].name;
+            if ends[0] == ends[1] {
+                let label = &self.model.nodes[ends[0]].label;
+                let message = format!("both ends of joint `{name}` lie on `{label}`, so it holds nothing");
+                self.error::<()>(&joint.span, message);
+            } else if ends.iter().all(|&end| held[end] == [true; 6]) {
+                self.error::<()>(&joint.span, format!("both ends of joint `{name}` are fixed, so it holds nothing"));
+            }
+        }
+    }
+
+    /// The node that a node rides on in every direction, in the end.
+    fn carrier(&self, mut node: usize) -> usize {
+        while let Some((rider, _)) = self.rides.get(&node)
+            && self.model.riders[*rider].dofs == [true; 6]
+        {
+            node = self.model.riders[*rider].master;
+        }
+        node
     }
 
     /// Holds a node to a point of its own on a master, in the directions taken from it.
@@ -123,6 +150,15 @@ impl<'d> Builder<'d> {
         };
         let mut new = [false; 6];
         for (dof, motion, place) in dofs {
+            if let Some(motion) = motion
+                && self.model.analysis.kind == Kind::Dynamic
+                && motion.history == History::Displacement
+                && motion.scale * self.model.amplitudes[motion.amplitude].value(0.0) != 0.0
+            {
+                let message =
+                    format!("the motion of `{}` does not begin at zero, but it rides on something", spot.name);
+                self.error_with::<()>(place, message, "what it rides on starts where it is");
+            }
             match self.held.get(&(ghost, *dof)) {
                 Some((held, _)) if held.motion.is_some() || motion.is_some() => {
                     let what = directions([*dof]);

@@ -110,7 +110,7 @@ impl Plan {
         if !model.joints.is_empty() {
             let all: usize = model.joints.iter().map(|joint| joint.rows.len()).sum();
             let kept = system.multipliers();
-            line("joints", format!("{kept} multipliers, closed at the end of each step (57)"));
+            line("joints", format!("{kept} multipliers (57), joints closed at the end of each step"));
             if all > kept {
                 line("  left out", format!("{} rows out of the plane of the motion", all - kept));
             }
@@ -183,7 +183,7 @@ impl Plan {
     /// What joints hold more than once, a line for each joint.
     pub fn repeated(&self, model: &Model, system: &crate::system::System) -> Vec<String> {
         let Some(repeated) = &self.repeated else {
-            return vec!["not looked for: there are too many joints".to_string()];
+            return vec!["too many joints to look for what is held more than once".to_string()];
         };
         let mut lines: Vec<(usize, Vec<&str>)> = Vec::new();
         for (joint, row) in repeated.iter().filter_map(|&number| system.row(number)) {

@@ -95,7 +95,8 @@ impl Plan {
     /// # Errors
     /// As for [`Plan::build`].
     pub fn build_bare(&self, bare: &System) -> Result<(Solver, Assembly), TooLarge> {
-        let solver = Solver::new(&structure(bare, &self.rows), Kind::Block, 1)?;
+        let structure = structure(bare, &self.rows);
+        let solver = Solver::new(&structure, Kind::choose(&structure), 1)?;
         let assembly = Assembly::new(bare, &self.rows, &solver, 1);
         Ok((solver, assembly))
     }

@@ -106,8 +106,9 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         }
     }
     for joint in &system.joints {
-        for (node, G) in joint.rows.iter().flat_map(|row| joint.nodes.into_iter().zip(reach_of(row))) {
-            acts[node].iter_mut().zip(G).for_each(|(acts, reaches)| *acts |= reaches);
+        let moving = &joint.nodes[..if joint.supports { 1 } else { 2 }];
+        for (&node, reach) in joint.rows.iter().flat_map(|row| moving.iter().zip(reach_of(row))) {
+            acts[node].iter_mut().zip(reach).for_each(|(acts, reaches)| *acts |= reaches);
         }
     }
     // Per node: whether it has mass, and whether that has inertia.

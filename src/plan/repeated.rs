@@ -10,7 +10,7 @@ use crate::system::assembly::{self, NONE};
 /// Part of a row that must be new for it to say something.
 const NEW: f64 = 1e-8;
 /// Operations that looking for them may take: more joints than that are not looked at.
-const MOST: f64 = 3e8;
+const MOST: f64 = 5e7;
 
 /// Numbers of the multipliers whose rows depend on those before them; `None`: too many to tell.
 pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize>> {
@@ -55,7 +55,7 @@ pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize
     for (number, entries) in sparse.iter().enumerate() {
         let mut v = vec![0.0; columns];
         entries.iter().for_each(|&(at, value)| v[at] += value);
-        let whole = norm(&v);
+        let whole = entries.iter().map(|(_, value)| value * value).sum::<f64>().sqrt();
         // Twice is enough (Kahan).
         for _ in 0..2 {
             for b in &basis {

@@ -124,7 +124,7 @@ impl Stepper<'_> {
         if path.driven {
             let h = 1e-6 * self.model.analysis.end_time;
             path.rate.fill(0.0);
-            path.forces.multipliers.clone_from(&self.forces.multipliers);
+            path.forces.multipliers.copy_from(&self.forces.multipliers);
             path.gaps.fill(0.0);
             for side in [1.0, -1.0] {
                 self.give(state.time, to + side * h, 1.0);

@@ -75,7 +75,9 @@ pub(super) fn largest(model: &Model, plan: &Plan, residual: &[f64]) -> Vec<Large
 
 /// The five widest gaps of joints by name.
 pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<Largest> {
-    sorted(gaps, |number| multiplier(model, system, number))
+    let mut widest = sorted(gaps, |number| multiplier(model, system, number));
+    widest.retain(|gap| gap.residual != 0.0);
+    widest
 }
 
 impl fmt::Display for Failure {

@@ -11,6 +11,7 @@ use crate::integrators::Coefficients;
 use crate::linear::{Solver, TooLarge};
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, bottom};
+use crate::model::{Held, Model};
 use crate::plan::Plan;
 use crate::state::{Node, Now, State};
 use crate::system::assembly::{Assembly, NONE, Weights};
@@ -21,6 +22,8 @@ const MOST: usize = 12;
 
 /// Gaps, relative to positions, that rounding may leave.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Wider ones are no joints: what iteration and closing leave is far below.
+const APART: f64 = 1e-9;
 
 /// Of the largest mass: what a direction without mass is given, so that it is the one that gives way.
 const TRACE: f64 = 1e-9;
@@ -36,6 +39,8 @@ pub struct Closing {
     r: Vec<f64>,
     /// On the diagonal: places and whether they are those of rotations.
     diagonal: Vec<(usize, bool)>,
+    /// Those of directions that nothing gives a mass.
+    massless: Vec<(usize, bool)>,
 }
 
 impl Closing {
@@ -44,9 +49,15 @@ impl Closing {
     pub fn new(plan: &Plan, system: &System, nodes: usize) -> Result<Self, TooLarge> {
         let bare = system.bare();
         let (solver, assembly) = plan.build_bare(&bare)?;
-        let slot = |(row, &(_, dof)): (usize, &(usize, usize))| solver.slot(row, row).map(|slot| (slot, dof > 2));
+        let heavy = bare.massive(nodes);
+        let slots = |massless: bool| {
+            let directions = plan.directions.iter().enumerate();
+            let kept = directions.filter(|(_, (node, dof))| !massless || !heavy[*node][usize::from(*dof > 2)]);
+            kept.filter_map(|(row, &(_, dof))| solver.slot(row, row).map(|slot| (slot, dof > 2))).collect()
+        };
         Ok(Closing {
-            diagonal: plan.directions.iter().enumerate().filter_map(slot).collect(),
+            diagonal: slots(false),
+            massless: slots(true),
             forces: Forces::new(&bare, nodes),
             loading: Loading::default(),
             r: vec![0.0; plan.unknowns],
@@ -67,7 +78,7 @@ impl Closing {
             let largest = &mut largest[usize::from(turns)];
             *largest = largest.max(values[slot].abs());
         }
-        for &(slot, turns) in &self.diagonal {
+        for &(slot, turns) in &self.massless {
             let mass = largest[usize::from(turns)];
             values[slot] += TRACE * if mass > 0.0 { mass } else { 1.0 };
         }
@@ -90,13 +101,56 @@ impl Stepper<'_> {
     pub(super) fn close_joints(&mut self, state: &State, scheme: &Coefficients, dt: f64) -> Result<(), Failure> {
         let Some(mut closing) = self.closing.take() else { return Ok(()) };
         let closed = closing.factor(&self.trial) && self.close_with(&mut closing, state, scheme, dt);
-        let largest = || failure::gaps(self.model, self.system, &closing.forces.multipliers.gaps);
-        let result = if closed { Ok(()) } else { Err(Failure::Apart { largest: largest() }) };
+        self.system.gaps(&self.trial, 0, &mut self.forces.multipliers.gaps);
         self.closing = Some(closing);
-        if !closed {
-            self.refresh.rejected();
+        if closed { Ok(()) } else { Err(self.apart()) }
+    }
+
+    /// Of the trial motion at the end of a step, and what it leaves of the gaps.
+    ///
+    /// # Errors
+    /// [`Failure::Apart`] where joints have not closed, however well forces balance: they contradict each other.
+    pub(super) fn check_joints(&mut self) -> Result<(), Failure> {
+        if self.system.joints.is_empty() {
+            return Ok(());
         }
-        result
+        let gaps = &mut self.forces.multipliers.gaps;
+        self.system.gaps(&self.trial, 0, gaps);
+        let gap = self.system.largest_gap(gaps, self.system.joint_reach(&self.trial, self.reach));
+        if gap > APART || gap.is_nan() {
+            return Err(self.apart());
+        }
+        self.violation = self.violation.max(gap);
+        Ok(())
+    }
+
+    fn apart(&mut self) -> Failure {
+        self.refresh.rejected();
+        Failure::Apart { largest: failure::gaps(self.model, self.system, &self.forces.multipliers.gaps) }
+    }
+
+    /// Rows that say the same may carry anything against each other: they are left with the least that does what they do
+    /// together.
+    pub(super) fn share_out(&mut self, state: &mut State) {
+        if !self.plan.shares() {
+            return;
+        }
+        let Some(mut closing) = self.closing.take() else { return };
+        let Closing { bare, forces, r, solver, .. } = &mut closing;
+        forces.multipliers.values.copy_from_slice(&state.multipliers);
+        bare.joint_forces(&self.trial, forces);
+        for (r, &(node, dof)) in r.iter_mut().zip(&self.plan.directions) {
+            *r = -forces.on_nodes[node][dof];
+        }
+        // M δ + Gᵀμ = Gᵀλ, G δ = 0
+        let tail = &mut r[self.plan.directions.len()..];
+        tail.fill(0.0);
+        solver.solve(r);
+        state.multipliers.fill(0.0);
+        forces.multipliers.values.fill(0.0);
+        forces.multipliers.add(&r[self.plan.directions.len()..]);
+        state.multipliers.copy_from_slice(&forces.multipliers.values);
+        self.closing = Some(closing);
     }
 
     fn close_with(&mut self, closing: &mut Closing, state: &State, scheme: &Coefficients, dt: f64) -> bool {
@@ -105,7 +159,6 @@ impl Stepper<'_> {
             let gap = self.gap(closing, 0);
             // At rounding, or no longer falling next to it.
             if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
-                self.violation = self.violation.max(gap);
                 // Rates are linear in themselves: one correction is exact but for what the positions have changed since.
                 for derivative in [1, 2] {
                     let mut last = f64::INFINITY;
@@ -133,7 +186,7 @@ impl Stepper<'_> {
     fn gap(&self, closing: &mut Closing, derivative: usize) -> f64 {
         let gaps = &mut closing.forces.multipliers.gaps;
         self.system.gaps(&self.trial, derivative, gaps);
-        self.system.largest_gap(gaps, self.reach)
+        self.system.largest_gap(gaps, self.system.joint_reach(&self.trial, self.reach))
     }
 
     /// One correction of the motion, its velocity or its acceleration.
@@ -189,8 +242,21 @@ impl Stepper<'_> {
             }
             self.ride(nodes);
         }
-        for (jump, fastest) in self.start_jump.iter_mut().zip(fastest) {
-            *jump /= fastest.max(f64::MIN_POSITIVE);
-        }
+        // Of translations and rotations together: where one of them is nil, rounding of the other is no jump.
+        let whole = fastest[0].max(fastest[1] * self.length);
+        let jump = self.start_jump[0].max(self.start_jump[1] * self.length);
+        self.start_jump = [jump / whole.max(f64::MIN_POSITIVE), 0.0];
     }
+}
+
+/// Held directions whose given motion joints hand on: those of nodes that a joint's end is, or rides on.
+pub fn leading(model: &Model, system: &System) -> Vec<usize> {
+    let mut leads = vec![false; model.nodes.len()];
+    system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
+    // Riders come after their masters.
+    for rider in system.attachments.iter().rev() {
+        leads[rider.master] |= leads[rider.node];
+    }
+    let moves = |(_, held): &(usize, &Held)| held.motion.is_some() && leads[held.node];
+    model.held.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::accelerate::Anderson;
 use super::failure::Failure;
-use super::joints::Closing;
+use super::joints::{self, Closing};
 use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
@@ -134,7 +134,7 @@ impl<'a> Run<'a> {
             solver,
             assembly,
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
-            search: (system.history > 0 && !along).then(|| Search::new(plan.unknowns, n, system.multipliers())),
+            search: (system.history > 0 && !along).then(|| Search::new(plan.directions.len(), n, system.multipliers())),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
             bases: None,
@@ -152,6 +152,7 @@ impl<'a> Run<'a> {
             given: [Loading::default(), Loading::default(), Loading::default()],
             held: [Vec::new(), Vec::new(), Vec::new()],
             movers: (0..n).filter(moves).collect(),
+            leading: joints::leading(model, system),
             wants_forces: wanted.reactions || wanted.energy,
             factorizations: 0,
             solves: 0,

@@ -12,7 +12,7 @@ const TRIES: usize = 5;
 
 /// The last correction of a step. Allocated once.
 pub struct Search {
-    /// Residual before it, then the correction, per unknown.
+    /// Residual before it, then the correction, per direction. Multipliers do no work as long as joints hold, and are left out.
     residual: Vec<f64>,
     correction: Vec<f64>,
     /// Increments before it, per node.
@@ -26,10 +26,10 @@ pub struct Search {
 }
 
 impl Search {
-    pub fn new(unknowns: usize, nodes: usize, multipliers: usize) -> Self {
+    pub fn new(directions: usize, nodes: usize, multipliers: usize) -> Self {
         Search {
-            residual: vec![0.0; unknowns],
-            correction: vec![0.0; unknowns],
+            residual: vec![0.0; directions],
+            correction: vec![0.0; directions],
             before: vec![Vec6::zeros(); nodes],
             multipliers: vec![0.0; multipliers],
             at_start: 0.0,

@@ -71,6 +71,8 @@ impl Stepper<'_> {
         if dynamic {
             let massless = self.factor_mass(&state.now())?;
             if !self.system.joints.is_empty() {
+                self.trial.clone_from(&state.nodes);
+                self.check_joints()?;
                 self.start_on_joints(&mut state.nodes);
                 self.system.residual(&state.now(), &self.given[2], &mut self.forces);
             }

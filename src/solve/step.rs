@@ -53,6 +53,8 @@ pub struct Stepper<'a> {
     pub held: [Vec<Prescribed>; 3],
     /// Nodes that move by increments of their own.
     pub movers: Vec<usize>,
+    /// Held directions, by their place in the model's list, whose motion joints hand on.
+    pub leading: Vec<usize>,
     /// Length on which corrections are judged where hardly anything moves.
     pub length: f64,
     /// Largest coordinate of a node: what positions are rounded against.
@@ -152,7 +154,12 @@ impl<'a> Stepper<'a> {
                 continue;
             }
             if let Some(search) = &mut self.search
-                && search.shorten(&self.r, taken.residual, &mut self.increments, &mut self.forces.multipliers.values)
+                && search.shorten(
+                    &self.r[..self.plan.directions.len()],
+                    taken.residual,
+                    &mut self.increments,
+                    &mut self.forces.multipliers.values,
+                )
             {
                 // What was mixed into it no longer tells what it did.
                 if let Some(anderson) = &mut self.anderson {
@@ -169,7 +176,7 @@ impl<'a> Stepper<'a> {
             }
             self.forces.multipliers.ask(&mut self.r[self.plan.directions.len()..]);
             if let Some(search) = &mut self.search {
-                search.keep_residual(&self.r, taken.residual);
+                search.keep_residual(&self.r[..self.plan.directions.len()], taken.residual);
             }
             self.solver.solve(&mut self.r);
             self.solves += 1;
@@ -237,6 +244,15 @@ impl<'a> Stepper<'a> {
             v: a.v + instant * (b.v - a.v),
             a: a.a + instant * (b.a - a.a),
         }));
+        if instant > 1.0 {
+            // What joints tie to a given motion takes its acceleration from positions: they must belong to one another. Past the
+            // end of the step a straight line of positions would leave six sevenths of it out.
+            let tau = instant * (to - from);
+            for &i in &self.leading {
+                let (start, now) = (&start[i], &mut at[i]);
+                now.u = tau * start.v + tau * tau / 6.0 * (2.0 * start.a + now.a);
+            }
+        }
     }
 
     /// Before a step is cut: back to its prediction, to go on with a matrix for every iteration; false if that was done.
@@ -264,12 +280,7 @@ impl<'a> Stepper<'a> {
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
             self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
         }
-        // What rows that say the same carry against each other would wander from step to step: it is let go by half, and what
-        // they carry for others comes back with the first correction.
-        let kept = if self.plan.shares() { 0.5 } else { 1.0 };
-        for (value, last) in self.forces.multipliers.values.iter_mut().zip(&state.multipliers) {
-            *value = kept * last;
-        }
+        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
     }
 
     /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.
@@ -337,7 +348,8 @@ impl<'a> Stepper<'a> {
             anderson.mix(&mut self.r);
         }
         if let Some(search) = &mut self.search {
-            search.keep_correction(&self.r, &self.increments, &self.forces.multipliers.values);
+            let correction = &self.r[..self.plan.directions.len()];
+            search.keep_correction(correction, &self.increments, &self.forces.multipliers.values);
         }
         plain
     }
@@ -456,6 +468,7 @@ impl<'a> Stepper<'a> {
             rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
         }
         self.close_joints(state, scheme, dt)?;
+        self.check_joints()?;
         if dynamic {
             for &node in &self.movers {
                 let (start, end) = (&state.nodes[node], &self.trial[node]);
@@ -466,6 +479,7 @@ impl<'a> Stepper<'a> {
         for (old, value) in state.multipliers.iter_mut().zip(&self.forces.multipliers.values) {
             *old += (value - *old) / scheme.instant;
         }
+        self.share_out(state);
         if self.wants_forces {
             self.account(state, scheme, dt, damping_power);
         }
@@ -497,6 +511,12 @@ impl<'a> Stepper<'a> {
 
     fn not_converged(&mut self, taken: &Taken) -> Failure {
         self.refresh.rejected();
+        // Forces balance, but not with closed joints: they contradict each other.
+        if taken.residual < 1e-3
+            && let Err(apart) = self.check_joints()
+        {
+            return apart;
+        }
         self.gather(&Scale::default());
         let largest = failure::largest(self.model, self.plan, &self.r);
         Failure::NotConverged { iterations: taken.iterations, largest }

@@ -229,11 +229,7 @@ impl Assembly {
         let joints = system.joints.iter().zip(first..);
         let joints: Vec<Place> =
             joints.map(|(joint, own)| local(&mut scatter, &[joint.nodes[0], joint.nodes[1], own], 6)).collect();
-        let diagonals = system.joints.iter().map(|joint| {
-            let moved = joint.nodes.iter().flat_map(|&n| roots[n].iter().copied());
-            Diagonal::new(moved, rows, solver)
-        });
-        let diagonals = diagonals.collect();
+        let diagonals = system.joints.iter().map(|joint| Diagonal::new(joint, &roots, rows, solver)).collect();
 
         // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
@@ -360,19 +356,15 @@ impl Assembly {
         values: &mut [f64],
     ) {
         let Scratch { carry: maps, carried, .. } = &mut self.scratch;
+        let maps = &maps[..];
         let own = nodes.len();
         let add = |j: usize, K: &[f64], values: &mut [f64]| {
             let [a, b] = system.joints[j].nodes;
-            add_local(
-                K,
-                &[a, b, own + j],
-                &self.joints[j],
-                (&self.scatter, &self.tiles, &self.roots, maps),
-                carried,
-                values,
-            );
+            let how = (&self.scatter, &self.tiles, &self.roots[..], maps);
+            add_local(K, &[a, b, own + j], &self.joints[j], how, carried, values);
         };
-        joints::tangents(system, nodes, &self.diagonals, &mut forces.multipliers, weights.stiffness, values, add);
+        let multipliers = &mut forces.multipliers;
+        joints::tangents(system, nodes, &self.diagonals, maps, multipliers, weights.stiffness, values, add);
     }
 
     /// The matrices of nodes by themselves.

@@ -216,7 +216,7 @@ pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
     let joint = |joint: &model::Joint| {
         let d = x[joint.ends[0]] - x[joint.ends[1]];
         let says = |row: &&Row| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
-        Joint { nodes: joint.ends, rows: joint.rows.iter().filter(says).copied().collect() }
+        Joint { nodes: joint.ends, rows: joint.rows.iter().filter(says).copied().collect(), supports: joint.supports }
     };
     model.joints.iter().map(joint).collect()
 }

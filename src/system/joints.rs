@@ -10,7 +10,7 @@
 use super::{Forces, Scale, System};
 use crate::constraints::joint::{Joint, MOST_ROWS, Row};
 use crate::linear::Solver;
-use crate::math::Vec3;
+use crate::math::{Mat6, Vec3, Vec6};
 use crate::state::Node;
 
 /// ε: a repeated row is felt as 1e-16/ε of a length, and a gap shrinks by ε in an iteration.
@@ -33,6 +33,12 @@ pub struct Multipliers {
 impl Multipliers {
     pub fn new(rows: usize) -> Self {
         Multipliers { values: vec![0.0; rows], gaps: vec![0.0; rows], penalties: vec![0.0; rows] }
+    }
+
+    /// All but the gaps of another.
+    pub fn copy_from(&mut self, other: &Multipliers) {
+        self.values.copy_from_slice(&other.values);
+        self.penalties.copy_from_slice(&other.penalties);
     }
 
     /// The right-hand side of the second equation.
@@ -97,6 +103,33 @@ impl System {
         }
     }
 
+    /// −Gᵀλ alone, handed to the masters.
+    pub fn joint_forces(&self, nodes: &[Node], forces: &mut Forces) {
+        forces.on_nodes.fill([0.0; 6]);
+        self.join(nodes, forces, &mut Scale::default());
+        self.lift(nodes, forces);
+    }
+
+    /// Per node: whether anything gives its translations, its rotations mass.
+    pub fn massive(&self, nodes: usize) -> Vec<[bool; 2]> {
+        let mut massive = vec![[false; 2]; nodes];
+        self.inertias.iter().for_each(|inertia| massive[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);
+        for node in self.consistent.iter().flat_map(|mass| &mass.nodes) {
+            massive[*node][0] = true;
+        }
+        for rider in self.attachments.iter().rev() {
+            let [moves, turns] = massive[rider.node];
+            massive[rider.master][0] |= moves && rider.dofs[..3].contains(&true);
+            massive[rider.master][1] |= turns && rider.dofs[3..].contains(&true);
+        }
+        massive
+    }
+
+    /// What gaps are measured by: `reach`, or the largest coordinate of a joint's end where it has gone farther.
+    pub fn joint_reach(&self, nodes: &[Node], reach: f64) -> f64 {
+        self.joints.iter().flat_map(|joint| joint.nodes).fold(reach, |reach, node| reach.max(nodes[node].x.amax()))
+    }
+
     /// Writes the gaps (0) of the joints, or the first or second derivative in time.
     pub fn gaps(&self, nodes: &[Node], derivative: usize, gaps: &mut [f64]) {
         for (joint, first) in self.numbered() {
@@ -140,24 +173,37 @@ impl System {
     }
 }
 
-/// The diagonal of the matrix where a joint's nodes move: per node that moves, translations and rotations.
-pub(super) struct Diagonal(Vec<[Vec<u32>; 2]>);
+/// Where a joint's nodes move: of each node and each root that it moves with, its place in [`super::assembly::roots`], and the
+/// places of its six directions on the diagonal of the matrix.
+pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
 
 impl Diagonal {
-    /// `roots`: the nodes that the joint's nodes move with.
-    pub fn new(roots: impl Iterator<Item = usize>, rows: &super::assembly::Rows, solver: &Solver) -> Self {
-        let slots = |rows: &[u32]| {
-            let slot = |&row: &u32| solver.slot(row as usize, row as usize).map(|slot| slot as u32);
-            rows.iter().filter(|&&row| row != super::assembly::NONE).filter_map(slot).collect()
+    pub fn new(joint: &Joint, roots: &[Vec<usize>], rows: &super::assembly::Rows, solver: &Solver) -> Self {
+        let slot = |row: u32| match row {
+            super::assembly::NONE => None,
+            row => solver.slot(row as usize, row as usize).map(|slot| slot as u32),
         };
-        Diagonal(roots.map(|root| [slots(&rows[root][..3]), slots(&rows[root][3..])]).collect())
+        let of = |(end, &node): (usize, &usize)| {
+            let places = roots[node].iter().enumerate();
+            places.map(move |(k, &root)| (end, node, k, rows[root].map(slot))).collect::<Vec<_>>()
+        };
+        Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }
 
-    /// The stiffness of the side that gives way more easily; none where no side resists.
-    fn stiffness(&self, turns: bool, values: &[f64]) -> Option<f64> {
-        let largest = |slots: &Vec<u32>| slots.iter().map(|&slot| values[slot as usize].abs()).fold(0.0, f64::max);
-        let sides = self.0.iter().map(|node| largest(&node[usize::from(turns)])).filter(|&k| k > 0.0);
-        sides.min_by(f64::total_cmp)
+    /// The stiffness against which a row acts, Σ g²/K over all directions that it pulls at, inverted; none where nothing resists.
+    fn stiffness(&self, G: &[Vec6; 2], maps: &[Vec<Mat6>], values: &[f64]) -> Option<f64> {
+        let mut compliance = 0.0;
+        for (end, node, k, slots) in &self.0 {
+            let g = maps[*node][*k].tr_mul(&G[*end]);
+            for (g, slot) in g.iter().zip(slots) {
+                let Some(slot) = slot else { continue };
+                let K = values[*slot as usize].abs();
+                if K > 0.0 {
+                    compliance += g * g / K;
+                }
+            }
+        }
+        (compliance > 0.0 && compliance.is_finite()).then_some(1.0 / compliance)
     }
 }
 
@@ -167,26 +213,31 @@ pub(super) fn tangents(
     system: &System,
     nodes: &[Node],
     diagonals: &[Diagonal],
+    maps: &[Vec<Mat6>],
     multipliers: &mut Multipliers,
     stiffness: bool,
     values: &mut [f64],
     mut add: impl FnMut(usize, &[f64], &mut [f64]),
 ) {
-    // The matrix at hand, before any joint has added to it.
-    let mut sides = [0.0f64; 2];
-    for diagonal in diagonals {
-        for turns in [false, true] {
-            let side = &mut sides[usize::from(turns)];
-            *side = side.max(diagonal.stiffness(turns, values).unwrap_or(0.0));
-        }
-    }
+    // The matrix at hand, before any joint has added to it. A row that nothing resists is weighed like the stiffest other.
+    let mut stiffest = [0.0f64; 2];
     let mut first = 0;
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.rows.iter().enumerate() {
-            let own = diagonal.stiffness(row.turns(), values).unwrap_or(sides[usize::from(row.turns())]);
-            multipliers.penalties[first + k] = if own > 0.0 && own.is_finite() { own } else { 1.0 };
+            let s = diagonal.stiffness(&row.gradient(a, b), maps, values).unwrap_or(0.0);
+            multipliers.penalties[first + k] = s;
+            let stiffest = &mut stiffest[usize::from(row.turns())];
+            *stiffest = stiffest.max(s);
         }
         first += joint.rows.len();
+    }
+    let rows = system.joints.iter().flat_map(|joint| &joint.rows);
+    for (s, row) in multipliers.penalties.iter_mut().zip(rows) {
+        let other = stiffest[usize::from(row.turns())];
+        if *s == 0.0 {
+            *s = if other > 0.0 { other } else { 1.0 };
+        }
     }
     let mut K = [0.0; WIDTH * WIDTH];
     let mut first = 0;

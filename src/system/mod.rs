@@ -183,7 +183,7 @@ impl System {
             groups: Vec::new(),
             history: 0,
             inertias: self.inertias.clone(),
-            consistent: Vec::new(),
+            consistent: self.consistent.clone(),
             attachments: self.attachments.clone(),
             joints: self.joints.clone(),
             watched: Vec::new(),
