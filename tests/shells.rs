@@ -10,6 +10,8 @@ mod element;
 mod frequencies;
 #[path = "shells/linear.rs"]
 mod linear;
+#[path = "shells/linear_beams.rs"]
+mod linear_beams;
 #[path = "shells/loads.rs"]
 mod loads;
 #[path = "shells/pressure.rs"]
