@@ -110,8 +110,19 @@ fn no_step_after_the_first_allocates() {
             assert_none(&model, kind);
         }
     }
+    contacts_neither();
     shells_neither();
     large_scenes_neither();
+}
+
+/// A ball that rolls on a floor, lands on a beam and leaves it.
+fn contacts_neither() {
+    let deck = include_str!("contact/beam_and_ball.toml");
+    let model = rdsolve::model::read(&Source::new("deck.toml", deck, &[])).0.expect("a sound deck");
+    for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+        let state = assert_none(&model, kind);
+        assert!(state.work.material.friction > 0.0 && state.work.material.impact > 0.0, "{:?}", state.work);
+    }
 }
 
 /// Shells of both kinds and masses, elastic and yielding, on a body, under pressure that follows.
@@ -153,8 +164,15 @@ fn large_scenes_neither() {
 fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
     let system = System::new(m).unwrap();
     let stop = AtomicBool::new(false);
-    let wanted =
-        Wanted { energy: true, reactions: true, links: true, sections: true, plastic_strains: true, shells: true };
+    let wanted = Wanted {
+        energy: true,
+        reactions: true,
+        links: true,
+        contacts: true,
+        sections: true,
+        plastic_strains: true,
+        shells: true,
+    };
     let mut plan = Plan::new(m, &system, 1);
     plan.kind = kind;
     let mut run = Run::new(m, &system, &plan, wanted, &stop).unwrap();

@@ -675,3 +675,31 @@ fn many_points_with_one_mistake() {
     assert_snapshot!("two_loose_points", said(&load("\"pair\""), &[]));
     assert_eq!(said(&load("[\"p0\", \"p1\", \"p2\"]"), &[]).matches("nothing is connected").count(), 3);
 }
+
+#[test]
+fn contacts() {
+    let contact = |surface: &str, more: &str| {
+        portal_and(&format!("[[contacts]]\nname = \"touch\"\nsurface = {{ {surface} }}\n{more}"))
+    };
+    let plane = r#"shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0]"#;
+    assert_eq!(contact(plane, "with = \"portal\"\nradius = 0.0"), "");
+    let numbers = "with = [\"portel\", \"bumper\"]\nstiffness = -1.0\nfriction = -0.1\nrestitution = 1.5\ndamping = 1.0\nradius = -1.0";
+    assert_snapshot!("contact_numbers", contact(plane, numbers));
+    let box_on = r#"shape = "box", body = "block", size = [1.0, 0.0, 1.0], radius = 1.0, normal = [1.0, 0.0, 0.0]"#;
+    assert_snapshot!("contact_box", contact(box_on, "with = \"block\""));
+    let axes = r#"shape = "box", size = [1.0, 1.0, 1.0], axes = [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]"#;
+    assert_snapshot!("contact_axes", contact(axes, "with = []"));
+    let line = r#"shape = "capsule", ends = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], radius = 0.0"#;
+    assert_snapshot!("contact_capsule", contact(line, "with = \"portal\"\npoints = 1000"));
+    let round = r#"shape = "cylinder", center = [9.0, 0.0, 0.0], axis = [0.0, 0.0, 0.0], length = -1.0"#;
+    assert_snapshot!("contact_cylinder", contact(round, "with = \"knee_left\"\nstiffness = 1e6\npoints = 2"));
+    let own = r#"shape = "sphere", body = "block", radius = 0.1"#;
+    assert_snapshot!("contact_with_itself", contact(own, "with = [\"knee_left\", \"block\"]"));
+    assert_snapshot!("contact_zone", contact(plane, "with = \"portal\"\nstiffness = 0.0\nfriction = 0.1"));
+    assert_snapshot!("contact_missing", portal_and("[[contacts]]\n[[contacts]]\nname = \"b\"\nsurface = {}"));
+    let inside = r#"shape = "sphere", center = [0.0, 0.0, 2.0], radius = 0.1"#;
+    assert_snapshot!("contact_closed", contact(inside, "with = \"portal\""));
+    let bounds = "[[expect]]\nat = \"block\"\nquantity = \"ux\"\nat_least = 0.0\nat_most = 1.0\n\
+                  [[expect]]\nat = \"block\"\nquantity = \"ux\"\nat_least = 0.0\nvalue = 1.0\ntolerance = 0.1";
+    assert_snapshot!("expect_bounds", portal_and(bounds));
+}

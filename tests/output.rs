@@ -40,7 +40,7 @@ fn headers_are_those_of_the_interface() {
         ("bodies.csv", "step,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,bx,by,bz"),
         (
             "energy.csv",
-            "step,time,kinetic,strain,plastic,viscous,damping,links,external,numerical,total,px,py,pz,lx,ly,lz",
+            "step,time,kinetic,strain,plastic,viscous,damping,links,external,numerical,total,px,py,pz,lx,ly,lz,contact,friction,impact",
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),

@@ -10,10 +10,10 @@ use super::words::{Maybe, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Name of a point, body, beam, bar or link, "energy", or "analysis" for its time.
+    /// Name of a point, body, beam, bar, link or contact, "energy", or "analysis" for its time.
     #[schemars(required)]
     pub at: Maybe<String>,
-    /// A column of nodes.csv, bodies.csv, links.csv or energy.csv; "plastic_strain" of a beam or bar, the largest anywhere.
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,
     /// When the value is taken; with arc-length, the first time the load comes to it.
@@ -22,8 +22,11 @@ pub struct Expect {
     pub when: Maybe<Table<Passage>>,
     /// Of the whole run, instead of a time.
     pub peak: Maybe<Peak>,
-    #[schemars(required)]
+    /// Left out with a bound.
     pub value: Maybe<f64>,
+    /// A bound instead of a value and its tolerance; over the whole run where neither time nor peak says when.
+    pub at_least: Maybe<f64>,
+    pub at_most: Maybe<f64>,
     /// Relative.
     pub tolerance: Maybe<f64>,
     /// Instead of a relative one.

@@ -8,6 +8,7 @@ pub mod analysis;
 pub mod attachments;
 pub mod beams;
 pub mod bodies;
+pub mod contacts;
 pub mod environment;
 pub mod expect;
 pub mod initial;
@@ -75,6 +76,8 @@ pub struct Deck {
     pub joints: Vec<At<Table<joints::Joint>>>,
     #[serde(default)]
     pub links: Vec<At<Table<links::Link>>>,
+    #[serde(default)]
+    pub contacts: Vec<At<Table<contacts::Contact>>>,
     #[serde(default)]
     pub loads: Vec<At<Table<loads::Load>>>,
     /// Functions of time by name, for loads and prescribed motion.

@@ -21,6 +21,8 @@ pub struct Output {
     pub energy: Maybe<bool>,
     /// Write links.csv. Default: false.
     pub links: Maybe<bool>,
+    /// Write contacts.csv: gaps and forces of contacts. Default: false.
+    pub contacts: Maybe<bool>,
     /// Write reactions.csv. Default: false.
     pub reactions: Maybe<bool>,
     /// Write sections.csv of beams and shells.csv of shells: their stress resultants. Default: false.

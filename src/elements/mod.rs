@@ -4,6 +4,7 @@
 pub mod bar;
 pub mod beam;
 pub mod bushing;
+pub mod contact;
 pub mod link;
 pub mod pressure;
 pub mod shell;
@@ -76,6 +77,18 @@ pub trait Block: Send + Sync {
     }
     /// The one direction in which an element acts, where it is fixed.
     fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
+        None
+    }
+    /// Whether element `e`, with six directions a node, acts on the rotations of its `node`-th.
+    fn turns(&self, _e: usize, _node: usize) -> bool {
+        true
+    }
+    /// True where element `e` does nothing at this motion, and has no tangent.
+    fn rests(&self, _e: usize, _now: &Now) -> bool {
+        false
+    }
+    /// The block as contacts, where it is one.
+    fn as_contacts(&self) -> Option<&contact::Contacts> {
         None
     }
     /// True when the element resists or damps by rate.

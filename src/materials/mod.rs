@@ -36,7 +36,7 @@ pub struct Law {
     viscosity: Option<Viscosity>,
 }
 
-/// What became of the plastic work, per volume or of a whole.
+/// What became of the plastic work, per volume or of a whole; and of work at contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spent {
     /// Dissipated by yielding, ∫ i dε̄ᵖ: exact where hardening is linear over the step.
@@ -45,6 +45,10 @@ pub struct Spent {
     pub viscous: f64,
     /// Kept by kinematic hardening, ∫ X dεᵖ: energy that comes back, so its sign is free.
     pub stored: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated in impacts.
+    pub impact: f64,
 }
 
 impl AddAssign for Spent {
@@ -52,6 +56,8 @@ impl AddAssign for Spent {
         self.plastic += more.plastic;
         self.viscous += more.viscous;
         self.stored += more.stored;
+        self.friction += more.friction;
+        self.impact += more.impact;
     }
 }
 
@@ -59,7 +65,13 @@ impl Mul<f64> for Spent {
     type Output = Spent;
 
     fn mul(self, by: f64) -> Spent {
-        Spent { plastic: self.plastic * by, viscous: self.viscous * by, stored: self.stored * by }
+        Spent {
+            plastic: self.plastic * by,
+            viscous: self.viscous * by,
+            stored: self.stored * by,
+            friction: self.friction * by,
+            impact: self.impact * by,
+        }
     }
 }
 
@@ -186,7 +198,7 @@ impl Law {
         let mut spent = Spent {
             plastic: 0.5 * (answer.radius + radius) * multiplier,
             viscous: 0.5 * (from * answer.radius + to * radius) * multiplier,
-            stored: 0.0,
+            ..Spent::default()
         };
         // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
         let direction: [f64; N] = std::array::from_fn(|i| answer.relative[i] / y.T(i));

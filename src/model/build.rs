@@ -50,10 +50,11 @@ pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnost
     b.links();
     b.joints();
     b.attachments();
+    b.environment();
     b.sure = !b.unsure;
     b.supports();
+    b.contacts();
     b.loads();
-    b.environment();
     b.damping();
     b.initial();
     b.control();
@@ -151,6 +152,7 @@ impl<'d> Builder<'d> {
             bars: Vec::new(),
             shells: Vec::new(),
             links: Vec::new(),
+            contacts: Vec::new(),
             riders: Vec::new(),
             joints: Vec::new(),
             held: Vec::new(),
@@ -168,6 +170,7 @@ impl<'d> Builder<'d> {
                 cadence: Cadence::Steps(1),
                 energy: true,
                 links: false,
+                contacts: false,
                 reactions: false,
                 sections: false,
                 layers: false,
@@ -222,7 +225,8 @@ impl<'d> Builder<'d> {
 
     /// The value of a key that must be there.
     pub fn need<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
-        self.unsure |= value.is_none() && ["path", "corners", "group", "at", "nodes", "from", "to"].contains(&key);
+        self.unsure |=
+            value.is_none() && ["path", "corners", "group", "at", "nodes", "from", "to", "with"].contains(&key);
         if value.is_none() && !self.is_spoiled(owner.span, key) {
             self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
         }

@@ -12,7 +12,8 @@ use std::ops::Range;
 const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
 const LINK: [&str; 2] = ["force", "elongation"];
-const ENERGY: [&str; 15] = [
+const CONTACT: [&str; 9] = ["touching", "gap", "fx", "fy", "fz", "mx", "my", "mz", "force"];
+const ENERGY: [&str; 18] = [
     "kinetic",
     "strain",
     "plastic",
@@ -28,6 +29,9 @@ const ENERGY: [&str; 15] = [
     "lx",
     "ly",
     "lz",
+    "contact",
+    "friction",
+    "impact",
 ];
 
 /// More output times are a slip of the keyboard, and would only exhaust memory.
@@ -56,9 +60,8 @@ impl<'d> Builder<'d> {
             self.column(columns, quantity, name);
         }
         let when = self.when(owner, expect);
-        let value = self.need(owner, "value", &expect.value);
-        let tolerance = self.tolerance(owner, expect);
-        let ((at, _), quantity, when, tolerance) = (at?, quantity?, when?, tolerance?);
+        let judged = self.judged(owner, expect);
+        let ((at, _), quantity, when, (value, tolerance)) = (at?, quantity?, when?, judged?);
         let moment = match when {
             When::Time(time) => format!("at t = {time}"),
             When::Passing(at) => {
@@ -74,7 +77,7 @@ impl<'d> Builder<'d> {
             at,
             quantity: quantity.value.clone(),
             when,
-            value: value?.value,
+            value,
             tolerance,
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
             label: format!("{} of {} {moment}", quantity.value, name?.value),
@@ -96,6 +99,7 @@ impl<'d> Builder<'d> {
                 Some((ExpectAt::Node(self.model.bodies[body].node), columns))
             }
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
+            Some(Place::Contact(contact)) => Some((ExpectAt::Contact(contact), CONTACT.to_vec())),
             Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
             // Where a shell has errors, these have been said.
             Some(Place::Shell(shell)) if !self.shell_parts[shell].is_empty() => {
@@ -111,7 +115,11 @@ impl<'d> Builder<'d> {
             Some(Place::Shell(_)) => None,
             Some(place) => {
                 let message = format!("`{}` is {}", name.value, place.kind());
-                self.error_with(&name.span, message, "values are at points, bodies, parts, links or \"energy\"")
+                self.error_with(
+                    &name.span,
+                    message,
+                    "values are at points, bodies, parts, links, contacts or \"energy\"",
+                )
             }
             None => {
                 let mut known: Vec<&str> = self.places.keys().copied().chain(["energy"]).collect();
@@ -188,9 +196,36 @@ impl<'d> Builder<'d> {
                 deck::Peak::Min => When::Min,
                 deck::Peak::Abs => When::Abs,
             }),
+            (None, None) if expect.at_least.is_some() => Some(When::Min),
+            (None, None) if expect.at_most.is_some() => Some(When::Max),
             (None, None) if ["time", "peak", "when"].iter().any(|key| self.is_spoiled(owner.span, key)) => None,
             (None, None) => self.error(owner.span, format!("{} needs `time` or `peak`", owner.what)),
         }
+    }
+
+    /// A value and how near to come to it, or a bound.
+    fn judged(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<(f64, Tolerance)> {
+        let (bound, tolerance) = match (&expect.at_least, &expect.at_most) {
+            (Some(_), Some(most)) => {
+                let hint = "write two `[[expect]]`";
+                return self.error_with(&most.span, "an expected value has `at_least` or `at_most`, not both", hint);
+            }
+            (Some(least), None) => (least, Tolerance::AtLeast),
+            (None, Some(most)) => (most, Tolerance::AtMost),
+            (None, None) if ["at_least", "at_most"].iter().any(|key| self.is_spoiled(owner.span, key)) => return None,
+            (None, None) => {
+                let value = self.need(owner, "value", &expect.value);
+                let tolerance = self.tolerance(owner, expect);
+                return Some((value?.value, tolerance?));
+            }
+        };
+        let keys = [
+            ("value", span(&expect.value)),
+            ("tolerance", span(&expect.tolerance)),
+            ("absolute_tolerance", span(&expect.absolute_tolerance)),
+        ];
+        self.stray("a bound", &keys);
+        Some((bound.value, tolerance))
     }
 
     fn tolerance(&mut self, owner: &Owner<'d>, expect: &'d deck::Expect) -> Option<Tolerance> {
@@ -275,6 +310,7 @@ impl<'d> Builder<'d> {
             cadence,
             energy: flag(&output.energy, true),
             links: flag(&output.links, false),
+            contacts: flag(&output.contacts, false),
             reactions: flag(&output.reactions, false),
             sections: flag(&output.sections, false),
             layers: flag(&output.layers, false),

@@ -192,7 +192,7 @@ impl<'d> Builder<'d> {
         }
     }
 
-    fn axes(&mut self, axes: &At<Vec<Numbers<3>>>) -> Option<Mat3> {
+    pub fn axes(&mut self, axes: &At<Vec<Numbers<3>>>) -> Option<Mat3> {
         let place: &Span = &axes.span;
         let [x, y] = axes.as_slice() else {
             return self.error_with(place, "`axes` takes two vectors", "x, and a vector in the x-y plane");

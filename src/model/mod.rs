@@ -7,6 +7,7 @@ mod beams;
 mod bodies;
 mod build;
 mod check;
+mod contacts;
 mod expects;
 mod fold;
 mod initial;
@@ -29,6 +30,7 @@ pub use meshes::Input;
 use crate::amplitude::Amplitude;
 use crate::constraints::joint::Row;
 use crate::elements::beam::Yielding;
+use crate::elements::contact;
 use crate::elements::link::Law;
 use crate::elements::pressure::Face;
 use crate::elements::shell::{self, Plate};
@@ -54,6 +56,7 @@ pub struct Model {
     pub bars: Vec<Bar>,
     pub shells: Vec<Shell>,
     pub links: Vec<Link>,
+    pub contacts: Vec<Contact>,
     /// Nodes tied to other nodes, each at most once, in no particular order.
     pub riders: Vec<Rider>,
     pub joints: Vec<Joint>,
@@ -351,6 +354,21 @@ pub enum LinkKind {
     Bushing { stiffness: [f64; 6], damping: [f64; 6], axes: Mat3 },
 }
 
+/// Points against a surface.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    pub name: String,
+    /// That carries the surface: a body's, or a held one for the ground.
+    pub node: usize,
+    /// In the frame of that node.
+    pub surface: contact::Surface,
+    pub points: Vec<contact::Point>,
+    /// `None`: a zone, only the gap is watched.
+    pub law: Option<contact::Law>,
+    /// The deck left the stiffness open.
+    pub chosen: bool,
+}
+
 /// A node constrained to another in some of its directions (45)-(48).
 #[derive(Debug, Clone)]
 pub struct Rider {
@@ -459,6 +477,8 @@ pub enum ExpectAt {
     Energy,
     /// Columns of links.csv.
     Link(usize),
+    /// Columns of contacts.csv, and the size of the force.
+    Contact(usize),
     /// Largest values over a shell: of von Mises stress and plastic strain.
     Shells(usize, usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
@@ -481,6 +501,9 @@ pub enum When {
 pub enum Tolerance {
     Relative(f64),
     Absolute(f64),
+    /// The value is a bound.
+    AtLeast,
+    AtMost,
 }
 
 #[derive(Debug, Clone)]
@@ -490,6 +513,7 @@ pub struct Output {
     pub cadence: Cadence,
     pub energy: bool,
     pub links: bool,
+    pub contacts: bool,
     pub reactions: bool,
     pub sections: bool,
     pub layers: bool,

@@ -52,6 +52,14 @@ impl<'d> Builder<'d> {
 
     /// A path goes on where loads and materials do; neither jumps nor rates of a time that may fall belong to it.
     fn check_history(&mut self) {
+        for contact in &self.deck.contacts {
+            if contact.stiffness.as_ref().is_none_or(|at| at.value != 0.0) {
+                self.error::<()>(
+                    &contact.span,
+                    "arc-length does not follow contacts: where they close the path has a kink",
+                );
+            }
+        }
         for (name, material) in &self.deck.materials.0 {
             if let Some(at) = &material.viscosity {
                 let message = format!("material `{}` is viscous, and with arc-length time is only a load", name.value);

@@ -20,6 +20,7 @@ pub(super) enum Place {
     Edge(usize, usize),
     Link(usize),
     Joint(usize),
+    Contact(usize),
     /// Of the mesh.
     Group(usize),
 }
@@ -77,7 +78,7 @@ impl<'d> Builder<'d> {
         } else if self.places.contains_key(name.as_str()) {
             let message = format!("the name `{}` is taken", name.value);
             let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
-            let rule = "points, bodies, sets, beams, bars, shells, links and joints share one space of names";
+            let rule = "points, bodies, sets, beams, bars, shells, links, joints and contacts share one space of names";
             self.problems.push(diagnostic.hint(rule));
         } else {
             self.places.insert(&name.value, (place, &name.span));
@@ -115,6 +116,11 @@ impl<'d> Builder<'d> {
         for (index, joint) in deck.joints.iter().enumerate() {
             if let Some(name) = &joint.name {
                 self.name(name, Place::Joint(index));
+            }
+        }
+        for (index, contact) in deck.contacts.iter().enumerate() {
+            if let Some(name) = &contact.name {
+                self.name(name, Place::Contact(index));
             }
         }
         self.rigid.body_of = rigid;
@@ -193,7 +199,7 @@ impl<'d> Builder<'d> {
             }
             return Some(place);
         }
-        let is_link = |place: &Place| matches!(place, Place::Link(_) | Place::Joint(_));
+        let is_link = |place: &Place| matches!(place, Place::Link(_) | Place::Joint(_) | Place::Contact(_));
         let known = self.places.iter().filter(|(_, (place, _))| !is_link(place)).map(|(name, _)| *name);
         let mut known: Vec<&str> = known.collect();
         known.sort_unstable();
@@ -247,7 +253,7 @@ impl<'d> Builder<'d> {
             let Some(place) = self.lookup(name) else { continue };
             let is_part = match place {
                 Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
-                place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_)),
+                place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_)),
             };
             if reach == Reach::Nodes && is_part {
                 let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
@@ -292,7 +298,7 @@ impl<'d> Builder<'d> {
                 Place::Edge(shell, edge) => {
                     nodes.extend(self.shell_edges.get(shell).and_then(|edges| edges.get(edge)).into_iter().flatten());
                 }
-                Place::Link(_) | Place::Joint(_) => {}
+                Place::Link(_) | Place::Joint(_) | Place::Contact(_) => {}
                 Place::Group(group) => nodes.extend(self.group_nodes(group)),
                 Place::Set(set) if std::mem::replace(&mut seen[set], true) => {}
                 Place::Set(set) => {
@@ -327,6 +333,7 @@ impl Place {
             Place::Edge(..) => "edge of a shell",
             Place::Link(_) => "link",
             Place::Joint(_) => "joint",
+            Place::Contact(_) => "contact",
             Place::Group(_) => "group of the mesh",
         }
     }

@@ -34,6 +34,10 @@ fn each(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     }
     model.links.iter_mut().flat_map(|link| &mut link.ends).for_each(&mut *of);
     model.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
+    for contact in &mut model.contacts {
+        of(&mut contact.node);
+        contact.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(&mut *of);
+    }
     model.held.iter_mut().for_each(|held| of(&mut held.node));
     model.loads.iter_mut().for_each(|load| of(&mut load.node));
     model.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);

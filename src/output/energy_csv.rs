@@ -5,7 +5,7 @@ use crate::solve::Frame;
 use crate::system::energy::Energy;
 use std::io;
 
-pub const COLUMNS: [&str; 15] = [
+pub const COLUMNS: [&str; 18] = [
     "kinetic",
     "strain",
     "plastic",
@@ -21,10 +21,13 @@ pub const COLUMNS: [&str; 15] = [
     "lx",
     "ly",
     "lz",
+    "contact",
+    "friction",
+    "impact",
 ];
 
 /// The columns of one state.
-pub fn values(e: &Energy) -> [f64; 15] {
+pub fn values(e: &Energy) -> [f64; 18] {
     let [p, l] = [e.p, e.l];
     [
         e.kinetic,
@@ -42,6 +45,9 @@ pub fn values(e: &Energy) -> [f64; 15] {
         l.x,
         l.y,
         l.z,
+        e.contact,
+        e.friction,
+        e.impact,
     ]
 }
 

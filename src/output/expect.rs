@@ -2,7 +2,7 @@
 //!
 //! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
 
-use super::{bodies_csv, energy_csv, links_csv, nodes_csv, shells_csv};
+use super::{bodies_csv, contacts_csv, energy_csv, links_csv, nodes_csv, shells_csv};
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
 use crate::solve::{Frame, Observer};
 use serde::Serialize;
@@ -15,6 +15,7 @@ pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
         ExpectAt::Node(_) => [&nodes_csv::COLUMNS[..], &bodies_csv::COLUMNS[QUATERNION]].concat(),
         ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
         ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
+        ExpectAt::Contact(_) => contacts_csv::QUANTITIES.to_vec(),
         ExpectAt::Elements(..) => vec!["plastic_strain"],
         ExpectAt::Shells(..) => vec!["von_mises", "plastic_strain"],
     }
@@ -36,6 +37,9 @@ pub struct Verdict {
     pub error: Option<f64>,
     pub tolerance: f64,
     pub relative: bool,
+    /// "at least" or "at most" where the expected value is a bound.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<&'static str>,
     pub passed: bool,
     pub source: String,
     /// Why it was missed.
@@ -116,6 +120,7 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
         ExpectAt::Analysis => Some(frame.state.time),
         ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
         ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
+        ExpectAt::Contact(i) => frame.contacts.get(i).map(|contact| contacts_csv::values(contact)[column]),
         ExpectAt::Shells(from, to) => {
             let of = [shells_csv::von_mises, shells_csv::plastic_strain][column];
             frame.shells.iter().filter(|state| (from..to).contains(&state.shell)).map(of).reduce(f64::max)
@@ -127,21 +132,35 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
 impl Watch {
     fn verdict(&self) -> Verdict {
         let Expect { quantity, value: expected, tolerance, when, source, label, .. } = &self.expect;
-        let (tolerance, unit, relative) = match *tolerance {
+        let (limit, unit, relative) = match *tolerance {
             Tolerance::Relative(tolerance) => (tolerance, expected.abs(), true),
             Tolerance::Absolute(tolerance) => (tolerance, 1.0, false),
+            Tolerance::AtLeast | Tolerance::AtMost => (0.0, 1.0, false),
         };
-        let difference = self.sample.map(|sample| (sample.value - expected).abs());
+        let difference = self.sample.map(|sample| match tolerance {
+            Tolerance::AtLeast => (expected - sample.value).max(0.0),
+            Tolerance::AtMost => (sample.value - expected).max(0.0),
+            _ => (sample.value - expected).abs(),
+        });
+        let bound = match tolerance {
+            Tolerance::AtLeast => Some("at least"),
+            Tolerance::AtMost => Some("at most"),
+            _ => None,
+        };
         // Multiplied rather than divided: an expected 0 with a relative tolerance is met by 0.
-        let passed = difference.is_some_and(|difference| difference <= tolerance * unit);
+        let passed = difference.is_some_and(|difference| difference <= limit * unit);
         let reason = match (self.column, self.sample, *when) {
             _ if passed => None,
             (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
             (_, None, When::Passing(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
+            (_, Some(sample), _) if bound.is_some() => {
+                let bound = bound.unwrap_or_default();
+                Some(format!("{} at time {} is not {bound} {expected}", sample.value, sample.time))
+            }
             (_, Some(sample), _) => Some(format!(
-                "{} at time {} is not {expected} within {tolerance}{}",
+                "{} at time {} is not {expected} within {limit}{}",
                 sample.value,
                 sample.time,
                 if relative { " of it" } else { "" }
@@ -153,8 +172,9 @@ impl Watch {
             time: self.sample.map(|sample| sample.time),
             expected: *expected,
             error: difference.map(|difference| difference / unit).filter(|error| error.is_finite()),
-            tolerance,
+            tolerance: limit,
             relative,
+            bound,
             passed,
             source: source.clone(),
             reason,

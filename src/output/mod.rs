@@ -7,6 +7,7 @@ pub mod progress;
 pub mod result_json;
 
 pub mod bodies_csv;
+pub mod contacts_csv;
 pub mod energy_csv;
 mod fields;
 pub mod links_csv;
@@ -37,6 +38,7 @@ enum Format {
     Bodies(Table),
     Energy(Table),
     Links(Table),
+    Contacts(Table),
     Reactions(Table),
     Sections(Table),
     Shells(Table, shells_csv::Order),
@@ -55,6 +57,7 @@ impl Format {
             Format::Bodies(table) => bodies_csv::write(table, frame),
             Format::Energy(table) => energy_csv::write(table, frame),
             Format::Links(table) => links_csv::write(table, frame),
+            Format::Contacts(table) => contacts_csv::write(table, frame),
             Format::Reactions(table) => reactions_csv::write(table, frame),
             Format::Sections(table) => sections_csv::write(table, frame),
             Format::Shells(table, order) => shells_csv::write(table, order, frame),
@@ -68,6 +71,7 @@ impl Format {
             | Format::Bodies(table)
             | Format::Energy(table)
             | Format::Links(table)
+            | Format::Contacts(table)
             | Format::Reactions(table)
             | Format::Sections(table)
             | Format::Shells(table, _)
@@ -103,6 +107,8 @@ impl Files {
         table(!model.bodies.is_empty(), &Format::Bodies, "bodies.csv", bodies_csv::header())?;
         table(asked.energy, &Format::Energy, "energy.csv", energy_csv::header())?;
         table(asked.links && !model.links.is_empty(), &Format::Links, "links.csv", links_csv::header())?;
+        let contacts = asked.contacts && !model.contacts.is_empty();
+        table(contacts, &Format::Contacts, "contacts.csv", contacts_csv::header())?;
         table(asked.reactions, &Format::Reactions, "reactions.csv", reactions_csv::header())?;
         table(asked.sections && !model.beams.is_empty(), &Format::Sections, "sections.csv", sections_csv::header())?;
         let shells = !model.shells.is_empty();
@@ -138,6 +144,7 @@ pub fn wanted(model: &Model) -> Wanted {
         energy: model.output.energy || expects(|at| matches!(at, ExpectAt::Energy)),
         reactions: model.output.reactions,
         links: model.output.links || expects(|at| matches!(at, ExpectAt::Link(_))),
+        contacts: model.output.contacts || expects(|at| matches!(at, ExpectAt::Contact(_))),
         sections: model.output.sections,
         shells: !model.shells.is_empty()
             && (model.output.sections
@@ -158,11 +165,12 @@ fn yields(model: &Model) -> bool {
 
 /// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.
 fn remove_stale(dir: &Path) -> io::Result<()> {
-    const OURS: [&str; 12] = [
+    const OURS: [&str; 13] = [
         "nodes.csv",
         "bodies.csv",
         "energy.csv",
         "links.csv",
+        "contacts.csv",
         "reactions.csv",
         "sections.csv",
         "shells.csv",

@@ -2,9 +2,10 @@
 
 use super::Plan;
 use crate::elements::beam::Rule;
+use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
-use crate::model::{Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MeshFile, Method, Model, Update};
+use crate::model::{Contact, Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MeshFile, Method, Model, Update};
 use crate::names::{joined, short};
 use std::fmt::Write;
 
@@ -39,6 +40,29 @@ fn note(scheme: &Scheme) -> Option<&'static str> {
         }
         Scheme::Bathe(_) => None,
     }
+}
+
+/// What touches what, and how.
+fn contact_in_words(model: &Model, contact: &Contact) -> String {
+    let shape = match contact.surface.shape {
+        Shape::Plane => "a plane",
+        Shape::Box { .. } => "a box",
+        Shape::Sphere { .. } => "a sphere",
+        Shape::Cylinder { .. } => "a cylinder",
+        Shape::Capsule { .. } => "a capsule",
+    };
+    let carrier = model.bodies.iter().find(|body| body.node == contact.node);
+    let on = carrier.map_or("the ground".to_string(), |body| format!("body `{}`", body.name));
+    let (name, count) = (&contact.name, contact.points.len());
+    let points = if count == 1 { "point" } else { "points" };
+    let mut text = format!("`{name}`: {count} {points} against {shape} on {on}");
+    let Some(law) = &contact.law else { return text + "; a zone: nothing acts, the gap is watched" };
+    let chosen = if contact.chosen { ", chosen: an impact lasts 20 steps" } else { "" };
+    let _ = write!(text, "; {} of force per depth{chosen}", short(law.stiffness));
+    if law.resolution < f64::INFINITY {
+        let _ = write!(text, "; impacts in steps that reach {} ahead at most", short(law.resolution));
+    }
+    text
 }
 
 impl Plan {
@@ -84,6 +108,7 @@ impl Plan {
             (bars, "bar elements"),
             (shells, "shell elements"),
             (model.links.len(), "links"),
+            (model.contacts.len(), "contacts"),
             (model.riders.len(), "attached nodes"),
             (model.joints.len(), "joints"),
         ];
@@ -141,8 +166,11 @@ impl Plan {
             let what = format!("{} layers, yield under membrane stress; transverse shear elastic", yielding.layers);
             line("yields", format!("shell `{}`: {what}", shell.name));
         }
+        for contact in &model.contacts {
+            line("contact", contact_in_words(model, contact));
+        }
         let along = matches!(analysis.control, Control::ArcLength(_));
-        if system.history > 0 {
+        if system.yields() {
             let method = match model.iteration.method {
                 _ if along => "tangent stiffness: along a path nothing else tells where it goes",
                 Method::TangentStiffness => "tangent stiffness: the matrix is the derivative of the stress",
@@ -164,7 +192,7 @@ impl Plan {
             Kind::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
         };
         line("matrix", matrix.to_string());
-        let mixes = system.history > 0 && model.iteration.method != Method::TangentStiffness;
+        let mixes = system.yields() && model.iteration.method != Method::TangentStiffness;
         let update = match (self.linear, model.iteration.update) {
             _ if along => "in every iteration: a step needs the path's direction at hand",
             (true, _) => "once per length of step: the scene is linear",
@@ -219,7 +247,7 @@ impl Plan {
                 out.push("damping: none is given");
             }
         }
-        if system.history == 0 {
+        if !system.yields() {
             out.push("history of material points: all materials are elastic");
         }
         out

@@ -93,8 +93,9 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     for group in &system.groups {
         for e in 0..group.block.len() {
             let reach = reach(&*group.block, e);
-            for &node in group.block.nodes(e) {
-                for dof in 0..6 {
+            for (k, &node) in group.block.nodes(e).iter().enumerate() {
+                let to = if reach[3] && !group.block.turns(e, k) { 3 } else { 6 };
+                for dof in 0..to {
                     acts[node][dof] |= reach[dof];
                 }
             }

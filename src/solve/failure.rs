@@ -22,6 +22,8 @@ pub enum Failure {
     Idle { time: f64 },
     /// A path went on for ever.
     Endless { steps: usize },
+    /// A step would go through a surface, or into an impact that it does not resolve.
+    Contact { name: String },
     /// A number stopped being one.
     NotFinite { largest: Vec<Largest> },
 }
@@ -117,6 +119,10 @@ impl fmt::Display for Failure {
             Failure::Endless { steps } => write!(
                 f,
                 "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"
+            ),
+            Failure::Contact { name } => write!(
+                f,
+                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not resolved"
             ),
             Failure::NotFinite { largest } => {
                 write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;

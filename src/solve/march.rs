@@ -7,7 +7,7 @@ use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
-use super::{Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
+use super::{ContactState, Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
 use crate::linear::TooLarge;
 use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
@@ -23,6 +23,7 @@ pub struct Wanted {
     pub energy: bool,
     pub reactions: bool,
     pub links: bool,
+    pub contacts: bool,
     pub sections: bool,
     pub plastic_strains: bool,
     pub shells: bool,
@@ -67,6 +68,7 @@ pub struct Run<'a> {
     energy: Option<Energy>,
     links: Vec<LinkState>,
     joints: Vec<JointState>,
+    contacts: Vec<ContactState>,
     plastic_strains: Vec<f64>,
     sections: Vec<SectionPoint>,
     shells: Vec<ShellState>,
@@ -116,7 +118,7 @@ impl<'a> Run<'a> {
         // Load steps are long and few, and there is no mass to steady an old matrix; along a path an old one leads astray.
         let along = matches!(model.analysis.control, Control::ArcLength(_));
         let method = if along { Method::TangentStiffness } else { model.iteration.method };
-        let mixes = system.history > 0 && method != Method::TangentStiffness;
+        let mixes = system.yields() && method != Method::TangentStiffness;
         let update = match (model.analysis.kind, model.iteration.update) {
             _ if along => Update::Iteration,
             (Kind::Static, Update::Auto) if !mixes => Update::Iteration,
@@ -174,6 +176,7 @@ impl<'a> Run<'a> {
             energy: None,
             links: Vec::new(),
             joints: Vec::new(),
+            contacts: Vec::with_capacity(model.contacts.len()),
             plastic_strains: Vec::new(),
             sections: Vec::new(),
             shells: Vec::new(),
@@ -332,6 +335,7 @@ impl<'a> Run<'a> {
             reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
             joints: &self.joints,
             links: &self.links,
+            contacts: &self.contacts,
             plastic_strains: &self.plastic_strains,
             sections: &self.sections,
             shells: &self.shells,
@@ -350,6 +354,7 @@ impl<'a> Run<'a> {
         self.energy = None;
         self.links.clear();
         self.joints.clear();
+        self.contacts.clear();
         self.plastic_strains.clear();
         self.sections.clear();
         self.shells.clear();
@@ -371,6 +376,9 @@ impl<'a> Run<'a> {
         }
         if self.wanted.links {
             system.link_states(&state.nodes, &mut self.links);
+        }
+        if self.wanted.contacts {
+            system.contact_states(self.stepper.model, &state.now(), &mut self.contacts);
         }
         if self.wanted.sections {
             system.section_points(self.stepper.model, &state.now(), &mut self.sections);

@@ -19,7 +19,7 @@ pub use march::{Counts, Outcome, Run, Wanted};
 
 use crate::model::Model;
 use crate::state::State;
-pub use crate::system::JointState;
+pub use crate::system::{ContactState, JointState};
 use crate::system::energy::Energy;
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 
@@ -49,6 +49,8 @@ pub struct Frame<'a> {
     pub joints: &'a [JointState],
     /// In the order of [`Model::links`]. Empty unless `due` and wanted.
     pub links: &'a [LinkState],
+    /// In the order of [`Model::contacts`]. Empty unless `due` and wanted.
+    pub contacts: &'a [ContactState],
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Empty
     /// unless `due` or drawn, and wanted.
     pub plastic_strains: &'a [f64],

@@ -116,8 +116,16 @@ impl<'a> Stepper<'a> {
     }
 
     pub(super) fn stage(&mut self, state: &mut State, scheme: &Coefficients, to: f64) -> Result<Taken, Failure> {
+        let touches = self.system.has_contacts();
+        let since = scheme.instant * (to - state.time);
+        if touches {
+            self.check_length(state, since)?;
+        }
         self.predict(state, scheme);
         let taken = self.equilibrate(state, scheme, to, None)?;
+        if touches {
+            self.check_contacts(state, since)?;
+        }
         self.accept(state, scheme, to)?;
         Ok(taken)
     }
@@ -507,6 +515,21 @@ impl<'a> Stepper<'a> {
         let new = carry(old, damping_power);
         state.work.damping += 0.5 * dt * (old + new);
         state.work.damping_power = new;
+    }
+
+    /// Before any work is done on a step that reaches `since` ahead: an impact goes on in steps that resolve it.
+    fn check_length(&self, state: &State, since: f64) -> Result<(), Failure> {
+        self.system.hurried_contact(state, since).map_or(Ok(()), |contact| Err(self.too_long(contact)))
+    }
+
+    /// Of the motion found, before it is taken: nothing has gone through a surface.
+    fn check_contacts(&self, state: &State, since: f64) -> Result<(), Failure> {
+        let now = Now { nodes: &self.trial, past: &state.history, since };
+        self.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(self.too_long(contact)))
+    }
+
+    fn too_long(&self, contact: usize) -> Failure {
+        Failure::Contact { name: self.model.contacts[contact].name.clone() }
     }
 
     fn not_converged(&mut self, taken: &Taken) -> Failure {

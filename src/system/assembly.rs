@@ -3,7 +3,7 @@
 
 use super::joints::{self, Diagonal};
 use super::tiles::Tiles;
-use super::{Forces, Loading, System, follower_stiffness};
+use super::{Forces, GroupKind, Loading, System, follower_stiffness};
 use crate::elements::{Block, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
@@ -308,18 +308,19 @@ impl Assembly {
                 let last = (first + CHUNK).min(block.len());
                 let Scratch { local, carry: maps, carried, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
+                let sparse = group.kind == GroupKind::Contact;
+                let rests = |e: usize| sparse && block.rests(e, now);
+                let fill = |(k, K): (usize, &mut [f64])| {
+                    if !rests(first + k) {
+                        block.tangent(first + k, now, rate, moduli, K);
+                    }
+                };
                 if self.threads {
-                    local
-                        .par_chunks_mut(length)
-                        .enumerate()
-                        .for_each(|(k, K)| block.tangent(first + k, now, rate, moduli, K));
+                    local.par_chunks_mut(length).enumerate().for_each(fill);
                 } else {
-                    local
-                        .chunks_mut(length)
-                        .enumerate()
-                        .for_each(|(k, K)| block.tangent(first + k, now, rate, moduli, K));
+                    local.chunks_mut(length).enumerate().for_each(fill);
                 }
-                for (e, K) in (first..last).zip(local.chunks(length)) {
+                for (e, K) in (first..last).zip(local.chunks(length)).filter(|(e, _)| !rests(*e)) {
                     add_local(
                         K,
                         block.nodes(e),

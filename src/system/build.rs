@@ -9,6 +9,7 @@ use crate::elements::Block;
 use crate::elements::bar::{self, YieldingBars};
 use crate::elements::beam::{Beams, Description, Yielding};
 use crate::elements::bushing::{Bushing, Bushings};
+use crate::elements::contact::{Contacts, MOST_NODES, Point};
 use crate::elements::link::{Link, Links};
 use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Triangles};
 use crate::math::{Mat3, Vec3, quadrature};
@@ -69,7 +70,7 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
     (lumped.finish(), consistent)
 }
 
-/// Elements by part, beams first, and the links as the deck lists them. `plane`: the normal of a plane motion.
+/// Elements by part, beams first and contacts last, and the links as the deck lists them. `plane`: the normal of a plane motion.
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, Vec<Watched>) {
     let beta = model.damping.stiffness_factor;
     let mut groups = Vec::new();
@@ -92,6 +93,16 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, V
     }
     let (links, watched) = links(model, x);
     links.into_iter().for_each(|block| add(block, GroupKind::Link, 0, 0));
+    for (k, contact) in model.contacts.iter().enumerate() {
+        let Some(law) = contact.law else { continue };
+        for count in 1..=MOST_NODES {
+            let points: Vec<Point> = contact.points.iter().filter(|point| point.count == count).cloned().collect();
+            for piece in pieces(points.len()) {
+                let block = Contacts::new(law, contact.surface.clone(), contact.node, points[piece.clone()].to_vec());
+                add(Box::new(block), GroupKind::Contact, k, piece.start);
+            }
+        }
+    }
     let mut end = 0;
     for group in &mut groups {
         group.history = end..end + group.block.history();

@@ -22,25 +22,33 @@ pub struct Energy {
     pub external: f64,
     /// What the time integration has taken: initial energy + external − dissipated − stored.
     pub numerical: f64,
-    /// kinetic + strain + links.
+    /// kinetic + strain + links + contact.
     pub total: f64,
     /// Linear momentum.
     pub p: Vec3,
     /// Angular momentum about the origin.
     pub l: Vec3,
+    /// Stored in contacts.
+    pub contact: f64,
+    /// Dissipated so far by friction.
+    pub friction: f64,
+    /// Dissipated so far in impacts.
+    pub impact: f64,
 }
 
 impl System {
     /// `initial`: the total at t = 0, against which the balance is drawn.
     pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.now(), state.work);
-        let stored = |links: bool| -> f64 {
-            lanes::sum(&self.groups, self.splits(threads), &|group| match (group.kind == GroupKind::Link) == links {
+        let stored = |of: &(dyn Fn(GroupKind) -> bool + Sync)| -> f64 {
+            lanes::sum(&self.groups, self.splits(threads), &|group| match of(group.kind) {
                 true => group.block.energy(&group.share(&now)),
                 false => 0.0,
             })
         };
-        let (strain, links) = (stored(false) + work.material.stored, stored(true));
+        let is_part = |kind| kind != GroupKind::Link && kind != GroupKind::Contact;
+        let (strain, links) = (stored(&is_part) + work.material.stored, stored(&|kind| kind == GroupKind::Link));
+        let contact = if self.has_contacts() { stored(&|kind| kind == GroupKind::Contact) } else { 0.0 };
         let mut kinetic = 0.0;
         let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
         for inertia in &self.inertias {
@@ -62,7 +70,7 @@ impl System {
         if !self.dynamic {
             (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
         }
-        let total = kinetic + strain + links;
+        let total = kinetic + strain + links + contact;
         Energy {
             kinetic,
             strain,
@@ -75,10 +83,15 @@ impl System {
                 - work.damping
                 - work.material.plastic
                 - work.material.viscous
+                - work.material.friction
+                - work.material.impact
                 - total,
             total,
             p,
             l,
+            contact,
+            friction: work.material.friction,
+            impact: work.material.impact,
         }
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod assembly;
 mod build;
+mod contacts;
 pub mod energy;
 mod inertia;
 pub mod joints;
@@ -12,6 +13,7 @@ mod plane;
 pub mod results;
 mod tiles;
 
+pub use contacts::ContactState;
 pub use inertia::Inertia;
 pub use joints::{JointState, Multipliers};
 pub use motion::{Drive, Prescribed, Side, between};
@@ -54,6 +56,7 @@ pub enum GroupKind {
     Bar,
     Shell,
     Link,
+    Contact,
 }
 
 /// Everything that acts on the nodes. Constant over a run.
@@ -69,6 +72,8 @@ pub struct System {
     /// In the order of the model's list, without the rows that a plane motion does not need.
     pub joints: Vec<Joint>,
     watched: Vec<results::Watched>,
+    /// Where their groups begin; they are the last.
+    contacts: usize,
     loads: Vec<model::Load>,
     pressures: Vec<model::Pressure>,
     nodal_damping: Vec<model::NodalDamping>,
@@ -159,8 +164,10 @@ impl System {
         let plane = plane::normal(model, &inertias, &attachments);
         let (groups, watched) = build::groups(model, &x, plane);
         let joints = build::joints(model, &x, plane);
+        let contacts = groups.iter().position(|group| group.kind == GroupKind::Contact);
         Ok(System {
             history: groups.last().map_or(0, |group| group.history.end),
+            contacts: contacts.unwrap_or(groups.len()),
             groups,
             inertias,
             consistent,

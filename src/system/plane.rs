@@ -46,6 +46,9 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     if inertias.iter().any(|i| mixes(&i.J0)) {
         return false;
     }
+    if !model.contacts.iter().all(|c| c.surface.center[n].abs() <= small * size && c.surface.keeps(n)) {
+        return false;
+    }
     let beams = model.beams.iter().flat_map(|b| &b.elements).all(|e| {
         let C = &model.stiffnesses[e.section];
         let turn = |K: &Mat3| e.frame * K * e.frame.transpose();

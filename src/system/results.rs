@@ -71,7 +71,7 @@ impl System {
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order.
     pub fn plastic_strains(&self, now: &Now, out: &mut Vec<f64>) {
         out.clear();
-        for group in self.groups.iter().filter(|group| group.kind != GroupKind::Link) {
+        for group in self.groups.iter().filter(|group| !matches!(group.kind, GroupKind::Link | GroupKind::Contact)) {
             let past = group.share(now).past;
             out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
         }

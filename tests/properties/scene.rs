@@ -70,6 +70,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         bars: vec![],
         shells: vec![],
         links: vec![],
+        contacts: vec![],
         riders: vec![],
         joints: vec![],
         held: vec![],

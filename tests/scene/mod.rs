@@ -79,6 +79,7 @@ pub fn model() -> Model {
             yielding: None,
             elements: vec![[5, 0]],
         }],
+        contacts: vec![],
         links: vec![Link {
             name: "bumper".into(),
             ends: [2, 5],

@@ -1,0 +1,74 @@
+//! `[[contacts]]`: what touches a surface, and how.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::words::{Maybe, Names, Table, Vector};
+
+/// Points that push away from a surface, rub on it and bounce off it; or, with a stiffness of 0, a zone whose gap is watched.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    #[schemars(required)]
+    pub name: Maybe<String>,
+    #[schemars(required)]
+    pub surface: Maybe<Table<Surface>>,
+    /// What touches it, by name: points, bodies (their shape: corners of a box, rims of a cylinder, a sphere as it is), sets,
+    /// groups of the mesh, beams, bars, shells.
+    #[schemars(required)]
+    pub with: Maybe<Names>,
+    /// Of the balls around the points that touch. Default: half the thickness of shells, half the larger side of a beam's
+    /// section, the radius of a sphere; else 0.
+    pub radius: Maybe<f64>,
+    /// Force per depth, of each point, also sideways where there is friction. 0: a zone, nothing acts. Default in dynamics:
+    /// such that an impact lasts 20 steps.
+    pub stiffness: Maybe<f64>,
+    /// Speed after an impact over that before it, 0.01 to 1. Default: 1, nothing is lost.
+    pub restitution: Maybe<f64>,
+    /// Force per velocity, instead of a restitution. It never pulls.
+    pub damping: Maybe<f64>,
+    /// Coulomb's coefficient. Default: 0.
+    pub friction: Maybe<f64>,
+    /// Points that touch between neighbouring nodes of beams, bars and shells. Default: 0.
+    pub points: Maybe<u64>,
+}
+
+/// A surface on a body or on the ground, global coordinates at t = 0.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Surface {
+    #[schemars(required)]
+    pub shape: Maybe<Shape>,
+    /// Name of the body that carries it. Default: the ground.
+    pub body: Maybe<String>,
+    /// A point of it: plane.
+    pub point: Maybe<Vector>,
+    /// Out of it, away from what is solid: plane.
+    pub normal: Maybe<Vector>,
+    /// Box, sphere, cylinder. Default: the body's centre.
+    pub center: Maybe<Vector>,
+    /// Full edge lengths: box.
+    pub size: Maybe<Vector>,
+    /// Of the box: x, and a vector in the x-y plane. Default: global.
+    pub axes: Maybe<Vec<Vector>>,
+    /// Sphere, cylinder, capsule.
+    pub radius: Maybe<f64>,
+    /// Cylinder.
+    pub axis: Maybe<Vector>,
+    /// Cylinder: between its flat ends.
+    pub length: Maybe<f64>,
+    /// Two points, the ends of the line that a capsule is round.
+    pub ends: Maybe<Vec<Vector>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// Everything on one side is solid.
+    Plane,
+    Box,
+    Sphere,
+    Cylinder,
+    /// A cylinder with round ends.
+    Capsule,
+}

@@ -1,0 +1,67 @@
+//! Contacts of a scene: how far a step may go, and what they come to.
+
+use super::{Group, GroupKind, System};
+use crate::elements::contact::{self, Contacts};
+use crate::math::Vec3;
+use crate::model::Model;
+use crate::state::{Node, Now, State};
+
+/// A contact at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactState {
+    /// Points that touch.
+    pub touching: usize,
+    /// Least distance of all points; negative inside.
+    pub gap: f64,
+    /// On the surface, and its moment about the centre of the body that carries it, or about the ground surface's own point.
+    pub f: Vec3,
+    pub m: Vec3,
+}
+
+impl System {
+    /// True where anything may touch.
+    pub fn has_contacts(&self) -> bool {
+        self.contacts < self.groups.len()
+    }
+
+    /// True where material remembers.
+    pub fn yields(&self) -> bool {
+        self.groups[..self.contacts].iter().any(|group| !group.history.is_empty())
+    }
+
+    fn contact_groups(&self) -> impl Iterator<Item = (&Group, &Contacts)> {
+        self.groups[self.contacts..].iter().filter_map(|group| Some((group, group.block.as_contacts()?)))
+    }
+
+    /// The contact, by its place in the model's list, with an impact after `state` that a step which writes equilibrium `since`
+    /// ahead would not resolve.
+    pub fn hurried_contact(&self, state: &State, since: f64) -> Option<usize> {
+        let hurried = |(group, block): &(&Group, &Contacts)| {
+            since > block.longest(&state.history[group.history.clone()]) * (1.0 + 1e-9)
+        };
+        self.contact_groups().find(hurried).map(|(group, _)| group.part)
+    }
+
+    /// The contact, by its place in the model's list, through whose surface a step from `start` to `now` would go, or into
+    /// whose impact without resolving it.
+    pub fn missed_contact(&self, start: &[Node], now: &Now) -> Option<usize> {
+        self.contact_groups().find(|(group, block)| block.misses(start, &group.share(now))).map(|(group, _)| group.part)
+    }
+
+    /// States of all contacts in deck order.
+    pub fn contact_states(&self, model: &Model, now: &Now, out: &mut Vec<ContactState>) {
+        out.clear();
+        for (index, contact) in model.contacts.iter().enumerate() {
+            let gap = contact::least_gap(&contact.surface, contact.node, &contact.points, now.nodes);
+            let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
+            for (group, block) in self.contact_groups().filter(|(group, _)| group.part == index) {
+                debug_assert!(group.kind == GroupKind::Contact);
+                let sum = block.resultant(&group.share(now));
+                state.touching += sum.touching;
+                state.f += sum.f;
+                state.m += sum.m;
+            }
+            out.push(state);
+        }
+    }
+}
