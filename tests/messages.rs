@@ -120,7 +120,7 @@ fn syntax() {
 fn keys_and_types() {
     assert_snapshot!("unknown_key", portal(&[("elements = 12", "element = 12")]));
     assert_snapshot!("unknown_key_without_neighbour", portal(&[("elements = 12", "elements = 12\nfriction = 0.3")]));
-    assert_snapshot!("unknown_table", portal_and("[[contacts]]\nfriction = 0.3"));
+    assert_snapshot!("unknown_table", portal_and("[[gears]]\nratio = 0.3"));
     assert_snapshot!("text_for_number", portal(&[("youngs_modulus = 210e9", "youngs_modulus = \"210e9\"")]));
     assert_snapshot!("number_for_text", portal(&[("material = \"steel\"", "material = 7")]));
     assert_snapshot!("fraction_for_count", portal(&[("elements = 12", "elements = 1.5")]));

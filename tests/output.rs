@@ -43,6 +43,7 @@ fn headers_are_those_of_the_interface() {
             "step,time,kinetic,strain,plastic,viscous,damping,links,external,numerical,total,px,py,pz,lx,ly,lz,contact,friction,impact",
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
+        ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),
         ("sections.csv", "step,time,beam,element,point,s,N,Qy,Qz,T,My,Mz,plastic_strain"),
         ("steps.csv", "step,time,dt,iterations,refactorizations,residual,cuts"),
@@ -88,6 +89,7 @@ fn rows_are_the_frames_to_the_last_bit() {
     assert_eq!(table(dir.path(), "reactions.csv").1[1][2..], ["node[0]", "rz", "-1.0"]);
     assert_eq!(table(dir.path(), "sections.csv").1[1][2..6], ["fore & aft", "0", "1", "0.5"]);
     assert_eq!(table(dir.path(), "links.csv").1[0][2..6], ["bumper", "0.1", "-1.0", "7.0"]);
+    assert_eq!(table(dir.path(), "contacts.csv").1[0][2..5], ["seat", "2", "-0.001"]);
 }
 
 /// An interrupted run, resumed from a checkpoint that lies before its last rows, ends in the same bytes.
@@ -105,7 +107,7 @@ fn a_resumed_run_leaves_the_same_files() {
     files.finish().unwrap();
     let mut names: Vec<_> = fs::read_dir(whole.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names.len(), 7 + 2 + 5, "seven tables, names, the list, grids of steps 0 3 6 9 10");
+    assert_eq!(names.len(), 8 + 2 + 5, "eight tables, names, the list, grids of steps 0 3 6 9 10");
     for name in names {
         let [a, b] = [&whole, &resumed].map(|dir| fs::read(dir.path().join(&name)).unwrap());
         assert!(a == b, "{name:?}");
@@ -120,6 +122,7 @@ fn only_what_is_asked_for_is_written() {
     let output = &mut model.output;
     output.nodes.clear();
     (output.energy, output.links, output.reactions, output.sections) = (false, false, false, false);
+    output.contacts = false;
     run(dir.path(), &model);
     let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names, ["steps.csv"]);

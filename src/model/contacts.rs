@@ -58,7 +58,9 @@ impl<'d> Builder<'d> {
                 self.touch(node, true);
                 points.iter().flat_map(Point::nodes).for_each(|&node| self.touch(node, false));
             }
-            self.check_start(&owner, node, &surface, &points);
+            if law.is_some() {
+                self.check_start(&owner, node, &surface, &points);
+            }
             self.model.contacts.push(Contact { name, node, surface, points, law, chosen });
         }
     }

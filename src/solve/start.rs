@@ -67,6 +67,11 @@ impl Stepper<'_> {
             node.q = rotation::exp(&riding) * node.q;
         }
         self.ride(&mut state.nodes);
+        if self.system.has_contacts() {
+            // What touches at t = 0 rubs from then on.
+            self.system.remember(&state.now(), 1.0, &mut self.history, self.plan.threads);
+            std::mem::swap(&mut state.history, &mut self.history);
+        }
         self.system.residual(&state.now(), &self.given[2], &mut self.forces);
         if dynamic {
             let massless = self.factor_mass(&state.now())?;

@@ -74,8 +74,8 @@ fn bounces_go_as_high_as_they_should() {
             println!("e = {e}, bounce {bounce}: {height:.5} for {exact:.5}");
             assert!((height / exact - 1.0).abs() < 0.01 * bounce as f64, "e = {e}, bounce {bounce}: {height} {exact}");
         }
-        let (first, last) = (rows[0][3] + 0.0, rows.last().unwrap());
-        println!("e = {e}: numerical {:.2e}, impact {:.4} of 20, total {first}", last[4], last[5]);
+        let last = rows.last().unwrap();
+        println!("e = {e}: numerical {:.2e}, impact {:.4} of 20", last[4], last[5]);
         // Nothing is gained: what the scheme takes or gives is within 1 % of the energy, 20 J.
         assert!(last[4].abs() < 0.2, "{last:?}");
     }
@@ -165,7 +165,7 @@ fn momenta_are_kept() {
     );
     // Linear momentum to the tolerance of the iteration, 1e-8 of an impact's. Angular momentum is kept by the forces, and by
     // the scheme to second order: the force of an instant ahead acts at the arm of its end.
-    assert!(drift[0] < 1e-8 && drift[1] < 2e-3, "{drift:?}");
+    assert!(drift[0] < 1e-8 && drift[1] < 1e-4, "{drift:?}");
 }
 
 /// A ball on a plate of shells held at its edges: down by its weight it comes to rest in the end, before that momentum goes

@@ -9,7 +9,7 @@ fn rolling(dt: f64, velocity: f64, spin: f64) -> String {
     let z = 0.1 - 20.0 / 1e6;
     format!(
         r#"
-        analysis = {{ kind = "dynamic", end_time = 0.5, time_step = {dt} }}
+        analysis = {{ kind = "dynamic", end_time = 0.6, time_step = {dt} }}
         environment = {{ gravity = [0.0, 0.0, -10.0] }}
         bodies = [{{ name = "ball", center = [0.0, 0.0, {z:?}], shape = {{ kind = "sphere", radius = 0.1 }}, mass = 2.0, velocity = [{velocity:?}, 0.0, 0.0], angular_velocity = [0.0, {spin:?}, 0.0] }}]
         [[contacts]]
@@ -32,7 +32,7 @@ fn motion(frame: &Frame) -> Vec<f64> {
 fn a_ball_that_slides_begins_to_roll() {
     let (v0, mu, g) = (1.0, 0.3, 10.0);
     let begins = 2.0 * v0 / (7.0 * mu * g);
-    let x_end = v0 * begins - 0.5 * mu * g * begins * begins + 5.0 / 7.0 * v0 * (0.5 - begins);
+    let x_end = v0 * begins - 0.5 * mu * g * begins * begins + 5.0 / 7.0 * v0 * (0.6 - begins);
     let mut errors = Vec::new();
     for dt in [2e-3, 1e-3, 5e-4, 2.5e-4] {
         let done = go(&rolling(dt, v0, 0.0), &mut motion);
@@ -43,12 +43,13 @@ fn a_ball_that_slides_begins_to_roll() {
         let (a, b) = (sliding[0], sliding[sliding.len() - 1]);
         let t = a[0] + slip(a) / (slip(a) - slip(b)) * (b[0] - a[0]);
         println!("dt {dt}: v {:.2e}, t {:.2e}, x {:.2e}", last[2] - 5.0 / 7.0, t - begins, last[1] - x_end);
-        // Angular momentum about the floor is kept, so the speed is 5/7 whatever the friction does: round-off, and the spring's
-        // last swing.
-        assert!((last[2] - 5.0 / 7.0).abs() < 1e-6, "{last:?}");
-        assert!(slip(last).abs() < 1e-6, "{last:?}");
-        // It begins when friction acts, which takes the first step to come up.
-        assert!((t - begins).abs() < 0.6 * dt + 1e-4, "{t} {begins}");
+        // Angular momentum about the floor is kept, so the speed is 5/7 whatever the friction does. The spring that holds then
+        // swings on by μ N/k, and the ball by μ g/√(7 k/2 m) = 2.3e-3 at most.
+        assert!((last[2] - 5.0 / 7.0).abs() < 2.3e-3, "{last:?}");
+        let swing = 5.0 / 7.0 * last[2] + 2.0 / 7.0 * 0.1 * last[3] - 5.0 / 7.0;
+        assert!(swing.abs() < 1e-9, "{last:?}");
+        // Slip falls on a straight line from the first.
+        assert!((t - begins).abs() < 1e-6, "{t} {begins}");
         // ½ m v₀² · 2/7
         assert!((last[4] - 2.0 / 7.0).abs() < 1e-3, "{last:?}");
         errors.push((dt, (last[1] - x_end).abs()));
@@ -63,7 +64,8 @@ fn a_ball_with_back_spin_comes_back() {
     for (spin, v_end) in [(-20.0, (5.0 - 4.0) / 7.0), (-40.0, (5.0 - 8.0) / 7.0), (10.0, 1.0)] {
         let done = go(&rolling(1e-3, 1.0, spin), &mut motion);
         let last = done.rows.last().unwrap();
-        assert!((last[2] - v_end).abs() < 1e-6 && (last[2] - 0.1 * last[3]).abs() < 1e-6, "{spin}: {last:?}");
+        // The spring's swing after the slip, as above.
+        assert!((last[2] - v_end).abs() < 2.3e-3 && (last[2] - 0.1 * last[3]).abs() < 8e-3, "{spin}: {last:?}");
     }
 }
 
@@ -116,9 +118,9 @@ fn a_block_stops_where_it_should() {
         errors.push((dt, (last[1] / way - 1.0).abs()));
         assert!(last[2].abs() < 2e-3, "it swings on its springs alone: {last:?}");
     }
-    println!("{errors:?} slope {:.2}", slope(&errors));
-    // Friction comes up over the first step, which is worth half a step of sliding at v₀: 2 a dt/2 v₀ = 3e-3 of the way at 1e-3.
-    assert!(errors[3].1 < 2e-3, "{errors:?}");
+    println!("{errors:?}");
+    // The stretch of the springs, μ N/k = 4e-6 of 0.17, and the block's rocking on them.
+    assert!(errors.iter().all(|e| e.1 < 1e-4), "{errors:?}");
 }
 
 /// Steeper friction than slope: for ten seconds the block does not creep.
@@ -160,6 +162,7 @@ fn a_force_presses_to_the_depth_of_its_stiffness() {
             let text = format!(
                 r#"
                 analysis = {{ kind = "static", end_time = 1.0, time_step = 0.25 }}
+                masses = [{{ at = "tip", mass = 1.0 }}]
                 points = {{ tip = [{x:?}, {y:?}, {z:?}], post = [{x:?}, {y:?}, 2.0] }}
                 links = [{{ name = "guide", from = {{ node = "post" }}, to = {{ node = "tip" }}, bushing = [1e3, 1e3, 1.0, 1.0, 1.0, 1.0] }}]
                 supports = [{{ at = "post", fix = "all" }}]
@@ -191,6 +194,7 @@ fn a_ball_on_an_edge_and_on_a_corner() {
         let text = format!(
             r#"
             analysis = {{ kind = "static", end_time = 1.0, time_step = 0.25 }}
+            masses = [{{ at = "tip", mass = 1.0 }}]
             points = {{ tip = {at:?}, post = {at:?} }}
             links = [{{ name = "guide", from = {{ node = "post" }}, to = {{ node = "tip" }}, bushing = [1e3, 1e3, 1e3, 1.0, 1.0, 1.0] }}]
             supports = [{{ at = "post", fix = "all" }}]
@@ -216,15 +220,14 @@ fn a_ball_on_an_edge_and_on_a_corner() {
 /// A beam laid over a sphere between its nodes: what the sphere bears is what bends the beam, F = 48 EI w/L³ for its middle.
 #[test]
 fn a_beam_over_a_sphere_between_its_nodes() {
-    for (elements, points) in [(1, 2), (2, 1)] {
-        let x = if elements == 1 { 0.5 } else { 0.25 };
+    for (elements, points, x) in [(9, 1, 0.5), (5, 3, 0.3)] {
         let text = format!(
             r#"
             analysis = {{ kind = "static", end_time = 1.0, time_step = 0.25 }}
-            materials = {{ soft = {{ model = "elastic", youngs_modulus = 2e9, poisson_ratio = 0.0, density = 0.0 }} }}
+            materials = {{ soft = {{ model = "elastic", youngs_modulus = 2e9, poisson_ratio = 0.0, density = 1.0 }} }}
             sections = {{ square = {{ shape = "rectangle", width = 0.02, height = 0.02 }} }}
             points = {{ left = [0.0, 0.0, 0.11], right = [1.0, 0.0, 0.11] }}
-            beams = [{{ name = "beam", path = ["left", "right"], elements = {elements}, order = {}, material = "soft", section = "square", orientation = [0.0, 1.0, 0.0] }}]
+            beams = [{{ name = "beam", path = ["left", "right"], elements = {elements}, order = 3, material = "soft", section = "square", orientation = [0.0, 1.0, 0.0] }}]
             supports = [
                 {{ at = "left", fix = ["ux", "uy", "rx", "rz"], motion = {{ uz = {{ amplitude = "down", scale = -0.001 }} }} }},
                 {{ at = "right", fix = ["uy", "rx", "rz"], motion = {{ uz = {{ amplitude = "down", scale = -0.001 }} }} }},
@@ -237,8 +240,7 @@ fn a_beam_over_a_sphere_between_its_nodes() {
             with = "beam"
             stiffness = 1e6
             points = {points}
-            "#,
-            if elements == 1 { 3 } else { 4 }
+            "#
         );
         let done =
             go(&text, &mut |frame| frame.contacts.iter().flat_map(|c| [c.f.z, c.gap, c.touching as f64]).collect());
@@ -250,7 +252,9 @@ fn a_beam_over_a_sphere_between_its_nodes() {
         let exact = -(0.001 + gap) / flexibility;
         println!("{elements} elements: {f:.4} for {exact:.4}, {touching} touching, gap {gap:.2e}");
         assert!(touching == 1.0 && (f + 1e6 * -gap).abs() < 1e-6 * f.abs().max(1.0), "{f} {gap}");
-        // Deflections of 1e-3 of the length: strains of the axis of second order in them.
-        assert!((f / exact - 1.0).abs() < 1e-3, "{f} {exact}");
+        // The element's own bending under a force between its nodes, h³/192 EI at most, is only partly in its shape.
+        let h: f64 = L / f64::from(elements);
+        let missed = h.powi(3) / (192.0 * EI) / flexibility;
+        assert!((f / exact - 1.0).abs() < missed, "{f} {exact} {missed}");
     }
 }

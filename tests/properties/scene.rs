@@ -88,6 +88,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
             cadence: Cadence::Steps(1),
             energy: true,
             links: false,
+            contacts: false,
             reactions: true,
             sections: false,
             layers: false,

@@ -2,11 +2,12 @@
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use rdsolve::elements::Point;
+use rdsolve::elements::contact::{self, Surface};
 use rdsolve::elements::link::Law;
 use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
-use rdsolve::solve::{Frame, LinkState, SectionPoint, ShellState};
+use rdsolve::solve::{ContactState, Frame, LinkState, SectionPoint, ShellState};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
 
@@ -79,7 +80,14 @@ pub fn model() -> Model {
             yielding: None,
             elements: vec![[5, 0]],
         }],
-        contacts: vec![],
+        contacts: vec![Contact {
+            name: "seat".into(),
+            node: 0,
+            surface: Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape: contact::Shape::Plane },
+            points: vec![],
+            law: None,
+            chosen: false,
+        }],
         links: vec![Link {
             name: "bumper".into(),
             ends: [2, 5],
@@ -102,6 +110,7 @@ pub fn model() -> Model {
             cadence: Cadence::Steps(1),
             energy: true,
             links: true,
+            contacts: true,
             reactions: true,
             sections: true,
             layers: true,
@@ -139,6 +148,7 @@ pub struct Extras {
     energy: Energy,
     reactions: [f64; 2],
     links: [LinkState; 1],
+    contacts: [ContactState; 1],
     sections: [SectionPoint; 2],
     shells: Vec<ShellState>,
 }
@@ -165,9 +175,13 @@ impl Extras {
                 total: time,
                 p,
                 l: -p,
+                contact: 0.5,
+                friction: 0.25,
+                impact: 0.125,
             },
             reactions: [time, -1.0],
             links: [LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
+            contacts: [ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
             sections: [point(0), point(1)],
             shells: vec![],
         }
@@ -189,6 +203,7 @@ impl Extras {
             reactions: &self.reactions,
             joints: &[],
             links: &self.links,
+            contacts: &self.contacts,
             plastic_strains: &[],
             sections: &self.sections,
             shells: &self.shells,

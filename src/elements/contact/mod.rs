@@ -87,9 +87,9 @@ mod past {
     pub const GAP: usize = 2;
     /// Approach speed, δ̇.
     pub const RATE: usize = 3;
-    /// Approach speed when it landed; 0 while it does not touch.
+    /// Approach speed when it landed; 0 again some time after it has lifted off.
     pub const SPEED: usize = 4;
-    /// Time since then.
+    /// Time since the landing, or since the lift-off.
     pub const AGE: usize = 5;
     /// Power that the damping of the impact takes.
     pub const POWER: usize = 6;
@@ -267,7 +267,8 @@ impl Contacts {
             return None;
         }
         let meeting = self.meet(&self.points[e], now.nodes);
-        if meeting.gap >= 0.0 {
+        // At a gap of nothing there is stiffness, if no force.
+        if meeting.gap > 0.0 {
             return None;
         }
         let action = self.act(&self.points[e], &meeting, past, now.nodes);
@@ -297,7 +298,7 @@ impl Contacts {
         let safe = |gap: f64| if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 };
         let pull = if law.friction > 0.0 { old[past::PULL] } else { 0.0 };
         let far = safe(d.norm() - self.reach() - point.radius);
-        if far > 4.0 * now.since && now.since > 0.0 {
+        if far > 4.0 * now.since && now.since > 0.0 && old[past::SPEED] == 0.0 {
             new.fill(0.0);
             new[past::SAFE] = far;
             spent.friction = 0.5 * pull * pull / law.stiffness;
@@ -309,25 +310,27 @@ impl Contacts {
         let toward = |old: f64, now: f64| old + part * (now - old);
         let meeting = self.meet(point, now.nodes);
         let (gap, rate) = (meeting.gap, meeting.rate());
-        let action = (gap < 0.0).then(|| self.act(point, &meeting, old, now.nodes));
+        let action = (gap <= 0.0).then(|| self.act(point, &meeting, old, now.nodes));
         let force = action.as_ref().map_or(0.0, |action| action.push.force);
         new[past::KNOWN] = 1.0;
         new[past::GAP] = toward(old[past::GAP], gap);
         new[past::RATE] = toward(old[past::RATE], rate);
         new[past::SAFE] = safe(new[past::GAP]);
         let touches = new[past::GAP] <= 0.0;
-        let landed = known && old[past::GAP] > 0.0;
-        new[past::AGE] = if touches && known && !landed { old[past::AGE] + dt } else { 0.0 };
-        new[past::SPEED] = match (touches, known) {
-            (false, _) => 0.0,
+        let touched = known && old[past::GAP] <= 0.0;
+        (new[past::SPEED], new[past::AGE]) = match (touches, touched) {
             // The approach speed where the gap closed, on a straight line.
-            (true, true) if landed => {
+            (true, false) if known => {
                 let closed = old[past::GAP] / (old[past::GAP] - gap);
-                (old[past::RATE] + closed * (rate - old[past::RATE])).max(0.0)
+                ((old[past::RATE] + closed * (rate - old[past::RATE])).max(0.0), 0.0)
             }
+            (true, false) => (rate.max(0.0), 0.0),
             // Faster than at the landing where something presses.
-            (true, true) => old[past::SPEED].max(new[past::RATE]),
-            (true, false) => rate.max(0.0),
+            (true, true) => (old[past::SPEED].max(new[past::RATE]), old[past::AGE] + dt),
+            (false, true) => (old[past::SPEED], 0.0),
+            // The impact is over for good once the acceleration it leaves to the scheme is gone.
+            (false, false) if old[past::AGE] + dt < law.duration => (old[past::SPEED], old[past::AGE] + dt),
+            (false, false) => (0.0, 0.0),
         };
         let power = if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 };
         new[past::POWER] = toward(old[past::POWER], power);
@@ -337,6 +340,9 @@ impl Contacts {
         }
         let drag = action.and_then(|action| action.drag);
         let p = &meeting.p;
+        // What slides at t = 0 has been sliding: its spring is stretched.
+        let begun =
+            if known || now.since > 0.0 || force == 0.0 { Vec3::zeros() } else { self.sliding(point, &meeting, now) };
         let (shift, T, slip) = match &drag {
             Some(drag) => (drag.slip, drag.T.norm(), drag.slip.norm()),
             // Free: the anchor goes along, and what was stretched lets go.
@@ -345,9 +351,10 @@ impl Contacts {
         new[past::PULL] = toward(pull, T);
         spent.friction = if drag.is_some() { 0.5 * part * slip * (pull + new[past::PULL]) } else { 0.5 * pull * slip };
         if drag.is_none() {
-            new[past::PULL] = 0.0;
+            new[past::PULL] = self.law.friction * force * begun.norm();
         }
-        let mut anchor = Vec3::from_column_slice(&old[past::ANCHOR..past::TURN]) + part * shift;
+        let mut anchor = Vec3::from_column_slice(&old[past::ANCHOR..past::TURN]) + part * shift
+            - self.law.friction * force / law.stiffness * begun;
         if self.rolls {
             for k in 0..self.count {
                 let turn = self.turn(point.nodes[k], now.nodes);
@@ -366,6 +373,17 @@ impl Contacts {
         }
         new[past::ANCHOR..past::TURN].copy_from_slice(anchor.as_slice());
         spent
+    }
+
+    /// Unit vector along the slip, in the frame of the surface; zero for what does not slip faster than its weight makes it.
+    fn sliding(&self, point: &Point, meeting: &Meeting, now: &Now) -> Vec3 {
+        let n = &meeting.near.n;
+        let spin: Vec3 = point.parts().map(|(node, weight)| weight * now.nodes[node].omega).sum();
+        let spin = meeting.R.tr_mul(&(spin - now.nodes[self.carrier].omega));
+        let w = meeting.R.tr_mul(&meeting.w);
+        let slip = w - n.dot(&w) * n - point.lever * spin.cross(n);
+        let speed = slip.norm();
+        if speed > self.law.floor { slip / speed } else { Vec3::zeros() }
     }
 
     /// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not
@@ -387,29 +405,34 @@ impl Contacts {
             return true;
         }
         let normal = |p: &Vec3| self.surface.near(p).n;
-        let opposed = |a: &Vec3, b: &Vec3| a.dot(b) < -0.5;
-        if first <= 0.0 {
-            return gap(&(p0 + 0.5 * way)) < 0.0 && opposed(&normal(&p0), &normal(&p1));
-        }
-        // Nothing lies nearer than the distance: forward by it until the surface is reached.
-        let mut t = 0.0;
-        loop {
-            let g = gap(&(p0 + t * way));
-            if g < 1e-3 * length {
-                break;
+        // Nothing lies nearer than the distance: along the way by it, from either end, until the surface is reached.
+        let reached = |at: &dyn Fn(f64) -> Vec3| {
+            let mut t = 0.0;
+            while t < 1.0 {
+                let g = gap(&at(t));
+                if g < 1e-3 * length {
+                    return Some(t);
+                }
+                t += g / length;
             }
-            t += g / length;
-            if t >= 1.0 {
-                return false;
-            }
-        }
-        let entry = normal(&(p0 + t * way));
+            None
+        };
+        let Some(t0) = (if first > 0.0 { reached(&|t| p0 + t * way) } else { Some(0.0) }) else { return false };
+        let entry = normal(&(p0 + t0 * way));
+        // By the other side; or by another side from far inside, and not just round an edge.
+        let strayed = |n: &Vec3, depth: f64, length: f64| {
+            let along = entry.dot(n);
+            along < -0.5 && depth < 0.0 || along < 0.5 && depth < -0.02 * length
+        };
         if last < 0.0 {
-            let fast = past[past::KNOWN] == 0.0 || past[past::RATE] > 3.0 * self.law.floor;
-            return opposed(&entry, &normal(&p1)) || fast && now.since > self.law.resolution;
+            let landing = first > 0.0 && (past[past::KNOWN] == 0.0 || past[past::RATE] > 3.0 * self.law.floor);
+            let depth = last.min(gap(&(p0 + 0.5 * (1.0 + t0) * way)));
+            return strayed(&normal(&p1), depth, length) || landing && now.since > self.law.resolution;
         }
-        let depth = (1..16).map(|k| gap(&(p0 + (t + (1.0 - t) * k as f64 / 16.0) * way))).fold(0.0, f64::min);
-        depth < -0.1 * length || depth < 0.0 && opposed(&entry, &normal(&p1))
+        // In at one place and out at another; a shallow pass along one side is left alone.
+        let Some(t1) = reached(&|t| p1 - t * way).map(|t| 1.0 - t) else { return false };
+        let (depth, chord) = (gap(&(p0 + 0.5 * (t0 + t1) * way)), (t1 - t0) * length);
+        first > 0.0 && depth < -0.02 * chord || strayed(&normal(&(p0 + t1 * way)), depth, chord)
     }
 }
 
@@ -553,7 +576,7 @@ impl Block for Contacts {
 
     fn rests(&self, e: usize, now: &Now) -> bool {
         let since = self.share(e, now.past).first().copied();
-        since.is_none_or(|safe| now.since < safe) || self.meet(&self.points[e], now.nodes).gap >= 0.0
+        since.is_none_or(|safe| now.since < safe) || self.meet(&self.points[e], now.nodes).gap > 0.0
     }
 
     fn as_contacts(&self) -> Option<&Contacts> {
@@ -574,10 +597,7 @@ impl Contacts {
     pub fn longest(&self, past: &[f64]) -> f64 {
         let law = &self.law;
         let in_impact = |past: &[f64]| {
-            past[past::KNOWN] > 0.0
-                && past[past::GAP] <= 0.0
-                && past[past::SPEED] > 3.0 * law.floor
-                && past[past::AGE] < law.duration
+            past[past::KNOWN] > 0.0 && past[past::SPEED] > 3.0 * law.floor && past[past::AGE] < law.duration
         };
         let any = law.resolution < f64::INFINITY && past.chunks_exact(self.stride()).any(in_impact);
         if any { law.resolution } else { f64::INFINITY }

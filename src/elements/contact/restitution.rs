@@ -64,7 +64,8 @@ pub fn push(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f64) -> P
         }
         Loss::Damping(c) => Push { force: spring + c * rate, by_depth: stiffness, by_rate: c },
     };
-    if push.force > 0.0 { push } else { Push::default() }
+    // At depth 0 there is no force yet, but stiffness.
+    if push.force > 0.0 || push.force == 0.0 && push.by_depth > 0.0 { push } else { Push::default() }
 }
 
 #[cfg(test)]
