@@ -516,7 +516,7 @@ impl<'d> Builder<'d> {
             let x: Vec3 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w * self.x(node)).sum();
             surface.distance(&(x - center)) - point.radius
         };
-        let least = points.iter().map(|point| gap(point)).fold(f64::INFINITY, f64::min);
+        let least = points.iter().map(gap).fold(f64::INFINITY, f64::min);
         let size = points.iter().map(|point| self.x(point.nodes[0]).norm()).fold(center.norm(), f64::max);
         if least < -1e-9 * size {
             let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));
