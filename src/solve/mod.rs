@@ -19,9 +19,9 @@ pub use march::{Counts, Outcome, Run, Wanted};
 
 use crate::model::Model;
 use crate::state::State;
-pub use crate::system::{ContactState, JointState};
 use crate::system::energy::Energy;
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
+pub use crate::system::{ContactState, JointState};
 
 /// One accepted step, read-only.
 pub struct Frame<'a> {

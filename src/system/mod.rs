@@ -188,6 +188,7 @@ impl System {
     pub fn bare(&self) -> System {
         System {
             groups: Vec::new(),
+            contacts: 0,
             history: 0,
             inertias: self.inertias.clone(),
             consistent: self.consistent.clone(),
