@@ -115,7 +115,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("link along a direction", Box::new(Links(vec![link(linear, Some(d))])), &ends);
     let table = Law::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
     add("table link", Box::new(Links(vec![link(table, None)])), &ends);
-    add("bar", Box::new(rdsolve::elements::bar::links(&[[0, 1]], 40.0, false, 0.97, &ends, 0.2)), &ends);
+    add("bar", Box::new(rdsolve::elements::bar::links(&[[0, 1]], 40.0, false, 1.0, &ends, 0.2)), &ends);
     let bushing = Bushing {
         nodes: [0, 1],
         axes: frame,

@@ -8,7 +8,7 @@ use rdsolve::linear::Kind;
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
-use rdsolve::solve::Frame;
+use rdsolve::solve::{Failure, Frame, Outcome};
 use rdsolve::state::Node;
 use rdsolve::system::System;
 use rdsolve::system::energy::Energy;
@@ -579,5 +579,231 @@ force = [0.0, 0.0, 200.0]
     assert!(one[2] > 0.01, "{one:?}");
     for (a, b) in one.iter().zip(&other) {
         assert!((a - b).abs() < 1e-9, "{a} {b}"); // the tolerance of the iteration on a metre
+    }
+}
+
+/// Scenes by their text after an opening that all share.
+fn scene(kind: &str, end_time: f64, time_step: f64, rest: &str) -> String {
+    format!(
+        "[analysis]\nkind = \"{kind}\"\nend_time = {end_time}\ntime_step = {time_step}\nplane = \"off\"\n\
+         [iteration]\ntolerance = 1e-10\n{rest}"
+    )
+}
+
+const DRIVEN: &str = r#"
+[points]
+p = [0.5, 0.0, 0.0]
+[amplitudes.push]
+kind = "sine-squared"
+angular_frequency = 3.0
+end = 100.0
+[[bodies]]
+name = "a"
+center = [0.0, 0.0, 0.0]
+mass = 2.0
+inertia = [0.2, 0.2, 0.2]
+[[attachments]]
+body = "a"
+nodes = ["p"]
+[[supports]]
+at = "p"
+fix = ["uy", "uz", "rx", "ry", "rz"]
+motion = { ux = { amplitude = "push", scale = 0.1 } }
+[output]
+reactions = true
+interval = 0.25
+"#;
+
+/// u = 0.1 sin²(3t): the support carries m ü = 2 · 0.1 · 18 cos 6t, whatever the step; and the work it does is the kinetic energy.
+#[test]
+fn a_driven_joint_carries_the_inertia() {
+    for dt in [0.01, 0.001] {
+        let model = from_text(&scene("dynamic", 1.0, dt, DRIVEN));
+        let place = model.held.iter().position(|held| held.motion.is_some()).expect("a motion");
+        let seen = watch(&model, |frame| vec![frame.state.time, frame.reactions[place]]);
+        for (row, energy) in seen.rows.iter().zip(&seen.energies).skip(1) {
+            let exact = 2.0 * 0.1 * 18.0 * (6.0 * row[0]).cos();
+            // Carried from t + θΔt to t + Δt on a straight line: Δt² of the second derivative, 36·3.6.
+            assert!((row[1] - exact).abs() < 130.0 * dt * dt, "{row:?}: {exact} at dt {dt}");
+            let kinetic = 0.5 * 2.0 * (0.3 * (6.0 * row[0]).sin()).powi(2);
+            assert!((energy.kinetic - kinetic).abs() < 1e-12, "{} {kinetic}", energy.kinetic);
+            assert!((energy.external - kinetic).abs() < 10.0 * dt * dt, "{} {kinetic}", energy.external);
+        }
+    }
+}
+
+/// A rigid body whose two ends are to be at distances that it does not have.
+#[test]
+fn joints_that_contradict_each_other_are_no_result() {
+    let rest = r#"
+[points]
+p = [0.0, 0.0, 0.0]
+q = [1.0, 0.0, 0.0]
+[amplitudes.ramp]
+kind = "table"
+points = [[0.0, 0.0], [1.0, 0.1]]
+[[bodies]]
+name = "a"
+center = [0.5, 0.0, 0.0]
+mass = 2.0
+inertia = [0.2, 0.3, 0.4]
+[[attachments]]
+body = "a"
+nodes = ["p", "q"]
+[[supports]]
+at = "p"
+fix = "all"
+[[supports]]
+at = "q"
+motion = { ux = { amplitude = "ramp" } }
+"#;
+    for kind in ["static", "dynamic"] {
+        let model = from_text(&scene(kind, 1.0, 0.5, rest));
+        match support::run(&model, &mut |_| vec![]).outcome {
+            Outcome::Failed { failure: Failure::Apart { largest }, .. } => {
+                println!("{kind}: {largest:?}");
+                assert!(!largest.is_empty() && largest.iter().all(|gap| gap.residual != 0.0), "{kind}: {largest:?}");
+            }
+            other => panic!("{kind}: {other:?}"),
+        }
+    }
+}
+
+/// A body on a pivot that a rotational spring holds, driven at an arm: nothing but rotation resists, a force row must see that.
+#[test]
+fn rows_are_weighed_by_what_resists_them() {
+    let rest = r#"
+[points]
+p = [1.0, 0.0, 0.0]
+[amplitudes.ramp]
+kind = "sine-squared"
+angular_frequency = 3.0
+end = 100.0
+[[bodies]]
+name = "a"
+center = [0.0, 0.0, 0.0]
+mass = 2.0
+inertia = [1e3, 1e3, 1e3]
+[[supports]]
+at = "a"
+fix = ["ux", "uy", "uz", "rx", "ry"]
+[[attachments]]
+body = "a"
+nodes = ["p"]
+[[supports]]
+at = "p"
+motion = { uy = { amplitude = "ramp", scale = 0.1 } }
+[[links]]
+name = "spring"
+from = { body = "a" }
+to = { ground = [0.0, 0.0, 0.0] }
+bushing = [1.0, 1.0, 1.0, 1e9, 1e9, 1e9]
+[output]
+interval = 0.1
+"#;
+    for kind in ["static", "dynamic"] {
+        let model = from_text(&scene(kind, 1.0, 0.01, rest));
+        let p = node(&model, "p");
+        let seen = run_to_the_end(&model, &mut |frame| vec![frame.state.time, frame.state.nodes[p].x.y]);
+        println!("{kind}: {:?}", seen.counts);
+        assert!(seen.counts.iterations < 8 * 100, "{kind}: {:?}", seen.counts);
+        for row in &seen.rows {
+            let exact = 0.1 * (3.0 * row[0]).sin().powi(2);
+            assert!((row[1] - exact).abs() < 1e-10, "{kind}: {row:?} for {exact}");
+        }
+    }
+}
+
+#[test]
+fn what_rides_may_be_supported_in_some_rotations() {
+    let rest = |fix: &str| {
+        format!(
+            r#"
+[points]
+p = [0.0, 0.0, 0.0]
+[[bodies]]
+name = "a"
+center = [0.5, 0.1, 0.0]
+mass = 2.0
+inertia = [0.2, 0.3, 0.4]
+angular_velocity = [1.0, 2.0, 0.5]
+[[attachments]]
+body = "a"
+nodes = ["p"]
+[[supports]]
+at = "p"
+fix = {fix}
+"#
+        )
+    };
+    for (fix, rows) in [("[\"rx\"]", 1), ("[\"rx\", \"ry\"]", 2), ("[\"ux\", \"rx\", \"ry\", \"rz\"]", 4)] {
+        let model = from_text(&scene("dynamic", 1.0, 0.01, &rest(fix)));
+        let seen = watch(&model, |_| vec![]);
+        assert_eq!(model.joints[0].rows.len(), rows);
+        assert!(seen.gaps[0] < 1e-14, "{fix}: {:?}", seen.gaps);
+    }
+}
+
+/// Rounding of positions grows with them: what travels far from where it started is measured by where it is.
+#[test]
+fn joints_hold_far_from_where_they_started() {
+    let fast = "velocity = [7500.0, 3000.0, 100.0]\n";
+    let text = pair(&format!("kind = \"ball\"\n{MEET}"))
+        .replace("end_time = 2.0", "end_time = 20.0")
+        .replace("time_step = 0.002", "time_step = 0.01")
+        .replace("velocity = [0.3, 0.0, 0.1]\n", fast)
+        .replace("inertia = [0.05, 0.1, 0.12]\n", &format!("inertia = [0.05, 0.1, 0.12]\n{fast}"));
+    let model = from_text(&text);
+    let seen = watch(&model, |_| vec![]);
+    assert!(seen.gaps[0] < 1e-9, "{:?}", seen.gaps); // 150 km away the last digit of a position is 3e-11
+}
+
+/// Consistent masses count in the norm in which joints are closed: nothing is pushed off against what has no mass.
+#[test]
+fn closing_keeps_the_momentum_of_consistent_masses() {
+    let rest = |mass: &str| {
+        format!(
+            r#"
+[materials.steel]
+model = "elastic"
+youngs_modulus = 2e9
+poisson_ratio = 0.3
+density = 7850.0
+[sections.square]
+shape = "rectangle"
+width = 0.02
+height = 0.02
+[points]
+p = [0.0, 0.0, 0.0]
+q = [1.0, 0.0, 0.0]
+[[beams]]
+name = "rod"
+path = ["p", "q"]
+elements = 3
+material = "steel"
+section = "square"
+orientation = [0.0, 1.0, 0.0]
+mass = "{mass}"
+[[bodies]]
+name = "a"
+center = [1.3, 0.2, 0.0]
+mass = 2.0
+inertia = [0.02, 0.03, 0.04]
+velocity = [0.0, 1.0, 0.5]
+angular_velocity = [1.0, 2.0, 0.5]
+[[joints]]
+name = "pin"
+kind = "ball"
+from = {{ node = "q" }}
+to = {{ body = "a" }}
+"#
+        )
+    };
+    for mass in ["lumped", "consistent"] {
+        let seen = watch(&from_text(&scene("dynamic", 0.2, 1e-3, &rest(mass))), |_| vec![]);
+        let (first, last) = (&seen.energies[0], seen.energies.last().expect("a row"));
+        let drift = (last.p - first.p).norm() / first.p.norm();
+        println!("{mass}: {drift:.1e}");
+        assert!(drift < 1e-9, "{mass}: {drift}"); // 200 steps of an iteration to 1e-10
     }
 }

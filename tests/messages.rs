@@ -130,7 +130,6 @@ fn keys_and_types() {
     assert_snapshot!("list_for_table", portal(&[("[analysis]", "[[analysis]]")]));
     assert_snapshot!("not_finite", portal(&[("mass = 500.0", "mass = nan"), ("stiffness = 5e6", "stiffness = inf")]));
     assert_snapshot!("unknown_word", portal(&[("kind = \"dynamic\"", "kind = \"dinamic\"")]));
-    assert_snapshot!("later_words", portal_and("[integrator]\nscheme = \"newmark\""));
     assert_snapshot!("unknown_direction", portal(&[("fix = \"all\"", "fix = [\"ux\", \"uu\"]")]));
     assert_snapshot!(
         "missing_keys",
@@ -316,6 +315,16 @@ fn names() {
             ("[sections.square]", "[materials.spare]\nmodel = \"elastic\"\nyoungs_modulus = 1e9\n\n[sections.square]"),
         ])
     );
+}
+
+#[test]
+fn schemes() {
+    let scheme = |text: &str| portal_and(&format!("[integrator]\n{text}"));
+    assert_snapshot!("scheme_word", scheme("scheme = \"newmarc\""));
+    assert_snapshot!("scheme_strays", scheme("scheme = \"bathe\"\ntheta = 1.4\nalpha = -0.1"));
+    assert_snapshot!("scheme_ranges", scheme("scheme = \"hht-alpha\"\nalpha = 0.1"));
+    assert_snapshot!("scheme_newmark", scheme("scheme = \"newmark\"\ngamma = 0.4\nbeta = 0.0"));
+    assert_snapshot!("scheme_newmark_warnings", scheme("scheme = \"newmark\"\ngamma = 0.6\nbeta = 0.25"));
 }
 
 #[test]

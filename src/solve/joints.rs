@@ -116,7 +116,7 @@ impl Stepper<'_> {
         }
         let gaps = &mut self.forces.multipliers.gaps;
         self.system.gaps(&self.trial, 0, gaps);
-        let gap = self.system.largest_gap(gaps, self.system.joint_reach(&self.trial, self.reach));
+        let gap = self.system.largest_gap(gaps, self.reach);
         if gap > APART || gap.is_nan() {
             return Err(self.apart());
         }
@@ -186,7 +186,7 @@ impl Stepper<'_> {
     fn gap(&self, closing: &mut Closing, derivative: usize) -> f64 {
         let gaps = &mut closing.forces.multipliers.gaps;
         self.system.gaps(&self.trial, derivative, gaps);
-        self.system.largest_gap(gaps, self.system.joint_reach(&self.trial, self.reach))
+        self.system.largest_gap(gaps, self.reach)
     }
 
     /// One correction of the motion, its velocity or its acceleration.

@@ -125,6 +125,7 @@ impl<'a> Run<'a> {
             (_, update) => update,
         };
         let length = extent(&at_rest);
+        let reach = at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length);
         let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
         // Of multipliers: gaps.
         let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
@@ -145,7 +146,8 @@ impl<'a> Run<'a> {
                 .then(|| Closing::new(plan, system, n))
                 .transpose()?,
             length,
-            reach: at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length),
+            first_reach: reach,
+            reach,
             trial: at_rest,
             increments: vec![Increment::ZERO; n],
             history: vec![0.0; system.history],

@@ -125,11 +125,6 @@ impl System {
         massive
     }
 
-    /// What gaps are measured by: `reach`, or the largest coordinate of a joint's end where it has gone farther.
-    pub fn joint_reach(&self, nodes: &[Node], reach: f64) -> f64 {
-        self.joints.iter().flat_map(|joint| joint.nodes).fold(reach, |reach, node| reach.max(nodes[node].x.amax()))
-    }
-
     /// Writes the gaps (0) of the joints, or the first or second derivative in time.
     pub fn gaps(&self, nodes: &[Node], derivative: usize, gaps: &mut [f64]) {
         for (joint, first) in self.numbered() {
