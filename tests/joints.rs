@@ -473,10 +473,13 @@ fn hinges_that_say_the_same_share_the_weight() {
         hinge("middle", 1.0),
         hinge("high", 1.8)
     );
+    let text = text
+        + "[[expect]]\nat = \"middle\"\nquantity = \"fz\"\ntime = 1.0\nvalue = 100.0\ntolerance = 1e-4\nsource = \"a third\"\n";
     let model = from_text(&text);
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
     assert_eq!(plan.repeated.as_deref().map(<[usize]>::len), Some(10), "{:?}", plan.repeated(&model, &system));
+    assert!(support::run(&model, &mut |_| vec![]).verdicts[0].passed);
     let seen = watch(&model, |frame| frame.joints.iter().flat_map(|j| [j.f.x, j.f.y, j.f.z, j.m.y]).collect());
     println!("{:?}\n{:?}", seen.rows[0], seen.rows.last());
     // Increments are least in norm, not the whole: as the door turns they let the shares differ by parts of 1e-5 or so.

@@ -11,6 +11,7 @@ use std::ops::Range;
 /// Columns of nodes.csv, apart from displacements and rotations.
 const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+const JOINT: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 const LINK: [&str; 2] = ["force", "elongation"];
 const CONTACT: [&str; 9] = ["touching", "gap", "fx", "fy", "fz", "mx", "my", "mz", "force"];
 const ENERGY: [&str; 18] = [
@@ -99,6 +100,7 @@ impl<'d> Builder<'d> {
                 Some((ExpectAt::Node(self.model.bodies[body].node), columns))
             }
             Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
+            Some(Place::Joint(joint)) => Some((ExpectAt::Joint(joint), JOINT.to_vec())),
             Some(Place::Contact(contact)) => Some((ExpectAt::Contact(contact), CONTACT.to_vec())),
             Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
             // Where a shell has errors, these have been said.
@@ -118,7 +120,7 @@ impl<'d> Builder<'d> {
                 self.error_with(
                     &name.span,
                     message,
-                    "values are at points, bodies, parts, links, contacts or \"energy\"",
+                    "values are at points, bodies, parts, links, joints, contacts or \"energy\"",
                 )
             }
             None => {

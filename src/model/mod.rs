@@ -477,6 +477,8 @@ pub enum ExpectAt {
     Energy,
     /// Columns of links.csv.
     Link(usize),
+    /// Force and moment on the first end of a joint.
+    Joint(usize),
     /// Columns of contacts.csv, and the size of the force.
     Contact(usize),
     /// Largest values over a shell: of von Mises stress and plastic strain.

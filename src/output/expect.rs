@@ -2,7 +2,7 @@
 //!
 //! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
 
-use super::{bodies_csv, contacts_csv, energy_csv, links_csv, nodes_csv, shells_csv};
+use super::{bodies_csv, contacts_csv, energy_csv, links_csv, nodes_csv, reactions_csv, shells_csv};
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
 use crate::solve::{Frame, Observer};
 use serde::Serialize;
@@ -15,6 +15,7 @@ pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
         ExpectAt::Node(_) => [&nodes_csv::COLUMNS[..], &bodies_csv::COLUMNS[QUATERNION]].concat(),
         ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
         ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
+        ExpectAt::Joint(_) => reactions_csv::OF_JOINTS.to_vec(),
         ExpectAt::Contact(_) => contacts_csv::QUANTITIES.to_vec(),
         ExpectAt::Elements(..) => vec!["plastic_strain"],
         ExpectAt::Shells(..) => vec!["von_mises", "plastic_strain"],
@@ -120,6 +121,7 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
         ExpectAt::Analysis => Some(frame.state.time),
         ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
         ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
+        ExpectAt::Joint(i) => frame.joints.get(i).map(|joint| reactions_csv::of_joint(joint)[column]),
         ExpectAt::Contact(i) => frame.contacts.get(i).map(|contact| contacts_csv::values(contact)[column]),
         ExpectAt::Shells(from, to) => {
             let of = [shells_csv::von_mises, shells_csv::plastic_strain][column];

@@ -142,7 +142,7 @@ pub fn wanted(model: &Model) -> Wanted {
     let expects = |at: fn(&ExpectAt) -> bool| model.expects.iter().any(|expect| at(&expect.at));
     Wanted {
         energy: model.output.energy || expects(|at| matches!(at, ExpectAt::Energy)),
-        reactions: model.output.reactions,
+        reactions: model.output.reactions || expects(|at| matches!(at, ExpectAt::Joint(_))),
         links: model.output.links || expects(|at| matches!(at, ExpectAt::Link(_))),
         contacts: model.output.contacts || expects(|at| matches!(at, ExpectAt::Contact(_))),
         sections: model.output.sections,

@@ -2,8 +2,16 @@
 
 use super::table::Table;
 use crate::model::DIRECTIONS;
-use crate::solve::Frame;
+use crate::solve::{Frame, JointState};
 use std::io;
+
+/// What a joint does to its first end.
+pub const OF_JOINTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+pub fn of_joint(joint: &JointState) -> [f64; 6] {
+    let [f, m] = [joint.f, joint.m];
+    [f.x, f.y, f.z, m.x, m.y, m.z]
+}
 
 pub(super) fn header() -> String {
     "step,time,node,direction,value".into()
@@ -17,9 +25,8 @@ pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
     })?;
     // A joint that holds a node to its support carries what the support does.
     model.joints.iter().zip(frame.joints).filter(|(joint, _)| !joint.supports).try_for_each(|(joint, state_of)| {
-        let values = state_of.f.iter().chain(&state_of.m);
-        DIRECTIONS.iter().zip(values).try_for_each(|(direction, value)| {
-            table.row(step, state.time).text(&joint.name).text(direction).number(*value).end()
+        DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
+            table.row(step, state.time).text(&joint.name).text(direction).number(value).end()
         })
     })
 }
