@@ -20,29 +20,30 @@ fn owned(sets: &[&str]) -> Vec<String> {
     sets.iter().map(|set| (*set).to_owned()).collect()
 }
 
-/// K. J. Bathe, G. Noh, Comput. Struct. 98-99 (2012): three masses on springs of 1e7 and 1. v2 after steps 1 and 10, u3, v2, a2
-/// after step 38, of each scheme by its definition; the load is taken where the scheme writes equilibrium. The trapezoidal
-/// rule never damps the stiff mode: its a2 is the phase of that after 38 steps, which rounding of 1e7 leaves four digits of.
+/// K. J. Bathe, G. Noh, Comput. Struct. 98-99 (2012): three masses on springs of 1e7 and 1. v2 after steps 1 and 10, u3, v2, and
+/// m2 a2 + k2 (u2 − u3), the force of the stiff spring, after step 38, of each scheme by its definition; the load is taken where the scheme writes equilibrium. The trapezoidal
+/// rule never damps the stiff mode: that force is the phase of that after 38 steps, which rounding of 1e7 leaves four digits of.
 #[test]
 fn digits_on_the_stiff_chain() {
     let table: [[f64; 5]; 8] = [
-        [2.360702, -2.418524, 0.091840, -0.210728, -697.700],
-        [2.341194, -1.701167, -0.108389, 0.974059, 0.553198],
-        [2.355349, -2.099897, 0.104431, 0.850347, -14.7274],
-        [2.234986, -1.231442, 0.137019, 0.980947, 0.966743],
-        [2.337095, -1.631911, 0.097720, 0.976893, 0.758072],
-        [2.213160, -1.223308, 0.137488, 0.981402, 0.977707],
-        [1.770531, -1.238129, 0.302365, 0.996309, 1.155411],
-        [1.151014, -1.209784, 0.031711, 0.978075, 0.980318],
+        [2.360702, -2.418524, 0.091840, -0.210728, -698.380],
+        [2.341194, -1.701167, -0.108389, 0.974059, 0.073825],
+        [2.355349, -2.099897, 0.104431, 0.850347, -17.2438],
+        [2.234986, -1.231442, 0.137019, 0.980947, 0.144112],
+        [2.337095, -1.631911, 0.097720, 0.976893, -1.210931],
+        [2.213160, -1.223308, 0.137488, 0.981402, 0.143726],
+        [1.770531, -1.238129, 0.302365, 0.996309, 0.062412],
+        [1.151014, -1.209784, 0.031711, 0.978075, 0.360844],
     ];
     for ((name, scheme), row) in SCHEMES.iter().zip(table) {
         let mut model = read("stiff_spring_chain", &owned(&[scheme, "iteration.tolerance=1e-12"]));
         model.expects.clear();
         let [m2, m3] = ["m2", "m3"].map(|name| node(&model, name));
-        let start = model.nodes[m3].x.x;
+        let start = [m2, m3].map(|node| model.nodes[node].x.x);
         let done = run_to_the_end(&model, &mut |frame| {
             let nodes = &frame.state.nodes;
-            vec![nodes[m2].v.x, nodes[m3].x.x - start, nodes[m2].a.x]
+            let [u2, u3] = [nodes[m2].x.x - start[0], nodes[m3].x.x - start[1]];
+            vec![nodes[m2].v.x, u3, nodes[m2].a.x + (u2 - u3)]
         });
         let rows = &done.rows;
         let got = [rows[1][0], rows[10][0], rows[38][1], rows[38][0], rows[38][2]];
@@ -110,8 +111,8 @@ fn order_for_a_flexible_beam() {
 #[test]
 fn order_with_joints() {
     let exact = reference("heavy_top/pivot");
-    for (name, scheme) in SCHEMES.into_iter().filter(|(name, _)| ["trapezoidal", "bathe"].contains(name)) {
-        let points: Vec<(f64, f64)> = [1e-3, 5e-4, 2.5e-4]
+    for (name, scheme) in SCHEMES.into_iter().filter(|(name, _)| *name != "newmark 0.6") {
+        let points: Vec<(f64, f64)> = [5e-4, 2.5e-4, 1.25e-4]
             .into_iter()
             .map(|dt| {
                 let step = format!("analysis.time_step={dt}");
@@ -125,6 +126,6 @@ fn order_with_joints() {
             .collect();
         let order = slope(&points);
         println!("{name:14} {order:.2} {:.2e} {:.2e} {:.2e}", points[0].1, points[1].1, points[2].1);
-        assert!((1.7..3.0).contains(&order), "{name}: {order}"); // 0.15 rad a step on the first rung
+        assert!((1.7..2.6).contains(&order), "{name}: {order}"); // 0.075 rad a step on the first rung
     }
 }

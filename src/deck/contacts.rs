@@ -17,7 +17,7 @@ pub struct Contact {
     /// groups of the mesh, beams, bars, shells.
     #[schemars(required)]
     pub with: Maybe<Names>,
-    /// Of the balls around the points that touch. Default: half the thickness of shells, half the larger side of a beam's
+    /// Of the balls around the points that touch. Default: half the thickness of shells, half the smaller side of a beam's
     /// section, the radius of a sphere; else 0.
     pub radius: Maybe<f64>,
     /// Force per depth, of each point, also sideways where there is friction. 0: a zone, nothing acts. Default in dynamics:
@@ -29,7 +29,8 @@ pub struct Contact {
     pub damping: Maybe<f64>,
     /// Coulomb's coefficient. Default: 0.
     pub friction: Maybe<f64>,
-    /// Points that touch between neighbouring nodes of beams, bars and shells. Default: 0.
+    /// Points that touch between neighbouring nodes of beams, bars and shells, and between corners of boxes and rims of cylinders.
+    /// Default: 0.
     pub points: Maybe<u64>,
 }
 

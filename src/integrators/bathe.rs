@@ -39,7 +39,7 @@ impl Bathe {
         Coefficients {
             instant: 1.0,
             rate: [b, -1.0, 0.0],
-            acceleration: [b * b, -b, 1.0],
+            acceleration: [b * b, -b, 1.0, 0.0],
             prediction: [h2, 0.5 * h2 * h2, h2 * h2 * h2 / 6.0],
             end: [[1.0, 0.0, 0.0, 0.0], [b, -1.0, 0.0, 0.0], [b * b, -b, 1.0, 0.0]],
             rotation: self.rotation,

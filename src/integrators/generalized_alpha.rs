@@ -1,10 +1,13 @@
-//! Generalized-α: inertia is taken at t + (1 − α_m)Δt, all other forces at t + (1 − α_f)Δt, both on straight lines over the step, and
-//! displacements follow Newmark's formulas. With the parameters of one spectral radius ρ∞ it damps what the step does not
-//! resolve by ρ∞ a step and of all schemes with that damping the low modes least; second order, unconditionally stable.
-//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993). Newmark's scheme and HHT-α are members of the family.
+//! Generalized-α in the form of Arnold & Brüls: equilibrium holds at t + Δt with the acceleration q̈₁ there, and Newmark's formulas
+//! run on another acceleration a, which follows it by (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈. For linear systems that is
+//! the scheme of Chung & Hulbert, whose forces are taken at t + (1 − α_f)Δt; joints, contacts and yielding material find their
+//! instant at the end of the step. With the parameters of one spectral radius ρ∞ it damps what the step does not resolve to ρ∞ a
+//! step, and of all schemes with that damping the low modes least; second order, unconditionally stable.
+//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993); M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007).
 
 use super::{Coefficients, RotationUpdate};
 
+/// Newmark's scheme and HHT-α are members of the family.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GeneralizedAlpha {
     pub alpha_m: f64,
@@ -23,26 +26,27 @@ impl GeneralizedAlpha {
         GeneralizedAlpha { alpha_m, alpha_f, gamma, beta, rotation }
     }
 
+    /// Of (q, v, a, q̈ at the start).
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta, rotation } = *self;
-        // q at the instant is s times that at the end.
-        let s = 1.0 - alpha_f;
-        // a₁ = q/(s β Δt²) − v/(β Δt) − (1/2β − 1) a, v₁ = v + Δt ((1 − γ) a + γ a₁)
+        let (m, f) = ((1.0 - alpha_m) / (1.0 - alpha_f), 1.0 - alpha_f);
+        // a₁ = q/(β Δt²) − v/(β Δt) − (1/2β − 1) a, v₁ = v + Δt ((1 − γ) a + γ a₁)
         let old = 0.5 / beta - 1.0;
-        let m = 1.0 - alpha_m;
-        // (a₁ from a and q̈ at the instant)
-        let (keep, new) = (-alpha_m / m, 1.0 / m);
+        let rate = [gamma / (beta * dt), 1.0 - gamma / beta, dt * (1.0 - 0.5 * gamma / beta)];
         Coefficients {
-            instant: s,
-            rate: [gamma / (beta * dt), 1.0 - s * gamma / beta, s * dt * (1.0 - 0.5 * gamma / beta)],
-            acceleration: [m / (s * beta * dt * dt), -m / (beta * dt), alpha_m - m * old],
-            prediction: [s * dt, 0.5 * s * dt * dt, s * dt * dt * dt / 6.0],
-            end: [
-                [0.0, dt, dt * dt * (0.5 - beta + beta * keep), dt * dt * beta * new],
-                [0.0, 1.0, dt * (1.0 - gamma + gamma * keep), dt * gamma * new],
-                [0.0, 0.0, keep, new],
-            ],
+            instant: 1.0,
+            rate,
+            acceleration: [m / (beta * dt * dt), -m / (beta * dt), alpha_m / f - m * old, -alpha_f / f],
+            prediction: [dt, 0.5 * dt * dt, dt * dt * dt / 6.0],
+            end: [[1.0, 0.0, 0.0, 0.0], [rate[0], rate[1], rate[2], 0.0], [0.0, 0.0, 0.0, 1.0]],
             rotation,
         }
+    }
+
+    /// What a₁ is made of: (a, q̈ at the start, q̈₁). `None`: it is q̈₁.
+    pub fn follower(&self) -> Option<[f64; 3]> {
+        let m = 1.0 - self.alpha_m;
+        let follows = self.alpha_m != 0.0 || self.alpha_f != 0.0;
+        follows.then(|| [-self.alpha_m / m, self.alpha_f / m, (1.0 - self.alpha_f) / m])
     }
 }

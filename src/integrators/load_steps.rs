@@ -6,7 +6,7 @@ pub fn coefficients() -> Coefficients {
     Coefficients {
         instant: 1.0,
         rate: [0.0; 3],
-        acceleration: [0.0; 3],
+        acceleration: [0.0; 4],
         prediction: [0.0; 3],
         end: [[1.0, 0.0, 0.0, 0.0], [0.0; 4], [0.0; 4]],
         rotation: RotationUpdate::Exponential,

@@ -40,6 +40,14 @@ impl Scheme {
         }
     }
 
+    /// Where a scheme's formulas run on another acceleration than that of equilibrium: how it follows (a, q̈ before, q̈ now).
+    pub fn follower(&self) -> Option<[f64; 3]> {
+        match self {
+            Scheme::Newmark(scheme) | Scheme::HhtAlpha(scheme) | Scheme::GeneralizedAlpha(scheme) => scheme.follower(),
+            Scheme::WilsonTheta(_) | Scheme::Bathe(_) => None,
+        }
+    }
+
     /// For a step of length Δt; of a scheme of two stages the first.
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         match self {
@@ -59,8 +67,8 @@ pub struct Coefficients {
     pub instant: f64,
     /// q̇ there from (q, v, a).
     pub rate: [f64; 3],
-    /// q̈ there from (q, v, a).
-    pub acceleration: [f64; 3],
+    /// q̈ there from (q, v, a, q̈ at the start of the step, where that is not a).
+    pub acceleration: [f64; 4],
     /// First guess of q from (v, a, ȧ).
     pub prediction: [f64; 3],
     /// (q, q̇, q̈) at t + Δt from (q, v, a, q̈ at the instant).
@@ -82,10 +90,13 @@ impl Coefficients {
 
     /// Fills q̇ and q̈ of `increment` from its q.
     #[inline]
-    pub fn differentiate(&self, increment: &mut Increment, v: &Vec6, a: &Vec6) {
-        let ([r1, r2, r3], [a1, a2, a3]) = (self.rate, self.acceleration);
+    pub fn differentiate(&self, increment: &mut Increment, v: &Vec6, a: &Vec6, start: &Vec6) {
+        let ([r1, r2, r3], [a1, a2, a3, a4]) = (self.rate, self.acceleration);
         increment.d = increment.q * r1 + v * r2 + a * r3;
         increment.dd = increment.q * a1 + v * a2 + a * a3;
+        if a4 != 0.0 {
+            increment.dd += start * a4;
+        }
     }
 
     /// The increment at the end of the step from that at the instant of equilibrium.
@@ -99,35 +110,37 @@ impl Coefficients {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Matrix3;
+    use nalgebra::Matrix4;
     use std::f64::consts::TAU;
 
-    /// One stage for q̈ = −ω² u from (u, v, a) with `slots` in place of (v, a); returns the increment too.
-    fn stage(c: &Coefficients, omega2: f64, [u, v, a]: [f64; 3], slots: [f64; 2]) -> ([f64; 3], f64) {
-        let ([k, cv, ca], [w1, w2]) = (c.acceleration, slots);
-        // Inertia at its own instant, the spring at that of q.
-        let q = -(omega2 * u + cv * w1 + ca * w2) / (k + omega2);
-        let at = k * q + cv * w1 + ca * w2;
+    /// One stage for q̈ = −ω² u from (u, v, a, q̈) with `slots` in place of (v, a); returns the increment too.
+    fn stage(c: &Coefficients, omega2: f64, [u, _, _, b]: [f64; 4], slots: [f64; 2]) -> ([f64; 4], f64) {
+        let ([k, cv, ca, cb], [w1, w2]) = (c.acceleration, slots);
+        let q = -(omega2 * u + cv * w1 + ca * w2 + cb * b) / (k + omega2);
+        let at = k * q + cv * w1 + ca * w2 + cb * b;
         let end = |[c1, c2, c3, c4]: [f64; 4]| c1 * q + c2 * w1 + c3 * w2 + c4 * at;
-        let _ = (v, a);
-        ([u + end(c.end[0]), end(c.end[1]), end(c.end[2])], end(c.end[0]))
+        let a = end(c.end[2]);
+        ([u + end(c.end[0]), end(c.end[1]), a, a], end(c.end[0]))
     }
 
-    fn step(scheme: &Scheme, dt: f64, omega2: f64, start: [f64; 3]) -> [f64; 3] {
-        let (mid, q0) = stage(&scheme.coefficients(dt), omega2, start, [start[1], start[2]]);
-        let Scheme::Bathe(bathe) = scheme else { return mid };
+    fn step(scheme: &Scheme, dt: f64, omega2: f64, start: [f64; 4]) -> [f64; 4] {
+        let (mut end, q0) = stage(&scheme.coefficients(dt), omega2, start, [start[1], start[2]]);
+        if let Some([of_a, of_start, of_end]) = scheme.follower() {
+            end[2] = of_a * start[2] + of_start * start[3] + of_end * end[3];
+        }
+        let Scheme::Bathe(bathe) = scheme else { return end };
         let b = bathe.backward(dt);
-        stage(&bathe.second(dt), omega2, mid, [b.start * q0, b.start * start[1] + b.between * mid[1]]).0
+        stage(&bathe.second(dt), omega2, end, [b.start * q0, b.start * start[1] + b.between * end[1]]).0
     }
 
     /// Period elongation in per cent and damping of the free oscillator of period 1.
     fn spectrum(scheme: &Scheme, dt: f64) -> (f64, f64) {
         let omega2 = TAU * TAU;
         let unit = |j: usize| std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
-        let columns = [0, 1, 2].map(|j| step(scheme, dt, omega2, unit(j)));
-        let A = Matrix3::from_fn(|i, j| columns[j][i]);
+        let columns = [0, 1, 2, 3].map(|j| step(scheme, dt, omega2, unit(j)));
+        let A = Matrix4::from_fn(|i, j| columns[j][i]);
         let values = A.complex_eigenvalues();
-        let principal = values.iter().copied().max_by(|x, y| x.im.total_cmp(&y.im)).expect("three eigenvalues");
+        let principal = values.iter().copied().max_by(|x, y| x.im.total_cmp(&y.im)).expect("four eigenvalues");
         let phase = principal.im.atan2(principal.re);
         let log = -principal.norm().ln();
         (100.0 * (TAU * dt / phase - 1.0), log / phase.hypot(log))
@@ -167,17 +180,19 @@ mod tests {
         }
     }
 
-    /// Increments at the end, their rates and accelerations satisfy Newmark's formulas whatever α is.
+    /// Newmark's formulas hold between the ends of a step with the acceleration that follows.
     #[test]
-    fn ends_agree_with_instants() {
+    fn the_follower_is_newmarks_acceleration() {
         let scheme = GeneralizedAlpha::new(0.6, RotationUpdate::Exponential);
-        let (dt, v, a, q) = (0.1, 0.7, -2.0, 0.05);
+        let (dt, v, a, b, q) = (0.1, 0.7, -2.0, -1.5, 0.05);
         let c = scheme.coefficients(dt);
-        let of = |[c1, c2, c3]: [f64; 3]| c1 * q + c2 * v + c3 * a;
-        let (rate, acceleration) = (of(c.rate), of(c.acceleration));
-        let [q1, v1, a1] = c.end.map(|[c1, c2, c3, c4]| c1 * q + c2 * v + c3 * a + c4 * acceleration);
-        let s = c.instant;
-        assert!((s * q1 - q).abs() < 1e-15 && (s * v1 + (1.0 - s) * v - rate).abs() < 1e-14);
-        assert!(((1.0 - scheme.alpha_m) * a1 + scheme.alpha_m * a - acceleration).abs() < 1e-12);
+        let rate = c.rate[0] * q + c.rate[1] * v + c.rate[2] * a;
+        let [c1, c2, c3, c4] = c.acceleration;
+        let acceleration = c1 * q + c2 * v + c3 * a + c4 * b;
+        let [of_a, of_start, of_end] = scheme.follower().expect("it is not equilibrium's");
+        let a1 = of_a * a + of_start * b + of_end * acceleration;
+        let (beta, gamma) = (scheme.beta, scheme.gamma);
+        assert!((dt * v + dt * dt * ((0.5 - beta) * a + beta * a1) - q).abs() < 1e-15);
+        assert!((v + dt * ((1.0 - gamma) * a + gamma * a1) - rate).abs() < 1e-14);
     }
 }

@@ -25,7 +25,7 @@ impl WilsonTheta {
         Coefficients {
             instant: theta,
             rate: [3.0 / tau, -2.0, -0.5 * tau],
-            acceleration: [6.0 / (tau * tau), -6.0 / tau, -2.0],
+            acceleration: [6.0 / (tau * tau), -6.0 / tau, -2.0, 0.0],
             prediction: [tau, 0.5 * tau * tau, tau * tau * tau / 6.0],
             end: [
                 [0.0, dt, dt * dt / 6.0 * (2.0 + old), dt * dt / 6.0 * new],

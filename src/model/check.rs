@@ -5,7 +5,6 @@ use crate::deck::bodies::Body;
 use crate::deck::output::Units;
 use crate::deck::read::ROOT;
 use crate::diagnostic::{At, Diagnostic};
-use crate::integrators::Scheme;
 use crate::names::short;
 
 impl Units {
@@ -46,28 +45,11 @@ impl<'d> Builder<'d> {
             self.check_joints();
         }
         self.check_mesh();
-        self.check_scheme();
         if self.model.analysis.kind == super::Kind::Static {
             self.check_static();
         }
         if let Some(units) = &self.deck.units {
             self.check_units(units.value);
-        }
-    }
-
-    /// Where a step takes positions on a straight line between its ends, what turns about a joint leaves that line by dt², and
-    /// what the joint carries would be wrong by as much as it is.
-    fn check_scheme(&mut self) {
-        let between =
-            matches!(&self.model.scheme, Scheme::HhtAlpha(s) | Scheme::GeneralizedAlpha(s) if s.alpha_f > 0.0);
-        if self.model.analysis.kind == super::Kind::Dynamic
-            && between
-            && !self.model.joints.is_empty()
-            && let Some(at) = self.deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref())
-        {
-            let word = self.model.scheme.word();
-            let message = format!("joints and multipliers do not go with \"{word}\": it would be of first order");
-            self.error_with::<()>(&at.span, message, "\"wilson-theta\", \"newmark\" and \"bathe\" are of second order");
         }
     }
 

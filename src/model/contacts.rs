@@ -188,7 +188,7 @@ impl<'d> Builder<'d> {
             }
             let mut found = Vec::new();
             for place in self.leaves(place) {
-                parts |= matches!(place, Place::Beam(_) | Place::Bar(_) | Place::Shell(_));
+                parts |= matches!(place, Place::Body(_) | Place::Beam(_) | Place::Bar(_) | Place::Shell(_));
                 self.touches_of(place, name, between, at, &mut found);
             }
             if found.is_empty() {
@@ -214,7 +214,10 @@ impl<'d> Builder<'d> {
             && sound
             && let Some(at) = &contact.points
         {
-            return self.error(&at.span, "`points` lie between the nodes of parts, and no part is named here");
+            return self.error(
+                &at.span,
+                "`points` lie between the nodes of parts or the corners of bodies, and none is named here",
+            );
         }
         if !sound {
             return None;
@@ -270,7 +273,7 @@ impl<'d> Builder<'d> {
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         match place {
-            Place::Body(body) => self.touches_of_body(body, name, at, found),
+            Place::Body(body) => self.touches_of_body(body, name, between, at, found),
             Place::Beam(beam) => {
                 let radius = self.half_depth(beam);
                 found.extend(self.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
@@ -317,18 +320,20 @@ impl<'d> Builder<'d> {
         }
     }
 
-    /// Half the larger side of a beam's section; 0 where the section does not say.
+    /// Half the smaller side of a beam's section; 0 where the section does not say.
     fn half_depth(&self, beam: usize) -> f64 {
         let name = self.deck.beams[beam].section.as_ref();
         let section = name.and_then(|name| Some(&self.deck.sections.0[self.deck.sections.position(name)?].1));
         let Some(section) = section else { return 0.0 };
         let value = |key: &crate::deck::words::Maybe<f64>| key.as_ref().map_or(0.0, |at| at.value);
         let wide = value(&section.width).max(value(&section.top_width)).max(value(&section.bottom_width));
-        (0.5 * wide.max(value(&section.height))).max(value(&section.radius)).max(0.5 * value(&section.diameter))
+        let (low, high) = (wide.min(value(&section.height)), wide.max(value(&section.height)));
+        let side = if low > 0.0 { low } else { high };
+        (0.5 * side).max(value(&section.radius)).max(0.5 * value(&section.diameter))
     }
 
     /// Points of a body's shape, which ride on it.
-    fn touches_of_body(&mut self, body: usize, name: &str, at: &'d At<String>, found: &mut Vec<Touch>) {
+    fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.model.bodies[body].node, self.model.bodies[body].shape.clone());
         let is_drawn = self.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
         let mut corners = Vec::new();
@@ -342,14 +347,19 @@ impl<'d> Builder<'d> {
             Drawn::Sphere { radius } => return found.push(Touch::node(node, if is_drawn { *radius } else { 0.0 })),
             _ if !is_drawn => return found.push(Touch::node(node, 0.0)),
             Drawn::Box { size, axes } => {
-                for k in 0..8 {
-                    let side = |i: usize| if k >> i & 1 == 1 { 0.5 * size[i] } else { -0.5 * size[i] };
-                    corners.push(axes * Vec3::new(side(0), side(1), side(2)));
+                // Corners, and as many points as asked for between them, on edges and faces.
+                let n = between + 1;
+                let side = |i: usize, k: usize| size[i] * (k as f64 / n as f64 - 0.5);
+                for k in 0..(n + 1).pow(3) {
+                    let at = [k % (n + 1), k / (n + 1) % (n + 1), k / (n + 1).pow(2)];
+                    if at.iter().any(|&k| k == 0 || k == n) {
+                        corners.push(axes * Vec3::new(side(0, at[0]), side(1, at[1]), side(2, at[2])));
+                    }
                 }
             }
             Drawn::Cylinder { radius, length, axis, .. } => {
                 let axes = along(axis);
-                for end in [-0.5 * length, 0.5 * length] {
+                for end in (0..=between + 1).map(|k| length * (k as f64 / (between + 1) as f64 - 0.5)) {
                     for k in 0..RIM {
                         let (sin, cos) = (TAU * k as f64 / RIM as f64).sin_cos();
                         corners.push(axes * Vec3::new(radius * cos, radius * sin, end));
@@ -416,7 +426,11 @@ impl<'d> Builder<'d> {
             let own: f64 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w.abs() * mass(node)).sum();
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
             let is_body = point.nodes().iter().all(|&node| self.is_lump(self.root(node)));
-            rigid &= is_body;
+            let heavy = |node: usize| {
+                let own: f64 = self.model.masses.iter().filter(|mass| mass.node == node).map(|mass| mass.mass).sum();
+                own > 0.5 * masses.get(node).copied().unwrap_or(0.0)
+            };
+            rigid &= is_body || point.nodes().iter().all(|&node| heavy(self.root(node)));
             // Of a node of something deformable more than its own mass takes part in a blow by a body.
             let taken = if is_body || !other.is_finite() { reduced } else { (own * other).sqrt() };
             mean = mean.max(if taken.is_finite() { taken } else { 0.0 });

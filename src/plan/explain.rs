@@ -35,10 +35,7 @@ fn note(scheme: &Scheme) -> Option<&'static str> {
              reactions",
         ),
         Scheme::Newmark(_) => Some("with gamma above 0.5 the scheme is of first order and damps low modes too"),
-        Scheme::HhtAlpha(_) | Scheme::GeneralizedAlpha(_) => {
-            Some("equilibrium holds between t and t + dt, reactions are taken there and carried to t + dt")
-        }
-        Scheme::Bathe(_) => None,
+        Scheme::HhtAlpha(_) | Scheme::GeneralizedAlpha(_) | Scheme::Bathe(_) => None,
     }
 }
 
@@ -56,6 +53,10 @@ fn contact_in_words(model: &Model, contact: &Contact) -> String {
     let (name, count) = (&contact.name, contact.points.len());
     let points = if count == 1 { "point" } else { "points" };
     let mut text = format!("`{name}`: {count} {points} against {shape} on {on}");
+    let radius = contact.points.iter().map(|point| point.radius).fold(0.0, f64::max);
+    if radius > 0.0 {
+        let _ = write!(text, ", radius {}", short(radius));
+    }
     let Some(law) = &contact.law else { return text + "; a zone: nothing acts, the gap is watched" };
     let chosen = if contact.chosen { ", chosen: an impact lasts 20 steps" } else { "" };
     let _ = write!(text, "; {} of force per depth{chosen}", short(law.stiffness));

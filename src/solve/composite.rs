@@ -26,11 +26,11 @@ impl Stepper<'_> {
     /// Takes `state` from its time to `to`. On failure `state` is untouched.
     pub(super) fn composite(&mut self, state: &mut State, to: f64, bathe: &Bathe) -> Result<Taken, Failure> {
         let mut room = self.composite.take().unwrap_or_else(|| Composite::new(state.clone()));
-        room.start.clone_from(state);
+        room.start.copy_from(state);
         let dt = to - state.time;
         let result = self.stages(state, to, dt, bathe, &mut room);
         if result.is_err() {
-            state.clone_from(&room.start);
+            state.copy_from(&room.start);
         }
         self.composite = Some(room);
         result

@@ -140,6 +140,7 @@ impl<'a> Run<'a> {
             search: (system.history > 0 && !along).then(|| Search::new(plan.directions.len(), n, system.multipliers())),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
+            follower: if model.analysis.kind == Kind::Dynamic { model.scheme.follower() } else { None },
             bases: None,
             composite: None,
             closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty())

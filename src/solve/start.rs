@@ -41,6 +41,7 @@ impl Stepper<'_> {
             jerk: vec![Vec6::zeros(); n],
             reactions: vec![0.0; self.model.held.len()],
             multipliers: vec![0.0; self.system.multipliers()],
+            followers: vec![Vec6::zeros(); if self.follower.is_some() { n } else { 0 }],
             work: Work::default(),
         };
         self.drive.loading(0.0, Side::After, &mut self.given[2]);
@@ -157,6 +158,14 @@ impl Stepper<'_> {
         if !self.system.joints.is_empty() {
             self.r[..directions].fill(0.0);
             self.push(state);
+        }
+        self.start_followers(state);
+    }
+
+    /// After a start or a jump accelerations follow from nowhere else.
+    fn start_followers(&self, state: &mut State) {
+        for (follower, node) in state.followers.iter_mut().zip(&state.nodes) {
+            *follower = crate::math::join(&node.a, &node.alpha);
         }
     }
 

@@ -12,8 +12,8 @@ use crate::elements::Moduli;
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::materials::Spent;
-use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec3, Vec6, bottom, join};
+use crate::math::rotation::{inverse_tangent, rates};
+use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::{Kind, Model};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, Now, State};
@@ -34,6 +34,8 @@ pub struct Stepper<'a> {
     pub search: Option<Search>,
     /// Where the load is unknown.
     pub path: Option<Path>,
+    /// See [`Scheme::follower`].
+    pub follower: Option<[f64; 3]>,
     /// What a second stage takes in place of velocities and accelerations, per node.
     pub bases: Option<Vec<[Vec6; 2]>>,
     /// Room for a scheme of two stages.
@@ -118,7 +120,7 @@ impl<'a> Stepper<'a> {
 
     pub(super) fn stage(&mut self, state: &mut State, scheme: &Coefficients, to: f64) -> Result<Taken, Failure> {
         let touches = self.system.has_contacts();
-        let since = scheme.instant * (to - state.time);
+        let since = scheme.instant.max(1.0) * (to - state.time);
         if touches {
             self.check_length(state, since)?;
         }
@@ -233,6 +235,18 @@ impl<'a> Stepper<'a> {
         Ok(taken)
     }
 
+    /// What stands in place of a node's velocity and acceleration at the start of a step.
+    #[inline]
+    fn bases(&self, state: &State, node: usize, own: [Vec6; 2]) -> [Vec6; 2] {
+        if let Some(bases) = &self.bases {
+            bases[node]
+        } else if self.follower.is_some() {
+            [own[0], state.followers[node]]
+        } else {
+            own
+        }
+    }
+
     /// What the matrix of a step depends on besides the motion: a time, the length of the step or what its rates are taken over.
     fn key(&self, scheme: &Coefficients, dt: f64) -> f64 {
         if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
@@ -299,8 +313,9 @@ impl<'a> Stepper<'a> {
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
-            let [v, a] = self.bases.as_ref().map_or([v, a], |bases| bases[node]);
-            scheme.differentiate(&mut self.increments[node], &v, &a);
+            let start_a = a;
+            let [v, a] = self.bases(state, node, [v, a]);
+            scheme.differentiate(&mut self.increments[node], &v, &a, &start_a);
         }
         for (held, given) in self.model.held.iter().zip(&self.held[2]) {
             set(&mut self.increments[held.node], held.dof, given);
@@ -444,8 +459,9 @@ impl<'a> Stepper<'a> {
             for &node in &self.movers {
                 let start = &state.nodes[node];
                 let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
-                let [v, a] = self.bases.as_ref().map_or([v, a], |bases| bases[node]);
-                scheme.differentiate(&mut self.increments[node], &v, &a);
+                let start_a = a;
+                let [v, a] = self.bases(state, node, [v, a]);
+                scheme.differentiate(&mut self.increments[node], &v, &a, &start_a);
             }
         }
         let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
@@ -463,7 +479,7 @@ impl<'a> Stepper<'a> {
         for &node in &self.movers {
             let start = &state.nodes[node];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
-            let [v, a] = self.bases.as_ref().map_or([v, a], |bases| bases[node]);
+            let [v, a] = self.bases(state, node, [v, a]);
             self.increments[node] = scheme.finish(&self.increments[node], &v, &a);
         }
         for (i, held) in self.model.held.iter().enumerate() {
@@ -479,11 +495,24 @@ impl<'a> Stepper<'a> {
             rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
         }
         self.close_joints(state, scheme, dt)?;
+        if scheme.instant != 1.0 && self.system.has_contacts() {
+            self.check_contacts(state, dt)?;
+        }
         self.check_joints()?;
         if dynamic {
             for &node in &self.movers {
                 let (start, end) = (&state.nodes[node], &self.trial[node]);
                 state.jerk[node] = join(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
+            }
+        }
+        if let Some([of_a, of_start, of_end]) = self.follower {
+            for &node in &self.movers {
+                let (start, increment) = (&state.nodes[node], &self.increments[node]);
+                let before = join(&start.a, &start.alpha);
+                // In the rotation vector of the step, then as a spatial vector like every other.
+                let a = state.followers[node] * of_a + before * of_start + increment.dd * of_end;
+                let (_, turn) = rates(&bottom(&increment.q), &bottom(&increment.d), &bottom(&a));
+                state.followers[node] = join(&top(&a), &turn);
             }
         }
         state.work.material += spent;

@@ -61,6 +61,20 @@ impl State {
     }
 }
 
+impl State {
+    /// Takes over another state of the same scene without allocating.
+    pub fn copy_from(&mut self, other: &State) {
+        let State { time, nodes, history, jerk, reactions, multipliers, followers, work } = other;
+        (self.time, self.work) = (*time, *work);
+        self.nodes.copy_from_slice(nodes);
+        self.history.copy_from_slice(history);
+        self.jerk.copy_from_slice(jerk);
+        self.reactions.copy_from_slice(reactions);
+        self.multipliers.copy_from_slice(multipliers);
+        self.followers.copy_from_slice(followers);
+    }
+}
+
 impl Increment {
     pub const ZERO: Increment = {
         let zero = Vec6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -98,6 +112,8 @@ pub struct State {
     pub reactions: Vec<f64>,
     /// Forces and moments in the joints, a number for each row.
     pub multipliers: Vec<f64>,
+    /// Accelerations (a, α) that follow those of equilibrium, where the scheme runs on such.
+    pub followers: Vec<Vec6>,
     pub work: Work,
 }
 

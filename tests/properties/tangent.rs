@@ -74,7 +74,7 @@ impl Instant {
         for (i, start) in self.start.iter().enumerate() {
             increments[i].q = q[i];
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
-            self.scheme.differentiate(&mut increments[i], &v, &a);
+            self.scheme.differentiate(&mut increments[i], &v, &a, &a);
             nodes[i].advance(start, &increments[i], RotationUpdate::Exponential);
         }
         for rider in &self.system.attachments {

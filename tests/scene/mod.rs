@@ -139,6 +139,7 @@ pub fn state(model: &Model, time: f64) -> State {
         jerk: vec![],
         reactions: vec![],
         multipliers: vec![],
+        followers: vec![],
         work: Default::default(),
     }
 }

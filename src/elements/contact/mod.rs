@@ -237,7 +237,7 @@ impl Contacts {
         let (known, law) = (past[past::KNOWN] > 0.0, &self.law);
         let rate = meeting.rate();
         let speed = match known {
-            true if past[past::GAP] <= 0.0 => past[past::SPEED],
+            true if past[past::GAP] <= 0.0 => past[past::SPEED].max(rate),
             // Faster now than then where something presses from rest.
             true => past[past::RATE].max(rate),
             false => rate,
@@ -306,6 +306,7 @@ impl Contacts {
         }
         let known = old[past::KNOWN] > 0.0;
         // What is not known has no past to come from.
+        let beyond = (part - 1.0) * now.since;
         let part = if known { part } else { 1.0 };
         let toward = |old: f64, now: f64| old + part * (now - old);
         let meeting = self.meet(point, now.nodes);
@@ -313,7 +314,7 @@ impl Contacts {
         let action = (gap <= 0.0).then(|| self.act(point, &meeting, old, now.nodes));
         let force = action.as_ref().map_or(0.0, |action| action.push.force);
         new[past::KNOWN] = 1.0;
-        new[past::GAP] = toward(old[past::GAP], gap);
+        new[past::GAP] = if known { toward(old[past::GAP], gap) } else { gap - rate * beyond };
         new[past::RATE] = toward(old[past::RATE], rate);
         new[past::SAFE] = safe(new[past::GAP]);
         let touches = new[past::GAP] <= 0.0;
@@ -328,6 +329,8 @@ impl Contacts {
             // Faster than at the landing where something presses.
             (true, true) => (old[past::SPEED].max(new[past::RATE]), old[past::AGE] + dt),
             (false, true) => (old[past::SPEED], 0.0),
+            // It touched at the instant: the acceleration of that is carried on.
+            (false, false) if gap <= 0.0 => (old[past::RATE].max(rate).max(0.0), 0.0),
             // The impact is over for good once the acceleration it leaves to the scheme is gone.
             (false, false) if old[past::AGE] + dt < law.duration => (old[past::SPEED], old[past::AGE] + dt),
             (false, false) => (0.0, 0.0),
@@ -355,6 +358,10 @@ impl Contacts {
         }
         let mut anchor = Vec3::from_column_slice(&old[past::ANCHOR..past::TURN]) + part * shift
             - self.law.friction * force / law.stiffness * begun;
+        if drag.is_some() {
+            let n = &meeting.near.n;
+            anchor += part * n.dot(&(p - Vec3::from_column_slice(&old[past::ANCHOR..past::TURN]))) * n;
+        }
         if self.rolls {
             for k in 0..self.count {
                 let turn = self.turn(point.nodes[k], now.nodes);
@@ -422,11 +429,13 @@ impl Contacts {
         // By the other side; or by another side from far inside, and not just round an edge.
         let strayed = |n: &Vec3, depth: f64, length: f64| {
             let along = entry.dot(n);
-            along < -0.5 && depth < 0.0 || along < 0.5 && depth < -0.02 * length
+            along < -0.5 && depth < 0.0 || along < 0.5 && depth < first.min(0.0) - 0.02 * length
         };
         if last < 0.0 {
-            let landing = first > 0.0 && (past[past::KNOWN] == 0.0 || past[past::RATE] > 3.0 * self.law.floor);
             let depth = last.min(gap(&(p0 + 0.5 * (1.0 + t0) * way)));
+            let fast = 3.0 * self.law.floor;
+            let landing = first > 0.0
+                && (past[past::KNOWN] == 0.0 || past[past::RATE] > fast || -depth > fast * 2.0 * self.law.resolution);
             return strayed(&normal(&p1), depth, length) || landing && now.since > self.law.resolution;
         }
         // In at one place and out at another; a shallow pass along one side is left alone.

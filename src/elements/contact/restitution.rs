@@ -59,8 +59,11 @@ pub fn push(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f64) -> P
     let push = match *loss {
         Loss::None => Push { force: spring, by_depth: stiffness, by_rate: 0.0 },
         Loss::Restitution { number, floor } => {
-            let d = number / speed.max(floor);
-            Push { force: spring * (1.0 + d * rate), by_depth: stiffness * (1.0 + d * rate), by_rate: spring * d }
+            let speed = speed.max(floor);
+            let d = if speed > 0.0 { number / speed } else { 0.0 };
+            // At the fastest yet d falls as the rate rises, and their product stays.
+            let by_rate = if rate < speed { spring * d } else { 0.0 };
+            Push { force: spring * (1.0 + d * rate), by_depth: stiffness * (1.0 + d * rate), by_rate }
         }
         Loss::Damping(c) => Push { force: spring + c * rate, by_depth: stiffness, by_rate: c },
     };
