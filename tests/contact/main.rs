@@ -2,6 +2,7 @@
 
 #![allow(non_snake_case)]
 
+mod edges;
 mod element;
 mod impact;
 mod rubbing;
