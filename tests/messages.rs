@@ -168,7 +168,7 @@ fn overrides() {
         portal_set(&["integrator.scheme=wilson-theta", "points.knee_left.2=2.5", "damping.mass_factor=0.1"]),
         ""
     );
-    assert_eq!(portal_set(&["links.0.stiffness=1e6", "beams.portal.elements=[2, 3, 4]", "title=other"]), "");
+    assert_eq!(portal_set(&["links.0.stiffness=1e6", "beams.portal.elements=[2, 3, 4]", "title=fine/other.msh"]), "");
 }
 
 #[test]

@@ -2,7 +2,8 @@
 //!
 //! An argument is itself a line of TOML. It is parsed behind as many blanks as its offset in the [`Source`], so that its
 //! spans are already those of the source. One freedom is added for the sake of shells, which eat quotes: a value that
-//! is a bare word, and neither a number nor `true` or `false`, is text (`--set integrator.scheme=wilson-theta`).
+//! is a bare word or the name of a file, and neither a number nor `true` or `false`, is text
+//! (`--set integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`).
 //!
 //! [`Source`]: crate::diagnostic::Source
 
@@ -27,7 +28,7 @@ pub fn padded(offset: usize, argument: &str) -> String {
 }
 
 fn is_bare_word(value: &str) -> bool {
-    let letters = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let letters = |c: char| c.is_alphanumeric() || "_-./".contains(c);
     value.starts_with(char::is_alphabetic)
         && value.chars().all(letters)
         && !["true", "false", "inf", "nan"].contains(&value)
