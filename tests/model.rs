@@ -191,6 +191,19 @@ fn parts_of_a_mesh_are_rigid_or_not() {
 }
 
 #[test]
+fn one_word_makes_a_beam_rigid_that_nodes_are_attached_to() {
+    // A part without a name of its own goes by its group.
+    let source = Source::new(PATH, ALL, &["beams.ribs.rigid=true".to_owned()]);
+    let model = model::read(&source).0.expect("a sound deck");
+    let ribs = model.bodies.iter().find(|body| body.name == "ribs").expect("a body");
+    for label in ["mesh.8", "mesh.9"] {
+        let label = node(&model, label);
+        let rider = model.riders.iter().find(|rider| rider.node == label).expect("it rides");
+        assert_eq!((rider.master, rider.dofs), (ribs.node, [true; 6]));
+    }
+}
+
+#[test]
 fn initial_motion_is_that_of_a_rigid_body_where_it_should_be() {
     let model = everything();
     let omega = Vec3::new(0.0, 0.0, 2.0);

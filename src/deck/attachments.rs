@@ -11,7 +11,7 @@ use super::words::{Directions, Maybe, Names};
 pub struct Attachment {
     /// Name of a body.
     pub body: Maybe<String>,
-    /// Name of a beam, instead of a body.
+    /// Name of a beam, instead of a body. Where the beam is rigid, all of them go with its body.
     pub beam: Maybe<String>,
     /// Names of points, bodies or sets. Those on the beam itself stay as they are.
     #[schemars(required)]

@@ -146,12 +146,15 @@ fn put_below<'i>(
     }
 }
 
-/// Which item of a list is meant, by its number or its `name`.
+/// Which item of a list is meant, by its number or its `name`; parts of a mesh without one go by their `group`.
 fn item(list: &[Spanned<DeValue>], key: &str, word: &str, place: &Span) -> Result<usize, Diagnostic> {
     let names: Vec<(usize, &str)> = list
         .iter()
         .enumerate()
-        .filter_map(|(i, item)| Some((i, item.get_ref().as_table()?.get("name")?.get_ref().as_str()?)))
+        .filter_map(|(i, item)| {
+            let table = item.get_ref().as_table()?;
+            Some((i, table.get("name").or_else(|| table.get("group"))?.get_ref().as_str()?))
+        })
         .collect();
     if let Some((index, _)) = names.iter().find(|(_, name)| *name == word) {
         return Ok(*index);

@@ -4,6 +4,7 @@ use super::build::{Builder, Owner};
 use super::places::{Place, Reach, Spot};
 use super::{DIRECTIONS, Rider};
 use crate::deck::attachments::Method;
+use crate::deck::beams::Beam;
 use crate::diagnostic::{At, Diagnostic};
 use crate::math::Vec3;
 use crate::names::short;
@@ -13,12 +14,15 @@ impl<'d> Builder<'d> {
     pub fn attachments(&mut self) {
         for attachment in &self.deck.attachments {
             let owner = Owner { what: "`[[attachments]]`".to_owned(), span: &attachment.span };
-            let beam = attachment.beam.as_ref().map(|name| (name, self.beam_of(name)));
-            if let (Some((name, _)), Some(_)) = (&beam, &attachment.body) {
+            if let (Some(name), Some(_)) = (&attachment.beam, &attachment.body) {
                 self.error::<()>(&name.span, "nodes are attached to a `body` or to a `beam`, not to both");
             }
+            // The word that makes a beam rigid is enough: what is attached to it then goes with its body.
+            let rigid = attachment.beam.as_ref().and_then(|name| self.rigid_beam(name));
+            let beam = attachment.beam.as_ref().filter(|_| rigid.is_none()).map(|name| (name, self.beam_of(name)));
             let body = match beam {
                 Some(_) => None,
+                None if rigid.is_some() => rigid,
                 None if self.is_spoiled(owner.span, "beam") => None,
                 None => self.need(&owner, "body", &attachment.body).and_then(|name| self.body(name)),
             };
@@ -66,6 +70,15 @@ impl<'d> Builder<'d> {
         } else {
             self.rides.insert(spot.node, (self.model.riders.len(), spot.span.clone()));
             self.model.riders.push(Rider { node: spot.node, master, dofs });
+        }
+    }
+
+    /// Index of the body of a beam with `rigid = true`.
+    fn rigid_beam(&self, name: &At<String>) -> Option<usize> {
+        let is = |beam: &Beam| beam.name.as_ref().or(beam.group.as_ref()).is_some_and(|own| own.value == name.value);
+        match self.place(name) {
+            Some(Place::Body(body)) if self.deck.beams.iter().any(|beam| is(beam)) => Some(body),
+            _ => None,
         }
     }
 
