@@ -445,18 +445,17 @@ def pendulum(name: str) -> str:
     return "\n".join(made)
 
 
-# Largest deflection of the corner, by the fine mesh and half the step; what this mesh and step leave.
-EXPECTED: dict[str, tuple[str, str, float, float]] = {}
+# Where the corner goes the farthest over ground, by cab_fine.msh and half the step. This mesh and step are off by up to 0.4 %.
+EXPECTED = {"rear": ("ux", "max", 0.18832), "front": ("ux", "min", -0.11739), "side": ("uy", "min", -0.22291)}
 
 
 def expected(name: str) -> str:
     energy = BLOWS[name][0] * PENDULUM * G
-    made = []
-    if name in EXPECTED:
-        quantity, peak, value, tolerance = EXPECTED[name]
-        made.append(table("[[expect]]", at=CORNER[name], quantity=quantity, peak=peak, value=value, tolerance=tolerance,
-                          source="this program, cab_fine.msh, half the step"))  # fmt: skip
-    made += [table("[[expect]]", at=zone, quantity="gap", at_least=0.0, source="OECD Code 3: nothing enters the zone") for zone in ZONES]
+    quantity, peak, value = EXPECTED[name]
+    made = [table("[[expect]]", at=CORNER[name], quantity=quantity, peak=peak, value=value, tolerance=0.01,
+                  source="this program, cab_fine.msh, half the step: 0.4 % off at most")]  # fmt: skip
+    for zone in ZONES:
+        made.append(table("[[expect]]", at=zone, quantity="gap", at_least=0.0, source="OECD Code 3: nothing enters the zone"))
     made.append(table("[[expect]]", at="energy", quantity="numerical", peak="abs", value=0.0,
                       absolute_tolerance=float(round(0.01 * energy)), source="a hundredth of the blow"))
     return "# ---- expected ----\n\n" + "\n".join(made)
@@ -538,8 +537,9 @@ def measure(name: str, sets: list[str], folder: Path, threads: int = 1) -> dict:
     taken = {"chains": dampers(folder, [f"chain_{i}" for i in range(1, 5)], CHAIN_STIFFNESS)}
     taken["prop"] = dampers(folder, ["prop"], PROP_STIFFNESS)
     taken["mounts"] = energy[-1]["damping"] - taken["chains"] - taken["prop"]
+    block = column(folder / "bodies.csv", "body", "block", "vx", "vy", "vz")[-1][1:]
     return {
-        "taken": taken,
+        "taken": taken, "block": PENDULUM / 2 * dot(block, block),
         "peak": peak, "at": times[way.index(peak)], "end": energy[-1], "mounts": mounts, "gap": min(gaps), "force": force,
         "set": (lambda tail: sum(tail) / len(tail))([w for t, w in zip(times, way) if t > last - 0.1]),
         "numerical": max(abs(row["numerical"]) for row in energy), "loop_s": run.loop_s, "counts": run.report["counts"],
@@ -567,15 +567,16 @@ def run_all(blows: list[str]) -> None:
         print(f"| {b} | {now['height'] * 1e3:.0f} mm, {now['speed']:.2f} m/s, {now['energy'] / 1e3:.2f} kJ | {of['peak'] * 1e3:.0f} mm"
               f" at {of['at']:.3f} s | {of['set'] * 1e3:.0f} mm | {of['gap'] * 1e3:.0f} mm | {of['force'] / 1e3:.0f} kN | {mounts} kN |")  # fmt: skip
     print("\nJoule, at the end:\n")
-    lost, kept = ["plastic", "viscous", "friction", "impact"], ["kinetic", "strain", "links", "contact", "external"]
+    lost, kept = ["plastic", "viscous", "friction", "impact"], ["strain", "links", "contact"]
     dampers_of = ["mounts", "chains", "prop"]
-    words = lost + [f"dampers of {word}" for word in dampers_of] + kept
+    words = lost + [f"dampers of {word}" for word in dampers_of] + ["the block moves on", "kinetic, the rest", *kept, "work of gravity"]
     print(f"| blow | energy | {' | '.join(words)} | numerical, largest |")
     print("|---|---|" + "---|" * (len(words) + 1))
     for b in blows:
         of, energy = found[b, "as it is"], blow(b)["energy"]
         values = [of["end"][word] for word in lost] + [of["taken"][word] for word in dampers_of]
-        row = " | ".join(f"{value:.0f}" for value in values + [of["end"][word] for word in kept])
+        values += [of["block"], of["end"]["kinetic"] - of["block"]] + [of["end"][word] for word in kept + ["external"]]
+        row = " | ".join(f"{value:.0f}" for value in values)
         print(f"| {b} | {energy:.0f} | {row} | {of['numerical']:.0f} ({of['numerical'] / energy * 100:.2f} %) |")
     print("\n| blow | variant | deflection | set | gap | plastic and viscous | numerical | steps, iterations, factorizations | loop |")
     print("|---|---|---|---|---|---|---|---|---|")
