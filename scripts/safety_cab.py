@@ -522,7 +522,8 @@ def dampers(folder: Path, links: list[str], stiffness: float) -> float:
 
 
 def measure(name: str, sets: list[str], folder: Path, threads: int = 1) -> dict:
-    run = scenes.run(FOLDER / f"{name}.toml", sets, folder, threads)
+    # Variants may miss the deck's deflection: that is what they are for.
+    run = scenes.run(FOLDER / f"{name}.toml", [*sets, "expect.0.tolerance=0.2"], folder, threads)
     times, way = deflection(folder, name)
     peak = max(way)
     with (folder / "energy.csv").open(newline="") as file:
@@ -552,6 +553,8 @@ VARIANTS = {
     "cab_coarse.msh": ['mesh.file="cab_coarse.msh"'],
     "cab_fine.msh": ['mesh.file="cab_fine.msh"'],
     "backbone that bends": ["beams.backbone.rigid=false"],
+    "rigid floor": ["shells.floor.rigid=true"],
+    "rigid roof": ["shells.roof.rigid=true"],
 }
 
 

@@ -12,9 +12,9 @@ import safety_cab_mesh as geometry
 import scenes
 
 INK, SOFT, BLUE, RED = "#24292f", "#b8c0c8", "#1f6feb", "#c4432b"
-SCALE, WIDTH, HEIGHT = 88.0, 340, 330
+SCALE, WIDTH, HEIGHT = 72.0, 340, 300
 # Azimuth from +x and height of the eye, degrees.
-EYES = {"rear": (128.0, 14.0), "front": (-38.0, 14.0), "side": (128.0, 14.0)}
+EYES = {"rear": (128.0, 14.0), "front": (-38.0, 14.0), "side": (152.0, 14.0)}
 
 
 class View:
@@ -26,7 +26,7 @@ class View:
         self.toward = toward
 
     def __call__(self, x) -> tuple[float, float]:
-        x = cab.plus(x, (0.9, 0.0, 1.45), -1)
+        x = cab.plus(x, (0.9, 0.0, 1.30), -1)
         return WIDTH / 2 + SCALE * cab.dot(x, self.right), HEIGHT / 2 + 8 - SCALE * cab.dot(x, self.up)
 
 
@@ -53,7 +53,25 @@ def chain(cells: list[tuple[int, int]]) -> list[list[int]]:
     return lines
 
 
-def tractor(view: View, nodes: dict, bodies: dict, rest: dict, colour: str, block: bool) -> list[str]:
+def faces(cells, colour: str, opacity: float) -> str:
+    """One path for all of them."""
+    d = "".join("M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in cell) + "Z" for cell in cells)
+    return f'<path d="{d}" stroke="{colour}" stroke-width="0.15" fill="{colour}" fill-opacity="{opacity}"/>'
+
+
+def zones(view: View, body: dict, rest: dict) -> list[str]:
+    """Edges of the boxes round the clearance zone."""
+    made = []
+    for centre, size in cab.ZONES.values():
+        corner = lambda signs: view(move(body, rest, [s + c + k * e / 2 for s, c, k, e in zip(cab.SEAT, centre, signs, size)]))  # noqa: E731
+        for z in -1, 1:
+            made.append(path([corner((a, b, z)) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1))], INK, 0.6))
+        for a, b in (-1, -1), (1, -1), (1, 1), (-1, 1):
+            made.append(path([corner((a, b, -1)), corner((a, b, 1))], INK, 0.6))
+    return made
+
+
+def tractor(view: View, nodes: dict, bodies: dict, rest: dict, colour: str) -> list[str]:
     mesh, made = geometry.cab(*geometry.MESHES["cab"]), []
 
     def at(n: int):
@@ -63,12 +81,12 @@ def tractor(view: View, nodes: dict, bodies: dict, rest: dict, colour: str, bloc
     for end, side, hub in cab.wheels():
         r, half = hub[2], cab.WHEELS[end][1] / 2
         for y in -half, half:
-            ring = [[hub[0] + r * math.cos(k * math.pi / 16), hub[1] + y, hub[2] + r * math.sin(k * math.pi / 16)] for k in range(33)]
+            ring = [[hub[0] + r * math.cos(k * math.pi / 12), hub[1] + y, hub[2] + r * math.sin(k * math.pi / 12)] for k in range(25)]
             ring = [view(move(bodies["gearbox"], rest["gearbox"], x)) for x in ring]
             made.append(path(ring, colour, 0.9, f'fill="{colour}" fill-opacity="0.05"'))
     made += [path(map(at, line), colour, 5, 'fill="none" opacity="0.35"') for line in chain(mesh.groups["backbone"])]
     for group, opacity in ("roof", 0.05), ("panels", 0.04):
-        made += [path(map(at, face), colour, 0.15, f'fill="{colour}" fill-opacity="{opacity}"') for face in mesh.groups[group]]
+        made.append(faces([map(at, face) for face in mesh.groups[group]], colour, opacity))
     for group, width in ("sills", 1.6), ("rails", 1.0), ("posts", 1.8), ("roof_frame", 1.8):
         made += [path(map(at, line), colour, width) for line in chain(mesh.groups[group])]
     return made
@@ -96,11 +114,12 @@ def panel(name: str, folder: Path) -> list[str]:
     peak = max(range(len(way)), key=way.__getitem__)
     time, view, now = times[peak], View(*EYES[name]), cab.blow(name)
     rest, then = bodies[0.0], bodies[time]
-    made = tractor(view, nodes[0.0], rest, rest, SOFT, False)
+    made = tractor(view, nodes[0.0], rest, rest, SOFT)
     made += block_of(view, rest["block"], rest["block"], now, SOFT, 0.08)
     for _, _, anchor, point, _ in cab.ropes():
         made.append(path([view(anchor), view(move(then["gearbox"], rest["gearbox"], point))], INK, 0.7))
-    made += tractor(view, nodes[time], then, rest, BLUE, True)
+    made += tractor(view, nodes[time], then, rest, BLUE)
+    made += zones(view, then["gearbox"], rest["gearbox"])
     made += block_of(view, then["block"], rest["block"], now, RED, 0.18)
     label = f"{name}, {now['energy'] / 1e3:.1f} kJ: {way[peak] * 1e3:.0f} mm after {time * 1e3:.0f} ms"
     made.append(f'<text x="{WIDTH / 2}" y="{HEIGHT - 6}" text-anchor="middle" fill="{INK}">{label}</text>')
