@@ -164,7 +164,7 @@ impl Stepper<'_> {
                     let mut last = f64::INFINITY;
                     loop {
                         let gap = self.gap(closing, derivative);
-                        if gap * dt.powi(derivative as i32) <= ROUNDING || !(gap < 0.1 * last) {
+                        if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
                             break;
                         }
                         last = gap;

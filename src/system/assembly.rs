@@ -365,7 +365,7 @@ impl Assembly {
             add_local(K, &[a, b, own + j], &self.joints[j], how, carried, values);
         };
         let multipliers = &mut forces.multipliers;
-        joints::tangents(system, nodes, &self.diagonals, maps, multipliers, weights.stiffness, values, add);
+        joints::tangents(system, nodes, (&self.diagonals, maps), multipliers, weights.stiffness, values, add);
     }
 
     /// The matrices of nodes by themselves.

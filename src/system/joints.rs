@@ -146,7 +146,7 @@ impl System {
     pub fn row(&self, multiplier: usize) -> Option<(usize, &Row)> {
         let of = |(j, (joint, first)): (usize, (&_, usize))| {
             let joint: &Joint = joint;
-            (first + joint.rows.len() > multiplier).then(|| (j, first))
+            (first + joint.rows.len() > multiplier).then_some((j, first))
         };
         let (j, first) = self.numbered().enumerate().find_map(of)?;
         Some((j, &self.joints[j].rows[multiplier - first]))
@@ -203,12 +203,11 @@ impl Diagonal {
 }
 
 /// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
-/// `stiffness`: with the derivative of its forces.
+/// `maps`: how nodes move with their roots; `stiffness`: with the derivative of its forces.
 pub(super) fn tangents(
     system: &System,
     nodes: &[Node],
-    diagonals: &[Diagonal],
-    maps: &[Vec<Mat6>],
+    (diagonals, maps): (&[Diagonal], &[Vec<Mat6>]),
     multipliers: &mut Multipliers,
     stiffness: bool,
     values: &mut [f64],
