@@ -23,6 +23,7 @@ ERRORS = (1e-2, 1e-3, 1e-4)
 # Wilson-θ alone: half for beams, a fifth of the implicit programs for rigid bodies.
 MARKS = {
     "R1": ((0.002, 0.003, 0.0085), "Exudyn, implicit", 0.2),
+    "R2": ((0.083, 0.24), "Exudyn, implicit with joint", 0.2),
     "R3": ((0.015, 0.025, 0.048), "MBDyn, DIRK54", 0.2),
     "X2": ((0.006, 0.018, 0.04), "Exudyn", 0.5),
     "B1": ((0.054, 0.23, 1.4), "MBDyn, 3-node beams", 0.5),
@@ -35,6 +36,7 @@ MARKS = {
 # Meshes (elements per segment, order) and divisions of the output interval.
 LADDERS = {
     "R1": ([None], [4, 8, 16, 32, 64, 128]),
+    "R2": ([None], [4, 5, 8, 11, 16, 24, 32, 48]),
     "R3": ([None], [4, 8, 16, 32, 64, 128]),
     "X2": ([None], [4, 8, 16, 32, 64, 128, 256]),
     "B1": ([(1, 4), (2, 3), (2, 4)], [2, 3, 4, 6, 8, 12, 16, 20, 24]),

@@ -218,10 +218,9 @@ impl Stepper<'_> {
 
     /// At the start, with a factorised mass matrix: velocities that the joints allow, the nearest in kinetic energy.
     pub(super) fn start_on_joints(&mut self, nodes: &mut [Node]) {
-        let mut fastest = [0.0f64; 2];
-        for node in nodes.iter() {
-            fastest = [fastest[0].max(node.v.amax()), fastest[1].max(node.omega.amax())];
-        }
+        // Translations and rotations together: where one of them is nil, rounding of the other is no jump.
+        let speed = |v: &Vec3, omega: &Vec3, length: f64| v.amax().max(omega.amax() * length);
+        let (mut jump, mut fastest) = (0.0f64, 0.0f64);
         // Rows that share what they carry leave a part of it to the next time: three leave nothing.
         for _ in 0..3 {
             self.system.gaps(nodes, 1, &mut self.forces.multipliers.gaps);
@@ -235,17 +234,16 @@ impl Stepper<'_> {
             self.solves += 1;
             for (node, rows) in nodes.iter_mut().zip(&self.plan.rows) {
                 let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
-                let change = [Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5))];
-                node.v += change[0];
-                node.omega += change[1];
-                self.start_jump = [0, 1].map(|i| self.start_jump[i].max(change[i].amax()));
+                let (dv, domega) = (Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5)));
+                fastest = fastest.max(speed(&node.v, &node.omega, self.length));
+                node.v += dv;
+                node.omega += domega;
+                jump = jump.max(speed(&dv, &domega, self.length));
+                fastest = fastest.max(speed(&node.v, &node.omega, self.length));
             }
             self.ride(nodes);
         }
-        // Of translations and rotations together: where one of them is nil, rounding of the other is no jump.
-        let whole = fastest[0].max(fastest[1] * self.length);
-        let jump = self.start_jump[0].max(self.start_jump[1] * self.length);
-        self.start_jump = [jump / whole.max(f64::MIN_POSITIVE), 0.0];
+        self.start_jump = if jump > 0.0 { jump / fastest } else { 0.0 };
     }
 }
 

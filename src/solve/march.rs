@@ -163,7 +163,7 @@ impl<'a> Run<'a> {
             solves: 0,
             drift: 0.0,
             violation: 0.0,
-            start_jump: [0.0; 2],
+            start_jump: 0.0,
         };
         if along {
             stepper.solver.expect_indefinite();
@@ -198,7 +198,7 @@ impl<'a> Run<'a> {
 
     /// Largest change, relative, that initial velocities needed to agree with the joints.
     pub fn start_jump(&self) -> f64 {
-        self.stepper.start_jump[0].max(self.stepper.start_jump[1])
+        self.stepper.start_jump
     }
 
     /// Runs to the end, to a failure, or until stopped. The state it ends with is returned too.

@@ -69,8 +69,8 @@ pub struct Stepper<'a> {
     pub drift: f64,
     /// Largest gap of a joint that the end of a step was left with, relative to the largest coordinate.
     pub violation: f64,
-    /// What the joints have made of the velocities and angular velocities at t = 0: the largest change over the largest given.
-    pub start_jump: [f64; 2],
+    /// What the joints have made of the velocities at t = 0: the largest change over the largest velocity.
+    pub start_jump: f64,
 }
 
 /// A step that was taken.
