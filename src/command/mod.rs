@@ -1,6 +1,7 @@
 //! The command line: one file per word. This one holds what they share: arguments, exit codes, reading a deck.
 
 mod check;
+mod compare;
 mod run;
 mod schema;
 
@@ -65,6 +66,8 @@ enum Word {
     Run(RunArgs),
     /// Read and validate a deck and print what would be computed; runs nothing
     Check(DeckArgs),
+    /// Say whether two folders of results agree
+    Compare(compare::CompareArgs),
     /// Print the JSON Schema of the deck
     Schema,
 }
@@ -110,6 +113,7 @@ pub fn execute(cli: Cli) -> Exit {
     let done = match (cli.word, cli.run) {
         (Some(Word::Run(args)), _) | (None, Some(args)) => run::run(&args),
         (Some(Word::Check(args)), _) => check::check(&args),
+        (Some(Word::Compare(args)), _) => compare::compare(&args),
         (Some(Word::Schema), _) => schema::schema(),
         // Clap asks for a deck before it lets this happen.
         (None, None) => Err(Exit::Usage),

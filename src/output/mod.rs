@@ -1,6 +1,7 @@
 //! The files of the output folder. Each format is one file here; [`Files`] opens those the deck asks for and shows them
 //! every accepted step. Errors name the file.
 
+pub mod compare;
 pub mod expect;
 pub mod log;
 pub mod progress;
@@ -13,6 +14,7 @@ mod fields;
 pub mod links_csv;
 pub mod nodes_csv;
 mod reactions_csv;
+mod rows;
 mod sections_csv;
 mod shape;
 pub mod shells_csv;

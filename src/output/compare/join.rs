@@ -1,0 +1,167 @@
+//! Rows of two tables side by side: those of one time belong together, and among them those of one name.
+
+use super::ahead::Cursor;
+use std::cmp::Ordering;
+use std::collections::{HashMap, VecDeque};
+use std::io;
+
+/// Of the shorter of the two last steps: times that agree within this part of it are one time. It is far more than sums of
+/// steps lose to rounding, and hides nothing: what moves in between is a difference.
+const ROUNDING: f64 = 1e-3;
+
+/// The largest difference of a column.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Worst {
+    /// Infinite where only one side has a number.
+    pub difference: f64,
+    pub time: f64,
+    pub key: Vec<u8>,
+}
+
+/// Rows and times that one side has alone.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Alone {
+    /// At times that both have.
+    pub rows: u64,
+    /// Time and name of the first of them.
+    pub first: Option<(f64, Vec<u8>)>,
+    pub frames: u64,
+    pub all_rows: u64,
+}
+
+#[derive(Debug, Clone, Default)]
+pub struct Joined {
+    /// Of each column.
+    pub worst: Vec<Worst>,
+    pub rows: u64,
+    pub frames: u64,
+    pub alone: [Alone; 2],
+    /// Time (or step) of the last frame of each side and of the frame before.
+    pub ends: [Option<(f64, f64)>; 2],
+}
+
+/// Goes through both tables. With `by_step` frames are matched by their step: on a path whose load falls and rises a time says
+/// not where it is.
+pub fn join(sides: &mut [Cursor; 2], columns: usize, by_step: bool) -> io::Result<Joined> {
+    let mut joined = Joined { worst: vec![Worst::default(); columns], ..Joined::default() };
+    sides.iter_mut().try_for_each(Cursor::advance)?;
+    let mut frame: Option<[usize; 2]> = None;
+    while !(sides[0].done && sides[1].done) {
+        let Some(both) = frame else {
+            match order(sides, by_step) {
+                Ordering::Equal => {
+                    frame = Some([sides[0].frame, sides[1].frame]);
+                    joined.frames += 1;
+                }
+                Ordering::Less => skip(&mut sides[0], &mut joined.alone[0])?,
+                Ordering::Greater => skip(&mut sides[1], &mut joined.alone[1])?,
+            }
+            continue;
+        };
+        let [a, b] = &mut *sides;
+        match (a.is_in(both[0]), b.is_in(both[1])) {
+            (true, true) if a.key() == b.key() => {
+                let time = a.when[1].min(b.when[1]);
+                joined.rows += 1;
+                tally(&mut joined.worst, a.values(), b.values(), time, a.key());
+                a.advance()?;
+                b.advance()?;
+            }
+            (false, false) => frame = None,
+            _ => {
+                rest(sides, both, &mut joined)?;
+                frame = None;
+            }
+        }
+    }
+    for (end, side) in joined.ends.iter_mut().zip(&*sides) {
+        let place = |when: [f64; 2]| when[usize::from(!by_step)];
+        *end = (side.frame > 0).then(|| (place(side.when), side.before.map_or(f64::NAN, place)));
+    }
+    Ok(joined)
+}
+
+/// Which side's frame comes first; a side at its end comes last.
+fn order([a, b]: &[Cursor; 2], by_step: bool) -> Ordering {
+    match (a.done, b.done) {
+        (true, _) => return Ordering::Greater,
+        (_, true) => return Ordering::Less,
+        _ => {}
+    }
+    if by_step {
+        return a.when[0].total_cmp(&b.when[0]);
+    }
+    let [s, t] = [a.when[1], b.when[1]];
+    let step = |side: &Cursor| side.before.map_or(f64::INFINITY, |before| (side.when[1] - before[1]).abs());
+    let step = step(a).min(step(b));
+    let digits = 4.0 * f64::EPSILON * s.abs().max(t.abs());
+    let near = if step.is_finite() { (ROUNDING * step).max(digits) } else { digits };
+    if (s - t).abs() <= near { Ordering::Equal } else { s.total_cmp(&t) }
+}
+
+/// Passes over a frame that the other side has not.
+fn skip(side: &mut Cursor, alone: &mut Alone) -> io::Result<()> {
+    let frame = side.frame;
+    alone.frames += 1;
+    while side.is_in(frame) {
+        alone.all_rows += 1;
+        side.advance()?;
+    }
+    Ok(())
+}
+
+/// The rest of a frame whose rows are not in the same order on both sides, or not the same rows.
+fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::Result<()> {
+    let [a, b] = sides;
+    let time = a.when[1].min(b.when[1]);
+    let mut waiting: HashMap<Vec<u8>, VecDeque<(usize, Vec<f64>)>> = HashMap::new();
+    let mut count = 0;
+    while a.is_in(both[0]) {
+        waiting.entry(a.key().to_vec()).or_default().push_back((count, a.values().to_vec()));
+        count += 1;
+        a.advance()?;
+    }
+    let miss = |alone: &mut Alone, key: &[u8]| {
+        alone.rows += 1;
+        alone.first.get_or_insert_with(|| (time, key.to_vec()));
+    };
+    // What the other side lacks because its file was torn off here is not missing.
+    let a_torn = a.done && a.summary.torn;
+    while b.is_in(both[1]) {
+        match waiting.get_mut(b.key()).and_then(VecDeque::pop_front) {
+            Some((_, values)) => {
+                joined.rows += 1;
+                tally(&mut joined.worst, &values, b.values(), time, b.key());
+            }
+            None if !a_torn => miss(&mut joined.alone[1], b.key()),
+            None => {}
+        }
+        b.advance()?;
+    }
+    if !(b.done && b.summary.torn) {
+        let mut left: Vec<(usize, Vec<u8>)> = waiting
+            .into_iter()
+            .flat_map(|(key, rows)| rows.into_iter().map(move |(at, _)| (at, key.clone())))
+            .collect();
+        left.sort_unstable();
+        left.iter().for_each(|(_, key)| miss(&mut joined.alone[0], key));
+    }
+    Ok(())
+}
+
+fn tally(worst: &mut [Worst], a: &[f64], b: &[f64], time: f64, key: &[u8]) {
+    for ((worst, &a), &b) in worst.iter_mut().zip(a).zip(b) {
+        let difference = if a == b || a.to_bits() == b.to_bits() {
+            continue;
+        } else if a.is_finite() && b.is_finite() {
+            (a - b).abs()
+        } else {
+            f64::INFINITY
+        };
+        if difference > worst.difference {
+            (worst.difference, worst.time) = (difference, time);
+            worst.key.clear();
+            worst.key.extend_from_slice(key);
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! Whether two output folders agree: every table that either has, as numbers, each column against its own range.
+//!
+//! Tables are read once, side by side, and never held. Left out: the grids of the fields, `run.log`, and of `result.json` all but
+//! the status. `steps.csv` is compared and shown but not judged unless one of its columns is named: it says what the way cost.
+
+mod ahead;
+mod join;
+mod scale;
+mod select;
+
+pub use ahead::shown;
+pub use join::{Alone, Worst};
+pub use select::{Selector, Tolerance, size};
+
+use super::at;
+use super::rows::{KEYS, Rows, fields, number};
+use ahead::{Pick, read};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// What is compared, and how closely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Relative to the scale of a column; where none takes it, [`TOLERANCE`].
+    pub tolerances: Vec<Tolerance>,
+    /// Differences up to this are none.
+    pub absolute: f64,
+    /// Only these columns; all, where there are none.
+    pub columns: Vec<Selector>,
+}
+
+/// Where nothing else is said.
+pub const TOLERANCE: f64 = 1e-6;
+
+/// What a run costs, which may differ where the results agree.
+const COST: &str = "steps.csv";
+
+/// One column of both sides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    pub name: String,
+    pub worst: Worst,
+    /// Of what `worst` is a part.
+    pub scale: f64,
+    pub tolerance: f64,
+    pub judged: bool,
+    pub passed: bool,
+}
+
+impl Column {
+    pub fn relative(&self) -> f64 {
+        if self.worst.difference == 0.0 { 0.0 } else { self.worst.difference / self.scale }
+    }
+}
+
+/// One table of both sides.
+#[derive(Debug, Clone)]
+pub struct Table {
+    pub name: String,
+    pub columns: Vec<Column>,
+    /// Columns that one side has alone.
+    pub only: [Vec<String>; 2],
+    pub alone: [Alone; 2],
+    /// Rows compared, and the times at which they stand.
+    pub rows: u64,
+    pub frames: u64,
+    /// All rows of each side.
+    pub all_rows: [u64; 2],
+    /// Last times, where one side goes on without the other.
+    pub ends: Option<[f64; 2]>,
+    pub torn: [bool; 2],
+    /// By step instead of time.
+    pub by_step: bool,
+    /// Rows that do not match are a fault too.
+    pub judged: bool,
+}
+
+impl Table {
+    pub fn nothing_matched(&self) -> bool {
+        self.rows == 0 && self.all_rows.iter().any(|&rows| rows > 0)
+    }
+
+    pub fn agrees(&self) -> bool {
+        let rows = !self.nothing_matched() && self.ends.is_none() && self.alone.iter().all(|alone| alone.rows == 0);
+        self.only.iter().all(Vec::is_empty) && (rows || !self.judged) && self.columns.iter().all(|column| column.passed)
+    }
+}
+
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    pub tables: Vec<Table>,
+    /// Files that one side has alone.
+    pub only: [Vec<String>; 2],
+    /// Of `result.json`, as it stands there.
+    pub status: Option<[String; 2]>,
+    /// Selectors that take no column of either side, as written.
+    pub idle: Vec<Selector>,
+    /// All columns, as `nodes.csv:ux`.
+    pub known: BTreeSet<String>,
+}
+
+impl Comparison {
+    pub fn agrees(&self) -> bool {
+        self.only.iter().all(Vec::is_empty)
+            && self.status.as_ref().is_none_or(|[a, b]| a == b)
+            && self.tables.iter().all(Table::agrees)
+    }
+}
+
+/// Compares two folders; an error names what cannot be read.
+pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Comparison> {
+    let names = [tables(folders[0])?, tables(folders[1])?];
+    let status = [status(folders[0])?, status(folders[1])?];
+    for (side, folder) in folders.into_iter().enumerate() {
+        if names[side].is_empty() && status[side].is_none() {
+            return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
+        }
+    }
+    let all: BTreeSet<&String> = names.iter().flatten().collect();
+    let heads = |name: &str| folders.map(|folder| Rows::open(&folder.join(name)));
+    let mut known = BTreeSet::new();
+    for &name in &all {
+        for (side, folder) in folders.into_iter().enumerate() {
+            if names[side].contains(name) {
+                let rows = Rows::open(&folder.join(name))?;
+                known.extend(rows.header.iter().map(|column| format!("{name}:{column}")));
+            }
+        }
+    }
+    let selectors = settings.columns.iter().chain(settings.tolerances.iter().map(|tolerance| &tolerance.of));
+    let takes = |selector: &Selector| {
+        *selector == Selector::default()
+            || known
+                .iter()
+                .any(|known| known.split_once(':').is_some_and(|(file, column)| selector.takes(file, column)))
+    };
+    let idle: Vec<Selector> = selectors.filter(|&selector| !takes(selector)).cloned().collect();
+    if !idle.is_empty() {
+        return Ok(Comparison { tables: Vec::new(), only: Default::default(), status: None, idle, known });
+    }
+
+    let by_step = turns(folders[0])? || turns(folders[1])?;
+    let mut compared = Vec::new();
+    let mut only: [Vec<String>; 2] = Default::default();
+    let chosen = |file: &str, column: &str| {
+        settings.columns.is_empty() || settings.columns.iter().any(|selector| selector.takes(file, column))
+    };
+    let wanted = |name: &str| {
+        settings.columns.is_empty()
+            || known
+                .iter()
+                .any(|known| known.split_once(':').is_some_and(|(file, column)| file == name && chosen(file, column)))
+    };
+    for &name in all.iter().filter(|name| wanted(name)) {
+        match [0, 1].map(|side| names[side].contains(name)) {
+            [true, true] => {
+                let [a, b] = heads(name);
+                compared.push(table(name, [a?, b?], settings, by_step, &chosen)?);
+            }
+            [first, _] => only[usize::from(!first)].push(name.clone()),
+        }
+    }
+    let status = match status {
+        [Some(a), Some(b)] => Some([a, b]),
+        [None, None] => None,
+        [a, _] => {
+            only[usize::from(a.is_none())].push("result.json".into());
+            None
+        }
+    };
+    Ok(Comparison { tables: compared, only, status, idle, known })
+}
+
+fn table(
+    name: &str,
+    rows: [Rows; 2],
+    settings: &Settings,
+    by_step: bool,
+    chosen: &dyn Fn(&str, &str) -> bool,
+) -> io::Result<Table> {
+    let shared: Vec<String> =
+        rows[0].header.iter().filter(|column| rows[1].column(column).is_some()).cloned().collect();
+    let only = [0, 1].map(|side: usize| {
+        let missing = rows[side].header.iter().filter(|column| rows[1 - side].column(column).is_none());
+        missing.filter(|column| chosen(name, column)).cloned().collect()
+    });
+    let is_key = |column: &str| KEYS.contains(&column);
+    let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
+    let has_time = shared.iter().any(|column| column == "time");
+    let by_step = by_step && shared.iter().any(|column| column == "step");
+    let [first, second] = rows.map(|rows| {
+        let place = |column: &&str| rows.column(column);
+        // Without a time there are no frames.
+        let (step, time) = (place(&"step").filter(|_| has_time), place(&"time").filter(|_| has_time));
+        let keys =
+            shared.iter().map(String::as_str).filter(|column| is_key(column)).filter_map(|c| rows.column(c)).collect();
+        let pick = Pick { step, time, keys, values: values.iter().filter_map(place).collect() };
+        (rows, pick)
+    });
+    let (joined, summaries, all_rows) = std::thread::scope(|scope| {
+        let (a, _) = read(scope, first.0, first.1);
+        let (b, _) = read(scope, second.0, second.1);
+        let mut sides = [a, b];
+        let joined = join::join(&mut sides, values.len(), by_step)?;
+        let all_rows = [sides[0].rows, sides[1].rows];
+        io::Result::Ok((joined, sides.map(|side| side.summary), all_rows))
+    })?;
+
+    let scales = scale::scales(&values, [&summaries[0].ranges, &summaries[1].ranges]);
+    let named = |column: &str| {
+        let by = |selector: &Selector| *selector != Selector::default() && selector.takes(name, column);
+        settings.columns.iter().chain(settings.tolerances.iter().map(|tolerance| &tolerance.of)).any(by)
+    };
+    let columns: Vec<Column> = (values.iter().zip(joined.worst).zip(scales))
+        .filter(|((column, _), _)| chosen(name, column))
+        .map(|((&column, worst), scale)| {
+            let tolerance = select::closest(&settings.tolerances, name, column).map_or(TOLERANCE, |t| t.value);
+            let judged = name != COST || named(column);
+            let near = worst.difference <= settings.absolute || worst.difference <= tolerance * scale;
+            Column { name: column.into(), worst, scale, tolerance, judged, passed: near || !judged }
+        })
+        .collect();
+    let torn = summaries.map(|summary| summary.torn);
+    let judged = name != COST || columns.iter().any(|column| column.judged);
+    Ok(Table {
+        name: name.into(),
+        only,
+        alone: joined.alone,
+        rows: joined.rows,
+        frames: joined.frames,
+        all_rows,
+        ends: apart(joined.ends, torn),
+        torn,
+        by_step,
+        columns,
+        judged,
+    })
+}
+
+/// The last times, where one side goes on for more than one and a half of the other's last step.
+fn apart(ends: [Option<(f64, f64)>; 2], torn: [bool; 2]) -> Option<[f64; 2]> {
+    let [Some(a), Some(b)] = ends else { return None };
+    let shorter = usize::from(b.0 < a.0);
+    let (end, before) = if shorter == 0 { a } else { b };
+    let step = if before.is_nan() { 0.0 } else { (end - before).abs() };
+    let digits = 4.0 * f64::EPSILON * a.0.abs().max(b.0.abs());
+    ((a.0 - b.0).abs() > (1.5 * step).max(digits) && !torn[shorter]).then_some([a.0, b.0])
+}
+
+/// Names of the tables of a folder.
+fn tables(folder: &Path) -> io::Result<BTreeSet<String>> {
+    let mut names = BTreeSet::new();
+    for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {
+        let name = entry.map_err(|e| at(folder, e))?.file_name();
+        names.extend(name.to_str().filter(|name| name.ends_with(".csv")).map(String::from));
+    }
+    Ok(names)
+}
+
+/// The status of a run; none where it never came to write one.
+fn status(folder: &Path) -> io::Result<Option<String>> {
+    let path = folder.join("result.json");
+    let text = match fs::read(&path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+        read => read.map_err(|e| at(&path, e))?,
+    };
+    let result: serde_json::Value = serde_json::from_slice(&text).map_err(|e| at(&path, e.into()))?;
+    match result["status"].as_str() {
+        Some(status) => Ok(Some(status.into())),
+        None => Err(at(&path, io::Error::new(io::ErrorKind::InvalidData, "no status"))),
+    }
+}
+
+/// Whether the load of a path falls anywhere.
+fn turns(folder: &Path) -> io::Result<bool> {
+    let path = folder.join(COST);
+    if !path.is_file() {
+        return Ok(false);
+    }
+    let mut rows = Rows::open(&path)?;
+    let Some(dt) = rows.column("dt") else { return Ok(false) };
+    while let Some(row) = rows.next()? {
+        if fields(row).nth(dt).is_some_and(|field| number(field) < 0.0) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}

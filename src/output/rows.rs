@@ -1,0 +1,161 @@
+//! Tables of an output folder read back row by row, never held whole. A last line without its end was torn off when a run was
+//! killed: it is left out, and said.
+
+use super::at;
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+/// Columns that say what a row is about, in the order in which files have them.
+pub const KEYS: [&str; 14] = [
+    "node",
+    "body",
+    "link",
+    "contact",
+    "joint",
+    "beam",
+    "shell",
+    "element",
+    "point",
+    "layer",
+    "direction",
+    "part",
+    "kind",
+    "name",
+];
+
+/// Bytes asked for at a time.
+const CHUNK: usize = 1 << 18;
+
+pub struct Rows {
+    path: PathBuf,
+    reader: BufReader<File>,
+    line: Vec<u8>,
+    /// Names of the columns.
+    pub header: Vec<String>,
+    /// Rows so far, without the header.
+    pub count: usize,
+    /// The last line had no end; known when the rows have come to theirs.
+    pub torn: bool,
+}
+
+impl Rows {
+    /// Opens a table and reads its header.
+    pub fn open(path: &Path) -> io::Result<Rows> {
+        let file = File::open(path).map_err(|e| at(path, e))?;
+        let reader = BufReader::with_capacity(CHUNK, file);
+        let (path, line) = (path.to_owned(), Vec::new());
+        let mut rows = Rows { path, reader, line, header: Vec::new(), count: 0, torn: false };
+        rows.read()?;
+        rows.header = fields(&rows.line).map(|field| text(field).into_owned()).collect();
+        Ok(rows)
+    }
+
+    /// The next row, without its end; none where no whole one is left.
+    pub fn next(&mut self) -> io::Result<Option<&[u8]>> {
+        if !self.read()? {
+            return Ok(None);
+        }
+        self.count += 1;
+        Ok(Some(&self.line))
+    }
+
+    fn read(&mut self) -> io::Result<bool> {
+        self.line.clear();
+        loop {
+            let more = self.reader.read_until(b'\n', &mut self.line).map_err(|e| at(&self.path, e))?;
+            if self.line.last() != Some(&b'\n') {
+                self.torn |= !self.line.is_empty();
+                self.line.clear();
+                return Ok(false);
+            }
+            // A quoted name may hold line breaks.
+            let open = self.line.contains(&b'"') && self.line.iter().filter(|&&byte| byte == b'"').count() % 2 == 1;
+            if !open || more == 0 {
+                break;
+            }
+        }
+        self.line.pop();
+        if self.line.last() == Some(&b'\r') {
+            self.line.pop();
+        }
+        Ok(true)
+    }
+
+    /// A row that has not as many fields as the header.
+    pub fn ragged(&self, fields: usize) -> io::Error {
+        let (row, columns) = (self.count, self.header.len());
+        let text = format!("row {row} has {fields} fields, the header {columns}");
+        at(&self.path, io::Error::new(io::ErrorKind::InvalidData, text))
+    }
+
+    /// Place of a column.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|other| other == name)
+    }
+}
+
+/// Fields of a row as they stand there, quotes and all.
+pub fn fields(row: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut quoted = false;
+    row.split(move |&byte| {
+        quoted ^= byte == b'"';
+        byte == b',' && !quoted
+    })
+}
+
+/// What a field says.
+pub fn text(field: &[u8]) -> Cow<'_, str> {
+    match field {
+        [b'"', inner @ .., b'"'] => Cow::Owned(String::from_utf8_lossy(inner).replace("\"\"", "\"")),
+        plain => String::from_utf8_lossy(plain),
+    }
+}
+
+/// The number of a field. An empty one, which stands for none, is NaN; any other text is a NaN that carries its hash, so that
+/// equal texts have equal bits.
+pub fn number(field: &[u8]) -> f64 {
+    if field.is_empty() {
+        return f64::NAN;
+    }
+    match std::str::from_utf8(field).ok().and_then(|text| text.parse::<f64>().ok()) {
+        Some(number) if number.is_nan() => f64::NAN,
+        Some(number) => number,
+        None => {
+            let hash = field
+                .iter()
+                .fold(0xcbf2_9ce4_8422_2325_u64, |h, &byte| (h ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+            f64::from_bits(0x7ff8_0000_0000_0000 | (hash >> 13) | 1)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_and_fields_are_those_of_the_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("t.csv");
+        std::fs::write(&path, "step,name,x\n0,\"a, \"\"b\"\"\nc\",1.5\r\n1,d,\n2,e,3").unwrap();
+        let mut rows = Rows::open(&path).unwrap();
+        assert_eq!(rows.header, ["step", "name", "x"]);
+        let read: Vec<String> = fields(rows.next().unwrap().unwrap()).map(|field| text(field).into_owned()).collect();
+        assert_eq!(read, ["0", "a, \"b\"\nc", "1.5"]);
+        assert!(number(fields(rows.next().unwrap().unwrap()).nth(2).unwrap()).is_nan());
+        assert!(rows.next().unwrap().is_none());
+        assert!(rows.torn && rows.count == 2);
+        std::fs::write(&path, "step\n").unwrap();
+        assert!(!Rows::open(&path).unwrap().torn);
+    }
+
+    #[test]
+    fn text_is_a_number_of_its_own() {
+        assert_eq!(number(b"-1.5e-3"), -1.5e-3);
+        assert_eq!(number(b"ux").to_bits(), number(b"ux").to_bits());
+        assert!(number(b"ux").is_nan() && number(b"ux").to_bits() != number(b"uy").to_bits());
+        assert_eq!(number(b"NaN").to_bits(), number(b"").to_bits());
+    }
+}
