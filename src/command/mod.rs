@@ -2,6 +2,7 @@
 
 mod check;
 mod compare;
+mod report;
 mod run;
 mod schema;
 
@@ -68,6 +69,8 @@ enum Word {
     Check(DeckArgs),
     /// Say whether two folders of results agree
     Compare(compare::CompareArgs),
+    /// Make one HTML file of a folder of results: plots, energy balance, the moving scene
+    Report(report::ReportArgs),
     /// Print the JSON Schema of the deck
     Schema,
 }
@@ -114,6 +117,7 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Word::Run(args)), _) | (None, Some(args)) => run::run(&args),
         (Some(Word::Check(args)), _) => check::check(&args),
         (Some(Word::Compare(args)), _) => compare::compare(&args),
+        (Some(Word::Report(args)), _) => report::report(&args),
         (Some(Word::Schema), _) => schema::schema(),
         // Clap asks for a deck before it lets this happen.
         (None, None) => Err(Exit::Usage),

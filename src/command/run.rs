@@ -113,6 +113,7 @@ fn compute(
         exit_code: status.exit_code(),
         reason,
         version: env!("CARGO_PKG_VERSION").to_string(),
+        title: model.title.clone(),
         deck_hash: loaded.hash.clone(),
         plan: text.lines().collect(),
         counts: Counts {

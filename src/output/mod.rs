@@ -5,6 +5,7 @@ pub mod compare;
 pub mod expect;
 pub mod log;
 pub mod progress;
+pub mod report;
 pub mod result_json;
 
 pub mod bodies_csv;

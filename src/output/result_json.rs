@@ -39,6 +39,9 @@ pub struct Report {
     /// One sentence; empty when done, unless a path ended before its `stop`.
     pub reason: String,
     pub version: String,
+    /// That of the deck.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub title: String,
     /// SHA-256 of the deck with its overrides and its mesh, hexadecimal.
     pub deck_hash: String,
     pub plan: serde_json::Value,
@@ -106,6 +109,7 @@ mod tests {
             exit_code: Status::NotConverged.exit_code(),
             reason: "no equilibrium at t = 0.1".into(),
             version: "0.1.0".into(),
+            title: String::new(),
             deck_hash: "00ff".into(),
             plan: serde_json::json!({ "unknowns": 12 }),
             counts: Counts { steps: 3, ..Counts::default() },

@@ -1,0 +1,52 @@
+"use strict";
+// The numbers of the page: base64 of little-endian arrays, read when first asked for.
+
+const DATA = JSON.parse(document.getElementById("data").textContent);
+
+function bytes(base64) {
+  const text = atob(base64), out = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) out[i] = text.charCodeAt(i);
+  return out;
+}
+const floats = base64 => new Float32Array(bytes(base64).buffer);
+const places = base64 => new Uint32Array(bytes(base64).buffer);
+
+/** A table over time: `line(name, column)` is one number a time. */
+class History {
+  constructor(from) {
+    Object.assign(this, { file: from.file, names: from.names, columns: from.columns });
+    this.times = floats(from.times);
+    this.values = floats(from.values);
+  }
+  line(name, column) {
+    const { names, columns, values } = this;
+    const stride = names.length * columns.length, first = name * columns.length + columns.indexOf(column);
+    return Float32Array.from(this.times, (_, t) => values[t * stride + first]);
+  }
+}
+
+/** A number in a few digits. */
+function few(x, digits = 4) {
+  if (!Number.isFinite(x)) return "";
+  const size = Math.abs(x);
+  return size !== 0 && (size < 1e-3 || size >= 1e6) ? x.toExponential(digits - 2) : String(+x.toPrecision(digits));
+}
+
+const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const dark = () => matchMedia("(prefers-color-scheme: dark)").matches;
+
+/** Makes an element: `make("label", { className: "x" }, child, "text")`. */
+function make(tag, properties = {}, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+/** Fits a canvas to its size on the page, in device pixels. */
+function fit(canvas) {
+  const scale = window.devicePixelRatio || 1;
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  const [w, h] = [Math.round(width * scale), Math.round(height * scale)];
+  if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
+  return { width, height, scale };
+}

@@ -1,0 +1,219 @@
+//! The moving scene out of the grids of the fields: triangles, lines and edges, where they are over time, and what cells carry.
+
+use super::{Scene, numbers};
+use crate::output::at;
+use crate::output::rows::{Rows, fields, text};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use std::collections::HashSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Numbers of a scene, its grids and its points, at most.
+const NUMBERS: usize = 4_000_000;
+const GRIDS: usize = 150;
+const POINTS: usize = 1_000_000;
+
+/// What a cell is part of, as the page numbers it.
+const KINDS: [&str; 5] = ["beam", "bar", "shell", "link", "body"];
+
+/// The scene; `Err` in words where a folder has grids that a page cannot carry, none where there are none.
+pub fn scene(folder: &Path) -> io::Result<Option<Result<Scene, String>>> {
+    let grids = listed(&folder.join("fields.pvd"))?;
+    let Some((_, first)) = grids.first() else { return Ok(None) };
+    let kinds = kinds(&folder.join("fields.csv"))?;
+    let first = Grid::read(folder.join(first))?;
+    let points = first.array("Points", 3)?;
+    let count = points.len() / 3;
+    if count > POINTS {
+        return Ok(Some(Err(format!(
+            "The fields have {count} points, more than a page can carry: see them in ParaView."
+        ))));
+    }
+    let mut scene = Scene { all: grids.len(), ..Scene::default() };
+    let displacement = first.array("displacement", 3)?;
+    if displacement.len() != points.len() {
+        return Err(first.wrong("a displacement for each point"));
+    }
+    scene.x0 = points.iter().zip(&displacement).map(|(x, u)| (x - u) as f32).collect();
+    cells(&first, &kinds, count, &mut scene)?;
+
+    let names: Vec<String> = first.scalars_of_cells();
+    let of_grid = 3 * count + names.len() * scene.kinds.len();
+    let most = (NUMBERS / of_grid.max(1)).clamp(2, GRIDS);
+    let every = grids.len().div_ceil(most).max(1);
+    scene.fields = names.into_iter().map(|name| (name, Vec::new())).collect();
+    for (number, (time, file)) in grids.iter().enumerate() {
+        if !number.is_multiple_of(every) && number + 1 != grids.len() {
+            continue;
+        }
+        let grid = Grid::read(folder.join(file))?;
+        let u = grid.array("displacement", 3)?;
+        if u.len() != 3 * count {
+            return Err(grid.wrong("the points of the first grid"));
+        }
+        scene.times.push(*time as f32);
+        scene.u.extend(u.iter().map(|&u| u as f32));
+        for (name, values) in &mut scene.fields {
+            let of_cells = grid.array(name, 1)?;
+            if of_cells.len() != scene.kinds.len() {
+                return Err(grid.wrong("the cells of the first grid"));
+            }
+            values.extend(of_cells.iter().map(|&value| value as f32));
+        }
+    }
+    Ok(Some(Ok(scene)))
+}
+
+/// Times and names of the grids; empty where there is no list.
+fn listed(path: &Path) -> io::Result<Vec<(f64, String)>> {
+    let list = match fs::read_to_string(path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        read => read.map_err(|e| at(path, e))?,
+    };
+    let grid = |line: &str| {
+        let time = attribute(line, "timestep")?.parse().ok()?;
+        let file = attribute(line, "file")?;
+        // A name within the folder, and nothing else.
+        (!file.contains(['/', '\\'])).then(|| (time, file.to_owned()))
+    };
+    Ok(list.lines().filter(|line| line.starts_with("<DataSet ")).filter_map(grid).collect())
+}
+
+fn attribute<'t>(tag: &'t str, name: &str) -> Option<&'t str> {
+    tag.split_once(&format!(" {name}=\""))?.1.split('"').next()
+}
+
+/// Kinds of the parts, by their numbers.
+fn kinds(path: &Path) -> io::Result<Vec<u8>> {
+    if !path.is_file() {
+        return Ok(Vec::new());
+    }
+    let mut rows = Rows::open(path)?;
+    let mut kinds = Vec::new();
+    while let Some(row) = rows.next()? {
+        let kind = fields(row).nth(1).map(text).unwrap_or_default();
+        kinds.push(KINDS.iter().position(|other| *other == kind).unwrap_or_default() as u8);
+    }
+    Ok(kinds)
+}
+
+/// A grid as this program writes it.
+struct Grid {
+    path: PathBuf,
+    text: String,
+}
+
+impl Grid {
+    fn read(path: PathBuf) -> io::Result<Grid> {
+        let text = fs::read_to_string(&path).map_err(|e| at(&path, e))?;
+        Ok(Grid { path, text })
+    }
+
+    fn wrong(&self, lacks: &str) -> io::Error {
+        at(&self.path, io::Error::new(io::ErrorKind::InvalidData, format!("this grid has not {lacks}")))
+    }
+
+    /// Numbers of an array of this name and width.
+    fn array(&self, name: &str, components: usize) -> io::Result<Vec<f64>> {
+        let read = || {
+            let at = self.text.find(&format!(" Name=\"{name}\""))?;
+            let (tag, rest) = self.text[at..].split_once('>')?;
+            let kind = attribute(&self.text[self.text[..at].rfind('<')?..], "type")?;
+            let fits = attribute(tag, "NumberOfComponents")?.parse() == Ok(components);
+            let bytes = BASE64_STANDARD.decode(rest.split('<').next()?.trim()).ok()?;
+            let bytes = fits.then_some(bytes.get(8..)?)?;
+            Some(match kind {
+                "Float64" => bytes.as_chunks().0.iter().map(|&eight| f64::from_le_bytes(eight)).collect(),
+                "Int64" => bytes.as_chunks().0.iter().map(|&eight| i64::from_le_bytes(eight) as f64).collect(),
+                "UInt8" => bytes.iter().map(|&byte| f64::from(byte)).collect(),
+                _ => return None,
+            })
+        };
+        read().ok_or_else(|| self.wrong(&format!("an array `{name}` of {components} numbers each")))
+    }
+
+    fn places(&self, name: &str) -> io::Result<Vec<usize>> {
+        Ok(self.array(name, 1)?.into_iter().map(|number| number as usize).collect())
+    }
+
+    /// Names of the arrays with one number for each cell, but for the number of its part.
+    fn scalars_of_cells(&self) -> Vec<String> {
+        let data = self.text.split_once("<CellData>").and_then(|(_, rest)| rest.split_once("</CellData>"));
+        let tags = data.map_or("", |(data, _)| data).split("<DataArray").skip(1);
+        let scalar = |tag: &&str| attribute(tag, "NumberOfComponents") == Some("1");
+        let names = tags.filter(scalar).filter_map(|tag| attribute(tag, "Name"));
+        names.filter(|name| *name != "part").map(String::from).collect()
+    }
+}
+
+/// Faces of a hexahedron, corners in VTK's order.
+const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+
+/// Takes cells apart into triangles and lines.
+fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut Scene) -> io::Result<()> {
+    let (connectivity, offsets) = (grid.places("connectivity")?, grid.places("offsets")?);
+    let (types, parts) = (grid.places("types")?, grid.places("part")?);
+    if types.len() != offsets.len() || parts.len() != offsets.len() || connectivity.iter().any(|&p| p >= points) {
+        return Err(grid.wrong("cells that fit its points"));
+    }
+    let mut edges = HashSet::new();
+    let mut first = 0;
+    for (cell, &end) in offsets.iter().enumerate() {
+        let corners = connectivity.get(first..end).ok_or_else(|| grid.wrong("cells that fit its points"))?;
+        first = end;
+        scene.kinds.push(kinds.get(parts[cell]).copied().unwrap_or_default());
+        let mut face = |corners: &[usize]| {
+            for k in 1..corners.len().saturating_sub(1) {
+                scene.triangles.extend([corners[0], corners[k], corners[k + 1]].map(|p| p as u32));
+                scene.triangle_cells.push(cell as u32);
+            }
+            for (k, &a) in corners.iter().enumerate() {
+                let b = corners[(k + 1) % corners.len()];
+                edges.insert((a.min(b) as u32, a.max(b) as u32));
+            }
+        };
+        match (types[cell], corners) {
+            (3 | 21 | 68, &[a, b, ref inner @ ..]) => {
+                // The ends come first.
+                let along: Vec<usize> = [a].into_iter().chain(inner.iter().copied()).chain([b]).collect();
+                for pair in along.windows(2) {
+                    scene.lines.extend([pair[0] as u32, pair[1] as u32]);
+                    scene.line_cells.push(cell as u32);
+                }
+            }
+            (12, corners) if corners.len() == 8 => FACES.iter().for_each(|f| face(&f.map(|k| corners[k]))),
+            (5 | 7 | 9, corners) => face(corners),
+            _ => {}
+        }
+    }
+    let mut edges: Vec<(u32, u32)> = edges.into_iter().collect();
+    edges.sort_unstable();
+    scene.edges = edges.into_iter().flat_map(|(a, b)| [a, b]).collect();
+    Ok(())
+}
+
+impl Scene {
+    pub fn json(&self) -> serde_json::Value {
+        let fields: Vec<_> = self
+            .fields
+            .iter()
+            .map(|(name, values)| serde_json::json!({ "name": name, "values": numbers(values) }))
+            .collect();
+        let places =
+            |places: &[u32]| BASE64_STANDARD.encode(places.iter().flat_map(|p| p.to_le_bytes()).collect::<Vec<_>>());
+        serde_json::json!({
+            "times": numbers(&self.times),
+            "x0": numbers(&self.x0),
+            "u": numbers(&self.u),
+            "triangles": places(&self.triangles),
+            "triangleCells": places(&self.triangle_cells),
+            "lines": places(&self.lines),
+            "lineCells": places(&self.line_cells),
+            "edges": places(&self.edges),
+            "kinds": BASE64_STANDARD.encode(&self.kinds),
+            "fields": fields,
+            "labels": self.labels,
+        })
+    }
+}

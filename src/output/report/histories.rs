@@ -1,0 +1,187 @@
+//! What tables say over time, thinned to what a page can carry: every so many times, and of too many names some, evenly.
+
+use super::numbers;
+use crate::output::rows::{KEYS, Rows, fields, number, text};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::io;
+use std::path::Path;
+
+/// Numbers of one table, and times of one history, at most.
+const NUMBERS: usize = 1_000_000;
+const TIMES: usize = 1_500;
+/// Names give way before there are fewer times.
+const FEW_TIMES: usize = 200;
+
+pub struct History {
+    pub file: String,
+    /// What rows are about, as `tip` or `roof 3`; one empty name where they are about the whole.
+    pub names: Vec<String>,
+    pub columns: Vec<String>,
+    pub times: Vec<f32>,
+    /// By time, name, column; NaN where there is none.
+    pub values: Vec<f32>,
+    /// Of the table itself: times and names.
+    pub all: [usize; 2],
+}
+
+/// Places of the columns of a table.
+struct Places {
+    when: [Option<usize>; 2],
+    keys: Vec<usize>,
+    values: Vec<usize>,
+}
+
+impl Places {
+    fn of(rows: &Rows) -> Places {
+        let is = |place: &usize, wanted: bool| KEYS.contains(&rows.header[*place].as_str()) == wanted;
+        let when = [rows.column("step"), rows.column("time")];
+        let all = 0..rows.header.len();
+        let keys = all.clone().filter(|place| is(place, true)).collect();
+        Places { when, keys, values: all.filter(|place| is(place, false) && Some(*place) != when[1]).collect() }
+    }
+
+    /// The name of a row, from its fields.
+    fn name(&self, row: &[&[u8]]) -> String {
+        self.keys.iter().filter_map(|&key| row.get(key)).map(|field| text(field)).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Shows every whole row with the number of its frame, from 0.
+fn each(rows: &mut Rows, places: &Places, see: &mut dyn FnMut(usize, &[&[u8]])) -> io::Result<usize> {
+    let columns = rows.header.len();
+    let (mut frames, mut before) = (0, Vec::new());
+    let mut wrong = None;
+    while let Some(row) = rows.next()? {
+        let row: Vec<&[u8]> = fields(row).collect();
+        if row.len() != columns {
+            wrong = Some(row.len());
+            break;
+        }
+        let when: Vec<u8> = places.when.iter().flatten().flat_map(|&place| [row[place], b","].concat()).collect();
+        if frames == 0 || when != before {
+            (frames, before) = (frames + 1, when);
+        }
+        see(frames - 1, &row);
+    }
+    wrong.map_or(Ok(frames), |count| Err(rows.ragged(count)))
+}
+
+impl History {
+    /// None where a table has no times.
+    pub fn read(folder: &Path, file: &str) -> io::Result<Option<History>> {
+        let path = folder.join(file);
+        let mut rows = Rows::open(&path)?;
+        let places = Places::of(&rows);
+        let Some(time) = places.when[1] else { return Ok(None) };
+        let mut names: Vec<String> = Vec::new();
+        let mut known: HashMap<String, usize> = HashMap::new();
+        let frames = each(&mut rows, &places, &mut |_, row| {
+            let name = places.name(row);
+            if !known.contains_key(&name) {
+                known.insert(name.clone(), names.len());
+                names.push(name);
+            }
+        })?;
+        let columns: Vec<String> = places.values.iter().map(|&place| rows.header[place].clone()).collect();
+        let all = [frames, names.len()];
+        let (width, most) = (columns.len().max(1), frames.min(TIMES));
+        let times = (NUMBERS / (width * names.len().max(1))).clamp(most.min(FEW_TIMES), most).max(1);
+        let kept = (NUMBERS / (width * times)).clamp(1, names.len().max(1));
+        let every = frames.div_ceil(times).max(1);
+        let slots: Vec<Option<usize>> = thinned(names.len(), kept);
+        let names: Vec<String> =
+            names.into_iter().zip(&slots).filter(|(_, slot)| slot.is_some()).map(|(n, _)| n).collect();
+        let shown = |frame: usize| frame.is_multiple_of(every) || frame + 1 == frames;
+
+        let mut rows = Rows::open(&path)?;
+        let (mut at, mut values) = (Vec::new(), Vec::new());
+        let mut last = None;
+        each(&mut rows, &places, &mut |frame, row| {
+            // More rows may have come since.
+            if frame >= frames || !shown(frame) {
+                return;
+            }
+            if last != Some(frame) {
+                last = Some(frame);
+                at.push(number(row[time]) as f32);
+                values.resize(values.len() + names.len() * columns.len(), f32::NAN);
+            }
+            let Some(&Some(slot)) = known.get(&places.name(row)).and_then(|&name| slots.get(name)) else { return };
+            let first = ((at.len() - 1) * names.len() + slot) * columns.len();
+            for (value, &place) in values[first..].iter_mut().zip(&places.values) {
+                *value = number(row[place]) as f32;
+            }
+        })?;
+        Ok(Some(History { file: file.into(), names, columns, times: at, values, all }))
+    }
+
+    /// One column of one name over time.
+    pub fn line(&self, name: usize, column: &str) -> Option<Vec<f32>> {
+        let column = self.columns.iter().position(|other| other == column)?;
+        let width = self.columns.len();
+        Some((0..self.times.len()).map(|t| self.values[(t * self.names.len() + name) * width + column]).collect())
+    }
+
+    /// What has been left out, in a sentence.
+    pub fn left_out(&self) -> String {
+        let mut parts = Vec::new();
+        if self.times.len() < self.all[0] {
+            parts.push(format!("{} of {} times", self.times.len(), self.all[0]));
+        }
+        if self.names.len() < self.all[1] {
+            parts.push(format!("{} of {} names", self.names.len(), self.all[1]));
+        }
+        if parts.is_empty() { String::new() } else { format!("{}: shown are {}", self.file, parts.join(" and ")) }
+    }
+
+    pub fn json(&self) -> Value {
+        json!({
+            "file": self.file,
+            "names": self.names,
+            "columns": self.columns,
+            "times": numbers(&self.times),
+            "values": numbers(&self.values),
+        })
+    }
+}
+
+/// For each of `all`, its place among the `kept` that stay.
+fn thinned(all: usize, kept: usize) -> Vec<Option<usize>> {
+    let mut next = 0;
+    (0..all)
+        .map(|i| {
+            let takes = next < kept && i * kept >= next * all;
+            next += usize::from(takes);
+            takes.then(|| next - 1)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_table_is_thinned_and_ends_where_it_ends() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut text = String::from("step,time,node,ux\n");
+        (0..=4000).for_each(|i| text += &format!("{i},{}.5,a,{i}\n{i},{}.5,b,\n", i, i));
+        std::fs::write(dir.path().join("t.csv"), text).unwrap();
+        let history = History::read(dir.path(), "t.csv").unwrap().unwrap();
+        assert_eq!((history.all, history.names.len()), ([4001, 2], 2));
+        assert!(history.times.len() <= TIMES + 1 && history.left_out().contains("of 4001 times"));
+        let line = history.line(0, "ux").unwrap();
+        assert_eq!((line[0], *line.last().unwrap()), (0.0, 4000.0));
+        assert!(line.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(history.line(1, "ux").unwrap().iter().all(|value| value.is_nan()));
+    }
+
+    #[test]
+    fn names_that_stay_are_spread_evenly() {
+        let slots = thinned(10, 3);
+        assert_eq!(slots.iter().flatten().copied().collect::<Vec<_>>(), [0, 1, 2]);
+        assert_eq!(slots.iter().position(|slot| *slot == Some(2)), Some(7));
+        assert_eq!(thinned(2, 2), [Some(0), Some(1)]);
+    }
+}

@@ -1,0 +1,197 @@
+//! One HTML file of a folder of results: tables, plots, the moving scene. It opens without a network and holds all it needs:
+//! our own style and scripts from the files beside this one, numbers as base64 arrays of Float32.
+//!
+//! Bounded: histories and grids are thinned, which the page says.
+
+mod grids;
+mod histories;
+mod html;
+mod points;
+mod result;
+
+use super::at;
+use base64::prelude::{BASE64_STANDARD, Engine};
+use histories::History;
+use html::{data, escaped};
+use serde_json::{Value, json};
+use std::fs;
+use std::io;
+use std::path::Path;
+
+const PAGE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+const SCRIPTS: [&str; 5] = [
+    include_str!("data.js"),
+    include_str!("plot.js"),
+    include_str!("camera.js"),
+    include_str!("scene.js"),
+    include_str!("main.js"),
+];
+
+/// What moves.
+#[derive(Default)]
+struct Scene {
+    times: Vec<f32>,
+    /// Undeformed, three numbers a point.
+    x0: Vec<f32>,
+    /// Displacements, by time and point.
+    u: Vec<f32>,
+    /// Three points each, and the cells they belong to.
+    triangles: Vec<u32>,
+    triangle_cells: Vec<u32>,
+    /// Two points each.
+    lines: Vec<u32>,
+    line_cells: Vec<u32>,
+    edges: Vec<u32>,
+    /// What each cell is part of.
+    kinds: Vec<u8>,
+    /// Names, and numbers by time and cell.
+    fields: Vec<(String, Vec<f32>)>,
+    /// Names of the points, where they are all there is to see.
+    labels: Vec<String>,
+    /// Times there are.
+    all: usize,
+}
+
+/// The page of a folder; an error names what cannot be read.
+pub fn page(folder: &Path) -> io::Result<String> {
+    let files = tables(folder)?;
+    let json = result_json(&folder.join("result.json"))?;
+    if files.is_empty() && json.is_null() {
+        return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
+    }
+    let result = result::Result::of(folder, json);
+    let mut histories = Vec::new();
+    for file in &files {
+        histories.extend(History::read(folder, file)?.filter(|history| !history.times.is_empty()));
+    }
+    let mut notes: Vec<String> = histories.iter().map(History::left_out).filter(|note| !note.is_empty()).collect();
+    let scene = match grids::scene(folder)? {
+        Some(Ok(scene)) => Some(scene),
+        Some(Err(reason)) => {
+            notes.push(reason);
+            points::scene(&histories)
+        }
+        None => points::scene(&histories),
+    };
+    if let Some(scene) = scene.as_ref().filter(|scene| scene.times.len() < scene.all) {
+        notes.push(format!("scene: shown are {} of {} times", scene.times.len(), scene.all));
+    }
+    let title = result.title(folder);
+    let all = json!({
+        "histories": histories.iter().map(History::json).collect::<Vec<Value>>(),
+        "scene": scene.as_ref().map(Scene::json),
+    });
+    let notes: String = notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
+    let notes = if notes.is_empty() { notes } else { format!("<ul class=\"note\">{notes}</ul>\n") };
+    let scripts = SCRIPTS.concat();
+    let parts = [
+        ("{{title}}", escaped(&title)),
+        ("{{style}}", STYLE.to_owned()),
+        ("{{status}}", result.status()),
+        ("{{expectations}}", result.expectations()),
+        ("{{energy}}", energy(&histories)),
+        ("{{notes}}", notes),
+        ("{{numbers}}", result.numbers()),
+        ("{{texts}}", result.texts()),
+        ("{{data}}", data("data", &all)),
+        ("{{script}}", scripts),
+    ];
+    Ok(filled(PAGE, &parts))
+}
+
+/// A text with its marks replaced, in one pass: what is put in is never looked at again.
+fn filled(page: &str, parts: &[(&str, String)]) -> String {
+    let mut out = String::with_capacity(page.len() + parts.iter().map(|(_, text)| text.len()).sum::<usize>());
+    let mut rest = page;
+    while let Some(at) = rest.find("{{") {
+        out.push_str(&rest[..at]);
+        rest = &rest[at..];
+        match parts.iter().find(|(mark, _)| rest.starts_with(mark)) {
+            Some((mark, text)) => {
+                out.push_str(text);
+                rest = &rest[mark.len()..];
+            }
+            None => {
+                out.push_str("{{");
+                rest = &rest[2..];
+            }
+        }
+    }
+    out + rest
+}
+
+/// Energies at the start, at the end and at their largest, and what the time integration made of the balance.
+fn energy(histories: &[History]) -> String {
+    let Some(history) = histories.iter().find(|history| history.file == "energy.csv") else { return String::new() };
+    let is_energy = |name: &&String| !["step", "px", "py", "pz", "lx", "ly", "lz"].contains(&name.as_str());
+    let number = |value: f32| crate::names::short(f64::from(value));
+    let mut largest = 0.0_f32;
+    let mut lost = 0.0_f32;
+    let mut rows = Vec::new();
+    for name in history.columns.iter().filter(is_energy) {
+        let Some(line) = history.line(0, name) else { continue };
+        let most = line.iter().filter(|value| value.is_finite()).fold(0.0_f32, |most, value| most.max(value.abs()));
+        if name == "numerical" {
+            lost = most
+        } else {
+            largest = largest.max(most)
+        }
+        let (Some(&first), Some(&last)) = (line.first(), line.last()) else { continue };
+        if most > 0.0 {
+            rows.push(vec![name.clone(), number(first), number(last), number(most)]);
+        }
+    }
+    let part = if largest > 0.0 { format!("{:.2} %", 100.0 * lost / largest) } else { "0".into() };
+    let table = html::table(&["energy", "first", "last", "largest in size"], &rows);
+    format!(
+        "{table}<p class=\"note\">Balance: what the steps took or gave (numerical) is at most {part} of the largest energy, at the \
+         times shown.</p>\n"
+    )
+}
+
+/// Tables of the folder, in the order a reader looks for them.
+fn tables(folder: &Path) -> io::Result<Vec<String>> {
+    const FIRST: [&str; 2] = ["nodes.csv", "bodies.csv"];
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {
+        let name = entry.map_err(|e| at(folder, e))?.file_name();
+        names.extend(name.to_str().filter(|name| name.ends_with(".csv")).map(String::from));
+    }
+    names.sort_by_key(|name| (FIRST.iter().position(|first| first == name).unwrap_or(FIRST.len()), name.clone()));
+    Ok(names)
+}
+
+/// Null where there is none.
+fn result_json(path: &Path) -> io::Result<Value> {
+    match fs::read(path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(Value::Null),
+        read => serde_json::from_slice(&read.map_err(|e| at(path, e))?).map_err(|e| at(path, e.into())),
+    }
+}
+
+/// As the page reads them: base64 of little-endian Float32.
+fn numbers(values: &[f32]) -> String {
+    BASE64_STANDARD.encode(values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_within_parts_stay() {
+        let parts = [("{{a}}", "{{b}}".to_string()), ("{{b}}", "2".to_string())];
+        assert_eq!(filled("{{a}} {{c}} {{b}}{{", &parts), "{{b}} {{c}} 2{{");
+    }
+
+    #[test]
+    fn the_page_asks_for_nothing_from_elsewhere() {
+        for text in [PAGE, STYLE].iter().chain(&SCRIPTS) {
+            for word in ["http:", "https:", "src=", "@import", "url(", "fetch(", "XMLHttpRequest", "import("] {
+                assert!(!text.contains(word), "{word}");
+            }
+            assert!(!text.contains("</script>") || *text == PAGE);
+        }
+    }
+}

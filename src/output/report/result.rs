@@ -1,0 +1,142 @@
+//! How the run went, as tables that need no script: status, plan, counts, expectations, the deck.
+
+use super::html::{escaped, table};
+use crate::names::short;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What result.json and run.log say.
+pub struct Result {
+    /// Null where there is no result.json.
+    pub json: Value,
+    /// The deck as run.log names it.
+    pub deck: Option<String>,
+    /// Its text, if it can be found and is that of this run to the last byte.
+    pub text: Option<String>,
+}
+
+impl Result {
+    pub fn of(folder: &Path, json: Value) -> Result {
+        let log = fs::read_to_string(folder.join("run.log")).unwrap_or_default();
+        let deck = log.lines().next().and_then(|line| line.split_once(", deck ")).map(|(_, deck)| deck.to_owned());
+        let hash = json["deck_hash"].as_str().unwrap_or_default();
+        let beside = folder.parent().map(Path::to_path_buf).unwrap_or_default();
+        let found = deck.iter().flat_map(|deck| [PathBuf::from(deck), beside.join(deck)]);
+        let text = found.filter_map(|path| fs::read_to_string(path).ok()).find(|text| digest(text) == hash);
+        Result { json, deck, text }
+    }
+
+    /// That of the deck; else the name of the deck or the folder.
+    pub fn title(&self, folder: &Path) -> String {
+        let stem = |path: &Path| path.file_stem().map(|name| name.to_string_lossy().into_owned());
+        match self.json["title"].as_str() {
+            Some(title) if !title.is_empty() => title.to_owned(),
+            _ => {
+                let deck = self.deck.as_deref().map(Path::new).filter(|deck| !deck.ends_with("deck.toml"));
+                let folder = folder.file_name().map(|name| name.to_string_lossy().into_owned());
+                deck.and_then(stem).or(folder).unwrap_or_else(|| "Results".into())
+            }
+        }
+    }
+
+    /// A badge and the reason.
+    pub fn status(&self) -> String {
+        let Some(status) = self.json["status"].as_str() else {
+            return "<p><span class=\"badge bad\">unfinished</span> There is no result.json: the run is still going, or was \
+                    killed. What its files hold is shown.</p>\n"
+                .into();
+        };
+        let class = if status == "done" { "good" } else { "bad" };
+        let reason = escaped(self.json["reason"].as_str().unwrap_or_default());
+        format!("<p><span class=\"badge {class}\">{}</span> {reason}</p>\n", escaped(status))
+    }
+
+    pub fn expectations(&self) -> String {
+        let Some(list) = self.json["expectations"].as_array().filter(|list| !list.is_empty()) else {
+            return String::new();
+        };
+        let number = |value: &Value| value.as_f64().map_or(String::new(), significant);
+        let rows: Vec<Vec<String>> = list
+            .iter()
+            .map(|one| {
+                let kind = if one["relative"].as_bool() == Some(true) { "relative" } else { "absolute" };
+                let tolerance = one["tolerance"].as_f64().map_or(String::new(), |t| format!("{} {kind}", short(t)));
+                let bound = one["bound"].as_str().map_or(String::new(), |bound| format!("{bound} "));
+                vec![
+                    one["label"].as_str().unwrap_or_default().into(),
+                    if one["passed"].as_bool() == Some(true) { "ok" } else { "MISSED" }.into(),
+                    number(&one["value"]),
+                    bound + &number(&one["expected"]),
+                    one["error"].as_f64().map_or(String::new(), short),
+                    tolerance,
+                    one["reason"].as_str().or(one["source"].as_str()).unwrap_or_default().into(),
+                ]
+            })
+            .collect();
+        let head = ["expected of the run", "verdict", "value", "expected", "error", "tolerance", "source"];
+        format!("<section><h2>Expectations</h2>\n{}</section>\n", table(&head, &rows))
+    }
+
+    pub fn numbers(&self) -> String {
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        let mut row = |name: &str, value: String| rows.push(vec![name.to_owned(), value]);
+        for (key, value) in self.json["counts"].as_object().into_iter().flatten() {
+            row(key, value.to_string());
+        }
+        for (key, value) in self.json["timings"].as_object().into_iter().flatten() {
+            let name = key.strip_suffix("_s").unwrap_or(key);
+            row(
+                &format!("{name} time"),
+                value.as_f64().map_or(String::new(), |seconds| format!("{} s", short(seconds))),
+            );
+        }
+        if let Some(bytes) = self.json["peak_memory_bytes"].as_f64() {
+            row("peak memory", format!("{:.1} MB", bytes / 1e6));
+        }
+        for (key, name) in [("joint_violation", "largest gap of a joint"), ("rotation_drift", "rotation drift")] {
+            if let Some(value) = self.json[key].as_f64() {
+                row(name, short(value));
+            }
+        }
+        row("rdsolve", self.json["version"].as_str().unwrap_or("?").to_owned());
+        row("deck", self.deck.clone().unwrap_or_else(|| "?".into()));
+        row("SHA-256", self.json["deck_hash"].as_str().unwrap_or("?").to_owned());
+        format!("<section><h2>Counts and times</h2>\n{}</section>\n", table(&[], &rows))
+    }
+
+    /// The plan, warnings, the deck.
+    pub fn texts(&self) -> String {
+        let lines = |key: &str| -> Vec<&str> {
+            self.json[key].as_array().into_iter().flatten().filter_map(Value::as_str).collect()
+        };
+        let warnings: String = lines("warnings").iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
+        let warnings = if warnings.is_empty() { warnings } else { format!("<h2>Warnings</h2>\n<ul>{warnings}</ul>\n") };
+        let deck = match (&self.text, &self.deck) {
+            (Some(text), _) => format!("<details><summary>Deck</summary>\n<pre>{}</pre></details>\n", escaped(text)),
+            (None, Some(deck)) => format!(
+                "<p class=\"note\">The text of <code>{}</code> is not shown: it is not there, has changed since, or was run \
+                 with <code>--set</code> or a mesh file.</p>\n",
+                escaped(deck)
+            ),
+            (None, None) => String::new(),
+        };
+        let plan = lines("plan").join("\n");
+        let plan = if plan.is_empty() { plan } else { format!("<h2>Plan</h2>\n<pre>{}</pre>\n", escaped(&plan)) };
+        format!("<section>{warnings}{plan}{deck}</section>\n")
+    }
+}
+
+/// To seven digits.
+fn significant(number: f64) -> String {
+    let rounded: f64 = format!("{number:.6e}").parse().unwrap_or(number);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-4..1e9).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+fn digest(text: &str) -> String {
+    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
+}
