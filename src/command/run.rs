@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, doubts, load, no_room, output_folder, planned, show};
 use crate::diagnostic::Diagnostic;
-use crate::model::{ArcLength, Control, DIRECTIONS, Model};
+use crate::model::{ArcLength, Control, DIRECTIONS, Kind, Model};
 use crate::names::short;
 use crate::output::expect::{Expectations, Verdict};
 use crate::output::log::Log;
@@ -71,6 +71,7 @@ fn compute(
     log.say(&format!("rdsolve {}, deck {}", env!("CARGO_PKG_VERSION"), loaded.source.path))?;
     log.say(text)?;
     let mut watchers = Watchers {
+        balance: Balance::default(),
         log,
         files: Files::open(folder, model, None)?,
         expectations: Expectations::new(model),
@@ -91,6 +92,12 @@ fn compute(
         let text = format!(
             "initial velocities do not agree with the joints: they were changed by up to {part} of the largest"
         );
+        if !quiet {
+            show(&[Diagnostic::warning(&text)], &loaded.source);
+        }
+        warnings.push(text);
+    }
+    if let Some(text) = imbalance(&watchers.balance) {
         if !quiet {
             show(&[Diagnostic::warning(&text)], &loaded.source);
         }
@@ -223,10 +230,13 @@ fn conclude(report: &Report, loaded: &Loaded, folder: &Path, quiet: bool) -> Res
 fn line(v: &Verdict) -> String {
     let mark = if v.passed { "ok  " } else { "MISS" };
     let value = v.value.map_or("no value".to_string(), |value| format!("{value:.6e}"));
+    if let Some(bound) = v.bound {
+        return format!("{mark} {}: {value}, {bound} {:.6e}", v.label, v.expected);
+    }
     let error = match (v.error, &v.reason) {
         (Some(error), _) => {
             let kind = if v.relative { "relative" } else { "absolute" };
-            format!("{kind} error {error:.2e} of {:.0e}", v.tolerance)
+            format!("{kind} error {error:.2e} of {}", short(v.tolerance))
         }
         (None, Some(reason)) => reason.clone(),
         (None, None) => String::new(),
@@ -234,8 +244,43 @@ fn line(v: &Verdict) -> String {
     format!("{mark} {}: {value}, expected {:.6e}, {error}", v.label, v.expected)
 }
 
+/// What the scheme has taken, or given, at the worst, and the most energy there was.
+#[derive(Default)]
+struct Balance {
+    taken: f64,
+    given: f64,
+    most: f64,
+}
+
+impl Balance {
+    fn see(&mut self, frame: &Frame) {
+        // In statics the work of a step is that of its ends, whatever lies between.
+        if let Some(energy) = frame.energy.filter(|_| frame.model.analysis.kind == Kind::Dynamic) {
+            self.taken = self.taken.max(energy.numerical);
+            self.given = self.given.max(-energy.numerical);
+            self.most = self.most.max(energy.total.abs()).max(energy.external.abs());
+        }
+    }
+}
+
+/// A balance of energies that no one should take on trust.
+fn imbalance(balance: &Balance) -> Option<String> {
+    const GIVEN: f64 = 0.02; // of the most there was: schemes give next to nothing
+    const TAKEN: f64 = 0.2; // they may damp what no step resolves
+    let part = |energy: f64| format!("{:.0} % of the most energy there was", 100.0 * energy / balance.most);
+    let longer = "look at `numerical` in energy.csv, and try shorter steps";
+    if balance.given > GIVEN * balance.most {
+        Some(format!("the time integration has made energy from nothing, {}: {longer}", part(balance.given)))
+    } else if balance.taken > TAKEN * balance.most {
+        Some(format!("the time integration has taken {}: {longer}", part(balance.taken)))
+    } else {
+        None
+    }
+}
+
 /// Everyone who watches the run, one after the other.
 struct Watchers {
+    balance: Balance,
     log: Log,
     files: Files,
     expectations: Expectations,
@@ -244,6 +289,7 @@ struct Watchers {
 
 impl Observer for Watchers {
     fn see(&mut self, frame: &Frame) -> io::Result<()> {
+        self.balance.see(frame);
         self.expectations.see(frame)?;
         self.progress.see(frame)?;
         self.log.see(frame)?;

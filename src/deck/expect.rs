@@ -13,7 +13,7 @@ pub struct Expect {
     /// Name of a point, body, beam, bar, link or contact, "energy", or "analysis" for its time.
     #[schemars(required)]
     pub at: Maybe<String>,
-    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest anywhere.
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "fx" to "mz" of a joint, what it does to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,
     /// When the value is taken; with arc-length, the first time the load comes to it.

@@ -360,8 +360,9 @@ impl<'d> Builder<'d> {
             Drawn::Cylinder { radius, length, axis, .. } => {
                 let axes = along(axis);
                 for end in (0..=between + 1).map(|k| length * (k as f64 / (between + 1) as f64 - 0.5)) {
-                    for k in 0..RIM {
-                        let (sin, cos) = (TAU * k as f64 / RIM as f64).sin_cos();
+                    let rim = RIM * (between + 1);
+                    for k in 0..rim {
+                        let (sin, cos) = (TAU * k as f64 / rim as f64).sin_cos();
                         corners.push(axes * Vec3::new(radius * cos, radius * sin, end));
                     }
                 }
@@ -532,7 +533,8 @@ impl<'d> Builder<'d> {
         };
         let least = points.iter().map(gap).fold(f64::INFINITY, f64::min);
         let size = points.iter().map(|point| self.x(point.nodes[0]).norm()).fold(center.norm(), f64::max);
-        if least < -1e-9 * size {
+        // Decks have some digits only.
+        if least < -1e-6 * size {
             let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));
             self.warn(owner.span, message, "it is pushed out at t = 0");
         }
