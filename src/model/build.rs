@@ -50,6 +50,7 @@ pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnost
     b.links();
     b.joints();
     b.attachments();
+    b.touch_points();
     b.environment();
     b.sure = !b.unsure;
     b.supports();

@@ -153,6 +153,16 @@ impl<'d> Builder<'d> {
         Some((node, Surface { center: center - self.x(node), axes, shape }))
     }
 
+    /// Points that the deck names as touching something are connected to it, before supports and loads ask.
+    pub fn touch_points(&mut self) {
+        for name in self.deck.contacts.iter().filter_map(|contact| contact.with.as_ref()).flat_map(|with| &with.values)
+        {
+            if let Some(Place::Point(node)) = self.place(name) {
+                self.touch(node, false);
+            }
+        }
+    }
+
     /// All points that may touch, each once.
     fn touching(
         &mut self,

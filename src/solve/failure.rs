@@ -98,7 +98,11 @@ impl fmt::Display for Failure {
                 list(f, largest)
             }
             Failure::Apart { largest } => {
-                write!(f, "joints cannot be closed at the end of the step; the widest gaps are")?;
+                write!(
+                    f,
+                    "joints cannot be closed at the end of the step (given motions or joints contradict each other, or the step is too long); \
+                     the widest gaps are"
+                )?;
                 list(f, largest)
             }
             Failure::Crawling { pieces, dt } => write!(
@@ -122,7 +126,8 @@ impl fmt::Display for Failure {
             ),
             Failure::Contact { name } => write!(
                 f,
-                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not resolved"
+                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
+                 resolved; where shorter steps do not help, `stiffness` is too low for the speed"
             ),
             Failure::NotFinite { largest } => {
                 write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;

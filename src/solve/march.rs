@@ -251,6 +251,8 @@ impl<'a> Run<'a> {
         let (from, to) = (state.time, stretch.time(k));
         let whole = 1u64 << DEEPEST;
         let (mut at, mut piece, mut cuts, mut successes, mut pieces) = (0u64, whole, 0, 0, 0);
+        // Of the step as the deck has it: gaps of joints shrink with the step, and say less and less.
+        let mut apart = None;
         while at < whole {
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Outcome::Stopped { time: state.time });
@@ -288,7 +290,12 @@ impl<'a> Run<'a> {
                         && self.stepper.system.history == 0
                         && state.time == 0.0
                         && matches!(failure, Failure::Singular { .. });
+                    let is_apart = matches!(failure, Failure::Apart { .. });
+                    if is_apart && apart.is_none() {
+                        apart = Some(failure.clone());
+                    }
                     if piece == 1 || half < analysis.least_step || unheld {
+                        let failure = apart.filter(|_| is_apart).unwrap_or(failure);
                         return Err(Outcome::Failed { time: state.time, failure });
                     }
                     piece /= 2;

@@ -120,7 +120,7 @@ impl<'a> Stepper<'a> {
 
     pub(super) fn stage(&mut self, state: &mut State, scheme: &Coefficients, to: f64) -> Result<Taken, Failure> {
         let touches = self.system.has_contacts();
-        let since = scheme.instant.max(1.0) * (to - state.time);
+        let since = scheme.instant * (to - state.time);
         if touches {
             self.check_length(state, since)?;
         }

@@ -143,3 +143,26 @@ fn points_between_the_corners_of_a_body_touch() {
     // It lies on the post, at 0.15, to the depth of its weight.
     assert!((end[4] - 0.15).abs() < 2e-3, "{end:?}");
 }
+
+/// A peg that stands still and touches a moving box needs nothing else to hold it.
+#[test]
+fn a_fixed_peg_stops_a_hammer() {
+    let text = r#"
+        analysis = { kind = "dynamic", end_time = 0.5, time_step = 1e-3 }
+        points = { peg = [0.6, 0.0, 0.0] }
+        supports = [{ at = "peg", fix = ["ux", "uy", "uz"] }]
+        bodies = [{ name = "hammer", center = [0.0, 0.0, 0.0], mass = 2.0, shape = { kind = "box", size = [1.0, 0.2, 0.2] }, velocity = [1.0, 0.0, 0.0] }]
+        [[contacts]]
+        name = "blow"
+        surface = { shape = "box", body = "hammer", center = [0.0, 0.0, 0.0], size = [1.0, 0.2, 0.2] }
+        with = "peg"
+        stiffness = 1e6
+        restitution = 0.5
+    "#;
+    let model = read(text);
+    let hammer = model.bodies[0].node;
+    let done = go(text, &mut |frame| vec![frame.state.nodes[hammer].v.x]);
+    let end = done.rows.last().expect("a row")[0];
+    // As exact as an impact of 20 steps and more: see impact.rs.
+    assert!((end + 0.5).abs() < 0.02, "{end}");
+}
