@@ -146,7 +146,6 @@ impl Stepper<'_> {
         let tail = &mut r[self.plan.directions.len()..];
         tail.fill(0.0);
         solver.solve(r);
-        state.multipliers.fill(0.0);
         forces.multipliers.values.fill(0.0);
         forces.multipliers.add(&r[self.plan.directions.len()..]);
         state.multipliers.copy_from_slice(&forces.multipliers.values);
