@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Table};
+use super::words::{Maybe, NumberOrAuto, Table};
 
 /// What is computed and over what time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -16,10 +16,15 @@ pub struct Analysis {
     /// The run goes from t = 0 to this time; with arc-length, until the load first comes to it.
     #[schemars(required)]
     pub end_time: Maybe<f64>,
-    /// Time per step; with arc-length, that of the first step, from which the length of the others follows.
+    /// Time per step; "auto": as long as `error_tolerance` lets it be. With arc-length, that of the first step, from which the
+    /// length of the others follows.
     #[schemars(required)]
-    pub time_step: Maybe<f64>,
-    /// A step that does not converge is halved, but not below this. Default: time_step / 2^20.
+    pub time_step: Maybe<NumberOrAuto>,
+    /// With an automatic step: how far displacements may be off for the length of the steps, relative to the largest.
+    /// Default: 1e-3.
+    pub error_tolerance: Maybe<f64>,
+    /// A step that does not converge is halved, but not below this. Default: time_step / 2^20; with an automatic step
+    /// end_time / 10^9.
     pub least_step: Maybe<f64>,
     /// With arc-length: where the run ends, unless `end_time` is reached before.
     pub stop: Maybe<Table<Passage>>,

@@ -109,6 +109,53 @@ impl<const N: usize> JsonSchema for Numbers<N> {
     }
 }
 
+/// A number, or what the program finds by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NumberOrAuto {
+    Number(f64),
+    Auto,
+}
+
+impl<'de> Deserialize<'de> for NumberOrAuto {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = NumberOrAuto;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number or \"auto\"")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<NumberOrAuto, E> {
+                if word == "auto" { Ok(NumberOrAuto::Auto) } else { Err(E::unknown_variant(word, &["auto"])) }
+            }
+
+            fn visit_i64<E: Error>(self, number: i64) -> Result<NumberOrAuto, E> {
+                Ok(NumberOrAuto::Number(number as f64))
+            }
+
+            fn visit_f64<E: Error>(self, number: f64) -> Result<NumberOrAuto, E> {
+                Ok(NumberOrAuto::Number(number))
+            }
+        }
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+impl JsonSchema for NumberOrAuto {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "NumberOrAuto".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "number" }, { "const": "auto" }] })
+    }
+}
+
 /// One value or a list of them.
 #[derive(Debug, Clone)]
 pub struct OneOrMany<T> {

@@ -4,15 +4,16 @@ use super::build::{Builder, Owner, span};
 use super::{Analysis, Control, Gyroscopic, Kind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
-use crate::deck::words::Maybe;
-use crate::diagnostic::Diagnostic;
+use crate::deck::words::{Maybe, NumberOrAuto};
+use crate::diagnostic::{At, Diagnostic};
+use crate::integrators::wilson_theta::STABLE_THETA;
 use crate::integrators::{Bathe, GeneralizedAlpha, RotationUpdate, Scheme, WilsonTheta, hht_alpha, newmark};
 use crate::names::short;
 
-/// Wilson-θ is unconditionally stable from here on.
-const STABLE_THETA: f64 = 1.366;
 /// A step is halved at most so many times, unless the deck says otherwise.
 const HALVINGS: i32 = 20;
+/// Of the whole run: with an automatic step the first that is tried.
+const FIRST_STEP: f64 = 1e-4;
 /// More steps are a slip of the keyboard.
 const MOST_STEPS: f64 = 1e9;
 
@@ -29,6 +30,7 @@ impl<'d> Builder<'d> {
         if let Some(integrator) = &self.deck.integrator {
             self.scheme(integrator);
         }
+        self.can_follow_error();
         if let Some(iteration) = &self.deck.iteration {
             self.iteration(iteration);
         }
@@ -41,7 +43,7 @@ impl<'d> Builder<'d> {
             Some(deck::Kind::Dynamic) | None => Kind::Dynamic,
         };
         let end_time = self.need_positive(&owner, "end_time", &analysis.end_time);
-        let time_step = self.need_positive(&owner, "time_step", &analysis.time_step);
+        let (time_step, error_tolerance) = self.time_step(&owner, analysis, kind);
         let least_step = self.positive("least_step", &analysis.least_step);
         if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
             && step > end
@@ -59,15 +61,58 @@ impl<'d> Builder<'d> {
         {
             self.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
         }
-        let (end_time, time_step) = (end_time.unwrap_or(f64::MAX), time_step.unwrap_or(1.0));
+        let end_time = end_time.unwrap_or(f64::MAX);
+        let (first, least) = match error_tolerance {
+            Some(_) => (FIRST_STEP * end_time, end_time / MOST_STEPS),
+            None => (1.0, time_step.unwrap_or(1.0) * 0.5_f64.powi(HALVINGS)),
+        };
         self.model.analysis = Analysis {
             kind,
             end_time,
-            time_step,
-            least_step: least_step.unwrap_or(time_step * 0.5_f64.powi(HALVINGS)),
+            time_step: time_step.unwrap_or(first),
+            error_tolerance,
+            least_step: least_step.unwrap_or(least),
             plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == deck::Plane::Auto),
             control: Control::Time,
         };
+    }
+
+    /// The length of the steps, or the error that it follows.
+    fn time_step(&mut self, owner: &Owner, analysis: &'d deck::Analysis, kind: Kind) -> (Option<f64>, Option<f64>) {
+        let Some(at) = self.need(owner, "time_step", &analysis.time_step) else { return (None, None) };
+        let tolerance = &analysis.error_tolerance;
+        match at.value {
+            NumberOrAuto::Number(step) => {
+                self.stray("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
+                (self.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
+            }
+            NumberOrAuto::Auto if kind == Kind::Static => {
+                let hint = "load steps have no error in time: give a number";
+                self.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
+                (None, None)
+            }
+            NumberOrAuto::Auto => {
+                if let Some(at) = tolerance
+                    && !(at.value > 0.0 && at.value < 1.0)
+                {
+                    let hint = "it is relative to the largest displacement";
+                    self.error_with::<()>(&at.span, "`error_tolerance` must lie between 0 and 1", hint);
+                }
+                (None, Some(tolerance.as_ref().map_or(1e-3, |at| at.value)))
+            }
+        }
+    }
+
+    /// What an error is estimated by holds for schemes of second order.
+    fn can_follow_error(&mut self) {
+        if self.model.analysis.error_tolerance.is_some()
+            && let Scheme::Newmark(GeneralizedAlpha { gamma, .. }) = self.model.scheme
+            && gamma != 0.5
+            && let Some(at) = self.deck.analysis.as_ref().and_then(|analysis| analysis.value.time_step.as_ref())
+        {
+            let message = format!("`time_step` is \"auto\", but Newmark with gamma = {gamma} is of first order");
+            self.error_with::<()>(&at.span, message, "leave gamma at 0.5, or use \"generalized-alpha\"");
+        }
     }
 
     fn scheme(&mut self, integrator: &'d deck::Integrator) {

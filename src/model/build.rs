@@ -133,6 +133,7 @@ impl<'d> Builder<'d> {
                 kind: Kind::Dynamic,
                 end_time: 0.0,
                 time_step: 0.0,
+                error_tolerance: None,
                 least_step: 0.0,
                 plane: true,
                 control: Control::Time,

@@ -458,6 +458,11 @@ impl<'d> Builder<'d> {
                 let message = format!("{} needs `stiffness`", owner.what);
                 return self.error_with(owner.span, message, "nothing that touches has a mass to choose it by");
             }
+            None if self.model.analysis.error_tolerance.is_some() => {
+                let message = format!("{} needs `stiffness`", owner.what);
+                let hint = "with an automatic time step there is no length of step to choose it by";
+                return self.error_with(owner.span, message, hint);
+            }
             None => mean * (PI / (STEPS * self.model.analysis.time_step)).powi(2),
         };
         let mass = if least.is_finite() { least } else { mean };

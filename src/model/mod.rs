@@ -111,7 +111,10 @@ pub enum Kind {
 pub struct Analysis {
     pub kind: Kind,
     pub end_time: f64,
+    /// With an automatic step the first that is tried.
     pub time_step: f64,
+    /// Of displacements at the end of the run, relative to the largest: steps follow their error. `None`: they are all the same.
+    pub error_tolerance: Option<f64>,
     /// A step is never cut below this.
     pub least_step: f64,
     /// Leave out-of-plane motion out of the unknowns where nothing can cause it.

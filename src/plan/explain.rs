@@ -92,8 +92,11 @@ impl Plan {
                 }
             },
             Analysis::Dynamic => {
-                let time = format!("to t = {} in {steps} steps of {}", analysis.end_time, analysis.time_step);
-                line("analysis", format!("dynamic, {time}, {}", words(&model.scheme)));
+                let time = match analysis.error_tolerance {
+                    Some(tolerance) => format!("in steps that follow their error, {tolerance} in all"),
+                    None => format!("in {steps} steps of {}", analysis.time_step),
+                };
+                line("analysis", format!("dynamic, to t = {} {time}, {}", analysis.end_time, words(&model.scheme)));
                 if let Some(note) = note(&model.scheme) {
                     line("  note", note.to_string());
                 }

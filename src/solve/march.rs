@@ -3,6 +3,7 @@
 use super::accelerate::Anderson;
 use super::failure::Failure;
 use super::joints::{self, Closing};
+use super::pace::Pace;
 use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
@@ -159,6 +160,7 @@ impl<'a> Run<'a> {
             movers: (0..n).filter(moves).collect(),
             leading: joints::leading(model, system),
             wants_forces: wanted.reactions || wanted.energy,
+            mass_weight: 0.0,
             factorizations: 0,
             solves: 0,
             drift: 0.0,
@@ -228,9 +230,15 @@ impl<'a> Run<'a> {
             return self.follow(state, observer, balance, control);
         }
         self.show(state, observer, balance, &first)?;
-        for stretch in stretches(self.stepper.model) {
-            for k in 1..=stretch.steps {
-                self.advance(state, &stretch, k, observer, balance)?;
+        let model = self.stepper.model;
+        let mut pace = model.analysis.error_tolerance.map(|tolerance| Pace::new(model, tolerance, state));
+        for stretch in stretches(model) {
+            if let Some(pace) = &mut pace {
+                self.follow_error(state, &stretch, pace, observer, balance)?;
+            } else {
+                for k in 1..=stretch.steps {
+                    self.advance(state, &stretch, k, observer, balance)?;
+                }
             }
             if stretch.jump {
                 self.stepper.jump(state).map_err(|failure| Outcome::Failed { time: state.time, failure })?;

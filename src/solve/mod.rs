@@ -7,6 +7,7 @@ mod convergence;
 mod failure;
 mod joints;
 mod march;
+mod pace;
 mod path;
 mod refresh;
 mod search;

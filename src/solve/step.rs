@@ -63,6 +63,8 @@ pub struct Stepper<'a> {
     pub first_reach: f64,
     pub reach: f64,
     pub wants_forces: bool,
+    /// What multiplies the masses in the matrix at hand.
+    pub mass_weight: f64,
     pub factorizations: usize,
     pub solves: usize,
     /// Largest departure from orthogonality that a truncated rotation update left to be mended.
@@ -86,9 +88,9 @@ pub struct Taken {
 
 /// Largest translations and rotations of a set of increments.
 #[derive(Debug, Clone, Copy, Default)]
-struct Size {
-    translation: f64,
-    rotation: f64,
+pub(super) struct Size {
+    pub translation: f64,
+    pub rotation: f64,
 }
 
 impl Size {
@@ -349,6 +351,7 @@ impl<'a> Stepper<'a> {
     /// Where all that resists has yielded its derivative may be singular; the elastic matrix then leads on.
     fn form_matrix(&mut self, state: &State, scheme: &Coefficients, since: f64) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
+        self.mass_weight = acceleration;
         let now = Now { nodes: &self.trial, past: &state.history, since };
         let mut moduli = self.refresh.moduli();
         loop {

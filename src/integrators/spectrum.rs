@@ -1,0 +1,106 @@
+//! What a scheme makes of a free oscillator: eigenvalues of a step.
+
+use super::{Coefficients, Scheme};
+use nalgebra::{Complex, Matrix4};
+
+/// Of motion at one ratio of step to period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spectrum {
+    /// Of the period, relative.
+    pub elongation: f64,
+    /// Damping ratio.
+    pub damping: f64,
+}
+
+/// Of a free oscillator with ω Δt = `turn`, below the limit of stability.
+pub fn spectrum(scheme: &Scheme, turn: f64) -> Spectrum {
+    let principal = principal(scheme, turn);
+    let phase = principal.arg();
+    let log = -principal.norm().ln();
+    Spectrum { elongation: turn / phase - 1.0, damping: log / phase.hypot(log) }
+}
+
+/// c, for a scheme of second order: in a step of a smooth motion a displacement goes wrong by c Δt³ |q‴|.
+pub fn error_constant(scheme: &Scheme) -> f64 {
+    const TURN: f64 = 0.1; // small, and far above the rounding of eigenvalues
+    (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(3)
+}
+
+/// The eigenvalue that stands for e^{iωΔt}.
+fn principal(scheme: &Scheme, turn: f64) -> Complex<f64> {
+    let unit = |j: usize| std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
+    let columns = [0, 1, 2, 3].map(|j| step(scheme, turn, unit(j)));
+    let A = Matrix4::from_fn(|i, j| columns[j][i]);
+    A.complex_eigenvalues().iter().copied().fold(Complex::new(0.0, f64::MIN), |x, y| if y.im > x.im { y } else { x })
+}
+
+/// A step of length 1 from (u, v, a, q̈), where a is what the scheme runs on.
+fn step(scheme: &Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
+    let omega2 = turn * turn;
+    let (mut end, q0) = stage(&scheme.coefficients(1.0), omega2, start, [start[1], start[2]]);
+    if let Some([of_a, of_start, of_end]) = scheme.follower() {
+        end[2] = of_a * start[2] + of_start * start[3] + of_end * end[3];
+    }
+    let Scheme::Bathe(bathe) = scheme else { return end };
+    let b = bathe.backward(1.0);
+    stage(&bathe.second(1.0), omega2, end, [b.start * q0, b.start * start[1] + b.between * end[1]]).0
+}
+
+/// One stage for q̈ = −ω² u from (u, v, a, q̈) with `slots` in place of (v, a); returns the increment too.
+fn stage(c: &Coefficients, omega2: f64, [u, _, _, b]: [f64; 4], slots: [f64; 2]) -> ([f64; 4], f64) {
+    let ([k, cv, ca, cb], [w1, w2]) = (c.acceleration, slots);
+    let q = -(omega2 * u + cv * w1 + ca * w2 + cb * b) / (k + omega2);
+    let at = k * q + cv * w1 + ca * w2 + cb * b;
+    let end = |[c1, c2, c3, c4]: [f64; 4]| c1 * q + c2 * w1 + c3 * w2 + c4 * at;
+    let a = end(c.end[2]);
+    ([u + end(c.end[0]), end(c.end[1]), a, a], end(c.end[0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrators::{Bathe, GeneralizedAlpha, RotationUpdate, WilsonTheta, hht_alpha, newmark};
+    use std::f64::consts::TAU;
+
+    /// The schemes are what their names say: eigenvalues of the amplification matrix by their definitions, for Δt/T = 0.05, 0.1
+    /// and 0.2, to the digits given.
+    #[test]
+    fn spectra_of_the_free_oscillator() {
+        let exact = RotationUpdate::Exponential;
+        let radius = |radius| Scheme::GeneralizedAlpha(GeneralizedAlpha::new(radius, exact));
+        let hht = |alpha| Scheme::HhtAlpha(hht_alpha(alpha, exact));
+        let wilson = |theta| Scheme::WilsonTheta(WilsonTheta { theta, rotation: exact });
+        let newmark = |gamma, beta| Scheme::Newmark(newmark(gamma, beta, exact));
+        let cases = [
+            (wilson(1.4), [(1.71063, 0.0023165), (6.14622, 0.0139794), (19.36534, 0.0558601)]),
+            (wilson(1.37), [(1.59122, 0.0020432), (5.75237, 0.0125216), (18.25189, 0.0512614)]),
+            (newmark(0.5, 0.25), [(0.81712, 0.0), (3.20749, 0.0), (12.00331, 0.0)]),
+            (newmark(0.6, 0.3025), [(0.84101, 0.0154532), (3.29459, 0.0294997), (12.25814, 0.0504165)]),
+            (hht(-0.05), [(0.92761, 0.0001674), (3.61110, 0.0011838), (13.20335, 0.0063142)]),
+            (hht(-0.3), [(1.21167, 0.0005409), (4.65667, 0.0037522), (16.48758, 0.0193766)]),
+            (radius(0.8), [(0.86233, 2.08e-5), (3.38284, 0.0001573), (12.63509, 0.0010290)]),
+            (radius(0.5), [(1.21566, 0.000545), (4.67153, 0.00378), (16.53643, 0.0195094)]),
+            (radius(0.0), [(3.90844, 0.0116254), (12.32057, 0.054905), (34.36675, 0.166553)]),
+            (
+                Scheme::Bathe(Bathe { split: 0.5, rotation: exact }),
+                [(0.40950, 0.0001063), (1.61794, 0.0008187), (6.18705, 0.0057035)],
+            ),
+        ];
+        for (scheme, rows) in cases {
+            for (dt, (elongation, damping)) in [0.05, 0.1, 0.2].into_iter().zip(rows) {
+                let got = spectrum(&scheme, TAU * dt);
+                assert!((100.0 * got.elongation - elongation).abs() < 1e-5, "{scheme:?} at {dt}: {got:?}");
+                // The table rounds damping to four digits or to 1e-7, whichever is coarser.
+                assert!((got.damping - damping).abs() < 1e-7_f64.max(6e-4 * damping), "{scheme:?} at {dt}: {got:?}");
+            }
+        }
+    }
+
+    /// By the textbook: 1/12 for the trapezoidal rule, whose only error is one of phase.
+    #[test]
+    fn error_of_the_trapezoidal_rule() {
+        let c = error_constant(&Scheme::Newmark(newmark(0.5, 0.25, RotationUpdate::Exponential)));
+        // The next term of the series is (ωΔt)² = 1e-2 times as large.
+        assert!((c - 1.0 / 12.0).abs() < 1e-2 / 12.0, "{c}");
+    }
+}
