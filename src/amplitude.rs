@@ -49,6 +49,19 @@ impl Amplitude {
         all.into_iter().filter(|j| j.time.is_finite() && (j.after - j.before).abs() > 1e-12).collect()
     }
 
+    /// Times at which the value or its slope may jump.
+    pub fn kinks(&self) -> Vec<f64> {
+        let all = match *self {
+            Amplitude::Table { ref points } => points.iter().map(|point| point[0]).collect(),
+            Amplitude::Sine { start, end, .. }
+            | Amplitude::SineSquared { start, end, .. }
+            | Amplitude::Ramp { start, end }
+            | Amplitude::Step { start, end } => vec![start, end],
+            Amplitude::Constant => Vec::new(),
+        };
+        all.into_iter().filter(|time| time.is_finite()).collect()
+    }
+
     /// The first time from 0 to `end` at which the value, having risen, falls or, having fallen, rises. Jumps are left out.
     pub fn turn(&self, end: f64) -> Option<f64> {
         // First zero of the rate inside where the sine acts; what comes within rounding of an end is no turn.

@@ -13,7 +13,7 @@ use crate::names::short;
 /// A step is halved at most so many times, unless the deck says otherwise.
 const HALVINGS: i32 = 20;
 /// Of the whole run: with an automatic step the first that is tried.
-const FIRST_STEP: f64 = 1e-4;
+const FIRST_STEP: f64 = 5e-3;
 /// More steps are a slip of the keyboard.
 const MOST_STEPS: f64 = 1e9;
 

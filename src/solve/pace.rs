@@ -23,10 +23,22 @@ const TOO_MUCH: f64 = 4.0;
 const SAFETY: f64 = 0.9;
 /// A new length costs a new matrix: steps grow once they may by as much, by no more than twice.
 const WORTH: f64 = 1.4;
-/// What the step in hand weighs against those before it: errors swing with the motion, and it is their sum that counts.
-const WEIGHT: f64 = 0.2;
-/// Motion at the largest velocity for this part of the run counts as displacement: at the start there is none.
-const GLANCE: f64 = 1e-3;
+/// Of a run: errors swing with the motion, and it is their sum that counts, so lengths follow a mean over this time, ...
+const SPAN: f64 = 0.05;
+/// ... in which the last step has this weight at least.
+const WEIGHT: f64 = 0.002;
+/// What remains of the sum of all errors: steady growth to 1 has a root mean square of 1/√3 over a run, and an oscillation one of
+/// 1/√2; 0.6 more is what the scenes B1, C4 and X1 have shown, where errors partly cancel.
+const MEAN: f64 = 0.25;
+/// Steps of a run at least.
+const FEWEST: f64 = 50.0;
+/// Of a run: steps that are tried before the first, to see how far things move.
+const TRIAL: f64 = 0.05;
+const TRIALS: usize = 3;
+/// An estimate of which a filter leaves less is one of motion that the step does not resolve: a period of two steps or less.
+const RESOLVED: f64 = 0.3;
+/// Of the tolerance: such motion does not matter while its amplitude is less. Shorter steps would only draw it out.
+const SLIGHT: f64 = 0.5;
 
 /// The length of steps. Allocated once.
 pub struct Pace {
@@ -34,51 +46,86 @@ pub struct Pace {
     tolerance: f64,
     /// c.
     constant: f64,
-    /// Of the next step.
+    /// Of the next step, and of the longest.
     length: f64,
+    longest: f64,
     /// What a step would err, over what it may, and over its length squared: a mean of the last steps.
     intensity: Option<f64>,
-    /// Largest so far.
+    /// Largest displacement of a node and turn of a body, of the run so far or of the trial.
     motion: Size,
+    /// Nodes of bodies: the errors of their rotations count.
+    bodies: Vec<usize>,
     /// To go back to.
     start: State,
     /// Errors per node.
     errors: Vec<Vec6>,
 }
 
+/// An estimated error relative to the largest motion, after one passage through the matrix, from which what is not resolved
+/// comes with about its amplitude, and after two.
+type Estimate = [f64; 2];
+
 impl Pace {
     pub fn new(model: &Model, tolerance: f64, state: &State) -> Self {
         Pace {
             tolerance,
-            constant: error_constant(&model.scheme),
+            constant: MEAN * error_constant(&model.scheme),
             length: model.analysis.time_step,
+            longest: model.analysis.end_time / FEWEST,
             intensity: None,
             motion: Size::default(),
+            bodies: model.bodies.iter().map(|body| body.node).collect(),
             start: state.clone(),
             errors: vec![Vec6::zeros(); state.nodes.len()],
         }
     }
 
-    /// After a step of this length, with its error over what it may be: whether it stands.
-    fn judge(&mut self, dt: f64, ratio: f64, least: f64) -> bool {
+    /// After a step, which was a `part` of the run: whether it stands. The length of the next follows.
+    fn judge(&mut self, dt: f64, part: f64, [amplitude, error]: Estimate, least: f64) -> bool {
+        let ratio = error / (self.tolerance * part);
+        if ratio > 1.0 && error < RESOLVED * amplitude && amplitude < SLIGHT * self.tolerance {
+            return true;
+        }
         let now = ratio / (dt * dt);
-        if (ratio > TOO_MUCH || ratio.is_nan()) && dt > least {
-            let shorter = if ratio.is_finite() { (SAFETY / ratio).sqrt().max(0.1) } else { 0.1 };
-            self.length = dt * shorter;
+        if (ratio > TOO_MUCH || !ratio.is_finite()) && dt > least {
+            self.length = dt * if ratio.is_finite() { (SAFETY / ratio).sqrt().max(0.1) } else { 0.1 };
             self.intensity = Some(now).filter(|now| now.is_finite());
             return false;
         }
-        let mean = self.intensity.map_or(now, |mean| mean + WEIGHT * (now - mean));
+        let mean = self.intensity.map_or(now, |mean| mean + (part / SPAN).clamp(WEIGHT, 1.0) * (now - mean));
         self.intensity = Some(mean);
         let allowed = 1.0 / mean.sqrt();
-        self.length = if allowed < SAFETY * dt {
-            SAFETY * allowed
+        if allowed < SAFETY * dt {
+            self.length = SAFETY * allowed;
         } else if allowed > WORTH * dt {
-            (SAFETY * allowed).min(2.0 * dt)
-        } else {
-            dt
-        };
+            self.length = (SAFETY * allowed).min(2.0 * dt).min(self.longest);
+        }
         true
+    }
+
+    /// Largest displacements and turns of a state. Errors so far are the less for what they have grown by.
+    fn meet(&mut self, model: &Model, state: &State) {
+        let before = self.motion;
+        let motion = &mut self.motion;
+        for (node, spec) in state.nodes.iter().zip(&model.nodes) {
+            motion.translation = motion.translation.max((node.x - spec.x).norm());
+        }
+        for &body in &self.bodies {
+            motion.rotation = motion.rotation.max(2.0 * state.nodes[body].q.imag().norm());
+        }
+        if before.translation > 0.0 {
+            let grown = motion.translation / before.translation;
+            self.intensity = self.intensity.map(|mean| mean / grown);
+        }
+    }
+
+    /// Relative to the largest motion.
+    fn relative(&self) -> f64 {
+        let translation = self.errors.iter().map(|e| top(e).norm()).fold(0.0, f64::max);
+        let rotation = self.bodies.iter().map(|&body| bottom(&self.errors[body]).norm()).fold(0.0, f64::max);
+        // Nothing moves, nothing is wrong.
+        let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
+        part(translation, self.motion.translation).max(part(rotation, self.motion.rotation))
     }
 }
 
@@ -92,8 +139,11 @@ impl Run<'_> {
         observer: &mut dyn Observer,
         balance: Option<f64>,
     ) -> Result<(), Outcome> {
-        let analysis = &self.stepper.model.analysis;
-        let least = analysis.least_step;
+        let model = self.stepper.model;
+        let (end, least) = (model.analysis.end_time, model.analysis.least_step);
+        if pace.motion.translation == 0.0 && pace.motion.rotation == 0.0 {
+            self.stepper.look_ahead(state, pace);
+        }
         let mut cuts = 0;
         while state.time < stretch.to {
             if self.stop.load(Ordering::Relaxed) {
@@ -106,15 +156,15 @@ impl Run<'_> {
             pace.start.copy_from(state);
             match self.stepper.step(state, target) {
                 Ok(taken) => {
-                    let ratio = self.stepper.error(state, dt, pace) * analysis.end_time / dt;
-                    if !pace.judge(dt, ratio, least) {
+                    let estimate = self.stepper.estimate(state, dt, pace);
+                    if !pace.judge(dt, dt / end, estimate, least) {
                         state.copy_from(&pace.start);
                         cuts += 1;
                         self.counts.cuts += 1;
                         continue;
                     }
                     let at_end = state.time >= stretch.to;
-                    let last = at_end && stretch.to >= analysis.end_time * (1.0 - 1e-9);
+                    let last = at_end && stretch.to >= end * (1.0 - 1e-9);
                     let step = Step { dt, taken: &taken, cuts, due: at_end && stretch.due, last, passed: &[] };
                     self.show(state, observer, balance, &step)?;
                     cuts = 0;
@@ -134,37 +184,46 @@ impl Run<'_> {
 }
 
 impl Stepper<'_> {
-    /// Of a step of length `dt` to `state`: its error over what the whole run may err.
-    fn error(&mut self, state: &State, dt: f64, pace: &mut Pace) -> f64 {
-        let Pace { motion, errors, .. } = pace;
-        let (mut speed, mut spin) = (0.0f64, 0.0f64);
-        for (node, spec) in state.nodes.iter().zip(&self.model.nodes) {
-            motion.translation = motion.translation.max((node.x - spec.x).norm());
-            motion.rotation = motion.rotation.max(2.0 * node.q.imag().norm());
-            speed = speed.max(node.v.norm());
-            spin = spin.max(node.omega.norm());
+    /// How far things move in a few long steps, or in shorter ones where these fail: errors at the start are small against
+    /// that, whatever they are against the motion so far.
+    fn look_ahead(&mut self, state: &mut State, pace: &mut Pace) {
+        let (drift, violation) = (self.drift, self.violation);
+        pace.start.copy_from(state);
+        let mut dt = TRIAL * self.model.analysis.end_time;
+        let (mut taken, mut failed) = (0, 0);
+        while taken < TRIALS && failed < TRIALS {
+            if self.step(state, state.time + dt).is_ok() {
+                pace.meet(self.model, state);
+                taken += 1;
+            } else {
+                dt *= 0.1;
+                failed += 1;
+            }
         }
-        let ahead = GLANCE * self.model.analysis.end_time;
-        let translation = motion.translation.max(ahead * speed);
-        let rotation = motion.rotation.max(ahead * spin).max(translation / self.length);
-        self.estimate(state, pace.constant * dt.powi(3), errors);
-        let mut size = Size::default();
-        for e in errors.iter() {
-            size.translation = size.translation.max(top(e).norm());
-            size.rotation = size.rotation.max(bottom(e).norm());
-        }
-        // Nothing moves, nothing is wrong.
-        let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
-        part(size.translation, translation).max(part(size.rotation, rotation)) / pace.tolerance
+        state.copy_from(&pace.start);
+        self.refresh.rejected();
+        (self.drift, self.violation) = (drift, violation);
     }
 
-    /// (K + w M)⁻¹ w M e with e = `factor` q‴, per node.
-    fn estimate(&mut self, state: &State, factor: f64, errors: &mut [Vec6]) {
-        errors.fill(Vec6::zeros());
+    /// Of a step of length `dt` to `state`.
+    fn estimate(&mut self, state: &State, dt: f64, pace: &mut Pace) -> Estimate {
+        pace.meet(self.model, state);
+        pace.errors.fill(Vec6::zeros());
+        let factor = pace.constant * dt.powi(3);
         for &node in &self.movers {
             let rows = &self.plan.rows[node];
-            errors[node] = Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { factor * state.jerk[node][i] });
+            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { factor * state.jerk[node][i] };
+            pace.errors[node] = Vec6::from_fn(|i, _| entry(i));
         }
+        self.system.carry(&state.nodes, &mut pace.errors);
+        [0.0; 2].map(|_| {
+            self.filter(state, &mut pace.errors);
+            pace.relative()
+        })
+    }
+
+    /// e ← (K + w M)⁻¹ w M e, per node.
+    fn filter(&mut self, state: &State, errors: &mut [Vec6]) {
         self.system.weigh(&state.nodes, errors, &mut self.forces);
         for (r, &(node, dof)) in self.r.iter_mut().zip(&self.plan.directions) {
             *r = self.mass_weight * self.forces.on_nodes[node][dof];

@@ -36,10 +36,20 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
             out.push(station(t, true, false));
         }
     }
-    let loads = model.loads.iter().filter_map(|load| load.amplitude);
-    let pressures = model.pressures.iter().filter_map(|load| load.amplitude);
-    for amplitude in loads.chain(pressures).chain(model.base_accelerations.iter().map(|base| base.amplitude)) {
+    let driving = || {
+        let loads = model.loads.iter().filter_map(|load| load.amplitude);
+        let pressures = model.pressures.iter().filter_map(|load| load.amplitude);
+        loads.chain(pressures).chain(model.base_accelerations.iter().map(|base| base.amplitude))
+    };
+    for amplitude in driving() {
         out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| station(jump.time, false, true)));
+    }
+    if model.analysis.error_tolerance.is_some() {
+        // Nothing that begins and ends within a step may be missed, and errors are those of smooth motion.
+        let motions = model.held.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
+        for amplitude in motions.chain(driving()) {
+            out.extend(model.amplitudes[amplitude].kinks().into_iter().map(|time| station(time, false, false)));
+        }
     }
     out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));
     out.sort_by(|a, b| a.to.total_cmp(&b.to));
