@@ -93,6 +93,9 @@ fn no_step_after_the_first_allocates() {
             }
         }
     }
+    m.analysis.error_tolerance = Some(0.05);
+    assert_none(&m, rdsolve::linear::Kind::Block);
+    m.analysis.error_tolerance = None;
     soften(&mut m, 10.0);
     m.iteration.limit = 200;
     for method in [Method::TangentStiffness, Method::InitialLoad, Method::Auto] {
