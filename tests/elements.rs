@@ -108,7 +108,14 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("damped beam of 2 nodes", beam::<2>(&frame, start, 0.3), &nodes_of(2, &frame, start));
     add("damped beam of 4 nodes", beam::<4>(&frame, start, 0.3), &nodes_of(4, &frame, start));
     let ends = nodes_of(2, &frame, start);
-    let link = |law, direction| Link { nodes: [0, 1], law, damping: 0.7, direction, free_length: 1.2 };
+    let link = |law, direction| Link {
+        nodes: [0, 1],
+        law,
+        damping: 0.7,
+        direction,
+        free_length: 1.2,
+        start: [ends[0], ends[1]],
+    };
     let linear = Law::Linear { stiffness: 20.0, preload: 1.0 };
     let d = frame.column(1).into_owned();
     add("link", Box::new(Links(vec![link(linear.clone(), None)])), &ends);
@@ -545,4 +552,30 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let tip = nalgebra::Matrix6::from_fn(|i, j| K[(6 + i) * 12 + 6 + j]);
     let product = tip * flexibility;
     assert!((product - nalgebra::Matrix6::identity()).amax() < 1e-12, "{product}"); // condition ~ 100
+}
+
+/// Displacements of 1e-12 of the element: forces are K u to the digits of u, not to those of positions, which would be four.
+#[test]
+fn small_displacements_keep_their_digits() {
+    let mut rng = StdRng::seed_from_u64(11);
+    let straight = |kind: &Kind| ["beam", "damped beam", "bar"].iter().any(|name| kind.name.starts_with(name));
+    for kind in elastic(&mut rng).iter().filter(|kind| straight(kind)) {
+        let rest: Vec<Node> = kind.x.iter().map(|x| Node::at_rest(*x)).collect();
+        let d = kind.block.dofs();
+        let (mut nodes, mut u) = (rest.clone(), Vec::new());
+        for (node, x) in nodes.iter_mut().zip(&kind.x) {
+            let (by, turn) = (vector(&mut rng, 1e-12), vector(&mut rng, 1e-12));
+            node.place(x, &Vec3::zeros(), &by);
+            node.q = rotation::exp(&turn);
+            u.extend([by, turn].iter().flatten().take(d));
+        }
+        let K = kind.tangent(&rest, 0.0, Moduli::Elastic);
+        let expected = &K * nalgebra::DVector::from_vec(u);
+        let got = kind.forces(&nodes);
+        for (row, expected) in expected.iter().enumerate() {
+            let off = (got[row / d][row % d] - expected).abs() / K.amax();
+            // Rounding of u, and what is left of second order.
+            assert!(off < 1e-26, "{}, row {row}: {off:e}", kind.name);
+        }
+    }
 }

@@ -4,6 +4,7 @@
 //! is x_b = x_d + S, v_b = v_d + ω×S, a_b = a_d + α×S + ω×(ω×S); forces go the other way by Dᵀ. Directions that are not
 //! constrained remain the node's own. Components are global.
 
+use crate::math::rotation::change;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
 use crate::state::{Increment, Node};
 
@@ -14,6 +15,8 @@ pub struct Attachment {
     pub master: usize,
     /// From master to node in the undeformed state.
     pub S0: Vec3,
+    /// Where master and node lay then.
+    start: [Vec3; 2],
     /// Directions taken from the master.
     pub dofs: [bool; 6],
     /// All six are.
@@ -21,8 +24,10 @@ pub struct Attachment {
 }
 
 impl Attachment {
-    pub fn new(node: usize, master: usize, S0: Vec3, dofs: [bool; 6]) -> Self {
-        Attachment { node, master, S0, dofs, rigid: dofs == [true; 6] }
+    /// `x`: initial positions of all nodes.
+    pub fn new(node: usize, master: usize, x: &[Vec3], dofs: [bool; 6]) -> Self {
+        let start = [x[master], x[node]];
+        Attachment { node, master, S0: start[1] - start[0], start, dofs, rigid: dofs == [true; 6] }
     }
 
     #[inline]
@@ -38,15 +43,18 @@ impl Attachment {
         let S = self.arm(&master);
         let omega_S = master.omega.cross(&S);
         // (45), (46) with g = ω×(ω×S) (49)
-        let x = master.x + S;
-        let v = master.v + omega_S;
+        let mut placed = Node { v: master.v + omega_S, ..master };
+        // By displacements, whose digits the position does not have: u_b = u_d + (R_d − 1) S₀.
+        let [u, low] = master.parts(&self.start[0]);
+        placed.place(&self.start[1], &(low + change(&master.q, &self.S0)), &u);
+        let u = placed.seen_from(start);
         let a = master.a + master.alpha.cross(&S) + master.omega.cross(&omega_S);
         if self.rigid {
-            nodes[self.node] = Node { x, v, a, ..master };
+            nodes[self.node] = Node { a, ..placed };
             let turn = &increments[self.master];
             increments[self.node] = Increment {
-                q: join(&(x - start.x), &bottom(&turn.q)),
-                d: join(&v, &bottom(&turn.d)),
+                q: join(&u, &bottom(&turn.q)),
+                d: join(&placed.v, &bottom(&turn.d)),
                 dd: join(&a, &bottom(&turn.dd)),
             };
             return;
@@ -57,8 +65,8 @@ impl Attachment {
         let own = &mut increments[self.node];
         for i in 0..3 {
             if self.dofs[i] {
-                own.q[i] = x[i] - start.x[i];
-                own.d[i] = v[i];
+                own.q[i] = u[i];
+                own.d[i] = placed.v[i];
                 own.dd[i] = a[i];
             }
             if self.dofs[3 + i] {
@@ -71,7 +79,8 @@ impl Attachment {
         nodes[self.node].advance(start, &own, crate::math::rotation::RotationUpdate::Exponential);
         // Positions once more, without the rounding of start + (x − start).
         for i in (0..3).filter(|&i| self.dofs[i]) {
-            nodes[self.node].x[i] = x[i];
+            nodes[self.node].x[i] = placed.x[i];
+            nodes[self.node].low[i] = placed.low[i];
         }
     }
 

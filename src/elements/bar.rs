@@ -4,7 +4,7 @@ use super::link::{Law as LinkLaw, Link, Links};
 use super::{Block, Force, Moduli, subtract};
 use crate::materials::{Bar, Law, Spent};
 use crate::math::{Mat3, Vec3};
-use crate::state::{Node, Now};
+use crate::state::{Node, Now, elongation, stretch};
 
 /// An elastic bar is a line spring of stiffness EA/L, L its length without force, `free` times that at t = 0; `damping` is the
 /// factor of stiffness-proportional damping (time).
@@ -17,13 +17,14 @@ pub fn links(
     damping: f64,
 ) -> Links {
     let link = |&nodes: &[usize; 2]| {
-        let length = free * (x[nodes[1]] - x[nodes[0]]).norm();
+        let start = nodes.map(|node| x[node]);
+        let length = free * (start[1] - start[0]).norm();
         let stiffness = axial_stiffness / length;
         let law = match tension_only {
             true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
             false => LinkLaw::Linear { stiffness, preload: 0.0 },
         };
-        Link { nodes, law, damping: damping * stiffness, direction: None, free_length: length }
+        Link { nodes, law, damping: damping * stiffness, direction: None, free_length: length, start }
     };
     Links(elements.iter().map(link).collect())
 }
@@ -31,7 +32,7 @@ pub fn links(
 /// Bars whose material yields. A bar that only takes tension goes slack where its elastic strain would be compressive, and
 /// keeps the length to which it has yielded.
 pub struct YieldingBars {
-    elements: Vec<([usize; 2], f64)>,
+    elements: Vec<Element>,
     area: f64,
     law: Law,
     tension_only: bool,
@@ -39,6 +40,14 @@ pub struct YieldingBars {
     damping: f64,
     /// Numbers a bar remembers.
     memory: usize,
+}
+
+struct Element {
+    nodes: [usize; 2],
+    /// Where they lay at t = 0.
+    start: [Vec3; 2],
+    /// Length without force.
+    free: f64,
 }
 
 struct Stretch {
@@ -62,8 +71,12 @@ impl YieldingBars {
         x: &[Vec3],
         damping: f64,
     ) -> Self {
+        let element = |&nodes: &[usize; 2]| {
+            let start = nodes.map(|node| x[node]);
+            Element { nodes, start, free: free * (start[1] - start[0]).norm() }
+        };
         YieldingBars {
-            elements: elements.iter().map(|&nodes| (nodes, free * (x[nodes[1]] - x[nodes[0]]).norm())).collect(),
+            elements: elements.iter().map(element).collect(),
             area: axial_stiffness / law.elastic().E,
             law: law.clone(),
             tension_only,
@@ -73,12 +86,14 @@ impl YieldingBars {
     }
 
     fn stretch(&self, e: usize, nodes: &[Node]) -> Stretch {
-        let ([a, b], free) = &self.elements[e];
-        let (dx, dv) = (nodes[*b].x - nodes[*a].x, nodes[*b].v - nodes[*a].v);
-        let length = dx.norm();
+        let Element { nodes: ends, start, free } = &self.elements[e];
+        let [a, b] = ends.map(|node| &nodes[node]);
+        let (dx, dv) = (b.seen_from(a), b.v - a.v);
+        let (length, before) = (dx.norm(), start[1] - start[0]);
+        let more = elongation(&before, &stretch(a, b, start), length);
         // Points that have met leave the direction open: no force until they part.
         let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
-        Stretch { e, length, strain: (length - free) / free, strain_rate: e.dot(&dv) / free, dv }
+        Stretch { e, length, strain: ((before.norm() - free) + more) / free, strain_rate: e.dot(&dv) / free, dv }
     }
 
     fn share(&self, e: usize) -> std::ops::Range<usize> {
@@ -121,7 +136,7 @@ impl Block for YieldingBars {
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.elements[e].0
+        &self.elements[e].nodes
     }
 
     fn dofs(&self) -> usize {
@@ -137,7 +152,7 @@ impl Block for YieldingBars {
     }
 
     fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
-        for (e, ([a, b], _)) in self.elements.iter().enumerate() {
+        for (e, Element { nodes: [a, b], .. }) in self.elements.iter().enumerate() {
             let at = self.stretch(e, now.nodes);
             let tension = self.tension(&at, now.since, &now.past[self.share(e)], Moduli::Algorithmic);
             let f = (tension.material + tension.damping) * at.e;
@@ -148,7 +163,7 @@ impl Block for YieldingBars {
 
     fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let at = self.stretch(e, now.nodes);
-        let free = self.elements[e].1;
+        let free = self.elements[e].free;
         let tension = self.tension(&at, now.since, &now.past[self.share(e)], moduli);
         let along = at.e * at.e.transpose();
         let mut k = self.area / free * (tension.modulus + rate_weight * tension.viscosity) * along;
@@ -175,7 +190,7 @@ impl Block for YieldingBars {
             // A slack bar rests at its plastic strain.
             let strain = if self.is_slack(at.strain, past) { past[0] } else { at.strain };
             let (_, spent) = self.law.advance(Bar, &[strain], (now.since, part), past, new);
-            sum += spent * (self.area * self.elements[e].1);
+            sum += spent * (self.area * self.elements[e].free);
         }
         sum
     }
@@ -185,7 +200,7 @@ impl Block for YieldingBars {
             let (at, past) = (self.stretch(e, now.nodes), &now.past[self.share(e)]);
             let slack = self.is_slack(at.strain, past);
             let density = if slack { 0.0 } else { self.law.elastic_energy(Bar, &[at.strain], past) };
-            self.area * self.elements[e].1 * density
+            self.area * self.elements[e].free * density
         };
         (0..self.len()).map(energy).sum()
     }
@@ -194,7 +209,7 @@ impl Block for YieldingBars {
         let power = |e: usize| {
             let at = self.stretch(e, now.nodes);
             let past = &now.past[self.share(e)];
-            self.tension(&at, now.since, past, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].1
+            self.tension(&at, now.since, past, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].free
         };
         if self.damping > 0.0 { (0..self.len()).map(power).sum() } else { 0.0 }
     }

@@ -34,7 +34,7 @@ impl Bushing {
     fn motion(&self, nodes: &[Node]) -> Motion {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let B = a.R() * self.axes;
-        let r = b.x - a.x;
+        let r = b.seen_from(a);
         let relative = a.q.conjugate() * b.q;
         Motion {
             B,

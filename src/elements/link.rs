@@ -2,7 +2,7 @@
 
 use super::{Block, Force, Moduli, subtract};
 use crate::math::Vec3;
-use crate::state::{Node, Now};
+use crate::state::{Node, Now, elongation, stretch};
 
 /// Force against elongation; positive is tension.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +84,8 @@ pub struct Link {
     pub direction: Option<Vec3>,
     /// Length or projection of zero elongation.
     pub free_length: f64,
+    /// Where its nodes lay at t = 0.
+    pub start: [Vec3; 2],
 }
 
 struct Line {
@@ -100,16 +102,19 @@ impl Link {
     #[inline]
     fn line(&self, nodes: &[Node]) -> Line {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
-        let (dx, dv) = (b.x - a.x, b.v - a.v);
-        let (e, length) = match self.direction {
-            Some(d) => (d, d.dot(&dx)),
+        let (dx, dv) = (b.seen_from(a), b.v - a.v);
+        // Displacements have more digits than positions: what they add to the length at the start.
+        let (start, u) = (self.start[1] - self.start[0], stretch(a, b, &self.start));
+        let (e, length, before, more) = match self.direction {
+            Some(d) => (d, d.dot(&dx), d.dot(&start), d.dot(&u)),
             None => {
                 let length = dx.norm();
                 // Points that have met leave the direction open: no force until they part.
-                (if length > 0.0 { dx / length } else { Vec3::zeros() }, length)
+                let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
+                (e, length, start.norm(), elongation(&start, &u, length))
             }
         };
-        Line { e, length, delta: length - self.free_length, rate: e.dot(&dv), dv }
+        Line { e, length, delta: (before - self.free_length) + more, rate: e.dot(&dv), dv }
     }
 
     /// Elongation, its rate and the force (tension positive).

@@ -112,6 +112,14 @@ pub fn log(q: &Quaternion<f64>) -> Vec3 {
     (2.0 * s.atan2(q.w) / s) * v
 }
 
+/// R v − v of a unit quaternion: small for small turns, to its own digits.
+#[inline]
+pub fn change(q: &Quaternion<f64>, v: &Vec3) -> Vec3 {
+    let axis = Vec3::new(q.i, q.j, q.k);
+    let across = axis.cross(v);
+    2.0 * (q.w * across + axis.cross(&across))
+}
+
 /// Rotation matrix of a unit quaternion.
 #[inline]
 pub fn matrix(q: &Quaternion<f64>) -> Mat3 {

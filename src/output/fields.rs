@@ -203,7 +203,7 @@ impl Fields {
         };
         let arm = |p: &Place| now[p.node].R() * p.arm;
         text.push_str("<PointData>\n");
-        vectors(text, "displacement", &|p| now[p.node].x + arm(p) - start[p.node].x - p.arm);
+        vectors(text, "displacement", &|p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
         vectors(text, "velocity", &|p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
         vectors(text, "rotation", &|p| rotation::log(&now[p.node].q));
         for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {

@@ -10,6 +10,7 @@ use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{ContactState, Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
 use crate::linear::TooLarge;
+use crate::math::Vec3;
 use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
@@ -126,7 +127,6 @@ impl<'a> Run<'a> {
             (_, update) => update,
         };
         let length = extent(&at_rest);
-        let reach = at_rest.iter().map(|node| node.x.amax()).fold(0.0, f64::max).max(length);
         let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
         // Of multipliers: gaps.
         let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
@@ -148,8 +148,8 @@ impl<'a> Run<'a> {
                 .then(|| Closing::new(plan, system, n))
                 .transpose()?,
             length,
-            first_reach: reach,
-            reach,
+            origin: at_rest.first().map_or(Vec3::zeros(), |node| node.x),
+            reach: length,
             trial: at_rest,
             increments: vec![Increment::ZERO; n],
             history: vec![0.0; system.history],

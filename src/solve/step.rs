@@ -59,8 +59,9 @@ pub struct Stepper<'a> {
     pub leading: Vec<usize>,
     /// Length on which corrections are judged where hardly anything moves.
     pub length: f64,
-    /// Largest coordinate of a node: what positions are rounded against; at t = 0, and at the start of the step.
-    pub first_reach: f64,
+    /// The first node at t = 0; from there the largest coordinate of a node at the start of the step: what distances are rounded
+    /// against.
+    pub origin: Vec3,
     pub reach: f64,
     pub wants_forces: bool,
     /// What multiplies the masses in the matrix at hand.
@@ -305,8 +306,8 @@ impl<'a> Stepper<'a> {
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
             self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
         }
-        let farthest = |reach: f64, &node: &usize| reach.max(state.nodes[node].x.amax());
-        self.reach = self.movers.iter().fold(self.first_reach, farthest);
+        let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - self.origin).amax());
+        self.reach = self.movers.iter().fold(self.length, farthest);
         self.forces.multipliers.values.copy_from_slice(&state.multipliers);
     }
 

@@ -9,6 +9,8 @@ use nalgebra::Quaternion;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
     pub x: Vec3,
+    /// What the position has beyond the digits of `x`: displacements and distances keep theirs however far off the origin is.
+    pub low: Vec3,
     /// Rotation from the undeformed state, unit quaternion; see [`Node::R`].
     pub q: Quaternion<f64>,
     pub v: Vec3,
@@ -20,7 +22,39 @@ pub struct Node {
 impl Node {
     pub fn at_rest(x: Vec3) -> Self {
         let zero = Vec3::zeros();
-        Node { x, q: Quaternion::identity(), v: zero, omega: zero, a: zero, alpha: zero }
+        Node { x, low: zero, q: Quaternion::identity(), v: zero, omega: zero, a: zero, alpha: zero }
+    }
+
+    /// Puts it `u` away from `x` + `low`.
+    #[inline]
+    pub fn place(&mut self, x: &Vec3, low: &Vec3, u: &Vec3) {
+        for i in 0..3 {
+            let (sum, lost) = two_sum(x[i], u[i]);
+            (self.x[i], self.low[i]) = two_sum(sum, lost + low[i]);
+        }
+    }
+
+    /// How far it is from `x`.
+    #[inline]
+    pub fn moved(&self, x: &Vec3) -> Vec3 {
+        (self.x - x) + self.low
+    }
+
+    /// How far it is from another node.
+    #[inline]
+    pub fn seen_from(&self, other: &Node) -> Vec3 {
+        (self.x - other.x) + (self.low - other.low)
+    }
+
+    /// The displacement from `x` in two parts: differences of such from node to node are exact to their own digits.
+    #[inline]
+    pub fn parts(&self, x: &Vec3) -> [Vec3; 2] {
+        let mut parts = [Vec3::zeros(); 2];
+        for i in 0..3 {
+            let (u, lost) = two_sum(self.x[i], -x[i]);
+            (parts[0][i], parts[1][i]) = (u, lost + self.low[i]);
+        }
+        parts
     }
 
     /// Rotation matrix of `q`.
@@ -35,7 +69,7 @@ impl Node {
     pub fn advance(&mut self, start: &Node, increment: &Increment, update: RotationUpdate) -> f64 {
         let Increment { q, d, dd } = increment;
         let theta = bottom(q);
-        self.x = start.x + top(q);
+        self.place(&start.x, &start.low, &top(q));
         self.v = top(d);
         self.a = top(dd);
         let (turn, drift) = update.quaternion(&theta);
@@ -43,6 +77,28 @@ impl Node {
         (self.omega, self.alpha) = rotation::rates(&theta, &bottom(d), &bottom(dd));
         drift
     }
+}
+
+/// a + b and what rounding has taken from it (Knuth).
+#[inline]
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let c = sum - a;
+    (sum, (a - (sum - c)) + (b - c))
+}
+
+/// How much further than `a` a node `b` has moved, from where they lay at t = 0.
+#[inline]
+pub fn stretch(a: &Node, b: &Node, start: &[Vec3; 2]) -> Vec3 {
+    let ([a, a_low], [b, b_low]) = (a.parts(&start[0]), b.parts(&start[1]));
+    (b - a) + (b_low - a_low)
+}
+
+/// Change of the length of a vector `d`, |d + u| − |d|, to the digits of `u`; `now`: the length |d + u|.
+#[inline]
+pub fn elongation(d: &Vec3, u: &Vec3, now: f64) -> f64 {
+    let sum = now + d.norm();
+    if sum > 0.0 { (2.0 * d + u).dot(u) / sum } else { 0.0 }
 }
 
 /// Motion of a node within a step: displacement and rotation vector from the start of the step, with their rates.
@@ -128,4 +184,45 @@ pub struct Work {
     pub damping_power: f64,
     /// Of the material points.
     pub material: Spent,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_keep_what_sums_lose() {
+        let start = Vec3::new(1e6, -3.0, 0.0);
+        let mut node = Node::at_rest(start);
+        let step = Vec3::new(1e-7, 0.1, -1e-3);
+        for _ in 0..1_000_000 {
+            let before = node;
+            node.place(&before.x, &before.low, &step);
+        }
+        // A million steps, each rounded once as a number: 1e6 times 1e-7 is 0.1 to the last digit but one.
+        let exact = Vec3::new(0.1, 1e5, -1e3);
+        let off = (node.moved(&start) - exact).component_div(&exact).amax();
+        assert!(off < 4.0 * f64::EPSILON, "{off:e}");
+        // x alone is the nearest number.
+        assert_eq!(node.x.x, 1e6 + 0.1);
+    }
+
+    #[test]
+    fn lengths_and_their_changes() {
+        let start = [Vec3::new(1e6, 2.0, 3.0), Vec3::new(1e6 + 1.0, 2.5, 3.25)];
+        let mut nodes = start.map(Node::at_rest);
+        let u = [Vec3::new(3.0, -4.0, 5e5), Vec3::new(3.0 + 2e-13, -4.0, 5e5 + 1e-13)];
+        // The second in two moves: the large one they share, and what is its own.
+        nodes[0].place(&start[0], &Vec3::zeros(), &u[0]);
+        nodes[1].place(&start[1], &Vec3::zeros(), &u[0]);
+        let own = Vec3::new(2e-13, 0.0, 1e-13);
+        let Node { x, low, .. } = nodes[1];
+        nodes[1].place(&x, &low, &own);
+        let stretched = stretch(&nodes[0], &nodes[1], &start);
+        // Digits of 5e5 in two parts: 1e-16 of 6e-11.
+        assert!((stretched - own).amax() < 1e-26, "{stretched:?}");
+        let d = start[1] - start[0];
+        let more = elongation(&d, &stretched, (d + stretched).norm());
+        assert!((more / (d.dot(&own) / d.norm()) - 1.0).abs() < 1e-12, "{more:e}");
+    }
 }

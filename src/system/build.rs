@@ -202,6 +202,7 @@ fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn Block>; 2], Vec<Watched>) {
                     damping: *damping,
                     direction: *direction,
                     free_length: *free_length,
+                    start: link.ends.map(|node| x[node]),
                 };
                 watched.push(Watched::Line(line.clone()));
                 lines.push(line);

@@ -157,8 +157,7 @@ impl System {
     /// A cycle among attachments, which [`crate::model`] excludes.
     pub fn new(model: &Model) -> Result<System, String> {
         let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
-        let attachments =
-            model.riders.iter().map(|r| Attachment::new(r.node, r.master, x[r.node] - x[r.master], r.dofs)).collect();
+        let attachments = model.riders.iter().map(|r| Attachment::new(r.node, r.master, &x, r.dofs)).collect();
         let attachments = attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?;
         let (inertias, consistent) = build::masses(model, &x);
         let plane = plane::normal(model, &inertias, &attachments);
@@ -286,7 +285,7 @@ impl System {
     /// that faces sweep.
     pub fn external_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> f64 {
         let field = 0.5 * (from.1.field + to.1.field);
-        let moved = |node: usize| to.0[node].x - from.0[node].x;
+        let moved = |node: usize| to.0[node].seen_from(&from.0[node]);
         let mut work = 0.0;
         if field != Vec3::zeros() {
             work += self.inertias.iter().map(|i| i.mass * field.dot(&moved(i.node))).sum::<f64>();
@@ -296,7 +295,7 @@ impl System {
         for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
             let (a, b) = (&from.0[load.node], &to.0[load.node]);
             let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
-            work += 0.5 * (f_a + f_b).dot(&(b.x - a.x));
+            work += 0.5 * (f_a + f_b).dot(&b.seen_from(a));
             if load.moment != Vec3::zeros() {
                 work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.q * a.q.conjugate())));
             }

@@ -89,6 +89,8 @@ struct Beam<const N: usize, S> {
     nodes: [usize; N],
     /// dx/dξ: half the length.
     jacobian: f64,
+    /// Where the nodes lay at t = 0.
+    start: [Vec3; N],
     /// Unit tangent of the undeformed axis.
     tangent: Vec3,
     section: S,
@@ -192,30 +194,35 @@ impl<const N: usize, S: Section> Beams<N, S> {
                 nodes.copy_from_slice(&e.nodes[..N]);
                 let axis = x[nodes[N - 1]] - x[nodes[0]];
                 let length = axis.norm();
-                Beam { nodes, jacobian: 0.5 * length, tangent: axis / length, section: section(&e, length) }
+                let start = nodes.map(|node| x[node]);
+                Beam { nodes, start, jacobian: 0.5 * length, tangent: axis / length, section: section(&e, length) }
             })
             .collect();
         Beams { shape: Shape::new(rule), elements, damping }
     }
 
-    /// Quaternions of the nodes, all in the half-space of the first (q and −q are the same rotation).
+    /// Quaternions of the nodes, all in the half-space of the first (q and −q are the same rotation), and how much further than
+    /// the first they have moved. Strains come from that: positions have fewer digits where the origin is far, or displacements
+    /// are small.
     #[inline(always)]
     fn gather(&self, element: &Beam<N, S>, nodes: &[Node]) -> ([Quat; N], [Vec3; N]) {
         let mut q = [[0.0; 4]; N];
-        let mut x = [Vec3::zeros(); N];
+        let mut u = [Vec3::zeros(); N];
+        let [first, first_low] = nodes[element.nodes[0]].parts(&element.start[0]);
         for a in 0..N {
             let node = &nodes[element.nodes[a]];
             q[a] = [node.q.w, node.q.i, node.q.j, node.q.k];
-            x[a] = node.x;
+            let [high, low] = node.parts(&element.start[a]);
+            u[a] = (high - first) + (low - first_low);
             if a > 0 && dot(&q[a], &q[0]) < 0.0 {
                 q[a] = q[a].map(|c| -c);
             }
         }
-        (q, x)
+        (q, u)
     }
 
     #[inline(always)]
-    fn locate(&self, element: &Beam<N, S>, g: usize, (q, x): &([Quat; N], [Vec3; N])) -> Point {
+    fn locate(&self, element: &Beam<N, S>, g: usize, (q, u): &([Quat; N], [Vec3; N])) -> Point {
         let per_length = 1.0 / element.jacobian;
         let mut p = [0.0; 4];
         let mut dp = [0.0; 4];
@@ -226,13 +233,16 @@ impl<const N: usize, S: Section> Beams<N, S> {
                 p[i] += value * q[a][i];
                 dp[i] += slope * q[a][i];
             }
-            dr += slope * x[a];
+            dr += slope * u[a];
         }
         let inv = 1.0 / dot(&p, &p);
         let R = rotation(&p, inv);
-        let gamma = R.tr_mul(&dr) - element.tangent;
-        // κ = 2 vec(p̄ p′)/|p|²
         let pv = Vec3::new(p[1], p[2], p[3]);
+        // Γ = Rᵀu′ + (Rᵀ − 1) r₀′, without the digits that Rᵀr′ − r₀′ would lose.
+        let across = pv.cross(&element.tangent);
+        let gamma = R.tr_mul(&dr) + 2.0 * inv * (pv.cross(&across) - p[0] * across);
+        dr += element.tangent;
+        // κ = 2 vec(p̄ p′)/|p|²
         let dv = Vec3::new(dp[1], dp[2], dp[3]);
         let kappa = 2.0 * inv * (p[0] * dv - dp[0] * pv - pv.cross(&dv));
         Point { p, dp, dr, R, inv, gamma, kappa }

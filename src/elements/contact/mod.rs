@@ -54,8 +54,9 @@ impl Point {
         self.nodes.iter().copied().zip(self.weights).take(self.count)
     }
 
-    fn x(&self, nodes: &[Node]) -> Vec3 {
-        self.parts().map(|(node, w)| w * nodes[node].x).sum()
+    /// Where it lies as seen from a node.
+    fn seen_from(&self, carrier: &Node, nodes: &[Node]) -> Vec3 {
+        self.parts().map(|(node, w)| w * nodes[node].seen_from(carrier)).sum()
     }
 }
 
@@ -200,12 +201,11 @@ impl Contacts {
     #[inline]
     fn relative(&self, point: &Point, nodes: &[Node]) -> (Vec3, Vec3) {
         let carrier = &nodes[self.carrier];
-        let (mut x, mut v) = (Vec3::zeros(), Vec3::zeros());
+        let (mut d, mut v) = (Vec3::zeros(), Vec3::zeros());
         for (node, weight) in point.parts() {
-            x += weight * nodes[node].x;
+            d += weight * nodes[node].seen_from(carrier);
             v += weight * nodes[node].v;
         }
-        let d = x - carrier.x;
         (d, v - carrier.v - carrier.omega.cross(&d))
     }
 
@@ -397,7 +397,7 @@ impl Contacts {
     /// resolve.
     fn is_missed(&self, e: usize, start: &[Node], now: &Now, frames: &Frames) -> bool {
         let (point, past) = (&self.points[e], self.share(e, now.past));
-        let (from, to) = (point.x(start) - start[self.carrier].x, point.x(now.nodes) - now.nodes[self.carrier].x);
+        let [from, to] = [start, now.nodes].map(|nodes| point.seen_from(&nodes[self.carrier], nodes));
         let far = from.norm();
         if far - self.reach() - point.radius > (to - from).norm() + frames.turn * far {
             return false;
@@ -617,7 +617,7 @@ impl Contacts {
 pub fn least_gap(surface: &Surface, carrier: usize, points: &[Point], nodes: &[Node]) -> f64 {
     let carrier = &nodes[carrier];
     let R = carrier.R();
-    let gap = |point: &Point| surface.distance(&R.tr_mul(&(point.x(nodes) - carrier.x))) - point.radius;
+    let gap = |point: &Point| surface.distance(&R.tr_mul(&point.seen_from(carrier, nodes))) - point.radius;
     points.iter().map(gap).fold(f64::INFINITY, f64::min)
 }
 

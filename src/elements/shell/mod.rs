@@ -151,12 +151,12 @@ impl<const N: usize> Motion<N> {
 impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
     #[inline(always)]
     fn gather(&self, nodes: &[Node]) -> Motion<N> {
-        let first = nodes[self.nodes[0]].x;
+        let first = &nodes[self.nodes[0]];
         let mut motion = Motion { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
         for a in 0..N {
             let node = &nodes[self.nodes[a]];
             let R = node.R();
-            motion.x[a] = node.x - first;
+            motion.x[a] = node.seen_from(first);
             motion.turning[0][a] = R * self.D[a];
             motion.turning[1][a] = R * self.T[0];
             motion.turning[2][a] = R * self.T[1];
