@@ -14,8 +14,8 @@ pub enum Failure {
     NotConverged { iterations: usize, largest: Vec<Largest> },
     /// Joints could not be closed at the end of a step.
     Apart { largest: Vec<Largest> },
-    /// A step of the deck needs too many pieces.
-    Crawling { pieces: usize, dt: f64 },
+    /// A step of the deck needs too many pieces; why it was last cut.
+    Crawling { pieces: usize, dt: f64, cause: Box<Failure> },
     /// No equilibrium lies on the arc of a step.
     Bend { largest: Vec<Largest> },
     /// Nothing moves with the time that could lead on along a path.
@@ -105,10 +105,10 @@ impl fmt::Display for Failure {
                 )?;
                 list(f, largest)
             }
-            Failure::Crawling { pieces, dt } => write!(
+            Failure::Crawling { pieces, dt, cause } => write!(
                 f,
                 "the step was cut into {pieces} pieces, the last of {dt:.1e}, and has not ended: the loads are too large or \
-                 `time_step` is too long for this motion"
+                 `time_step` is too long for this motion; it was last cut because of this: {cause}"
             ),
             Failure::Bend { largest } => {
                 write!(

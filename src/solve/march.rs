@@ -91,8 +91,8 @@ pub(super) struct Step<'s> {
 
 /// Halvings of a step that are ever tried; the deck's least step may stop earlier.
 const DEEPEST: u32 = 40;
-/// Pieces in which a step of the deck may be taken: beyond that nobody waits for the end.
-const MOST_PIECES: usize = 4096;
+/// Pieces in which a step of the deck may be taken, without impacts to resolve and with: beyond that nobody waits for the end.
+const MOST_PIECES: [usize; 2] = [1024, 4096];
 
 impl<'a> Run<'a> {
     /// # Errors
@@ -261,6 +261,8 @@ impl<'a> Run<'a> {
         let (mut at, mut piece, mut cuts, mut successes, mut pieces) = (0u64, whole, 0, 0, 0);
         // Of the step as the deck has it: gaps of joints shrink with the step, and say less and less.
         let mut apart = None;
+        let mut cause = None;
+        let most = MOST_PIECES[usize::from(self.stepper.system.has_contacts())];
         while at < whole {
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Outcome::Stopped { time: state.time });
@@ -280,8 +282,11 @@ impl<'a> Run<'a> {
                     let step = Step { dt, taken: &taken, cuts, due, last: ends, passed: &[] };
                     self.show(state, observer, balance, &step)?;
                     cuts = 0;
-                    if pieces >= MOST_PIECES && !last {
-                        let failure = Failure::Crawling { pieces, dt };
+                    if pieces >= most
+                        && !last
+                        && let Some(cause) = cause
+                    {
+                        let failure = Failure::Crawling { pieces, dt, cause: Box::new(cause) };
                         return Err(Outcome::Failed { time: state.time, failure });
                     }
                     // Two pieces taken and a longer one fits: try it.
@@ -306,6 +311,7 @@ impl<'a> Run<'a> {
                         let failure = apart.filter(|_| is_apart).unwrap_or(failure);
                         return Err(Outcome::Failed { time: state.time, failure });
                     }
+                    cause = Some(failure);
                     piece /= 2;
                     cuts += 1;
                     successes = 0;
