@@ -74,8 +74,11 @@ impl<'d> Builder<'d> {
             }
             return Some(vec![Row::Distance { length: d.norm() }]);
         }
-        let reach = self.x(ends[0]).amax().max(self.x(ends[1]).amax());
-        if d.amax() > 1e-6 * reach {
+        // Of the scene's size, wherever it lies, and what rounding of coordinates leaves.
+        let first = self.x(ends[0]);
+        let far = |reach: f64, node: &super::Node| reach.max((node.x - first).amax());
+        let size = self.model.nodes.iter().fold(0.0, far);
+        if d.amax() > (1e-6 * size).max(4.0 * f64::EPSILON * first.amax()) {
             let message = format!("the ends of {} must lie at the same place", owner.what);
             let far = format!("they are {} apart; a body's `point` in `to` may be left out", short(d.norm()));
             return self.error_with(owner.span, message, far);
