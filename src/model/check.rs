@@ -45,6 +45,7 @@ impl<'d> Builder<'d> {
             self.check_joints();
         }
         self.check_mesh();
+        self.check_slivers();
         if self.model.analysis.kind == super::Kind::Static {
             self.check_static();
         }

@@ -21,6 +21,7 @@ mod places;
 mod rigid;
 mod sections;
 mod shells;
+mod slivers;
 mod supports;
 mod unused;
 
