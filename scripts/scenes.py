@@ -175,7 +175,7 @@ SCENES = {
         Scene("R1", "free_body", 0.25, free_body),
         Scene("R2", "heavy_top/pivot", 0.01, lambda at: position(at["top"])),
         Scene("R3", "two_bodies_on_springs", 0.025, two_bodies),
-        Scene("X2", "stiff_pendulum", 0.2066761, lambda at: [at["bob"]["x"], at["bob"]["z"]]),
+        Scene("X2", "extreme/stiff_pendulum", 0.2066761, lambda at: [at["bob"]["x"], at["bob"]["z"]]),
         Scene("B1", "right_angle_cantilever", 0.15, lambda at: [at["elbow"]["uz"], at["tip"]["uz"]], ("legs",)),
         Scene("B2", "flying_beam", 0.05, lambda at: sum((position(at[n]) for n in ("a", "middle", "b")), []), ("rod",)),
         Scene("C1", "block_on_cantilever", 0.01, lambda at: position(at["block"]) + position(at["tip"]), ("beam",)),

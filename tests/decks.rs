@@ -1,4 +1,7 @@
-//! Every deck runs and meets the values it carries.
+//! Every deck runs and meets the values it carries. One that is meant to end otherwise says so among its comments:
+//!   # exit code 4        no convergence; it need not carry values
+//!   # says: WORDS        of the failure
+//!   # warns: WORDS       of what is said when the deck is read
 
 mod support;
 
@@ -26,6 +29,13 @@ fn every_deck_meets_its_values() {
     assert!(!found.is_empty(), "no decks");
     let mut misses = Vec::new();
     for name in &found {
+        let comments = support::comments(name);
+        let said = support::warnings(name, &[]);
+        for words in comments.after("warns: ") {
+            if !said.iter().any(|warning| warning.contains(words)) {
+                misses.push(format!("{name} does not warn of `{words}`: {said:?}"));
+            }
+        }
         let model = support::read(name, &[]);
         let done = support::run(&model, &mut |_| Vec::new());
         let c = done.counts;
@@ -38,8 +48,16 @@ fn every_deck_meets_its_values() {
             c.cuts,
             done.seconds
         );
+        let fails = comments.after("exit code ").any(|code| code == "4");
         match done.outcome {
+            Outcome::Done if fails => misses.push(format!("{name} should not have come to its end")),
             Outcome::Done => {}
+            Outcome::Failed { failure, .. } if fails => {
+                let text = failure.to_string();
+                let missing = comments.after("says: ").filter(|words| !text.contains(words));
+                misses.extend(missing.map(|words| format!("{name} does not say `{words}`: {text}")));
+                continue;
+            }
             Outcome::Failed { time, failure } => misses.push(format!("{name}: at t = {time}: {failure}")),
             other => misses.push(format!("{name}: {other:?}")),
         }

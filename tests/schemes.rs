@@ -36,7 +36,7 @@ fn digits_on_the_stiff_chain() {
         [1.151014, -1.209784, 0.031711, 0.978075, 0.360844],
     ];
     for ((name, scheme), row) in SCHEMES.iter().zip(table) {
-        let mut model = read("stiff_spring_chain", &owned(&[scheme, "iteration.tolerance=1e-12"]));
+        let mut model = read("extreme/stiff_spring_chain", &owned(&[scheme, "iteration.tolerance=1e-12"]));
         model.expects.clear();
         let [m2, m3] = ["m2", "m3"].map(|name| node(&model, name));
         let start = [m2, m3].map(|node| model.nodes[node].x.x);

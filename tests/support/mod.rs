@@ -26,6 +26,20 @@ fn source(name: &str, sets: &[String]) -> Source {
     Source::new(path.display().to_string(), text, sets)
 }
 
+/// The comments of a deck.
+pub struct Comments(String);
+
+impl Comments {
+    /// What follows these words at the start of lines.
+    pub fn after<'a>(&'a self, words: &'a str) -> impl Iterator<Item = &'a str> {
+        self.0.lines().filter_map(move |line| line.strip_prefix("# ")?.strip_prefix(words))
+    }
+}
+
+pub fn comments(name: &str) -> Comments {
+    Comments(fs::read_to_string(decks().join(name).join("deck.toml")).expect("a deck that was read"))
+}
+
 /// What reading a deck says, messages alone.
 pub fn warnings(name: &str, sets: &[String]) -> Vec<String> {
     model::read(&source(name, sets)).1.into_iter().map(|problem| problem.message).collect()
