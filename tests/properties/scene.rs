@@ -50,6 +50,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
             kind,
             end_time,
             time_step,
+            error_tolerance: None,
             least_step: time_step * 1e-3,
             plane: false,
             control: Control::Time,
