@@ -93,7 +93,7 @@ fn no_step_after_the_first_allocates() {
             }
         }
     }
-    m.analysis.error_tolerance = Some(0.05);
+    m.analysis.error_tolerance = Some(1e-4);
     assert_none(&m, rdsolve::linear::Kind::Block);
     m.analysis.error_tolerance = None;
     soften(&mut m, 10.0);

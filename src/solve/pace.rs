@@ -28,14 +28,15 @@ const SPAN: f64 = 0.05;
 /// ... in which the last step has this weight at least.
 const WEIGHT: f64 = 0.002;
 /// What remains of the sum of all errors: steady growth to 1 has a root mean square of 1/√3 over a run, and an oscillation one of
-/// 1/√2; 0.6 more is what the scenes B1, C4 and X1 have shown, where errors partly cancel.
-const MEAN: f64 = 0.25;
+/// 1/√2; half of that is what the scenes B1, C4 and X1 have shown, where errors partly cancel.
+const MEAN: f64 = 0.2;
 /// Steps of a run at least.
 const FEWEST: f64 = 50.0;
-/// Of a run: steps that are tried before the first, to see how far things move.
-const TRIAL: f64 = 0.05;
-const TRIALS: usize = 3;
-/// An estimate of which a filter leaves less is one of motion that the step does not resolve: a period of two steps or less.
+/// Of a run: steps that are tried before the first, to see how far things move. Their lengths have no common measure, lest
+/// all of them end where a vibration passes through its middle.
+const TRIALS: [f64; 3] = [0.023, 0.037, 0.053];
+/// An estimate of which two filters leave less is one of motion that the step does not resolve, a period of four steps or less;
+/// unless there is motion beside it of which a third leaves more than their root.
 const RESOLVED: f64 = 0.3;
 /// Of the tolerance: such motion does not matter while its amplitude is less. Shorter steps would only draw it out.
 const SLIGHT: f64 = 0.5;
@@ -61,9 +62,14 @@ pub struct Pace {
     errors: Vec<Vec6>,
 }
 
-/// An estimated error relative to the largest motion, after one passage through the matrix, from which what is not resolved
-/// comes with about its amplitude, and after two.
-type Estimate = [f64; 2];
+/// An estimated error relative to the largest motion.
+struct Estimate {
+    /// As it is, and after one and two passages through the matrix. What is not resolved comes out of the first with about its
+    /// amplitude.
+    passed: [f64; 3],
+    /// All of it that is more than a step may err: motion that the step does not resolve.
+    unresolved: bool,
+}
 
 impl Pace {
     pub fn new(model: &Model, tolerance: f64, state: &State) -> Self {
@@ -81,9 +87,10 @@ impl Pace {
     }
 
     /// After a step, which was a `part` of the run: whether it stands. The length of the next follows.
-    fn judge(&mut self, dt: f64, part: f64, [amplitude, error]: Estimate, least: f64) -> bool {
+    fn judge(&mut self, dt: f64, part: f64, estimate: &Estimate, least: f64) -> bool {
+        let [_, amplitude, error] = estimate.passed;
         let ratio = error / (self.tolerance * part);
-        if ratio > 1.0 && error < RESOLVED * amplitude && amplitude < SLIGHT * self.tolerance {
+        if estimate.unresolved && amplitude < SLIGHT * self.tolerance {
             return true;
         }
         let now = ratio / (dt * dt);
@@ -157,7 +164,7 @@ impl Run<'_> {
             match self.stepper.step(state, target) {
                 Ok(taken) => {
                     let estimate = self.stepper.estimate(state, dt, pace);
-                    if !pace.judge(dt, dt / end, estimate, least) {
+                    if !pace.judge(dt, dt / end, &estimate, least) {
                         state.copy_from(&pace.start);
                         cuts += 1;
                         self.counts.cuts += 1;
@@ -189,15 +196,11 @@ impl Stepper<'_> {
     fn look_ahead(&mut self, state: &mut State, pace: &mut Pace) {
         let (drift, violation) = (self.drift, self.violation);
         pace.start.copy_from(state);
-        let mut dt = TRIAL * self.model.analysis.end_time;
-        let (mut taken, mut failed) = (0, 0);
-        while taken < TRIALS && failed < TRIALS {
-            if self.step(state, state.time + dt).is_ok() {
-                pace.meet(self.model, state);
-                taken += 1;
-            } else {
-                dt *= 0.1;
-                failed += 1;
+        let mut run = self.model.analysis.end_time;
+        for part in TRIALS {
+            match self.step(state, state.time + part * run) {
+                Ok(_) => pace.meet(self.model, state),
+                Err(_) => run *= 0.1,
             }
         }
         state.copy_from(&pace.start);
@@ -216,10 +219,18 @@ impl Stepper<'_> {
             pace.errors[node] = Vec6::from_fn(|i, _| entry(i));
         }
         self.system.carry(&state.nodes, &mut pace.errors);
-        [0.0; 2].map(|_| {
+        let mut passed = [pace.relative(); 3];
+        for error in &mut passed[1..] {
             self.filter(state, &mut pace.errors);
-            pace.relative()
-        })
+            *error = pace.relative();
+        }
+        let [raw, _, error] = passed;
+        let mut unresolved = error > pace.tolerance * dt / self.model.analysis.end_time && error < RESOLVED * raw;
+        if unresolved {
+            self.filter(state, &mut pace.errors);
+            unresolved = pace.relative() < RESOLVED.sqrt() * error;
+        }
+        Estimate { passed, unresolved }
     }
 
     /// e ← (K + w M)⁻¹ w M e, per node.
