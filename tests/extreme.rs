@@ -15,9 +15,7 @@ fn owned(sets: &[&str]) -> Vec<String> {
 
 /// A deck with entries overridden, and without the values it carries.
 fn variant(deck: &str, sets: &[&str]) -> Model {
-    let mut model = read(deck, &owned(sets));
-    model.expects.clear();
-    model
+    read(deck, &[owned(sets), owned(&["expect=[]"])].concat())
 }
 
 /// Displacement, rotation and velocity of every node at every output time.
@@ -95,15 +93,15 @@ fn stiff_is_rigid() {
         run_to_the_end(&model, &mut |frame| support::position(&frame.state.nodes[end]).to_vec()).rows
     };
     let rigid = of("beams.bar.rigid=true");
-    let differences = [1.0, 1e-6, 1e-9, 1e-12].map(|factor| {
+    let differences = [1.0, 1e-6, 1e-7].map(|factor| {
         let stiff = of(&format!("materials.stiff.youngs_modulus={:e}", 2.1e17 * factor));
         difference(&rigid, &stiff)
     });
-    println!("bar of 2.1e17, 2.1e11, 2.1e8, 2.1e5 Pa beside the rigid one: {}", short(&differences));
-    let [stiff, steel, rubber, jelly] = differences;
+    println!("bar of 2.1e17, 2.1e11, 2.1e10 Pa beside the rigid one: {}", short(&differences));
+    let [stiff, steel, softer] = differences;
     // Both are off by the error of their step, the same but for where it is made; the rest is the bending under its own weight.
     assert!(stiff < 1e-6, "{stiff}");
-    assert!(stiff <= steel * 1.01 && 3.0 * steel < rubber && 30.0 * rubber < jelly, "{differences:?}");
+    assert!(10.0 * stiff < steel && (3.0..30.0).contains(&(softer / steel)), "{differences:?}");
 }
 
 /// Scenes moved by 1.7e6 in an oblique direction, where coordinates have ten digits behind the point: the same displacements but for
@@ -134,10 +132,10 @@ fn far_from_the_origin_everything_is_the_same() {
 /// What flies a million lengths away keeps its digits on the way.
 #[test]
 fn a_long_flight_leaves_strains_alone() {
-    let still = variant("free_ring", &["analysis.end_time=2e-3"]);
+    let still = variant("flying_beam", &["analysis.end_time=2.5", "iteration.tolerance=1e-12"]);
     let mut flying = still.clone();
     for node in &mut flying.nodes {
-        node.v += Vec3::new(1e9, -2e8, 0.0);
+        node.v += Vec3::new(4e5, -1e5, 0.0);
     }
     let shape = |model: &Model| {
         let rows = run_to_the_end(model, &mut |frame| {
@@ -148,8 +146,8 @@ fn a_long_flight_leaves_strains_alone() {
     };
     let (still, flying) = (shape(&still), shape(&flying));
     let off = difference(&still, &flying);
-    println!("after 2e6 m: {off:.1e}");
-    // Velocities of 1e9 have seven digits behind the point: 1e-7 m/s over 2e-3 s.
+    println!("after a million lengths: {off:.1e}");
+    // Velocities of 4e5 have ten digits behind the point, and there are 200 steps.
     assert!(off < 1e-9, "{off}");
 }
 
@@ -185,7 +183,10 @@ fn any_time_step() {
         ("{scheme=\"generalized-alpha\",spectral_radius=0.5}", 4.0, true),
         ("{scheme=\"bathe\"}", 1.0, true),
     ];
-    println!("{:52} error of 1.25 over one period, for steps of 1e-4, 1e-3, 1e-2 periods; far beyond", "scheme");
+    println!(
+        "{:52} error of 1.25 after one period, steps of 1e-4, 1e-3, 1e-2 of it; after 100 of 10, 100, 1e4; peak",
+        "scheme"
+    );
     for (scheme, constant, damps) in schemes {
         let of = |part: f64, steps: usize| {
             let sets = [
@@ -193,9 +194,9 @@ fn any_time_step() {
                 format!("analysis.time_step={:e}", part * period),
                 format!("analysis.end_time={:e}", part * period * steps as f64),
                 "iteration.tolerance=1e-12".to_owned(),
+                "expect=[]".to_owned(),
             ];
             let mut model = read("extreme/time_steps", &sets);
-            model.expects.clear();
             if part < 0.1 {
                 model.output.cadence = Cadence::Steps(steps);
             }
@@ -211,21 +212,27 @@ fn any_time_step() {
             let exact = two_masses(period);
             (row[0] - exact[0]).abs().max((row[1] - exact[1]).abs())
         });
-        let mut far = [0.0f64; 3];
-        for (far, part) in far.iter_mut().zip([1e1, 1e2, 1e4]) {
+        let (mut far, mut peak) = ([0.0f64; 3], [0.0f64; 3]);
+        for ((far, peak), part) in far.iter_mut().zip(&mut peak).zip([1e1, 1e2, 1e4]) {
             let rows = of(part, 100);
-            // It may swing about its rest to twice that, and a fifth of it more on the first step.
-            assert!(rows.iter().all(|row| row[0].abs() < 0.6 && row[1].abs() < 3.0), "{scheme} at {part}");
+            *peak = rows.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
             let row = rows.last().expect("a row");
             *far = (row[0] - 0.25).abs().max((row[1] - 1.25).abs());
         }
-        println!("{scheme:52} {}; {}", short(&errors), short(&far));
+        println!("{scheme:52} {}; {}; {}", short(&errors), short(&far), short(&peak));
         for (error, part) in errors.iter().zip([1e-4f64, 1e-3, 1e-2]) {
             // Second order, with the constant of the scheme (a period late by as many parts of (2π Δt/T)²); rounding is 1e-12.
             assert!(*error < constant * 3.0 * part.powi(2) + 1e-11, "{scheme} at {part}: {error}");
         }
+        for (peak, part) in peak.iter().zip([1e1, 1e2, 1e4]) {
+            // Wilson-theta takes the first acceleration over a step that it means nothing for; the others swing about their rest at
+            // the most, at 1.25.
+            let wilson = scheme.contains("wilson");
+            let allowed = if wilson { 1.0 * part * part..1.2 * part * part } else { 1.24..2.5 * (1.0 + 1e-12) };
+            assert!(allowed.contains(peak), "{scheme} at {part}: {peak}");
+        }
         if damps {
-            // The slowest to damp leaves 0.94 a step there.
+            // The slowest to damp leaves 0.78 a step, and began with 1e8.
             assert!(far.iter().all(|far| *far < 1e-2), "{scheme}: {far:?}");
         }
     }
@@ -280,7 +287,10 @@ fn viscosity_lies_between_elasticity_and_plasticity() {
                 let done = run_to_the_end(&model, &mut |_| Vec::new());
                 let verdict = done.verdicts.iter().find(|verdict| verdict.label.contains(" fast_linear "));
                 let flowed = verdict.and_then(|verdict| verdict.value).expect("the plastic strain of the bar");
-                assert!(flowed >= last && flowed <= plastic * (1.0 + 1e-9), "{set}: {flowed:e} after {last:e}");
+                assert!(
+                    flowed >= last * (1.0 - 1e-10) && flowed <= plastic * (1.0 + 1e-9),
+                    "{set}: {flowed:e} after {last:e}"
+                );
                 last = flowed;
             }
             assert!(last > plastic * (1.0 - 3e-3), "{law} {exponent}: {last:e}");
@@ -313,10 +323,9 @@ fn steps_of_any_length_beside_the_time_of_relaxation() {
         let since = 1.0 - yield_stress / (E * strain_rate);
         let exact = strain_rate / rate * (1.0 - (-E * rate * since / yield_stress).exp());
         println!("steps of 1e{k} of the time of relaxation: overstress {over:.6e}, exact {exact:.6e}");
-        // First order in the step while it is short, and exact again where it is long. Beginning to yield within a step adds half a
-        // step to the 0.875 s. Stresses are rounded at 1e-16.
-        let order = ratio / (1.0 + ratio * ratio) * 0.3;
-        assert!((over - exact).abs() < (order + 1e-3 / (1.0 + ratio)) * exact + 1e-14, "{k}: {over:e} for {exact:e}");
+        // First order in the step while it is short, and the steady state where it is long. The return to the yield surface ends
+        // within 1e-10 of the yield stress.
+        assert!((over - exact).abs() < ratio.min(1.0 / ratio) * exact + 1e-10, "{k}: {over:e} for {exact:e}");
     }
 }
 
@@ -331,8 +340,7 @@ fn slivers_pass_the_patch_test() {
         let done = run_to_the_end(&model, &mut |frame| {
             let off = |&i: &usize| {
                 let start = frame.model.nodes[i].x;
-                let first = if start.x >= 2.0 { 2.0 } else { 0.0 };
-                let (x, y) = (start.x - first, start.y);
+                let (x, y) = (start.x, start.y);
                 let u = frame.state.nodes[i].moved(&start);
                 let field = frame.state.time * 1e-3 * Vec3::new(x + 0.5 * y, y + 0.5 * x, 0.0);
                 (u - field).amax() / 1e-3
@@ -354,9 +362,9 @@ fn slivers_pass_the_patch_test() {
         assert!(off < 1e-11, "angle {angle}: {off:e}");
     }
     // From 180 degrees on there is no such element.
-    for y in ["0.5", "0.5001"] {
+    for (y, words) in [("0.5", "has no area near one of its corners"), ("0.5001", "folds back on itself")] {
         let warnings = support::warnings("extreme/slivers", &[format!("points.q_m=[2.5, {y}, 0.0]")]);
-        assert!(warnings.iter().any(|text| text.contains("shell `q_0` folds back on itself")), "{warnings:?}");
+        assert!(warnings.contains(&format!("shell `q_0` {words}")), "{warnings:?}");
     }
 }
 
@@ -394,7 +402,11 @@ fn overloads_end_soon_and_say_where() {
         ("bend_45_degrees", vec![force("tip", "0.0,0.0,6e8")], "`p"),
         ("clamped_beam_step_load", vec![force("middle", "0.0,0.0,320e6")], "["),
         ("block_on_cantilever", vec!["environment.gravity=[0.0,0.0,-9.81e6]".to_owned()], "beam["),
-        ("inflated_strip", vec!["loads.0.pressure=-3e7".to_owned()], ""),
+        (
+            "pinched_hemisphere",
+            vec![force("pushed", "-2e8,0.0,0.0"), "shells.cap.elements=[4,4]".to_owned(), "expect=[]".to_owned()],
+            "cap[",
+        ),
     ];
     for (deck, sets, name) in &scenes {
         let dir = tempfile::tempdir().expect("a folder");

@@ -14,8 +14,8 @@ pub enum Failure {
     NotConverged { iterations: usize, largest: Vec<Largest> },
     /// Joints could not be closed at the end of a step.
     Apart { largest: Vec<Largest> },
-    /// A step of the deck needs too many pieces; why it was last cut.
-    Crawling { pieces: usize, dt: f64, cause: Box<Failure> },
+    /// A step of the deck, or some in a row, need too many pieces; why the last was cut.
+    Crawling { steps: usize, pieces: usize, dt: f64, cause: Box<Failure> },
     /// No equilibrium lies on the arc of a step.
     Bend { largest: Vec<Largest> },
     /// Nothing moves with the time that could lead on along a path.
@@ -105,11 +105,15 @@ impl fmt::Display for Failure {
                 )?;
                 list(f, largest)
             }
-            Failure::Crawling { pieces, dt, cause } => write!(
-                f,
-                "the step was cut into {pieces} pieces, the last of {dt:.1e}, and has not ended: the loads are too large or \
-                 `time_step` is too long for this motion; it was last cut because of this: {cause}"
-            ),
+            Failure::Crawling { steps, pieces, dt, cause } => {
+                let steps =
+                    if *steps == 1 { "the step was".to_owned() } else { format!("the last {steps} steps were") };
+                write!(
+                    f,
+                    "{steps} cut into {pieces} pieces, the last of {dt:.1e}, without coming to an end: the loads are too large or \
+                     `time_step` is too long for this motion; the last cut was made because of this: {cause}"
+                )
+            }
             Failure::Bend { largest } => {
                 write!(
                     f,

@@ -67,6 +67,8 @@ pub struct Run<'a> {
     pub observing: Duration,
     /// Where a path ended that never came to its `stop`: the displacement asked for.
     pub short_of_stop: Option<f64>,
+    /// Steps in a row cut into many pieces, and those pieces.
+    crawling: [usize; 2],
     energy: Option<Energy>,
     links: Vec<LinkState>,
     joints: Vec<JointState>,
@@ -92,7 +94,9 @@ pub(super) struct Step<'s> {
 /// Halvings of a step that are ever tried; the deck's least step may stop earlier.
 const DEEPEST: u32 = 40;
 /// Pieces in which a step of the deck may be taken, without impacts to resolve and with: beyond that nobody waits for the end.
+/// Without impacts steps in a row that are each cut into more than `MANY` count together.
 const MOST_PIECES: [usize; 2] = [1024, 4096];
+const MANY: usize = 32;
 
 impl<'a> Run<'a> {
     /// # Errors
@@ -178,6 +182,7 @@ impl<'a> Run<'a> {
             counts: Counts::default(),
             observing: Duration::ZERO,
             short_of_stop: None,
+            crawling: [0; 2],
             energy: None,
             links: Vec::new(),
             joints: Vec::new(),
@@ -262,7 +267,8 @@ impl<'a> Run<'a> {
         // Of the step as the deck has it: gaps of joints shrink with the step, and say less and less.
         let mut apart = None;
         let mut cause = None;
-        let most = MOST_PIECES[usize::from(self.stepper.system.has_contacts())];
+        let impacts = self.stepper.system.has_contacts();
+        let most = MOST_PIECES[usize::from(impacts)];
         while at < whole {
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Outcome::Stopped { time: state.time });
@@ -282,12 +288,16 @@ impl<'a> Run<'a> {
                     let step = Step { dt, taken: &taken, cuts, due, last: ends, passed: &[] };
                     self.show(state, observer, balance, &step)?;
                     cuts = 0;
-                    if pieces >= most
+                    let [steps, before] = self.crawling;
+                    if before + pieces >= most
                         && !last
                         && let Some(cause) = cause
                     {
-                        let failure = Failure::Crawling { pieces, dt, cause: Box::new(cause) };
-                        return Err(Outcome::Failed { time: state.time, failure });
+                        let (steps, pieces, cause) = (steps + 1, before + pieces, Box::new(cause));
+                        return Err(Outcome::Failed {
+                            time: state.time,
+                            failure: Failure::Crawling { steps, pieces, dt, cause },
+                        });
                     }
                     // Two pieces taken and a longer one fits: try it.
                     if successes >= 2 && piece < whole && at.is_multiple_of(2 * piece) {
@@ -319,6 +329,8 @@ impl<'a> Run<'a> {
                 }
             }
         }
+        let [steps, before] = self.crawling;
+        self.crawling = if pieces > MANY && !impacts { [steps + 1, before + pieces] } else { [0; 2] };
         Ok(())
     }
 
