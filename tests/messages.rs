@@ -556,6 +556,15 @@ fn shells() {
     assert_eq!(sheet("[3, 4]", ball), "");
     assert_snapshot!("shell_off_the_sphere", said(&far.replacen("[3, 4]", ball, 1), &[]));
     assert_snapshot!("shell_zero_axis", sheet("[3, 4]", "[3, 4]\naxis = [0.0, 0.0, 0.0]"));
+    assert_snapshot!(
+        "shell_slivers",
+        sheet("c = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]", "c = [1.0, 1e-4, 0.0]\nd = [0.0, 1e-4, 0.0]")
+    );
+    let coarse = SHEET.replace("[3, 4]", "1").replace("elements = 4", "elements = 1");
+    assert_snapshot!(
+        "shell_flat_corner",
+        said(&coarse.replace("c = [1.0, 1.0, 0.0]", "c = [0.5001, 0.5001, 0.0]"), &[])
+    );
     let load = |load: &str| sheet("at = \"flap\"\npressure = 1e3", load);
     assert_snapshot!("pressure_on_an_edge", load("at = \"flap.edge2\"\npressure = 1e3"));
     assert_snapshot!("line_load_on_a_shell", load("at = \"flap\"\nforce_per_length = [1.0, 0.0, 0.0]"));
