@@ -166,6 +166,8 @@ pub struct Source {
     pub text: String,
     /// Each with the offset at which its spans begin.
     pub sets: Vec<(usize, String)>,
+    /// Names of the options for which the last of them stand.
+    pub options: Vec<String>,
 }
 
 /// Room after each text: for a place behind its end, and for the quotes that [`crate::deck::set`] adds to a bare word.
@@ -180,14 +182,29 @@ impl Source {
             offset += argument.len() + GAP;
             (begin, argument.clone())
         };
-        Source { path: path.into(), sets: sets.iter().map(place).collect(), text }
+        Source { path: path.into(), sets: sets.iter().map(place).collect(), text, options: Vec::new() }
+    }
+
+    /// The last of the `--set` arguments stand for options of these names.
+    pub fn with_options(self, options: Vec<String>) -> Self {
+        Source { options, ..self }
+    }
+
+    /// Whether something stands in such an option.
+    pub fn is_option(&self, place: &Span) -> bool {
+        let first = self.sets.len().saturating_sub(self.options.len());
+        self.sets.get(first).is_some_and(|(offset, _)| *offset <= place.start)
     }
 
     /// Name and text of the file or argument in which `span` lies, and the range within it.
     fn locate(&self, span: &Span) -> (&str, &str, Range<usize>) {
-        let argument = self.sets.iter().rev().find(|(offset, _)| *offset <= span.start);
+        let argument = self.sets.iter().enumerate().rev().find(|(_, (offset, _))| *offset <= span.start);
         let (name, text, offset) = match argument {
-            Some((offset, text)) => ("--set", text.as_str(), *offset),
+            Some((index, (offset, text))) => {
+                let option = (index + self.options.len()).checked_sub(self.sets.len());
+                let name = option.and_then(|option| self.options.get(option)).map_or("--set", String::as_str);
+                (name, text.as_str(), *offset)
+            }
             None => (self.path.as_str(), self.text.as_str(), 0),
         };
         let inside = |byte: usize| {

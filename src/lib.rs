@@ -47,4 +47,5 @@ pub mod plan;
 pub mod sections;
 pub mod solve;
 pub mod state;
+pub mod study;
 pub mod system;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Rows from the bottom up; siblings do not know each other.
-const ROWS: [&[&str]; 9] = [
+const ROWS: [&[&str]; 10] = [
     &["math", "names", "diagnostic"],
     &["state", "sections", "materials", "amplitude", "linear", "mesh"],
     &["elements", "constraints", "integrators"],
@@ -11,6 +11,7 @@ const ROWS: [&[&str]; 9] = [
     &["model", "system"],
     &["plan"],
     &["solve", "output"],
+    &["study"],
     &["command"],
     &["main"],
 ];

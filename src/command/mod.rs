@@ -5,6 +5,7 @@ mod compare;
 mod report;
 mod run;
 mod schema;
+mod study;
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -71,6 +72,8 @@ enum Word {
     Compare(compare::CompareArgs),
     /// Make one HTML file of a folder of results: plots, energy balance, the moving scene
     Report(report::ReportArgs),
+    /// Error against run time over time steps, schemes, methods and meshes; or what rigid parts would cost and save
+    Study(Box<study::StudyArgs>),
     /// Print the JSON Schema of the deck
     Schema,
 }
@@ -118,6 +121,7 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Word::Check(args)), _) => check::check(&args),
         (Some(Word::Compare(args)), _) => compare::compare(&args),
         (Some(Word::Report(args)), _) => report::report(&args),
+        (Some(Word::Study(args)), _) => study::study(&args),
         (Some(Word::Schema), _) => schema::schema(),
         // Clap asks for a deck before it lets this happen.
         (None, None) => Err(Exit::Usage),
@@ -137,6 +141,11 @@ pub struct Loaded {
 
 /// Reads a deck and builds its model. If that fails, all errors have been shown.
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
+    load_with(path, sets, Vec::new())
+}
+
+/// The same; the last of the overrides stand for `options`: if all that is wrong stands there, the usage is wrong.
+fn load_with(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded, Exit> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|error| {
         complain(&format!("cannot read the deck `{name}`: {error}"));
@@ -148,7 +157,7 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
         complain(&format!("the deck `{name}` is not UTF-8 text: see line {line}"));
         Exit::DeckInvalid
     })?;
-    let source = Source::new(name, text, sets);
+    let source = Source::new(name, text, sets).with_options(options);
     match model::read(&source) {
         (Some(model), warnings) => {
             let hash = hash(&source, sets, &model);
@@ -157,6 +166,11 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Exit> {
         (None, problems) => {
             let errors = problems.iter().filter(|problem| problem.is_error()).count();
             show(&problems, &source);
+            let in_option = |problem: &Diagnostic| problem.place.as_ref().is_some_and(|place| source.is_option(place));
+            if problems.iter().filter(|problem| problem.is_error()).all(in_option) {
+                complain(&format!("the options have {}", counted(errors, "error")));
+                return Err(Exit::Usage);
+            }
             let warnings = problems.len() - errors;
             let besides = if warnings > 0 { format!(" and {}", counted(warnings, "warning")) } else { String::new() };
             complain(&format!("`{}` has {}{besides}", source.path, counted(errors, "error")));
@@ -236,7 +250,12 @@ fn is_styled() -> bool {
 fn output_folder(args: &RunArgs) -> Result<PathBuf, Exit> {
     let default = || PathBuf::from(args.deck.file_stem().unwrap_or_default()).with_extension("out");
     let folder = args.output.clone().unwrap_or_else(default);
-    let entries = match std::fs::read_dir(&folder) {
+    free_folder(&folder, args.overwrite).map(|()| folder)
+}
+
+/// A folder is new, empty, or given up.
+fn free_folder(folder: &Path, overwrite: bool) -> Result<(), Exit> {
+    let entries = match std::fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_some(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
         Err(error) => {
@@ -244,12 +263,12 @@ fn output_folder(args: &RunArgs) -> Result<PathBuf, Exit> {
             return Err(Exit::InputOutput);
         }
     };
-    if entries && !args.overwrite {
+    if entries && !overwrite {
         complain(&format!("the folder `{}` holds files already", folder.display()));
         say("  help: --overwrite replaces results; -o DIR writes elsewhere");
         return Err(Exit::Usage);
     }
-    Ok(folder)
+    Ok(())
 }
 
 /// Results for a script, on standard output. A reader that has gone away is no fault.

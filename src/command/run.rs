@@ -142,7 +142,7 @@ fn compute(
 }
 
 /// Interrupt and termination raise the flag: the run ends after the step in hand, with whole files.
-fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
+pub(super) fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
     // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
     // two at the same moment.
     let code = i32::from(Exit::Stopped as u8);

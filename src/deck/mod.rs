@@ -22,6 +22,7 @@ pub mod read;
 pub mod sections;
 pub mod set;
 pub mod shells;
+pub mod study;
 pub mod supports;
 pub mod words;
 
@@ -90,6 +91,7 @@ pub struct Deck {
     #[serde(default)]
     pub expect: Vec<At<Table<expect::Expect>>>,
     pub output: Maybe<Table<output::Output>>,
+    pub study: Maybe<Table<study::Study>>,
     /// Entries that are written but could not be read: not missing, and already reported.
     #[serde(skip)]
     pub spoiled: Vec<Spoiled>,

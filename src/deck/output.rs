@@ -29,6 +29,8 @@ pub struct Output {
     pub sections: Maybe<bool>,
     /// Write layers.csv: stress through the thickness of shells. Default: false.
     pub layers: Maybe<bool>,
+    /// Write parts.csv: the elastic energy of each beam, bar and shell. Default: false.
+    pub parts: Maybe<bool>,
 }
 
 /// Field files.

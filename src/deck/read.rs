@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::{Deck, Spoiled, set};
+use super::{Deck, Spoiled, set, study};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::nearest;
 
@@ -32,6 +32,9 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
             reader.problems.push(problem);
         }
     }
+    let words = study::words(&root);
+    let mut root = root;
+    reader.problems.extend(study::expand(&mut root, &words));
     reader.numbers(&mut root);
     let deck = reader.tables(root);
     let spoiled = reader.spoiled;

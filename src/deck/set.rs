@@ -14,7 +14,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::names::nearest;
 
 /// Tables that an override may begin; entries of any other must stand in the deck.
-const SINGLE: [&str; 7] = ["mesh", "analysis", "integrator", "iteration", "environment", "damping", "output"];
+const SINGLE: [&str; 8] = ["mesh", "analysis", "integrator", "iteration", "environment", "damping", "output", "study"];
 /// Tables whose entries are named by the user.
 const NAMED: [&str; 5] = ["materials", "sections", "points", "sets", "amplitudes"];
 

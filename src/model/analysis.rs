@@ -115,7 +115,7 @@ impl<'d> Builder<'d> {
         }
     }
 
-    fn scheme(&mut self, integrator: &'d deck::Integrator) {
+    pub(super) fn scheme(&mut self, integrator: &'d deck::Integrator) {
         let rotation = match integrator.rotation_update.as_ref().map(|update| update.value) {
             Some(deck::RotationUpdate::FirstOrder) => RotationUpdate::FirstOrder,
             Some(deck::RotationUpdate::SecondOrder) => RotationUpdate::SecondOrder,

@@ -61,6 +61,7 @@ pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnost
     b.control();
     b.expects();
     b.output();
+    b.study();
     b.check();
     b.drop_unused();
     let sound = !b.problems.iter().any(Diagnostic::is_error);
@@ -176,8 +177,10 @@ impl<'d> Builder<'d> {
                 reactions: false,
                 sections: false,
                 layers: false,
+                parts: false,
                 fields: None,
             },
+            study: None,
         };
         Builder {
             deck,

@@ -316,6 +316,7 @@ impl<'d> Builder<'d> {
             reactions: flag(&output.reactions, false),
             sections: flag(&output.sections, false),
             layers: flag(&output.layers, false),
+            parts: flag(&output.parts, false),
             fields,
         };
     }

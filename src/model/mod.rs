@@ -22,11 +22,13 @@ mod rigid;
 mod sections;
 mod shells;
 mod slivers;
+pub mod study;
 mod supports;
 mod unused;
 
 pub use build::{build, read};
 pub use meshes::Input;
+pub use study::Study;
 
 use crate::amplitude::Amplitude;
 use crate::constraints::joint::Row;
@@ -75,6 +77,8 @@ pub struct Model {
     /// The file that the deck names.
     pub mesh: Option<MeshFile>,
     pub output: Output,
+    /// What `rdsolve study` goes over.
+    pub study: Option<Study>,
 }
 
 /// What a body is made of.
@@ -523,6 +527,7 @@ pub struct Output {
     pub reactions: bool,
     pub sections: bool,
     pub layers: bool,
+    pub parts: bool,
     /// Steps between two field files; `None`: no fields.
     pub fields: Option<usize>,
 }

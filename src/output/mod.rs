@@ -14,8 +14,9 @@ pub mod energy_csv;
 mod fields;
 pub mod links_csv;
 pub mod nodes_csv;
+mod parts_csv;
 mod reactions_csv;
-mod rows;
+pub(crate) mod rows;
 mod sections_csv;
 mod shape;
 pub mod shells_csv;
@@ -44,6 +45,7 @@ enum Format {
     Contacts(Table),
     Reactions(Table),
     Sections(Table),
+    Parts(Table),
     Shells(Table, shells_csv::Order),
     Layers(Table, shells_csv::Order),
     Steps(Table),
@@ -63,6 +65,7 @@ impl Format {
             Format::Contacts(table) => contacts_csv::write(table, frame),
             Format::Reactions(table) => reactions_csv::write(table, frame),
             Format::Sections(table) => sections_csv::write(table, frame),
+            Format::Parts(table) => parts_csv::write(table, frame),
             Format::Shells(table, order) => shells_csv::write(table, order, frame),
             Format::Layers(table, order) => shells_csv::write_layers(table, order, frame),
         }
@@ -77,6 +80,7 @@ impl Format {
             | Format::Contacts(table)
             | Format::Reactions(table)
             | Format::Sections(table)
+            | Format::Parts(table)
             | Format::Shells(table, _)
             | Format::Layers(table, _)
             | Format::Steps(table) => table.flush(),
@@ -114,6 +118,7 @@ impl Files {
         table(contacts, &Format::Contacts, "contacts.csv", contacts_csv::header())?;
         table(asked.reactions, &Format::Reactions, "reactions.csv", reactions_csv::header())?;
         table(asked.sections && !model.beams.is_empty(), &Format::Sections, "sections.csv", sections_csv::header())?;
+        table(asked.parts, &Format::Parts, "parts.csv", parts_csv::header())?;
         let shells = !model.shells.is_empty();
         let of_shells = |table| Format::Shells(table, shells_csv::Order::of(model));
         let of_layers = |table| Format::Layers(table, shells_csv::Order::of(model));
@@ -149,6 +154,7 @@ pub fn wanted(model: &Model) -> Wanted {
         links: model.output.links || expects(|at| matches!(at, ExpectAt::Link(_))),
         contacts: model.output.contacts || expects(|at| matches!(at, ExpectAt::Contact(_))),
         sections: model.output.sections,
+        parts: model.output.parts,
         shells: !model.shells.is_empty()
             && (model.output.sections
                 || model.output.layers
@@ -168,7 +174,7 @@ fn yields(model: &Model) -> bool {
 
 /// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.
 fn remove_stale(dir: &Path) -> io::Result<()> {
-    const OURS: [&str; 13] = [
+    const OURS: [&str; 14] = [
         "nodes.csv",
         "bodies.csv",
         "energy.csv",
@@ -178,6 +184,7 @@ fn remove_stale(dir: &Path) -> io::Result<()> {
         "sections.csv",
         "shells.csv",
         "layers.csv",
+        "parts.csv",
         "steps.csv",
         "fields.csv",
         "fields.pvd",
@@ -199,12 +206,12 @@ fn remove_stale(dir: &Path) -> io::Result<()> {
 }
 
 /// The error with the file it is about.
-fn at(path: &Path, error: io::Error) -> io::Error {
+pub(crate) fn at(path: &Path, error: io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
 /// Writes a small file so that a reader sees the old one or the new one, never a part.
-fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
+pub(crate) fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
     let mut name = path.as_os_str().to_owned();
     name.push(".tmp");
     fs::write(&name, text).and_then(|()| fs::rename(&name, path)).map_err(|e| at(path, e))

@@ -14,7 +14,7 @@ use crate::math::Vec3;
 use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
-use crate::system::energy::Energy;
+use crate::system::energy::{Energy, PartEnergy};
 use crate::system::{Drive, Forces, Loading, System};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -27,6 +27,7 @@ pub struct Wanted {
     pub links: bool,
     pub contacts: bool,
     pub sections: bool,
+    pub parts: bool,
     pub plastic_strains: bool,
     pub shells: bool,
 }
@@ -75,6 +76,7 @@ pub struct Run<'a> {
     contacts: Vec<ContactState>,
     plastic_strains: Vec<f64>,
     sections: Vec<SectionPoint>,
+    parts: Vec<PartEnergy>,
     shells: Vec<ShellState>,
 }
 
@@ -189,6 +191,7 @@ impl<'a> Run<'a> {
             contacts: Vec::with_capacity(model.contacts.len()),
             plastic_strains: Vec::new(),
             sections: Vec::new(),
+            parts: Vec::new(),
             shells: Vec::new(),
         })
     }
@@ -374,6 +377,7 @@ impl<'a> Run<'a> {
             contacts: &self.contacts,
             plastic_strains: &self.plastic_strains,
             sections: &self.sections,
+            parts: &self.parts,
             shells: &self.shells,
             passed,
             // Each multiplier brings one of its own.
@@ -393,6 +397,7 @@ impl<'a> Run<'a> {
         self.contacts.clear();
         self.plastic_strains.clear();
         self.sections.clear();
+        self.parts.clear();
         self.shells.clear();
         let system = self.stepper.system;
         if self.wanted.plastic_strains && (due || drawn) {
@@ -418,6 +423,9 @@ impl<'a> Run<'a> {
         }
         if self.wanted.sections {
             system.section_points(self.stepper.model, &state.now(), &mut self.sections);
+        }
+        if self.wanted.parts {
+            system.part_energies(self.stepper.model, &state.now(), &mut self.parts);
         }
     }
 }

@@ -20,7 +20,7 @@ pub use march::{Counts, Outcome, Run, Wanted};
 
 use crate::model::Model;
 use crate::state::State;
-use crate::system::energy::Energy;
+use crate::system::energy::{Energy, PartEnergy};
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 pub use crate::system::{ContactState, JointState};
 
@@ -59,6 +59,8 @@ pub struct Frame<'a> {
     pub shells: &'a [ShellState],
     /// Empty unless `due` and wanted.
     pub sections: &'a [SectionPoint],
+    /// Of all beams, bars and shells in deck order. Empty unless `due` and wanted.
+    pub parts: &'a [PartEnergy],
     /// Indices into [`Model::expects`] of those whose passage this step lands on.
     pub passed: &'a [usize],
     /// Of the last matrix of a step by arc length.

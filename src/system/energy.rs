@@ -2,7 +2,8 @@
 
 use super::{GroupKind, System, lanes};
 use crate::math::Vec3;
-use crate::state::State;
+use crate::model::Model;
+use crate::state::{Now, State};
 
 /// The columns of energy.csv.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +37,49 @@ pub struct Energy {
     pub impact: f64,
 }
 
+/// Elastic energy of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartEnergy {
+    pub kind: GroupKind,
+    /// The part's place in the model's list; of a shell with triangles and quadrilaterals that of the first of the two.
+    pub part: usize,
+    pub strain: f64,
+}
+
+impl PartEnergy {
+    pub fn name<'m>(&self, model: &'m Model) -> &'m str {
+        name(model, self.kind, self.part)
+    }
+}
+
+fn name(model: &Model, kind: GroupKind, part: usize) -> &str {
+    match kind {
+        GroupKind::Beam => &model.beams[part].name,
+        GroupKind::Bar => &model.bars[part].name,
+        GroupKind::Shell => &model.shells[part].name,
+        GroupKind::Link | GroupKind::Contact => "",
+    }
+}
+
 impl System {
+    /// Elastic energy of each beam, bar and shell, in deck order; without what kinematic hardening keeps.
+    pub fn part_energies(&self, model: &Model, now: &Now, parts: &mut Vec<PartEnergy>) {
+        for group in &self.groups {
+            let (kind, part) = (group.kind, group.part);
+            if matches!(kind, GroupKind::Link | GroupKind::Contact) {
+                continue;
+            }
+            let energy = group.block.energy(&group.share(now));
+            let same = |last: &PartEnergy| {
+                last.kind == kind && (last.part == part || last.name(model) == name(model, kind, part))
+            };
+            match parts.last_mut() {
+                Some(last) if same(last) => last.strain += energy,
+                _ => parts.push(PartEnergy { kind, part, strain: energy }),
+            }
+        }
+    }
+
     /// `initial`: the total at t = 0, against which the balance is drawn.
     pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.now(), state.work);

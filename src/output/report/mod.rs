@@ -5,7 +5,7 @@
 
 mod grids;
 mod histories;
-mod html;
+pub(crate) mod html;
 mod points;
 mod result;
 
@@ -19,7 +19,7 @@ use std::io;
 use std::path::Path;
 
 const PAGE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
+pub(crate) const STYLE: &str = include_str!("page.css");
 const SCRIPTS: [&str; 5] = [
     include_str!("data.js"),
     include_str!("plot.js"),

@@ -1,0 +1,187 @@
+//! `rdsolve study deck.toml`: error against run time over a ladder of settings; `--rigidify`: what rigid parts would cost and save.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use clap::Args;
+
+use super::run::stop_on_signals;
+use super::{Exit, MOST_THREADS, complain, counted, free_folder, load_with, say, show};
+use crate::study::{Fault, Options, Status, rigidify, study as studied};
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Every setting is run as a process of its own: once for its answer, then again, in turn, for its time, of which \
+the least counts. Error = rms over equidistant times / largest value, all quantities together, against the reference of \
+`[study]`, or else against what the finest runs tend to, with a bound of its own error. Options go before the keys of the \
+deck's `[study]`, which they are named after.
+
+Written: study.csv (a row for each run), study.svg, study.html; or rigidify.csv. Runs that failed are listed as failed.
+
+Exit codes: 0 done, 2 usage, 3 deck invalid, 4 no run came to its end, 6 input/output, 75 stopped by a signal, with what there is."
+)]
+pub(super) struct StudyArgs {
+    /// The deck, a TOML file
+    deck: PathBuf,
+    /// Override one entry of the deck, as for `run`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+    /// Schemes, with parameters if need be: newmark,generalized-alpha:spectral_radius=0.5
+    #[arg(long, value_name = "SCHEME", value_delimiter = ',')]
+    schemes: Vec<String>,
+    /// Iteration methods: tangent-stiffness,initial-load,auto
+    #[arg(long, value_name = "METHOD", value_delimiter = ',')]
+    methods: Vec<String>,
+    /// Time steps; with --halvings, the longest
+    #[arg(long, value_name = "DT", value_delimiter = ',', value_parser = positive)]
+    time_steps: Vec<f64>,
+    /// Halve the time step so many times
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=30))]
+    halvings: Option<u64>,
+    /// Factors on the numbers of elements: 1,2,4
+    #[arg(long, value_name = "FACTOR", value_delimiter = ',', value_parser = positive)]
+    meshes: Vec<f64>,
+    /// CSV file of the answer, a path from here
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// What errors are measured on: tip.uz,block.x
+    #[arg(long, alias = "quantity", value_name = "NAME.QUANTITY", value_delimiter = ',')]
+    quantities: Vec<String>,
+    /// Intervals between the times at which errors are taken
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    samples: Option<u64>,
+    /// Name the cheapest setting for these errors
+    #[arg(long, value_name = "ERROR", value_delimiter = ',', value_parser = positive)]
+    wanted_error: Vec<f64>,
+    /// Runs of each setting
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    repeats: u16,
+    /// No more runs of a setting once they have taken so many seconds together
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
+    budget: f64,
+    /// Instead of a ladder: each part's share of the elastic energy, and runs with it rigid
+    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "halvings", "meshes", "reference", "wanted_error"])]
+    rigidify: bool,
+    /// Threads of each run, from 1 to 64
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MOST_THREADS))]
+    threads: u8,
+    /// Folder for the study [default: the deck's name with .study, in the current folder]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Write into a folder that already holds files
+    #[arg(long)]
+    overwrite: bool,
+    /// No progress bar, no warnings
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        _ => Err("a number above zero is wanted".to_owned()),
+    }
+}
+
+pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
+    let (mut sets, mut names) = (args.sets.clone(), Vec::new());
+    for (name, value) in args.keys()? {
+        sets.push(format!("study.{}={value}", name.trim_start_matches("--").replace('-', "_")));
+        names.push(name.to_owned());
+    }
+    let loaded = load_with(&args.deck, &sets, names)?;
+    let folder = match &args.output {
+        Some(folder) => folder.clone(),
+        None => PathBuf::from(args.deck.file_stem().unwrap_or_default()).with_extension("study"),
+    };
+    free_folder(&folder, args.overwrite)?;
+    if !args.quiet {
+        show(&loaded.warnings, &loaded.source);
+    }
+    // The model is sound, so there is a deck.
+    let (Some(deck), _) = crate::deck::read(&loaded.source) else { return Err(Exit::Internal) };
+    let options = Options {
+        deck: args.deck.clone(),
+        sets: args.sets.clone(),
+        folder: folder.clone(),
+        threads: usize::from(args.threads),
+        repeats: usize::from(args.repeats),
+        budget: args.budget,
+        quiet: args.quiet,
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    let fault = |fault: Fault| match fault {
+        Fault::Deck(problems) => {
+            show(&problems, &loaded.source);
+            complain(&format!("`{}` cannot be studied: {}", loaded.source.path, counted(problems.len(), "error")));
+            Exit::DeckInvalid
+        }
+        Fault::Io(error) if error.kind() == std::io::ErrorKind::Interrupted => {
+            complain(&error.to_string());
+            Exit::Stopped
+        }
+        Fault::Io(error) => {
+            complain(&format!("the study cannot go on: {error}"));
+            Exit::InputOutput
+        }
+    };
+    stop_on_signals(&stop).map_err(|error| fault(error.into()))?;
+    let (text, stopped, any) = if args.rigidify {
+        let advice = rigidify(&loaded.model, &deck, &options, &stop).map_err(fault)?;
+        (advice.text(), advice.stopped, advice.base.status == Status::Done)
+    } else {
+        let found = studied(&loaded.model, &deck, &options, &stop).map_err(fault)?;
+        (found.text(), found.stopped, found.runs.iter().any(|run| run.status == Status::Done))
+    };
+    super::print(&text)?;
+    if !args.quiet {
+        say(&format!("results in {}", folder.display()));
+    }
+    if stopped {
+        complain("stopped by a signal; what there is has been written");
+        return Err(Exit::Stopped);
+    }
+    if !any {
+        complain("no run came to its end");
+        return Err(Exit::NotConverged);
+    }
+    Ok(())
+}
+
+impl StudyArgs {
+    /// Options that stand for keys of `[study]`, with their values in TOML.
+    fn keys(&self) -> Result<Vec<(&'static str, String)>, Exit> {
+        // Strings of JSON are strings of TOML.
+        let texts = |list: &[String]| serde_json::Value::from(list.to_vec()).to_string();
+        let numbers = |list: &[f64]| {
+            let list: Vec<String> = list.iter().map(|number| format!("{number:?}")).collect();
+            format!("[{}]", list.join(", "))
+        };
+        let mut keys = Vec::new();
+        let mut add = |name, given: bool, value: String| {
+            if given {
+                keys.push((name, value));
+            }
+        };
+        add("--schemes", !self.schemes.is_empty(), texts(&self.schemes));
+        add("--methods", !self.methods.is_empty(), texts(&self.methods));
+        add("--time-steps", !self.time_steps.is_empty(), numbers(&self.time_steps));
+        // A list given here is the ladder, whatever the deck halves.
+        let halvings = self.halvings.or((!self.time_steps.is_empty()).then_some(0));
+        add("--halvings", halvings.is_some(), halvings.unwrap_or_default().to_string());
+        add("--meshes", !self.meshes.is_empty(), numbers(&self.meshes));
+        add("--quantities", !self.quantities.is_empty(), texts(&self.quantities));
+        add("--samples", self.samples.is_some(), self.samples.unwrap_or_default().to_string());
+        add("--wanted-error", !self.wanted_error.is_empty(), numbers(&self.wanted_error));
+        if let Some(file) = &self.reference {
+            // The deck's own is a path from the deck; this one is from here.
+            let file = file.canonicalize().map_err(|error| {
+                complain(&format!("cannot read the reference `{}`: {error}", file.display()));
+                Exit::InputOutput
+            })?;
+            keys.push(("--reference", serde_json::Value::from(file.display().to_string()).to_string()));
+        }
+        Ok(keys)
+    }
+}

@@ -1,0 +1,332 @@
+//! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
+//! [`crate::study`] alone.
+
+use super::build::{Builder, Owner};
+use super::places::Place;
+use super::{Cadence, Control, Method};
+use crate::deck::analysis as deck;
+use crate::deck::study::Study as Written;
+use crate::deck::words::{Maybe, OneOrMany};
+use crate::diagnostic::{At, Span};
+use crate::integrators::Scheme;
+use crate::names::nearest;
+
+/// What is gone over, and what errors are measured on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Study {
+    /// Empty: displacements of all nodes in nodes.csv and of all bodies.
+    pub quantities: Vec<Quantity>,
+    /// File as the deck names it.
+    pub reference: Option<String>,
+    /// Of each quantity: its column in that file.
+    pub columns: Vec<String>,
+    /// Intervals; `None`: as the reference has them, or 200.
+    pub samples: Option<usize>,
+    /// Longest first; empty: from the deck's own.
+    pub time_steps: Vec<f64>,
+    /// Of the one time step.
+    pub halvings: usize,
+    /// Empty: the deck's own.
+    pub schemes: Vec<Choice>,
+    /// Empty: the deck's own.
+    pub methods: Vec<Method>,
+    /// Factors on numbers of elements, rising; empty: 1.
+    pub meshes: Vec<f64>,
+    /// Largest first; empty: 1e-2, 1e-3, 1e-4.
+    pub wanted_errors: Vec<f64>,
+}
+
+/// One number of one node at every time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// As `output.nodes` and the deck name it.
+    pub name: String,
+    /// As nodes.csv or bodies.csv has it.
+    pub label: String,
+    /// In bodies.csv.
+    pub body: bool,
+    /// A word of [`QUANTITIES`].
+    pub column: &'static str,
+}
+
+impl Quantity {
+    /// "tip.uz".
+    pub fn word(&self) -> String {
+        format!("{}.{}", self.name, self.column)
+    }
+}
+
+/// A scheme with its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// "newmark:gamma=0.6".
+    pub label: String,
+    /// The table `[integrator]` that asks for it, in line.
+    pub table: String,
+}
+
+/// What can be asked of a node or body.
+pub const QUANTITIES: [&str; 33] = [
+    "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx",
+    "by", "bz", "body_wx", "body_wy", "body_wz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33",
+];
+
+/// More are a slip of the keyboard.
+const MOST_RUNGS: usize = 60;
+const MOST_SAMPLES: u64 = 1_000_000;
+
+impl<'d> Builder<'d> {
+    pub fn study(&mut self) {
+        let Some(at) = &self.deck.study else { return };
+        let study: &'d Written = &at.value;
+        let (quantities, columns) = self.quantities(study);
+        let time_steps = self.sorted("time_steps", &study.time_steps).into_iter().rev().collect::<Vec<_>>();
+        let halvings = self.halvings(study, time_steps.len());
+        let samples = study.samples.as_ref().and_then(|samples| match samples.value {
+            1..=MOST_SAMPLES => Some(samples.value as usize),
+            _ => self.error(&samples.span, format!("`samples` must lie between 1 and {MOST_SAMPLES}")),
+        });
+        let end = self.model.analysis.end_time;
+        if let (Some(samples), Some(&longest), Some(at)) = (samples, time_steps.first(), &study.time_steps)
+            && longest > end / samples as f64 * (1.0 + 1e-9)
+            && end < f64::MAX
+        {
+            let message =
+                format!("the time step {longest} is longer than the {} between two samples", end / samples as f64);
+            self.error_with::<()>(&at.span, message, "steps land on all of them: take fewer `samples`");
+        }
+        let schemes = self.schemes(study);
+        let methods = self.methods(&study.methods);
+        let meshes = self.sorted("meshes", &study.meshes);
+        let wanted_errors = self.sorted("wanted_error", &study.wanted_error).into_iter().rev().collect();
+        self.model.study = Some(Study {
+            quantities,
+            reference: study.reference.as_ref().map(|file| file.value.clone()),
+            columns,
+            samples,
+            time_steps,
+            halvings,
+            schemes,
+            methods,
+            meshes,
+            wanted_errors,
+        });
+    }
+
+    /// Of each quantity: where it is, and its column in the reference.
+    fn quantities(&mut self, study: &'d Written) -> (Vec<Quantity>, Vec<String>) {
+        if study.reference.is_none() {
+            let places: Vec<&Span> = study.columns.0.iter().map(|(column, _)| &column.span).collect();
+            if let Some(place) = places.first() {
+                self.error_with::<()>(place, "`columns` is about a reference", "there is no `reference`");
+            }
+        }
+        let listed = study.quantities.as_ref().map(|at| (&at.span, &at.values));
+        if let Some((span, [])) = listed.map(|(span, values)| (span, values.as_slice())) {
+            self.error::<()>(span, "`quantities` is empty");
+        }
+        let of_columns = || study.columns.0.iter().map(|(_, word)| word).collect::<Vec<_>>();
+        let words: Vec<&'d At<String>> = listed.map_or_else(of_columns, |(_, values)| values.iter().collect());
+        let mut found: Vec<(Quantity, String)> = Vec::new();
+        for word in words {
+            let Some(quantity) = self.quantity(word) else { continue };
+            if found.iter().any(|(other, _)| *other == quantity) {
+                self.error::<()>(&word.span, format!("`{}` is listed twice", word.value));
+                continue;
+            }
+            let column = study.columns.0.iter().find(|(_, of)| of.value == word.value);
+            found.push((quantity, column.map_or_else(|| word.value.clone(), |(column, _)| column.value.clone())));
+        }
+        if let Some((_, values)) = listed {
+            for (column, word) in &study.columns.0 {
+                if !values.iter().any(|value| value.value == word.value) {
+                    let message = format!("column `{}` is `{}`, which is no quantity here", column.value, word.value);
+                    self.error_with::<()>(&word.span, message, "`quantities` does not list it");
+                }
+            }
+        }
+        found.into_iter().unzip()
+    }
+
+    fn quantity(&mut self, word: &'d At<String>) -> Option<Quantity> {
+        let Some((name, column)) = word.rsplit_once('.') else {
+            return self.error_with(&word.span, format!("`{}` is no quantity", word.value), "such as \"tip.uz\"");
+        };
+        let name = At { value: name.to_owned(), span: word.span.clone() };
+        let (label, body) = match self.place_or_node(&name) {
+            Some(Place::Point(node)) => (self.model.nodes[node].label.clone(), false),
+            Some(Place::Body(body)) => (self.model.bodies[body].name.clone(), true),
+            Some(place) => {
+                let message = format!("`{}` is {}", name.value, place.kind());
+                return self.error_with(&word.span, message, "quantities are at points and bodies");
+            }
+            None => {
+                let is_node = |place: &Place| matches!(place, Place::Point(_) | Place::Body(_));
+                let known = self.places.iter().filter(|(_, (place, _))| is_node(place)).map(|(name, _)| *name);
+                let mut known: Vec<&str> = known.collect();
+                known.sort_unstable();
+                return self.unknown("point or body", &name, known.into_iter());
+            }
+        };
+        let known: Vec<&'static str> =
+            QUANTITIES.into_iter().filter(|word| !(body && ["rx", "ry", "rz"].contains(word))).collect();
+        match known.iter().find(|known| **known == column) {
+            Some(&column) => Some(Quantity { name: name.value, label, body, column }),
+            None => {
+                let message = format!("there is no quantity `{column}` at `{}`", name.value);
+                match nearest(column, known.iter().copied()).filter(|_| column.len() > 2) {
+                    Some(near) => self.error_with(&word.span, message, format!("did you mean `{near}`?")),
+                    None => self.error_with(&word.span, message, format!("there are {}", known.join(", "))),
+                }
+            }
+        }
+    }
+
+    /// Numbers above zero, each once, sorted.
+    fn sorted(&mut self, key: &str, list: &'d Maybe<OneOrMany<f64>>) -> Vec<f64> {
+        let Some(list) = list else { return Vec::new() };
+        if list.values.is_empty() {
+            self.error::<()>(&list.span, format!("`{key}` is empty"));
+        }
+        if list.values.len() > MOST_RUNGS {
+            let message = format!("`{key}` has {} entries", list.values.len());
+            self.error_with::<()>(&list.span, message, format!("at most {MOST_RUNGS} are taken to be meant"));
+        }
+        for value in list.values.iter().filter(|value| value.value <= 0.0) {
+            self.error::<()>(&value.span, format!("`{key}` must be above zero"));
+        }
+        let mut numbers: Vec<f64> = list.values.iter().map(|value| value.value).collect();
+        numbers.sort_by(f64::total_cmp);
+        numbers.dedup();
+        numbers
+    }
+
+    fn halvings(&mut self, study: &'d Written, time_steps: usize) -> usize {
+        let Some(halvings) = &study.halvings else { return 0 };
+        if halvings.value > 30 {
+            self.error_with::<()>(&halvings.span, "`halvings` is above 30", "each doubles the steps of a run");
+        }
+        if time_steps > 1 && halvings.value > 0 {
+            self.error_with::<()>(&halvings.span, "`halvings` goes with one time step", "`time_steps` lists several");
+        }
+        usize::try_from(halvings.value).unwrap_or(0)
+    }
+
+    fn schemes(&mut self, study: &'d Written) -> Vec<Choice> {
+        let own = self.deck.integrator.as_ref();
+        let deck_scheme = self.model.scheme.clone();
+        let mut choices: Vec<Choice> = Vec::new();
+        for at in &study.schemes {
+            let integrator: &'d deck::Integrator = at;
+            let owner = Owner { what: "a scheme of `schemes`".to_owned(), span: &at.span };
+            if self.need(&owner, "scheme", &integrator.scheme).is_none() {
+                continue;
+            }
+            // Said in the words of `[integrator]`.
+            self.scheme(integrator);
+            let word = self.model.scheme.word();
+            let mut entries = entries(integrator);
+            let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| rotation_word(update.value));
+            if word == deck_scheme.word()
+                && entries.is_empty()
+                && let Some(own) = own
+            {
+                entries = self::entries(own);
+            } else if let Some(rotation) = rotation
+                && !entries.iter().any(|(key, _)| *key == "rotation_update")
+            {
+                entries.push(("rotation_update", format!("\"{rotation}\"")));
+            }
+            let choice = choice(&self.model.scheme, &entries);
+            if choices.iter().any(|other| other.label == choice.label) {
+                self.error::<()>(&at.span, format!("`{}` is listed twice", choice.label));
+            }
+            choices.push(choice);
+        }
+        self.model.scheme = deck_scheme;
+        choices
+    }
+
+    fn methods(&mut self, list: &'d [At<deck::Method>]) -> Vec<Method> {
+        let mut methods = Vec::new();
+        for at in list {
+            let method = match at.value {
+                deck::Method::TangentStiffness => Method::TangentStiffness,
+                deck::Method::InitialLoad => Method::InitialLoad,
+                deck::Method::Auto => Method::Auto,
+            };
+            if methods.contains(&method) {
+                self.error::<()>(&at.span, format!("`{}` is listed twice", method.word()));
+            }
+            methods.push(method);
+        }
+        methods
+    }
+}
+
+/// Why a model cannot be studied; `None`: it can.
+pub fn obstacle(model: &super::Model) -> Option<&'static str> {
+    match model.analysis.control {
+        Control::ArcLength(_) => {
+            Some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
+        }
+        Control::Time => None,
+    }
+}
+
+/// Time between two rows of output, where there is one.
+pub fn interval(model: &super::Model) -> Option<f64> {
+    match model.output.cadence {
+        Cadence::Interval(interval) => Some(interval),
+        Cadence::Steps(_) => None,
+    }
+}
+
+impl Method {
+    /// As the deck writes it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Method::TangentStiffness => "tangent-stiffness",
+            Method::InitialLoad => "initial-load",
+            Method::Auto => "auto",
+        }
+    }
+}
+
+/// What an integrator says besides its scheme, as TOML.
+fn entries(integrator: &deck::Integrator) -> Vec<(&'static str, String)> {
+    // Named one by one, so that none is forgotten.
+    let deck::Integrator { scheme: _, theta, gamma, beta, alpha, spectral_radius, split, rotation_update } = integrator;
+    let numbers = [
+        ("theta", theta),
+        ("gamma", gamma),
+        ("beta", beta),
+        ("alpha", alpha),
+        ("spectral_radius", spectral_radius),
+        ("split", split),
+    ];
+    let mut entries: Vec<(&'static str, String)> =
+        numbers.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?.value.to_string()))).collect();
+    if let Some(update) = rotation_update {
+        entries.push(("rotation_update", format!("\"{}\"", rotation_word(update.value))));
+    }
+    entries
+}
+
+fn rotation_word(update: deck::RotationUpdate) -> &'static str {
+    match update {
+        deck::RotationUpdate::Exponential => "exponential",
+        deck::RotationUpdate::FirstOrder => "first-order",
+        deck::RotationUpdate::SecondOrder => "second-order",
+    }
+}
+
+fn choice(scheme: &Scheme, entries: &[(&'static str, String)]) -> Choice {
+    let word = scheme.word();
+    let (mut label, mut table) = (word.to_owned(), format!("{{ scheme = \"{word}\""));
+    for (key, value) in entries {
+        label += &format!(":{key}={}", value.trim_matches('"'));
+        table += &format!(", {key} = {value}");
+    }
+    Choice { label, table: table + " }" }
+}

@@ -1,0 +1,215 @@
+//! What is run: lines of settings, each over the same time steps, as overrides of the deck.
+
+use crate::deck::Deck;
+use crate::deck::words::{Maybe, OneOrMany};
+use crate::diagnostic::Diagnostic;
+use crate::model::study::{Quantity, Study, obstacle};
+use crate::model::{Kind, Model};
+
+/// Intervals between samples where nothing says otherwise.
+const SAMPLES: usize = 200;
+/// The ladder where nothing says otherwise: from so many of the deck's time steps, halved so often.
+const LONGEST: f64 = 8.0;
+const HALVINGS: usize = 6;
+
+/// A scheme, a method and a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// What distinguishes it from the others.
+    pub label: String,
+    pub scheme: String,
+    pub method: String,
+    /// Factor on the deck's numbers of elements.
+    pub mesh: f64,
+    /// Overrides.
+    pub sets: Vec<String>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ladder {
+    pub lines: Vec<Line>,
+    /// Longest first; each fits a whole number of times between two samples.
+    pub time_steps: Vec<f64>,
+    pub end_time: f64,
+    /// Intervals.
+    pub samples: usize,
+    /// Overrides of all runs.
+    pub sets: Vec<String>,
+    /// Time steps that were asked for and shortened, with what they are.
+    pub fitted: Vec<(f64, f64)>,
+}
+
+impl Ladder {
+    /// `samples`: those of a reference.
+    pub fn new(
+        model: &Model,
+        deck: &Deck,
+        study: &Study,
+        quantities: &[Quantity],
+        samples: Option<usize>,
+    ) -> Result<Ladder, Vec<Diagnostic>> {
+        let mut problems = Vec::new();
+        if let Some(text) = obstacle(model) {
+            return Err(vec![Diagnostic::error(text)]);
+        }
+        if quantities.is_empty() {
+            let hint = "name a point or a body, or list `quantities` in `[study]`";
+            problems.push(Diagnostic::error("there is nothing to measure errors on").hint(hint));
+        }
+        if model.analysis.kind == Kind::Static && !study.schemes.is_empty() {
+            problems.push(Diagnostic::error("schemes integrate in time, and a static analysis has none"));
+        }
+        let end_time = model.analysis.end_time;
+        let samples = study.samples.or(samples).unwrap_or(SAMPLES);
+        let interval = end_time / samples as f64;
+        let asked = time_steps(model, study, interval);
+        if let Some(longest) = asked.first().filter(|&&longest| longest > interval * (1.0 + 1e-9)) {
+            let message = format!("the time step {longest} is longer than the {interval} between two samples");
+            let hint = "steps land on all of them: take fewer samples (--samples)";
+            problems.push(Diagnostic::error(message).hint(hint));
+        }
+        let time_steps: Vec<f64> = asked.iter().map(|&step| fitting(interval, step)).collect();
+        let differ = |(asked, step): &(f64, f64)| (asked - step).abs() > 1e-9 * asked;
+        let fitted = asked.iter().copied().zip(time_steps.iter().copied()).filter(differ).collect();
+        let mut time_steps = time_steps;
+        time_steps.dedup();
+        let lines = lines(model, deck, study, &mut problems);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let sets = vec![output(quantities, interval, false), "expect=[]".to_owned()];
+        Ok(Ladder { lines, time_steps, end_time, samples, sets, fitted })
+    }
+}
+
+/// Nothing is written but what errors are measured on.
+pub fn output(quantities: &[Quantity], interval: f64, parts: bool) -> String {
+    let mut nodes: Vec<String> = Vec::new();
+    for quantity in quantities.iter().filter(|quantity| !quantity.body) {
+        let name = quoted(&quantity.name);
+        if !nodes.contains(&name) {
+            nodes.push(name);
+        }
+    }
+    // An empty list is an error; where there are bodies alone, named points cost little.
+    let nodes = if nodes.is_empty() { String::new() } else { format!("nodes = [{}], ", nodes.join(", ")) };
+    format!("output={{ {nodes}interval = {}, energy = false, parts = {parts} }}", float(interval))
+}
+
+/// As TOML: the quotes of JSON are among its own.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// The shortest text that reads back to the same number.
+pub fn float(number: f64) -> String {
+    ryu::Buffer::new().format(number).to_owned()
+}
+
+fn time_steps(model: &Model, study: &Study, interval: f64) -> Vec<f64> {
+    let halve = |longest: f64, times: usize| (0..=times).map(|k| longest * 0.5_f64.powi(k as i32)).collect();
+    let deck = model.analysis.time_step;
+    let from_deck = (LONGEST * deck).min(interval);
+    match study.time_steps[..] {
+        [] => halve(from_deck, if study.halvings > 0 { study.halvings } else { HALVINGS }),
+        [longest] => halve(longest, study.halvings),
+        ref list => list.to_vec(),
+    }
+}
+
+/// The longest step up to this one that fits an interval a whole number of times.
+fn fitting(interval: f64, step: f64) -> f64 {
+    interval / (interval / step - 1e-9).ceil().max(1.0)
+}
+
+fn lines(model: &Model, deck: &Deck, study: &Study, problems: &mut Vec<Diagnostic>) -> Vec<Line> {
+    let word = model.scheme.word().to_owned();
+    let scheme = |label: &str, set: Option<String>| (label.to_owned(), set);
+    let schemes: Vec<_> = match study.schemes[..] {
+        [] if model.analysis.kind == Kind::Static => vec![scheme("static", None)],
+        [] => vec![scheme(&word, None)],
+        ref list => list.iter().map(|of| scheme(&of.label, Some(format!("integrator={}", of.table)))).collect(),
+    };
+    let methods: Vec<_> = match study.methods[..] {
+        [] => vec![(model.iteration.method.word(), None)],
+        ref list => list.iter().map(|of| (of.word(), Some(format!("iteration.method=\"{}\"", of.word())))).collect(),
+    };
+    let meshes: Vec<f64> = if study.meshes.is_empty() { vec![1.0] } else { study.meshes.clone() };
+    let refined: Vec<Vec<String>> = meshes.iter().map(|&mesh| refine(deck, mesh, problems)).collect();
+    let mut lines = Vec::new();
+    for (scheme, of_scheme) in &schemes {
+        for (method, of_method) in &methods {
+            for (&mesh, of_mesh) in meshes.iter().zip(&refined) {
+                let mut label = scheme.clone();
+                if methods.len() > 1 {
+                    label += &format!(", {method}");
+                }
+                if meshes.len() > 1 {
+                    label += &format!(", mesh x {mesh}");
+                }
+                let sets = of_scheme.iter().chain(of_method).chain(of_mesh).cloned().collect();
+                lines.push(Line { label, scheme: scheme.clone(), method: (*method).to_owned(), mesh, sets });
+            }
+        }
+    }
+    lines
+}
+
+/// Overrides that multiply all numbers of elements.
+fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<String> {
+    if factor == 1.0 {
+        return Vec::new();
+    }
+    let name = |kind: &str, i: usize, name: Option<&str>| name.map_or(format!("{kind}.{i}"), str::to_owned);
+    let mut sets = Vec::new();
+    let mut add = |kind: &str, i: usize, label: String, group: bool, elements: &Maybe<OneOrMany<u64>>| {
+        if group {
+            let message = format!("`meshes` cannot refine `{label}`: its elements are those of the mesh file");
+            return problems.push(Diagnostic::error(message));
+        }
+        let one = OneOrMany { values: vec![crate::diagnostic::At { value: 1, span: 0..0 }], single: true };
+        let elements = elements.as_ref().map_or(&one, |at| &at.value);
+        let scaled = elements.values.iter().map(|count| {
+            let scaled = count.value as f64 * factor;
+            let whole = scaled.round();
+            ((scaled - whole).abs() < 1e-9 && whole >= 1.0).then_some((count.value, whole as u64))
+        });
+        let Some(scaled) = scaled.collect::<Option<Vec<_>>>() else {
+            let count = elements.values.iter().map(|count| count.value.to_string()).collect::<Vec<_>>().join(", ");
+            let message = format!("{factor} times the {count} elements of `{label}` is no whole number");
+            return problems.push(Diagnostic::error(message));
+        };
+        let numbers: Vec<String> = scaled.iter().map(|(_, whole)| whole.to_string()).collect();
+        let value = if elements.single { numbers.join("") } else { format!("[{}]", numbers.join(", ")) };
+        sets.push(format!("{kind}.{i}.elements={value}"));
+    };
+    for (i, beam) in deck.beams.iter().enumerate() {
+        let label = name("beams", i, beam.name.as_ref().or(beam.group.as_ref()).map(|name| name.as_str()));
+        add("beams", i, label, beam.group.is_some(), &beam.elements);
+    }
+    for (i, bar) in deck.bars.iter().enumerate() {
+        let label = name("bars", i, bar.name.as_ref().map(|name| name.as_str()));
+        add("bars", i, label, false, &bar.elements);
+    }
+    for (i, shell) in deck.shells.iter().enumerate() {
+        let label = name("shells", i, shell.name.as_ref().or(shell.group.as_ref()).map(|name| name.as_str()));
+        add("shells", i, label, shell.group.is_some(), &shell.elements);
+    }
+    if sets.is_empty() && problems.is_empty() {
+        problems.push(Diagnostic::error("`meshes` has nothing to refine: the deck has no elements"));
+    }
+    sets
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_fit_between_samples() {
+        assert_eq!(fitting(0.01, 0.01), 0.01);
+        assert_eq!(fitting(0.01, 0.005), 0.005);
+        assert_eq!(fitting(0.01, 0.006), 0.005);
+        assert_eq!(fitting(0.01, 0.01 / 3.0), 0.01 / 3.0);
+    }
+}

@@ -1,0 +1,162 @@
+//! What a line of runs says: its order where it has one, and what an error costs.
+
+use super::ladder::Ladder;
+use super::runs::Run;
+
+/// Local orders that agree so far are of one slope.
+const SLOPE: f64 = 0.2;
+/// Below this there is no convergence to speak of.
+const LEAST: f64 = 0.4;
+
+/// The order of a line over the time steps of its steady slope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Order {
+    /// Slope of log error against log time step, by least squares.
+    pub order: f64,
+    /// Runs it is fitted to.
+    pub runs: usize,
+    /// The longest and the shortest of their time steps.
+    pub from: f64,
+    pub to: f64,
+    /// The error below which shorter steps gain little, where the line comes to it.
+    pub floor: Option<f64>,
+}
+
+/// A line at the error asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cheapest {
+    /// Index into [`Ladder::lines`].
+    pub line: usize,
+    pub loop_s: f64,
+    pub process_s: f64,
+    pub time_step: f64,
+    /// The longest step of the ladder is better than asked for already.
+    pub at_the_top: bool,
+}
+
+/// Time step and error of the runs that have one well above that of the reference.
+fn points<'r>(runs: &'r [Run], line: usize) -> Vec<(&'r Run, f64)> {
+    let of_line = runs.iter().filter(move |run| run.line == line && run.resolved);
+    of_line.filter_map(|run| Some((run, run.error.filter(|error| *error > 0.0)?))).collect()
+}
+
+pub fn orders(ladder: &Ladder, runs: &[Run]) -> Vec<Option<Order>> {
+    let of = |line| {
+        let points: Vec<(f64, f64)> =
+            points(runs, line).iter().map(|(run, error)| (run.time_step.ln(), error.ln())).collect();
+        order(&points)
+    };
+    (0..ladder.lines.len()).map(of).collect()
+}
+
+/// Of (ln h, ln e), h falling.
+fn order(points: &[(f64, f64)]) -> Option<Order> {
+    let slopes: Vec<f64> = points.windows(2).map(|pair| (pair[0].1 - pair[1].1) / (pair[0].0 - pair[1].0)).collect();
+    // The longest stretch of steady slope; of equals the one of the finer steps.
+    let mut best: Option<(usize, usize)> = None;
+    for first in 0..slopes.len() {
+        let mut last = first;
+        let steady = |last: usize| {
+            let part = &slopes[first..=last];
+            let (low, high) = part.iter().fold((f64::MAX, f64::MIN), |(l, h), s| (l.min(*s), h.max(*s)));
+            low >= LEAST && high - low <= SLOPE
+        };
+        while last < slopes.len() && steady(last) {
+            last += 1;
+        }
+        if last > first && best.is_none_or(|(from, to)| last - first >= to - from) {
+            best = Some((first, last));
+        }
+    }
+    let (first, last) = best?;
+    let used = &points[first..=last];
+    let slope = slope(used);
+    // Slopes that fall to less than half come from something else than the step.
+    let floor = slopes[last..].iter().all(|s| *s < 0.5 * slope) && last < slopes.len();
+    let errors = points[last..].iter().map(|point| point.1.exp());
+    let floor = floor.then(|| errors.fold(f64::MAX, f64::min));
+    let step = |point: Option<&(f64, f64)>| point.map_or(f64::NAN, |point| point.0.exp());
+    Some(Order { order: slope, runs: used.len(), from: step(used.first()), to: step(used.last()), floor })
+}
+
+/// By least squares.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+    mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2))
+}
+
+/// For each error asked for, the lines that come to it, the cheapest first: on straight lines between neighbours of log error
+/// and log time, never beyond the ladder.
+pub fn cheapest(ladder: &Ladder, runs: &[Run], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
+    let of = |error: f64| {
+        let mut found: Vec<Cheapest> = (0..ladder.lines.len()).filter_map(|line| cost(runs, line, error)).collect();
+        found.sort_by(|a, b| a.loop_s.total_cmp(&b.loop_s));
+        (error, found)
+    };
+    wanted.iter().map(|&error| of(error)).collect()
+}
+
+fn cost(runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
+    // Bounds count: what they hold is at least as good.
+    let points: Vec<(&Run, f64)> =
+        runs.iter().filter(|run| run.line == line).filter_map(|run| Some((run, run.error?))).collect();
+    let reached = points.iter().filter(|(_, error)| *error <= wanted);
+    let at = |run: &Run, at_the_top| Cheapest {
+        line,
+        loop_s: run.loop_s,
+        process_s: run.process_s,
+        time_step: run.time_step,
+        at_the_top,
+    };
+    let mut best = reached.map(|(run, _)| at(run, false)).min_by(|a, b| a.loop_s.total_cmp(&b.loop_s))?;
+    best.at_the_top = points.first().is_some_and(|(run, _)| run.time_step == best.time_step);
+    for pair in points.windows(2) {
+        let ((coarse, above), (fine, below)) = (pair[0], pair[1]);
+        if !(above > wanted && below <= wanted && below > 0.0) {
+            continue;
+        }
+        let part = (above / wanted).ln() / (above / below).ln();
+        let between = |a: f64, b: f64| (a.ln() + part * (b.ln() - a.ln())).exp();
+        let loop_s = between(coarse.loop_s, fine.loop_s);
+        if loop_s < best.loop_s {
+            let process_s = between(coarse.process_s, fine.process_s);
+            let time_step = between(coarse.time_step, fine.time_step);
+            best = Cheapest { line, loop_s, process_s, time_step, at_the_top: false };
+        }
+    }
+    Some(best)
+}
+
+/// The order between a run and the one before it on its line.
+pub fn local(before: Option<&Run>, run: &Run) -> Option<f64> {
+    let before = before.filter(|before| before.resolved && run.resolved)?;
+    let (above, below) = (before.error?, run.error?);
+    let order = (above / below).ln() / (before.time_step / run.time_step).ln();
+    order.is_finite().then_some(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(errors: &[f64]) -> Vec<(f64, f64)> {
+        errors.iter().enumerate().map(|(k, e)| (0.5_f64.powi(k as i32).ln(), e.ln())).collect()
+    }
+
+    #[test]
+    fn the_order_is_that_of_the_steady_slope() {
+        let exact: Vec<f64> = (0..5).map(|k| 0.25_f64.powi(k)).collect();
+        let found = order(&line(&exact)).unwrap();
+        assert!((found.order - 2.0).abs() < 1e-12 && found.runs == 5 && found.floor.is_none(), "{found:?}");
+        // Too coarse at first, and a floor at the end.
+        let bent = [1.0, 0.9, 0.25, 0.0625, 0.0156, 0.012, 0.0119];
+        let found = order(&line(&bent)).unwrap();
+        assert!((found.order - 2.0).abs() < 0.08 && found.runs == 4, "{found:?}");
+        assert_eq!((found.from, found.to), (0.5, 0.0625));
+        assert!((found.floor.unwrap() - 0.0119).abs() < 1e-9);
+        assert_eq!(order(&line(&[1.0, 1.1, 0.95])), None);
+        assert_eq!(order(&line(&[1.0])), None);
+    }
+}

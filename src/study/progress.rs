@@ -1,0 +1,50 @@
+//! The progress bar of a study on standard error: how much of the work is done, which setting runs, the time left.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::Duration;
+
+/// Positions of the bar.
+const LENGTH: f64 = 1e4;
+
+/// Nothing when quiet or not on a terminal.
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    work: f64,
+    done: f64,
+}
+
+impl Progress {
+    /// `work` in any unit of which runs take time alike.
+    pub fn new(quiet: bool, work: f64) -> Progress {
+        let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
+            let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {eta} left");
+            let bar = ProgressBar::with_draw_target(Some(LENGTH as u64), ProgressDrawTarget::stderr());
+            // A long run says nothing in between, and the time left goes on.
+            bar.enable_steady_tick(Duration::from_millis(500));
+            bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        });
+        Progress { bar, work, done: 0.0 }
+    }
+
+    /// What runs now.
+    pub fn show(&self, label: &str, repeat: usize, repeats: usize) {
+        if let Some(bar) = &self.bar {
+            bar.set_message(format!("{label}, {repeat} of {repeats}"));
+        }
+    }
+
+    /// So much more of the work is done.
+    pub fn did(&mut self, work: f64) {
+        self.done += work;
+        if let Some(bar) = &self.bar {
+            bar.set_position((LENGTH * self.done / self.work) as u64);
+        }
+    }
+
+    pub fn finish(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}

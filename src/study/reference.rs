@@ -1,0 +1,275 @@
+//! What errors are measured against: a file, or what the finest runs tend to.
+//!
+//! Without a file, each line of settings is extrapolated to a time step of zero (Richardson): q* = q + (q − q')/(rᵖ − 1) from its
+//! two finest runs, p the order that the three finest show, or the whole number next to it. What the same order gives one rung
+//! up is an independent answer; their difference bounds the error of q* with room to spare. Over several meshes the limits in
+//! time are extrapolated in the same way. The line with the least bound is taken, and its bound raised where another line's
+//! limit lies farther off than both bounds allow.
+
+use super::history;
+use super::ladder::Ladder;
+use super::runs::{Run, Status};
+use crate::diagnostic::Diagnostic;
+use crate::model::Model;
+use crate::model::study::{Quantity, Study};
+use crate::names::{nearest, quoted};
+use std::path::Path;
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// At the sample times one after the other, each time all quantities.
+    pub values: Vec<f64>,
+    /// Of its own error, relative as errors are; 0 for a file, of which nothing is known.
+    pub bar: f64,
+    /// Where it comes from, in words.
+    pub source: String,
+}
+
+/// A reference of a file.
+pub struct Given {
+    pub values: Vec<f64>,
+    pub samples: usize,
+    source: String,
+}
+
+impl From<Given> for Reference {
+    fn from(given: Given) -> Self {
+        Reference { values: given.values, bar: 0.0, source: given.source }
+    }
+}
+
+/// Reads the file that the deck names, if it names one.
+pub fn read(
+    model: &Model,
+    study: &Study,
+    quantities: &[Quantity],
+    base: &Path,
+) -> Result<Option<Given>, Vec<Diagnostic>> {
+    let Some(file) = &study.reference else { return Ok(None) };
+    let path = base.join(file);
+    let error = |text: String| Diagnostic::error(format!("the reference `{file}` {text}"));
+    let failed = |text: String| Err(vec![error(text)]);
+    let mut reader = match csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(&path) {
+        Ok(reader) => reader,
+        Err(fault) => return failed(format!("cannot be read: {fault}")),
+    };
+    let header: Vec<String> = match reader.headers() {
+        Ok(header) => header.iter().map(str::to_owned).collect(),
+        Err(fault) => return failed(format!("cannot be read: {fault}")),
+    };
+    let Some(time_at) = header.iter().position(|name| name == "t" || name == "time") else {
+        return failed("has no column `t` or `time`".to_owned());
+    };
+    let names: Vec<String> =
+        if study.columns.is_empty() { quantities.iter().map(Quantity::word).collect() } else { study.columns.clone() };
+    let mut problems = Vec::new();
+    let mut places = Vec::new();
+    for name in &names {
+        match header.iter().position(|column| column == name) {
+            Some(place) => places.push(place),
+            None => {
+                let known = header.iter().map(String::as_str);
+                let near = nearest(name, known.clone()).map(|near| format!("did you mean `{near}`?"));
+                let hint = near.unwrap_or_else(|| format!("it has {}", quoted(known)));
+                problems.push(error(format!("has no column `{name}`")).hint(hint));
+            }
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let mut times = Vec::new();
+    let mut rows = Vec::new();
+    for (index, record) in reader.records().enumerate() {
+        let line = index + 2;
+        let record = match record {
+            Ok(record) => record,
+            Err(fault) => return failed(format!("cannot be read: {fault}")),
+        };
+        let number =
+            |place: usize| record.get(place).and_then(|text| text.parse::<f64>().ok()).filter(|n| n.is_finite());
+        let row: Option<Vec<f64>> = places.iter().map(|&place| number(place)).collect();
+        match (number(time_at), row) {
+            (Some(time), Some(row)) => {
+                times.push(time);
+                rows.push(row);
+            }
+            _ => return failed(format!("has no finite number in line {line}")),
+        }
+    }
+    let end = model.analysis.end_time;
+    let samples = study.samples.unwrap_or(times.len().saturating_sub(1)).max(1);
+    let mut values = Vec::new();
+    for k in 0..=samples {
+        let time = end * k as f64 / samples as f64;
+        match times.iter().position(|t| (t - time).abs() <= 1e-6 * end / samples as f64) {
+            Some(row) => values.extend(&rows[row]),
+            None => {
+                let hint = format!("{} intervals are looked for from 0 to {end}: see `samples`", samples);
+                return Err(vec![error(format!("has no row at t = {time}")).hint(hint)]);
+            }
+        }
+    }
+    if values.iter().all(|value| *value == 0.0) {
+        return failed("is zero throughout: there is nothing an error could be relative to".to_owned());
+    }
+    Ok(Some(Given { values, samples, source: path.display().to_string() }))
+}
+
+/// What some runs tend to.
+#[derive(Debug, Clone)]
+struct Limit {
+    q: Vec<f64>,
+    /// Of its error, relative.
+    bar: f64,
+    /// `None`: nothing was extrapolated.
+    order: Option<f64>,
+    /// Room for errors of what was extrapolated: they grow so many times.
+    growth: f64,
+}
+
+/// From runs with steps or element sizes `h`, coarse to fine.
+fn limit(h: &[f64], q: &[&[f64]], count: usize) -> Option<Limit> {
+    let n = q.len();
+    let (fine, before) = (q.last()?, q.get(n.checked_sub(2)?)?);
+    let last = history::error(before, fine, count, |_| true);
+    let as_it_is = Limit { q: fine.to_vec(), bar: last, order: None, growth: 1.0 };
+    let Some(first) = n.checked_sub(3).map(|i| q[i]) else { return Some(as_it_is) };
+    let (r1, r2) = (h[n - 3] / h[n - 2], h[n - 2] / h[n - 1]);
+    let ratio = distance(first, before) / distance(before, fine);
+    let Some(order) = order(ratio, r1, r2) else { return Some(as_it_is) };
+    let order = if (order - order.round()).abs() < 0.2 { order.round() } else { order };
+    let toward = |coarse: &[f64], fine: &[f64], r: f64| -> Vec<f64> {
+        let part = 1.0 / (r.powf(order) - 1.0);
+        fine.iter().zip(coarse).map(|(fine, coarse)| fine + part * (fine - coarse)).collect()
+    };
+    let (best, check) = (toward(before, fine, r2), toward(first, before, r1));
+    let bar = history::error(&check, &best, count, |_| true);
+    // Where the two are no nearer to each other than the runs, there is no order to speak of.
+    if bar >= last {
+        return Some(as_it_is);
+    }
+    let growth = 1.0 + 2.0 / (r2.powf(order) - 1.0);
+    Some(Limit { q: best, bar, order: Some(order), growth })
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// p of differences Δ₁/Δ₂ = r₂ᵖ (r₁ᵖ − 1)/(r₂ᵖ − 1), which rises with p.
+fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
+    let of = |p: f64| r2.powf(p) * (r1.powf(p) - 1.0) / (r2.powf(p) - 1.0);
+    let (mut low, mut high) = (0.4, 12.0);
+    if !(of(low)..=of(high)).contains(&ratio) {
+        return None;
+    }
+    for _ in 0..60 {
+        let p = 0.5 * (low + high);
+        if of(p) < ratio { low = p } else { high = p }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// What the runs of a ladder tend to; `None` where no two of a line on the finest mesh came to their end.
+pub fn extrapolate(ladder: &Ladder, runs: &[Run]) -> Option<Reference> {
+    let finest = ladder.lines.iter().map(|line| line.mesh).fold(0.0, f64::max);
+    let candidates: Vec<(usize, Limit, Option<Limit>)> = ladder
+        .lines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| line.mesh == finest)
+        .filter_map(|(index, _)| over_meshes(ladder, runs, index).map(|(time, mesh)| (index, time, mesh)))
+        .collect();
+    let of = |(_, time, mesh): &(usize, Limit, Option<Limit>)| mesh.clone().unwrap_or_else(|| time.clone());
+    let best = candidates.iter().min_by(|a, b| of(a).bar.total_cmp(&of(b).bar))?;
+    let limit = of(best);
+    if limit.q.iter().all(|value| *value == 0.0) || !limit.bar.is_finite() {
+        return None;
+    }
+    let count = limit.q.len() / (ladder.samples + 1);
+    let apart = |other: &Limit| history::error(&other.q, &limit.q, count, |_| true) - other.bar;
+    let bar = candidates.iter().map(|other| apart(&of(other))).fold(limit.bar, f64::max);
+    let order = |limit: &Limit, what: &str| match limit.order {
+        Some(order) => format!("extrapolated in the {what} at order {}", crate::names::short(order)),
+        None => format!("not extrapolated in the {what}"),
+    };
+    let mut source = format!("the finest runs of {}, {}", ladder.lines[best.0].label, order(&best.1, "time step"));
+    if let Some(mesh) = &best.2 {
+        source += &format!(" and {}", order(mesh, "mesh"));
+    }
+    Some(Reference { values: limit.q, bar, source })
+}
+
+/// The limits of a line in time, and of it and its coarser meshes in both.
+fn over_meshes(ladder: &Ladder, runs: &[Run], index: usize) -> Option<(Limit, Option<Limit>)> {
+    let line = &ladder.lines[index];
+    let of_line = |index: usize| {
+        let done = runs.iter().filter(|run| run.line == index && run.status == Status::Done);
+        let (h, q): (Vec<f64>, Vec<&[f64]>) = done.map(|run| (run.time_step, run.history.as_slice())).unzip();
+        let count = q.first()?.len() / (ladder.samples + 1);
+        limit(&h, &q, count).map(|limit| (limit, count))
+    };
+    let (time, count) = of_line(index)?;
+    let same = |other: &super::Line| other.scheme == line.scheme && other.method == line.method;
+    let meshes = ladder.lines.iter().enumerate().filter(|(_, other)| same(other));
+    let mut meshes: Vec<(f64, Limit)> =
+        meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();
+    meshes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if meshes.len() < 2 {
+        return Some((time, None));
+    }
+    let (h, q): (Vec<f64>, Vec<&[f64]>) = meshes.iter().map(|(h, limit)| (*h, limit.q.as_slice())).unzip();
+    let mut mesh = limit(&h, &q, count)?;
+    let in_time = meshes.iter().rev().take(2).map(|(_, limit)| limit.bar).fold(0.0, f64::max);
+    mesh.bar += mesh.growth * in_time;
+    Some((time, Some(mesh)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// q(h) = 1 + c hᵖ + d hᵖ⁺¹ at two times; the limit is 1.
+    fn runs(h: &[f64], p: i32, d: f64) -> Vec<Vec<f64>> {
+        h.iter().map(|h| vec![1.0 + 0.3 * h.powi(p) + d * h.powi(p + 1), 1.0 - 0.2 * h.powi(p)]).collect()
+    }
+
+    #[test]
+    fn the_bar_holds_the_error_of_the_limit() {
+        for p in [1, 2, 3, 4] {
+            for h in [[0.4, 0.2, 0.1], [0.3, 0.2, 0.1], [0.5, 0.2, 0.1]] {
+                let runs = runs(&h, p, 0.2);
+                let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
+                let limit = limit(&h, &q, 1).unwrap();
+                let error = history::error(&limit.q, &[1.0, 1.0], 1, |_| true);
+                let finest = history::error(&runs[2], &[1.0, 1.0], 1, |_| true);
+                assert!(error <= limit.bar, "order {p}, {h:?}: {error} of {}", limit.bar);
+                assert!(limit.bar < finest, "order {p}, {h:?}: {} of {finest}", limit.bar);
+            }
+        }
+    }
+
+    #[test]
+    fn the_order_is_found_whatever_the_ratios() {
+        for (r1, r2) in [(2.0, 2.0), (1.5, 2.0), (3.0, 1.25)] {
+            for p in [0.7, 1.0, 2.0, 4.0] {
+                let (h0, h1, h2) = (r1 * r2, r2, 1.0_f64);
+                let difference = |a: f64, b: f64| a.powf(p) - b.powf(p);
+                let found = order(difference(h0, h1) / difference(h1, h2), r1, r2).unwrap();
+                // Bisection from 0.4 to 12 in 60 halvings: rounding is left.
+                assert!((found - p).abs() < 1e-9, "{found} for {p}");
+            }
+        }
+        assert_eq!(order(0.9, 2.0, 2.0), None);
+    }
+
+    #[test]
+    fn runs_without_an_order_are_their_own_bar() {
+        let runs = [vec![1.0, 2.0], vec![1.1, 1.9], vec![0.9, 2.2]];
+        let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
+        let limit = limit(&[4.0, 2.0, 1.0], &q, 1).unwrap();
+        assert_eq!((limit.q.as_slice(), limit.order), (&runs[2][..], None));
+        assert_eq!(limit.bar, history::error(&runs[1], &runs[2], 1, |_| true));
+    }
+}

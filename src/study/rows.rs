@@ -1,0 +1,81 @@
+//! study.csv: a row for each run.
+
+use super::ladder::float;
+use super::order::local;
+use super::{Found, Run};
+use crate::output::replace;
+use std::io;
+use std::path::Path;
+
+const COLUMNS: [&str; 20] = [
+    "run",
+    "scheme",
+    "method",
+    "mesh",
+    "unknowns",
+    "time_step",
+    "status",
+    "error",
+    "resolved",
+    "order",
+    "reference_error",
+    "loop_s",
+    "process_s",
+    "repeats",
+    "steps",
+    "iterations",
+    "factorizations",
+    "cuts",
+    "folder",
+    "reason",
+];
+
+/// A number where there is one.
+pub fn maybe(number: Option<f64>) -> String {
+    number.filter(|number| number.is_finite()).map_or(String::new(), float)
+}
+
+/// Quoted where it must be (RFC 4180).
+pub fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+pub fn write(found: &Found, folder: &Path) -> io::Result<()> {
+    let mut header: Vec<String> = COLUMNS.map(String::from).to_vec();
+    header.extend(found.quantities.iter().map(|quantity| field(&format!("error:{}", quantity.word()))));
+    let mut text = header.join(",") + "\n";
+    let mut before: Option<&Run> = None;
+    for (index, run) in found.runs.iter().enumerate() {
+        let line = &found.ladder.lines[run.line];
+        let order = local(before.filter(|before| before.line == run.line), run);
+        before = Some(run);
+        let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
+        let m = &run.measured;
+        let resolved = run.error.map_or("", |_| if run.resolved { "1" } else { "0" });
+        let mut row = vec![
+            (index + 1).to_string(),
+            field(&line.scheme),
+            line.method.clone(),
+            float(line.mesh),
+            count(m.unknowns),
+            float(run.time_step),
+            run.status.word().to_owned(),
+            maybe(run.error),
+            resolved.to_owned(),
+            maybe(order),
+            maybe(found.reference.as_ref().map(|reference| reference.bar).filter(|bar| *bar > 0.0)),
+            if m.steps > 0 { maybe(Some(run.loop_s)) } else { String::new() },
+            maybe(Some(run.process_s)),
+            run.repeats.to_string(),
+            count(m.steps),
+            count(m.iterations),
+            count(m.factorizations),
+            count(m.cuts),
+            run.folder.clone(),
+            field(&run.reason),
+        ];
+        row.extend((0..found.quantities.len()).map(|i| maybe(run.errors.get(i).copied())));
+        text += &(row.join(",") + "\n");
+    }
+    replace(&folder.join("study.csv"), text.as_bytes())
+}

@@ -1,0 +1,218 @@
+//! The runs of a ladder: one each for its answer, then again for its time, in turn, so that what disturbs the machine for a while
+//! disturbs all settings alike.
+
+use super::child::{Ended, Program, first_error};
+use super::history;
+use super::ladder::{Ladder, float};
+use super::progress::Progress;
+use super::reference::Reference;
+use super::{Fault, Options};
+use crate::model::study::Quantity;
+use serde_json::Value;
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    Done,
+    NotConverged,
+    /// Refused, or ended in another way.
+    Failed,
+}
+
+impl Status {
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Done => "done",
+            Status::NotConverged => "not-converged",
+            Status::Failed => "failed",
+        }
+    }
+}
+
+/// A setting and what came of it.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Index into [`Ladder::lines`].
+    pub line: usize,
+    pub time_step: f64,
+    /// Its folder, below that of the study.
+    pub folder: String,
+    pub status: Status,
+    /// Why it failed; empty when done.
+    pub reason: String,
+    pub measured: Measured,
+    /// Least seconds of the time stepping and of the whole process.
+    pub loop_s: f64,
+    pub process_s: f64,
+    pub repeats: usize,
+    /// Of all quantities together; `None`: it failed, or there is no reference.
+    pub error: Option<f64>,
+    /// Of each quantity, relative to its own largest value.
+    pub errors: Vec<f64>,
+    /// The error is well above that of the reference; if not, `error` is a bound.
+    pub resolved: bool,
+    /// Quantities at the sample times; empty where it failed.
+    pub history: Vec<f64>,
+}
+
+/// What result.json says.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measured {
+    pub unknowns: u64,
+    pub steps: u64,
+    pub iterations: u64,
+    pub factorizations: u64,
+    pub cuts: u64,
+    pub loop_s: f64,
+}
+
+/// Errors below so many times that of the reference are not told apart from it.
+pub const RESOLVED: f64 = 3.0;
+
+impl Run {
+    /// Its error against a reference.
+    pub fn judge(&mut self, reference: &Reference, count: usize) {
+        if self.status != Status::Done {
+            return;
+        }
+        let error = history::error(&self.history, &reference.values, count, |_| true);
+        self.errors = (0..count).map(|k| history::error(&self.history, &reference.values, count, |i| i == k)).collect();
+        self.resolved = error >= RESOLVED * reference.bar;
+        self.error = Some(if self.resolved { error } else { error + reference.bar }).filter(|error| error.is_finite());
+    }
+}
+
+/// Runs the ladder. The runs that came to be, and whether a signal ended it.
+pub fn climb(
+    ladder: &Ladder,
+    quantities: &[Quantity],
+    options: &Options,
+    stop: &AtomicBool,
+) -> Result<(Vec<Run>, bool), Fault> {
+    let program = program(options)?;
+    let mut jobs = Vec::new();
+    for (line, of) in ladder.lines.iter().enumerate() {
+        for &time_step in &ladder.time_steps {
+            let mut sets = options.sets.clone();
+            sets.extend(of.sets.iter().chain(&ladder.sets).cloned());
+            sets.push(format!("analysis.time_step={}", float(time_step)));
+            jobs.push((line, time_step, sets));
+        }
+    }
+    // Steps, each as long as there are elements; a process itself costs as much as some hundred.
+    let work = |line: usize, time_step: f64| 300.0 + ladder.end_time / time_step * ladder.lines[line].mesh;
+    let all: f64 = jobs.iter().map(|(line, time_step, _)| work(*line, *time_step)).sum();
+    let mut progress = Progress::new(options.quiet, all * options.repeats as f64);
+    let mut runs: Vec<Run> = Vec::new();
+    let mut stopped = false;
+    for repeat in 0..options.repeats {
+        for (index, (line, time_step, sets)) in jobs.iter().enumerate() {
+            let label = format!("{}, time step {}", ladder.lines[*line].label, crate::names::short(*time_step));
+            progress.show(&label, repeat + 1, options.repeats);
+            let folder = format!("runs/{}", index + 1);
+            let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
+            if repeat > 0 && runs.get(index).is_none_or(enough) {
+                progress.did(work(*line, *time_step));
+                continue;
+            }
+            let place = options.folder.join(&folder);
+            let Some(ended) = program.run(sets, &place, stop)? else {
+                stopped = true;
+                break;
+            };
+            progress.did(work(*line, *time_step));
+            if repeat == 0 {
+                let run = Run::new(*line, *time_step, folder, &ended, &place)?;
+                runs.push(run.with_history(quantities, ladder, &place));
+            } else if let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place)) {
+                run.repeats += 1;
+                run.loop_s = run.loop_s.min(again.loop_s);
+                run.process_s = run.process_s.min(ended.process_s);
+            }
+        }
+        if stopped {
+            break;
+        }
+    }
+    progress.finish();
+    Ok((runs, stopped))
+}
+
+/// This program itself, for the deck of a study.
+pub fn program(options: &Options) -> io::Result<Program> {
+    let path = std::env::current_exe()?;
+    Ok(Program { path, deck: options.deck.clone(), threads: options.threads })
+}
+
+impl Run {
+    pub fn new(line: usize, time_step: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<Run> {
+        let status = match ended.code {
+            Some(0) => Status::Done,
+            Some(4) => Status::NotConverged,
+            _ => Status::Failed,
+        };
+        let reason = match (status, ended.code) {
+            (Status::Done, _) => String::new(),
+            (Status::NotConverged, _) => reason(place),
+            (_, Some(code)) => first_error(&ended.said).unwrap_or_else(|| format!("exit code {code}")),
+            (_, None) => "ended by a signal".to_owned(),
+        };
+        let measured = if status == Status::Failed { Measured::default() } else { measured(place)? };
+        Ok(Run {
+            line,
+            time_step,
+            folder,
+            status,
+            reason,
+            measured,
+            loop_s: measured.loop_s,
+            process_s: ended.process_s,
+            repeats: 1,
+            error: None,
+            errors: Vec::new(),
+            resolved: false,
+            history: Vec::new(),
+        })
+    }
+
+    fn with_history(mut self, quantities: &[Quantity], ladder: &Ladder, place: &Path) -> Run {
+        if self.status == Status::Done {
+            match history::read(place, quantities, ladder.samples, ladder.end_time) {
+                Ok(values) => self.history = values,
+                Err(error) => (self.status, self.reason) = (Status::Failed, error.to_string()),
+            }
+        }
+        self
+    }
+}
+
+fn result(place: &Path) -> io::Result<Value> {
+    let path = place.join("result.json");
+    let bytes = fs::read(&path).map_err(|error| crate::output::at(&path, error))?;
+    serde_json::from_slice(&bytes).map_err(|error| crate::output::at(&path, error.into()))
+}
+
+fn reason(place: &Path) -> String {
+    let result = result(place).unwrap_or_default();
+    result["reason"].as_str().unwrap_or_default().trim_end_matches("; results are valid up to this time").to_owned()
+}
+
+/// Counts and the seconds of the time stepping.
+pub fn measured(place: &Path) -> io::Result<Measured> {
+    let result = result(place)?;
+    let count = |key: &str| result["counts"][key].as_u64().unwrap_or(0);
+    let unknowns = result["plan"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let unknowns = unknowns.filter_map(|line| line.strip_prefix("unknowns")?.split_whitespace().next()?.parse().ok());
+    Ok(Measured {
+        unknowns: unknowns.into_iter().next().unwrap_or(0),
+        steps: count("steps"),
+        iterations: count("iterations"),
+        factorizations: count("factorizations"),
+        cuts: count("cuts"),
+        loop_s: result["timings"]["loop_s"].as_f64().unwrap_or(f64::NAN),
+    })
+}

@@ -1,0 +1,120 @@
+//! A study in words: the table of runs, measured orders, the cheapest setting.
+
+use super::order::{Cheapest, Order, local};
+use super::{Found, Run, Status, columns};
+use crate::names::short;
+
+pub const HEAD: [&str; 9] =
+    ["setting", "time step", "error", "order", "loop s", "process s", "iterations", "factorizations", "status"];
+
+/// An error to two digits; a bound is said to be one.
+pub fn error(run: &Run) -> String {
+    match run.error {
+        Some(error) if run.resolved => format!("{error:.2e}"),
+        Some(error) => format!("<= {error:.1e}"),
+        None => String::new(),
+    }
+}
+
+/// Seconds to three digits.
+pub fn seconds(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.0995 => format!("{s:.4}"),
+        s if s < 9.95 => format!("{s:.3}"),
+        s => format!("{s:.1}"),
+    }
+}
+
+/// The cells of all runs, in the columns of [`HEAD`].
+pub fn cells(found: &Found) -> Vec<Vec<String>> {
+    let mut before: Option<&Run> = None;
+    let mut rows = Vec::new();
+    for run in &found.runs {
+        let line = &found.ladder.lines[run.line];
+        let order = local(before.filter(|before| before.line == run.line), run);
+        before = Some(run);
+        let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
+        let cuts = if run.measured.cuts > 0 { format!(", {} cuts", run.measured.cuts) } else { String::new() };
+        let status = match run.status {
+            Status::Done => format!("done{cuts}"),
+            status => format!("{}: {}", status.word(), run.reason),
+        };
+        rows.push(vec![
+            line.label.clone(),
+            short(run.time_step),
+            error(run),
+            order.map_or(String::new(), |order| format!("{order:.2}")),
+            if run.measured.steps > 0 { seconds(run.loop_s) } else { String::new() },
+            seconds(run.process_s),
+            count(run.measured.iterations),
+            count(run.measured.factorizations),
+            status,
+        ]);
+    }
+    rows
+}
+
+pub fn order(order: Option<&Order>) -> String {
+    let Some(order) = order else { return "no steady order".to_owned() };
+    let (from, to) = (short(order.from), short(order.to));
+    let floor = order.floor.map_or(String::new(), |floor| format!("; levels off at {floor:.1e}"));
+    let caution = if order.runs < 3 { ", which is few" } else { "" };
+    format!("{:.2} over time steps {from} to {to} ({} runs{caution}){floor}", order.order, order.runs)
+}
+
+/// "0.0021 s (process 0.0070 s), time step 0.0071".
+pub fn cost(of: &Cheapest) -> String {
+    let bound = if of.at_the_top { ", the longest of the ladder" } else { "" };
+    let (loop_s, process_s) = (seconds(of.loop_s), seconds(of.process_s));
+    format!("loop {loop_s} s, process {process_s} s, time step {}{bound}", short(of.time_step))
+}
+
+/// What errors are measured against.
+pub fn reference(found: &Found) -> String {
+    let (samples, count) = (found.ladder.samples + 1, found.quantities.len());
+    let against = match &found.reference {
+        None => return "no reference: too few runs came to their end".to_owned(),
+        Some(reference) if reference.bar > 0.0 => {
+            format!("{}; its own error is about {:.1e} or less", reference.source, reference.bar)
+        }
+        Some(reference) => reference.source.clone(),
+    };
+    let quantities = if count == 1 { "quantity" } else { "quantities" };
+    format!("{against}; {count} {quantities} at {samples} times")
+}
+
+pub fn text(found: &Found) -> String {
+    let mut rows = vec![HEAD.map(String::from).to_vec()];
+    rows.extend(cells(found));
+    let mut text = format!("reference: {}\n", reference(found));
+    if !found.ladder.fitted.is_empty() {
+        let fitted: Vec<String> =
+            found.ladder.fitted.iter().map(|(asked, step)| format!("{} for {}", short(*step), short(*asked))).collect();
+        text += &format!("time steps that end at all samples: {}\n", fitted.join(", "));
+    }
+    text += &format!("\n{}\nmeasured order\n", columns(&rows, 1));
+    let label = |line: usize| found.ladder.lines[line].label.clone();
+    let orders: Vec<Vec<String>> = found
+        .orders
+        .iter()
+        .enumerate()
+        .map(|(line, of)| vec![format!("  {}", label(line)), order(of.as_ref())])
+        .collect();
+    text += &columns(&orders, 1);
+    for (wanted, list) in &found.cheapest {
+        text += &format!("\ncheapest for an error of {wanted:e}\n");
+        if list.is_empty() {
+            text += "  no run of the ladder comes to it\n";
+            continue;
+        }
+        let rows: Vec<Vec<String>> = list
+            .iter()
+            .map(|of| {
+                let times = format!("x {:.2}", of.loop_s / list[0].loop_s);
+                vec![format!("  {}", label(of.line)), times, cost(of)]
+            })
+            .collect();
+        text += &columns(&rows, 1);
+    }
+    text
+}
