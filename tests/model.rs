@@ -291,3 +291,25 @@ tolerance = 0.1
     assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
     assert_eq!(everything().analysis.control, Control::Time);
 }
+
+#[test]
+fn a_study_knows_its_quantities_and_settings() {
+    let model = everything();
+    let study = model.study.as_ref().unwrap();
+    let quantities: Vec<(String, bool)> = study.quantities.iter().map(|q| (q.word(), q.body)).collect();
+    let expected = [("c.uz", false), ("block.body_wx", true), ("top.r11", false)];
+    assert_eq!(quantities, expected.map(|(word, body)| (word.to_owned(), body)));
+    assert_eq!(study.columns, ["uz_of_c", "block.body_wx", "top.r11"]);
+    assert_eq!((study.reference.as_deref(), study.samples), (Some("everything.csv"), Some(300)));
+    assert_eq!((study.time_steps.as_slice(), study.halvings), (&[1e-3][..], 2));
+    // The deck's rotation update goes with every scheme that has none of its own.
+    let schemes: Vec<(&str, &str)> = study.schemes.iter().map(|s| (s.label.as_str(), s.table.as_str())).collect();
+    let rotation = "rotation_update = \"second-order\" }";
+    assert_eq!(schemes[0].1, format!("{{ scheme = \"bathe\", {rotation}"));
+    assert_eq!(schemes[1].0, "newmark:gamma=0.6:beta=0.31:rotation_update=second-order");
+    assert_eq!(schemes[1].1, format!("{{ scheme = \"newmark\", gamma = 0.6, beta = 0.31, {rotation}"));
+    assert_eq!(schemes[2].1, format!("{{ scheme = \"wilson-theta\", theta = 1.5, {rotation}"));
+    assert_eq!(study.methods, [Method::Auto, Method::InitialLoad]);
+    assert_eq!((study.meshes.as_slice(), study.wanted_errors.as_slice()), (&[1.0, 2.0][..], &[1e-2, 1e-3][..]));
+    assert!(model.output.parts);
+}

@@ -45,6 +45,9 @@ pub(super) struct StudyArgs {
     /// CSV file of the answer, a path from here
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
+    /// Against what the finest runs tend to, whatever file the deck names
+    #[arg(long, conflicts_with = "reference")]
+    finest: bool,
     /// What errors are measured on: tip.uz,block.x
     #[arg(long, alias = "quantity", value_name = "NAME.QUANTITY", value_delimiter = ',')]
     quantities: Vec<String>,
@@ -55,13 +58,13 @@ pub(super) struct StudyArgs {
     #[arg(long, value_name = "ERROR", value_delimiter = ',', value_parser = positive)]
     wanted_error: Vec<f64>,
     /// Runs of each setting
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     repeats: u16,
     /// No more runs of a setting once they have taken so many seconds together
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
     /// Instead of a ladder: each part's share of the elastic energy, and runs with it rigid
-    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "halvings", "meshes", "reference", "wanted_error"])]
+    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "halvings", "meshes", "reference", "finest", "wanted_error"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MOST_THREADS))]
@@ -174,6 +177,7 @@ impl StudyArgs {
         add("--quantities", !self.quantities.is_empty(), texts(&self.quantities));
         add("--samples", self.samples.is_some(), self.samples.unwrap_or_default().to_string());
         add("--wanted-error", !self.wanted_error.is_empty(), numbers(&self.wanted_error));
+        add("--finest", self.finest, "true".into());
         if let Some(file) = &self.reference {
             // The deck's own is a path from the deck; this one is from here.
             let file = file.canonicalize().map_err(|error| {

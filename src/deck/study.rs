@@ -22,6 +22,8 @@ pub struct Study {
     pub quantities: Maybe<Names>,
     /// CSV file beside the deck: the time, then one column for each quantity. Default: the finest runs, extrapolated.
     pub reference: Maybe<String>,
+    /// Measure against the finest runs all the same. Default: false.
+    pub finest: Maybe<bool>,
     /// Quantities by the columns of the reference that hold them. Default: a column has the name of its quantity.
     #[serde(default)]
     pub columns: Named<String>,
@@ -40,7 +42,7 @@ pub struct Study {
     /// Methods of `[iteration]`. Default: the deck's own.
     #[serde(default)]
     pub methods: Vec<At<Method>>,
-    /// Factors on the `elements` of all parts. Default: 1.
+    /// Factors on the `elements` of all beams and shells, and of bars that have several on a segment. Default: 1.
     pub meshes: Maybe<OneOrMany<f64>>,
     /// Errors for which the cheapest setting is named. Default: 1e-2, 1e-3 and 1e-4.
     pub wanted_error: Maybe<OneOrMany<f64>>,

@@ -7,7 +7,7 @@ use super::{Cadence, Control, Method};
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
 use crate::deck::words::{Maybe, OneOrMany};
-use crate::diagnostic::{At, Span};
+use crate::diagnostic::{At, Diagnostic, Span};
 use crate::integrators::Scheme;
 use crate::names::nearest;
 
@@ -95,13 +95,14 @@ impl<'d> Builder<'d> {
                 format!("the time step {longest} is longer than the {} between two samples", end / samples as f64);
             self.error_with::<()>(&at.span, message, "steps land on all of them: take fewer `samples`");
         }
+        let finest = study.finest.as_ref().is_some_and(|finest| finest.value);
         let schemes = self.schemes(study);
         let methods = self.methods(&study.methods);
         let meshes = self.sorted("meshes", &study.meshes);
         let wanted_errors = self.sorted("wanted_error", &study.wanted_error).into_iter().rev().collect();
         self.model.study = Some(Study {
             quantities,
-            reference: study.reference.as_ref().map(|file| file.value.clone()),
+            reference: study.reference.as_ref().filter(|_| !finest).map(|file| file.value.clone()),
             columns,
             samples,
             time_steps,
@@ -137,7 +138,7 @@ impl<'d> Builder<'d> {
             let column = study.columns.0.iter().find(|(_, of)| of.value == word.value);
             found.push((quantity, column.map_or_else(|| word.value.clone(), |(column, _)| column.value.clone())));
         }
-        if let Some((_, values)) = listed {
+        if let Some((_, values)) = listed.filter(|_| study.reference.is_some()) {
             for (column, word) in &study.columns.0 {
                 if !values.iter().any(|value| value.value == word.value) {
                     let message = format!("column `{}` is `{}`, which is no quantity here", column.value, word.value);
@@ -222,8 +223,11 @@ impl<'d> Builder<'d> {
             if self.need(&owner, "scheme", &integrator.scheme).is_none() {
                 continue;
             }
-            // Said in the words of `[integrator]`.
+            // Errors are said in the words of `[integrator]`; what a scheme is warned of, a study shows.
+            let before = self.problems.len();
             self.scheme(integrator);
+            let said = self.problems.split_off(before);
+            self.problems.extend(said.into_iter().filter(Diagnostic::is_error));
             let word = self.model.scheme.word();
             let mut entries = entries(integrator);
             let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| rotation_word(update.value));

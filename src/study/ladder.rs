@@ -140,13 +140,17 @@ fn lines(model: &Model, deck: &Deck, study: &Study, problems: &mut Vec<Diagnosti
     for (scheme, of_scheme) in &schemes {
         for (method, of_method) in &methods {
             for (&mesh, of_mesh) in meshes.iter().zip(&refined) {
-                let mut label = scheme.clone();
+                let mut words = Vec::new();
+                if schemes.len() > 1 || (methods.len() == 1 && meshes.len() == 1) {
+                    words.push(scheme.clone());
+                }
                 if methods.len() > 1 {
-                    label += &format!(", {method}");
+                    words.push((*method).to_owned());
                 }
                 if meshes.len() > 1 {
-                    label += &format!(", mesh x {mesh}");
+                    words.push(format!("mesh x {mesh}"));
                 }
+                let label = words.join(", ");
                 let sets = of_scheme.iter().chain(of_method).chain(of_mesh).cloned().collect();
                 lines.push(Line { label, scheme: scheme.clone(), method: (*method).to_owned(), mesh, sets });
             }
@@ -187,7 +191,11 @@ fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<Strin
         let label = name("beams", i, beam.name.as_ref().or(beam.group.as_ref()).map(|name| name.as_str()));
         add("beams", i, label, beam.group.is_some(), &beam.elements);
     }
-    for (i, bar) in deck.bars.iter().enumerate() {
+    // A bar that was cut in two would be a hinge between its parts: only what is a cable already is cut further.
+    let cut = |elements: &Maybe<OneOrMany<u64>>| {
+        elements.as_ref().is_some_and(|at| at.values.iter().any(|count| count.value > 1))
+    };
+    for (i, bar) in deck.bars.iter().enumerate().filter(|(_, bar)| cut(&bar.elements)) {
         let label = name("bars", i, bar.name.as_ref().map(|name| name.as_str()));
         add("bars", i, label, false, &bar.elements);
     }

@@ -5,8 +5,9 @@ use super::{Found, Run};
 use crate::names::short;
 use crate::output::report::html::escaped;
 
-/// Of the picture and of its frame.
-const SIZE: [f64; 2] = [860.0, 520.0];
+const HEIGHT: f64 = 520.0;
+/// Of a letter, at the widest.
+const LETTER: f64 = 7.6;
 const FRAME: [f64; 4] = [70.0, 20.0, 560.0, 440.0]; // left, top, width, height
 /// Read on white and on black.
 const COLOURS: [&str; 8] = ["#3b7dd8", "#d9622b", "#2f9e63", "#b058c4", "#b38a12", "#1f9aa8", "#d14b6b", "#7c7f86"];
@@ -55,14 +56,16 @@ pub fn draw(found: &Found) -> String {
     let runs: Vec<&Run> = found.runs.iter().filter(shown).collect();
     let errors: Vec<f64> = runs.iter().filter_map(|run| run.error).collect();
     let times: Vec<f64> = runs.iter().map(|run| run.loop_s).collect();
+    let letters = found.ladder.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0).max(28);
+    let whole = left + width + 52.0 + LETTER * letters as f64;
     let (x, y) = (Axis::new(&times, [left, left + width]), Axis::new(&errors, [top + height, top]));
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" class=\"study\" role=\"img\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {whole:.0} {HEIGHT}\" class=\"study\" role=\"img\" \
          aria-label=\"Error against run time\">\n<style>\n.study {{ font: 13px sans-serif; }}\n.study text {{ fill: #30353b; }}\n\
          .study .rule {{ stroke: #808890; stroke-opacity: .25; }}\n.study .part {{ stroke-opacity: .12; }}\n\
          .study .edge {{ fill: none; stroke: #808890; }}\n.study .wanted {{ stroke: #808890; stroke-dasharray: 3 3; }}\n\
-         @media (prefers-color-scheme: dark) {{ .study text {{ fill: #d5d9dd; }} }}\n</style>\n",
-        SIZE[0], SIZE[1]
+         @media (prefers-color-scheme: dark) {{ .study text {{ fill: #d5d9dd; }} }}\n</style>
+"
     );
     let line = |class: &str, [x1, y1, x2, y2]: [f64; 4]| {
         format!("<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>\n")

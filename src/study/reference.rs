@@ -173,7 +173,8 @@ fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
 
 /// What the runs of a ladder tend to; `None` where no two of a line on the finest mesh came to their end.
 pub fn extrapolate(ladder: &Ladder, runs: &[Run]) -> Option<Reference> {
-    let finest = ladder.lines.iter().map(|line| line.mesh).fold(0.0, f64::max);
+    let ended = runs.iter().filter(|run| run.status == Status::Done);
+    let finest = ended.map(|run| ladder.lines[run.line].mesh).fold(0.0, f64::max);
     let candidates: Vec<(usize, Limit, Option<Limit>)> = ladder
         .lines
         .iter()

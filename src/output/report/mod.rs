@@ -57,6 +57,9 @@ struct Scene {
 pub fn page(folder: &Path) -> io::Result<String> {
     let files = tables(folder)?;
     let json = result_json(&folder.join("result.json"))?;
+    if json.is_null() && files.iter().any(|file| file == "study.csv") {
+        return Err(at(folder, io::Error::other("a study, whose page is study.html there")));
+    }
     if files.is_empty() && json.is_null() {
         return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
     }
