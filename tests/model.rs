@@ -302,6 +302,7 @@ fn a_study_knows_its_quantities_and_settings() {
     assert_eq!(study.columns, ["uz_of_c", "block.body_wx", "top.r11"]);
     assert_eq!((study.reference.as_deref(), study.samples), (Some("everything.csv"), Some(300)));
     assert_eq!((study.time_steps.as_slice(), study.halvings), (&[1e-3][..], 2));
+    assert_eq!(study.error_tolerances, [1e-2, 1e-3]);
     // The deck's rotation update goes with every scheme that has none of its own.
     let schemes: Vec<(&str, &str)> = study.schemes.iter().map(|s| (s.label.as_str(), s.table.as_str())).collect();
     let rotation = "rotation_update = \"second-order\" }";

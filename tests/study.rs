@@ -229,6 +229,31 @@ fn meshes_are_refined_with_the_steps() {
 }
 
 #[test]
+fn automatic_steps_are_lines_over_their_tolerances() {
+    let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
+    exact(folder.path());
+    let arguments = ["--error-tolerances", "1e-2,1e-3,1e-4", "--schemes", "newmark", "--repeats", "1", "--quiet"];
+    let (text, _) = study(folder.path(), &arguments, 0);
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert_eq!(rows.len(), 4 + 3);
+    let automatic = &rows[4..];
+    assert!(automatic.iter().all(|row| row["time_step"].is_empty() && row["status"] == "done"), "{text}");
+    assert_eq!([0, 1, 2].map(|i| number(&automatic[i], "error_tolerance")), [1e-2, 1e-3, 1e-4]);
+    assert!(automatic.windows(2).all(|pair| number(&pair[1], "error") < number(&pair[0], "error")), "{text}");
+    assert!(text.contains("newmark, automatic") && text.contains("tol 0.001"), "{text}");
+    // A deck whose step is automatic is studied over its tolerance; given steps replace step and tolerance.
+    let deck = OSCILLATOR.replace("time_step = 0.005", "time_step = \"auto\"\nerror_tolerance = 1e-3");
+    fs::write(folder.path().join("x.toml"), &deck).unwrap();
+    let common = ["--repeats", "1", "--quiet", "--overwrite", "--samples", "20"];
+    study(folder.path(), &common, 0);
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert_eq!([0, 1, 2, 3].map(|i| number(&rows[i], "error_tolerance")), [1e-2, 1e-3, 1e-4, 1e-5]);
+    study(folder.path(), &[&common[..], &["--time-steps", "0.01,0.005"]].concat(), 0);
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert!(rows.len() == 2 && rows.iter().all(|row| row["status"] == "done"), "{rows:?}");
+}
+
+#[test]
 fn runs_that_fail_are_listed_as_failed() {
     // The shortest step is refused; two iterations are too few for a strip that swings in long ones.
     let deck = STRIP.replace("time_step = 0.004", "time_step = 0.004\nleast_step = 0.0015\n[iteration]\nlimit = 2");
@@ -268,7 +293,7 @@ fn files_are_whole() {
     let header = fs::read_to_string(out.join("study.csv")).unwrap();
     assert_eq!(
         header.lines().next().unwrap(),
-        "run,scheme,method,mesh,unknowns,time_step,status,error,resolved,order,reference_error,loop_s,process_s,repeats,steps,\
+        "run,scheme,method,mesh,unknowns,time_step,error_tolerance,status,error,resolved,order,reference_error,loop_s,process_s,repeats,steps,\
          iterations,factorizations,cuts,folder,reason,error:mass.x,error:mass.vx"
     );
     for row in table(&out.join("study.csv")) {

@@ -36,6 +36,9 @@ pub(super) struct StudyArgs {
     /// Time steps; with --halvings, the longest
     #[arg(long, value_name = "DT", value_delimiter = ',', value_parser = positive)]
     time_steps: Vec<f64>,
+    /// Lines with an automatic time step, over these tolerances
+    #[arg(long, value_name = "TOL", value_delimiter = ',', value_parser = positive)]
+    error_tolerances: Vec<f64>,
     /// Halve the time step so many times
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=30))]
     halvings: Option<u64>,
@@ -64,7 +67,7 @@ pub(super) struct StudyArgs {
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
     /// Instead of a ladder: each part's share of the elastic energy, and runs with it rigid
-    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "halvings", "meshes", "reference", "finest", "wanted_error"])]
+    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "meshes", "reference", "finest", "wanted_error"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MOST_THREADS))]
@@ -173,6 +176,7 @@ impl StudyArgs {
         // A list given here is the ladder, whatever the deck halves.
         let halvings = self.halvings.or((!self.time_steps.is_empty()).then_some(0));
         add("--halvings", halvings.is_some(), halvings.unwrap_or_default().to_string());
+        add("--error-tolerances", !self.error_tolerances.is_empty(), numbers(&self.error_tolerances));
         add("--meshes", !self.meshes.is_empty(), numbers(&self.meshes));
         add("--quantities", !self.quantities.is_empty(), texts(&self.quantities));
         add("--samples", self.samples.is_some(), self.samples.unwrap_or_default().to_string());

@@ -34,6 +34,9 @@ pub struct Study {
     pub time_steps: Maybe<OneOrMany<f64>>,
     /// Halve one time step so many times, instead of a list.
     pub halvings: Maybe<u64>,
+    /// With an automatic time step, lines of their own over these tolerances. Default: where the deck's step is automatic, its own
+    /// tolerance times 10, 1, 0.1 and 0.01.
+    pub error_tolerances: Maybe<OneOrMany<f64>>,
     /// Tables like `[integrator]`, or words with parameters: "wilson-theta", "newmark:gamma=0.6:beta=0.31". Default: the
     /// deck's own. A scheme without parameters has those of `[integrator]` where that names it too.
     #[serde(default)]

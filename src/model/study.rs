@@ -24,6 +24,8 @@ pub struct Study {
     pub samples: Option<usize>,
     /// Longest first; empty: from the deck's own.
     pub time_steps: Vec<f64>,
+    /// Of an automatic step, largest first; empty: none, unless the deck's step is one.
+    pub error_tolerances: Vec<f64>,
     /// Of the one time step.
     pub halvings: usize,
     /// Empty: the deck's own.
@@ -81,6 +83,13 @@ impl<'d> Builder<'d> {
         let study: &'d Written = &at.value;
         let (quantities, columns) = self.quantities(study);
         let time_steps = self.sorted("time_steps", &study.time_steps).into_iter().rev().collect::<Vec<_>>();
+        let error_tolerances: Vec<f64> =
+            self.sorted("error_tolerances", &study.error_tolerances).into_iter().rev().collect();
+        if let (Some(at), Some(&largest)) = (&study.error_tolerances, error_tolerances.first())
+            && largest >= 1.0
+        {
+            self.error_with::<()>(&at.span, "`error_tolerances` must lie below 1", "they are relative");
+        }
         let halvings = self.halvings(study, time_steps.len());
         let samples = study.samples.as_ref().and_then(|samples| match samples.value {
             1..=MOST_SAMPLES => Some(samples.value as usize),
@@ -106,6 +115,7 @@ impl<'d> Builder<'d> {
             columns,
             samples,
             time_steps,
+            error_tolerances,
             halvings,
             schemes,
             methods,

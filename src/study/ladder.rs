@@ -1,6 +1,7 @@
 //! What is run: lines of settings, each over the same time steps, as overrides of the deck.
 
 use crate::deck::Deck;
+use crate::deck::analysis::Plane;
 use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::Diagnostic;
 use crate::model::study::{Quantity, Study, obstacle};
@@ -21,6 +22,8 @@ pub struct Line {
     pub method: String,
     /// Factor on the deck's numbers of elements.
     pub mesh: f64,
+    /// The step is automatic, and its tolerance is what the ladder goes over.
+    pub automatic: bool,
     /// Overrides.
     pub sets: Vec<String>,
 }
@@ -30,11 +33,15 @@ pub struct Ladder {
     pub lines: Vec<Line>,
     /// Longest first; each fits a whole number of times between two samples.
     pub time_steps: Vec<f64>,
+    /// Largest first.
+    pub error_tolerances: Vec<f64>,
     pub end_time: f64,
     /// Intervals.
     pub samples: usize,
     /// Overrides of all runs.
     pub sets: Vec<String>,
+    /// `[analysis]` without what a rung says.
+    analysis: String,
     /// Time steps that were asked for and shortened, with what they are.
     pub fitted: Vec<(f64, f64)>,
 }
@@ -62,7 +69,11 @@ impl Ladder {
         let end_time = model.analysis.end_time;
         let samples = study.samples.or(samples).unwrap_or(SAMPLES);
         let interval = end_time / samples as f64;
-        let asked = time_steps(model, study, interval);
+        let error_tolerances = error_tolerances(model, study);
+        let asked = match (&study.time_steps[..], study.halvings, &error_tolerances[..]) {
+            ([], 0, [_, ..]) => Vec::new(),
+            _ => time_steps(model, study, interval),
+        };
         if let Some(longest) = asked.first().filter(|&&longest| longest > interval * (1.0 + 1e-9)) {
             let message = format!("the time step {longest} is longer than the {interval} between two samples");
             let hint = "steps land on all of them: take fewer samples (--samples)";
@@ -73,12 +84,42 @@ impl Ladder {
         let fitted = asked.iter().copied().zip(time_steps.iter().copied()).filter(differ).collect();
         let mut time_steps = time_steps;
         time_steps.dedup();
-        let lines = lines(model, deck, study, &mut problems);
+        let kinds: Vec<bool> = [(false, time_steps.is_empty()), (true, error_tolerances.is_empty())]
+            .iter()
+            .filter(|(_, none)| !none)
+            .map(|(automatic, _)| *automatic)
+            .collect();
+        let lines = lines(model, deck, study, &kinds, &mut problems);
         if !problems.is_empty() {
             return Err(problems);
         }
         let sets = vec![output(quantities, interval, false), "expect=[]".to_owned()];
-        Ok(Ladder { lines, time_steps, end_time, samples, sets, fitted })
+        let analysis = analysis(model, deck);
+        Ok(Ladder { lines, time_steps, error_tolerances, end_time, samples, sets, analysis, fitted })
+    }
+
+    /// What a line goes over: time steps or tolerances.
+    pub fn rungs(&self, line: usize) -> &[f64] {
+        if self.lines[line].automatic { &self.error_tolerances } else { &self.time_steps }
+    }
+
+    /// All overrides of a run.
+    pub fn overrides(&self, line: usize, rung: f64) -> Vec<String> {
+        let of = &self.lines[line];
+        let step = match of.automatic {
+            false => format!("time_step = {}", float(rung)),
+            true => format!("time_step = \"auto\", error_tolerance = {}", float(rung)),
+        };
+        let analysis = format!("analysis={{ {}, {step} }}", self.analysis);
+        of.sets.iter().chain(&self.sets).cloned().chain([analysis]).collect()
+    }
+
+    /// Steps that a run takes, about, in units of elements.
+    pub fn work(&self, line: usize, rung: f64) -> f64 {
+        let of = &self.lines[line];
+        // Errors go with the square of the step.
+        let steps = if of.automatic { 20.0 / rung.sqrt() } else { self.end_time / rung };
+        steps.max(self.samples as f64) * of.mesh
     }
 }
 
@@ -117,12 +158,36 @@ fn time_steps(model: &Model, study: &Study, interval: f64) -> Vec<f64> {
     }
 }
 
+fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
+    match model.analysis.error_tolerance {
+        _ if !study.error_tolerances.is_empty() => study.error_tolerances.clone(),
+        Some(own) if study.time_steps.is_empty() && study.halvings == 0 => {
+            [10.0, 1.0, 0.1, 0.01].map(|part| part * own).into_iter().filter(|tolerance| *tolerance < 1.0).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// What `[analysis]` says besides its step: a tolerance of the deck means nothing for a given step, and cannot be unset.
+fn analysis(model: &Model, deck: &Deck) -> String {
+    let kind = if model.analysis.kind == Kind::Static { "static" } else { "dynamic" };
+    let mut text = format!("kind = \"{kind}\", end_time = {}", float(model.analysis.end_time));
+    let Some(analysis) = &deck.analysis else { return text };
+    if let Some(least) = &analysis.least_step {
+        text += &format!(", least_step = {}", float(least.value));
+    }
+    if analysis.plane.as_ref().is_some_and(|plane| plane.value == Plane::Off) {
+        text += ", plane = \"off\"";
+    }
+    text
+}
+
 /// The longest step up to this one that fits an interval a whole number of times.
 fn fitting(interval: f64, step: f64) -> f64 {
     interval / (interval / step - 1e-9).ceil().max(1.0)
 }
 
-fn lines(model: &Model, deck: &Deck, study: &Study, problems: &mut Vec<Diagnostic>) -> Vec<Line> {
+fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<Line> {
     let word = model.scheme.word().to_owned();
     let scheme = |label: &str, set: Option<String>| (label.to_owned(), set);
     let schemes: Vec<_> = match study.schemes[..] {
@@ -139,20 +204,24 @@ fn lines(model: &Model, deck: &Deck, study: &Study, problems: &mut Vec<Diagnosti
     let mut lines = Vec::new();
     for (scheme, of_scheme) in &schemes {
         for (method, of_method) in &methods {
-            for (&mesh, of_mesh) in meshes.iter().zip(&refined) {
+            let meshes = meshes.iter().zip(&refined).flat_map(|of| kinds.iter().map(move |kind| (of, *kind)));
+            for ((&mesh, of_mesh), automatic) in meshes {
                 let mut words = Vec::new();
-                if schemes.len() > 1 || (methods.len() == 1 && meshes.len() == 1) {
+                if schemes.len() > 1 || (methods.len() == 1 && refined.len() == 1) {
                     words.push(scheme.clone());
                 }
                 if methods.len() > 1 {
                     words.push((*method).to_owned());
                 }
-                if meshes.len() > 1 {
+                if refined.len() > 1 {
                     words.push(format!("mesh x {mesh}"));
+                }
+                if automatic {
+                    words.push("automatic".to_owned());
                 }
                 let label = words.join(", ");
                 let sets = of_scheme.iter().chain(of_method).chain(of_mesh).cloned().collect();
-                lines.push(Line { label, scheme: scheme.clone(), method: (*method).to_owned(), mesh, sets });
+                lines.push(Line { label, scheme: scheme.clone(), method: (*method).to_owned(), mesh, automatic, sets });
             }
         }
     }

@@ -11,7 +11,7 @@ const LEAST: f64 = 0.4;
 /// The order of a line over the time steps of its steady slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Order {
-    /// Slope of log error against log time step, by least squares.
+    /// Slope of log error against log time step (or log tolerance), by least squares.
     pub order: f64,
     /// Runs it is fitted to.
     pub runs: usize,
@@ -29,7 +29,8 @@ pub struct Cheapest {
     pub line: usize,
     pub loop_s: f64,
     pub process_s: f64,
-    pub time_step: f64,
+    /// Time step or tolerance.
+    pub rung: f64,
     /// The longest step of the ladder is better than asked for already.
     pub at_the_top: bool,
 }
@@ -43,7 +44,7 @@ fn points<'r>(runs: &'r [Run], line: usize) -> Vec<(&'r Run, f64)> {
 pub fn orders(ladder: &Ladder, runs: &[Run]) -> Vec<Option<Order>> {
     let of = |line| {
         let points: Vec<(f64, f64)> =
-            points(runs, line).iter().map(|(run, error)| (run.time_step.ln(), error.ln())).collect();
+            points(runs, line).iter().map(|(run, error)| (run.rung.ln(), error.ln())).collect();
         order(&points)
     };
     (0..ladder.lines.len()).map(of).collect()
@@ -107,11 +108,11 @@ fn cost(runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
         line,
         loop_s: run.loop_s,
         process_s: run.process_s,
-        time_step: run.time_step,
+        rung: run.rung,
         at_the_top,
     };
     let mut best = reached.map(|(run, _)| at(run, false)).min_by(|a, b| a.loop_s.total_cmp(&b.loop_s))?;
-    best.at_the_top = points.first().is_some_and(|(run, _)| run.time_step == best.time_step);
+    best.at_the_top = points.first().is_some_and(|(run, _)| run.rung == best.rung);
     for pair in points.windows(2) {
         let ((coarse, above), (fine, below)) = (pair[0], pair[1]);
         if !(above > wanted && below <= wanted && below > 0.0) {
@@ -122,8 +123,8 @@ fn cost(runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
         let loop_s = between(coarse.loop_s, fine.loop_s);
         if loop_s < best.loop_s {
             let process_s = between(coarse.process_s, fine.process_s);
-            let time_step = between(coarse.time_step, fine.time_step);
-            best = Cheapest { line, loop_s, process_s, time_step, at_the_top: false };
+            let rung = between(coarse.rung, fine.rung);
+            best = Cheapest { line, loop_s, process_s, rung, at_the_top: false };
         }
     }
     Some(best)
@@ -133,7 +134,7 @@ fn cost(runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
 pub fn local(before: Option<&Run>, run: &Run) -> Option<f64> {
     let before = before.filter(|before| before.resolved && run.resolved)?;
     let (above, below) = (before.error?, run.error?);
-    let order = (above / below).ln() / (before.time_step / run.time_step).ln();
+    let order = (above / below).ln() / (before.rung / run.rung).ln();
     order.is_finite().then_some(order)
 }
 

@@ -6,12 +6,16 @@ use crate::output::report::html::{self, escaped};
 
 pub fn page(found: &Found, picture: &str) -> String {
     let label = |line: usize| found.ladder.lines[line].label.clone();
-    let orders: Vec<Vec<String>> =
-        found.orders.iter().enumerate().map(|(line, order)| vec![label(line), table::order(order.as_ref())]).collect();
+    let orders: Vec<Vec<String>> = found
+        .orders
+        .iter()
+        .enumerate()
+        .map(|(line, order)| vec![label(line), table::order(&found.ladder.lines[line], order.as_ref())])
+        .collect();
     let mut cheapest = Vec::new();
     for (wanted, list) in &found.cheapest {
         for of in list {
-            cheapest.push(vec![format!("{wanted:e}"), label(of.line), table::cost(of)]);
+            cheapest.push(vec![format!("{wanted:e}"), label(of.line), table::cost(&found.ladder.lines[of.line], of)]);
         }
         if list.is_empty() {
             cheapest.push(vec![format!("{wanted:e}"), "no run comes to it".into(), String::new()]);

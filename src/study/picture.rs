@@ -105,9 +105,9 @@ pub fn draw(found: &Found) -> String {
         for run in of_line {
             let Some(error) = run.error else { continue };
             let title = format!(
-                "{}, time step {}: error {}{error:.2e}, loop {} s",
+                "{}, {}: error {}{error:.2e}, loop {} s",
                 setting.label,
-                short(run.time_step),
+                super::table::rung(setting, run.rung),
                 if run.resolved { "" } else { "at most " },
                 super::table::seconds(run.loop_s)
             );

@@ -179,7 +179,7 @@ pub fn extrapolate(ladder: &Ladder, runs: &[Run]) -> Option<Reference> {
         .lines
         .iter()
         .enumerate()
-        .filter(|(_, line)| line.mesh == finest)
+        .filter(|(_, line)| line.mesh == finest && (!line.automatic || ladder.time_steps.is_empty()))
         .filter_map(|(index, _)| over_meshes(ladder, runs, index).map(|(time, mesh)| (index, time, mesh)))
         .collect();
     let of = |(_, time, mesh): &(usize, Limit, Option<Limit>)| mesh.clone().unwrap_or_else(|| time.clone());
@@ -195,7 +195,11 @@ pub fn extrapolate(ladder: &Ladder, runs: &[Run]) -> Option<Reference> {
         Some(order) => format!("extrapolated in the {what} at order {}", crate::names::short(order)),
         None => format!("not extrapolated in the {what}"),
     };
-    let mut source = format!("the finest runs of {}, {}", ladder.lines[best.0].label, order(&best.1, "time step"));
+    let mut source = format!(
+        "the finest runs of {}, {}",
+        ladder.lines[best.0].label,
+        order(&best.1, if ladder.lines[best.0].automatic { "tolerance" } else { "time step" })
+    );
     if let Some(mesh) = &best.2 {
         source += &format!(" and {}", order(mesh, "mesh"));
     }
@@ -207,12 +211,14 @@ fn over_meshes(ladder: &Ladder, runs: &[Run], index: usize) -> Option<(Limit, Op
     let line = &ladder.lines[index];
     let of_line = |index: usize| {
         let done = runs.iter().filter(|run| run.line == index && run.status == Status::Done);
-        let (h, q): (Vec<f64>, Vec<&[f64]>) = done.map(|run| (run.time_step, run.history.as_slice())).unzip();
+        let (h, q): (Vec<f64>, Vec<&[f64]>) = done.map(|run| (run.rung, run.history.as_slice())).unzip();
         let count = q.first()?.len() / (ladder.samples + 1);
         limit(&h, &q, count).map(|limit| (limit, count))
     };
     let (time, count) = of_line(index)?;
-    let same = |other: &super::Line| other.scheme == line.scheme && other.method == line.method;
+    let same = |other: &super::Line| {
+        other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic
+    };
     let meshes = ladder.lines.iter().enumerate().filter(|(_, other)| same(other));
     let mut meshes: Vec<(f64, Limit)> =
         meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();

@@ -7,13 +7,14 @@ use crate::output::replace;
 use std::io;
 use std::path::Path;
 
-const COLUMNS: [&str; 20] = [
+const COLUMNS: [&str; 21] = [
     "run",
     "scheme",
     "method",
     "mesh",
     "unknowns",
     "time_step",
+    "error_tolerance",
     "status",
     "error",
     "resolved",
@@ -58,7 +59,8 @@ pub fn write(found: &Found, folder: &Path) -> io::Result<()> {
             line.method.clone(),
             float(line.mesh),
             count(m.unknowns),
-            float(run.time_step),
+            if line.automatic { String::new() } else { float(run.rung) },
+            if line.automatic { float(run.rung) } else { String::new() },
             run.status.word().to_owned(),
             maybe(run.error),
             resolved.to_owned(),

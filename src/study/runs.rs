@@ -3,7 +3,7 @@
 
 use super::child::{Ended, Program, first_error};
 use super::history;
-use super::ladder::{Ladder, float};
+use super::ladder::Ladder;
 use super::progress::Progress;
 use super::reference::Reference;
 use super::{Fault, Options};
@@ -38,7 +38,8 @@ impl Status {
 pub struct Run {
     /// Index into [`Ladder::lines`].
     pub line: usize,
-    pub time_step: f64,
+    /// Its time step; on an automatic line, its tolerance.
+    pub rung: f64,
     /// Its folder, below that of the study.
     pub folder: String,
     pub status: Status,
@@ -95,28 +96,26 @@ pub fn climb(
 ) -> Result<(Vec<Run>, bool), Fault> {
     let program = program(options)?;
     let mut jobs = Vec::new();
-    for (line, of) in ladder.lines.iter().enumerate() {
-        for &time_step in &ladder.time_steps {
-            let mut sets = options.sets.clone();
-            sets.extend(of.sets.iter().chain(&ladder.sets).cloned());
-            sets.push(format!("analysis.time_step={}", float(time_step)));
-            jobs.push((line, time_step, sets));
+    for line in 0..ladder.lines.len() {
+        for &rung in ladder.rungs(line) {
+            let sets: Vec<String> = options.sets.iter().cloned().chain(ladder.overrides(line, rung)).collect();
+            jobs.push((line, rung, sets));
         }
     }
-    // Steps, each as long as there are elements; a process itself costs as much as some hundred.
-    let work = |line: usize, time_step: f64| 300.0 + ladder.end_time / time_step * ladder.lines[line].mesh;
-    let all: f64 = jobs.iter().map(|(line, time_step, _)| work(*line, *time_step)).sum();
+    // A process itself costs as much as some hundred steps.
+    let work = |line: usize, rung: f64| 300.0 + ladder.work(line, rung);
+    let all: f64 = jobs.iter().map(|(line, rung, _)| work(*line, *rung)).sum();
     let mut progress = Progress::new(options.quiet, all * options.repeats as f64);
     let mut runs: Vec<Run> = Vec::new();
     let mut stopped = false;
     for repeat in 0..options.repeats {
-        for (index, (line, time_step, sets)) in jobs.iter().enumerate() {
-            let label = format!("{}, time step {}", ladder.lines[*line].label, crate::names::short(*time_step));
+        for (index, (line, rung, sets)) in jobs.iter().enumerate() {
+            let label = format!("{}, {}", ladder.lines[*line].label, crate::names::short(*rung));
             progress.show(&label, repeat + 1, options.repeats);
             let folder = format!("runs/{}", index + 1);
             let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
             if repeat > 0 && runs.get(index).is_none_or(enough) {
-                progress.did(work(*line, *time_step));
+                progress.did(work(*line, *rung));
                 continue;
             }
             let place = options.folder.join(&folder);
@@ -124,9 +123,9 @@ pub fn climb(
                 stopped = true;
                 break;
             };
-            progress.did(work(*line, *time_step));
+            progress.did(work(*line, *rung));
             if repeat == 0 {
-                let run = Run::new(*line, *time_step, folder, &ended, &place)?;
+                let run = Run::new(*line, *rung, folder, &ended, &place)?;
                 runs.push(run.with_history(quantities, ladder, &place));
             } else if let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place)) {
                 run.repeats += 1;
@@ -149,7 +148,7 @@ pub fn program(options: &Options) -> io::Result<Program> {
 }
 
 impl Run {
-    pub fn new(line: usize, time_step: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<Run> {
+    pub fn new(line: usize, rung: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<Run> {
         let status = match ended.code {
             Some(0) => Status::Done,
             Some(4) => Status::NotConverged,
@@ -164,7 +163,7 @@ impl Run {
         let measured = if status == Status::Failed { Measured::default() } else { measured(place)? };
         Ok(Run {
             line,
-            time_step,
+            rung,
             folder,
             status,
             reason,

@@ -1,7 +1,7 @@
 //! A study in words: the table of runs, measured orders, the cheapest setting.
 
 use super::order::{Cheapest, Order, local};
-use super::{Found, Run, Status, columns};
+use super::{Found, Line, Run, Status, columns};
 use crate::names::short;
 
 pub const HEAD: [&str; 9] =
@@ -41,7 +41,7 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
         };
         rows.push(vec![
             line.label.clone(),
-            short(run.time_step),
+            rung(line, run.rung),
             error(run),
             order.map_or(String::new(), |order| format!("{order:.2}")),
             if run.measured.steps > 0 { seconds(run.loop_s) } else { String::new() },
@@ -54,19 +54,26 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
     rows
 }
 
-pub fn order(order: Option<&Order>) -> String {
+/// A time step, or a tolerance that says it is one.
+pub fn rung(line: &Line, rung: f64) -> String {
+    if line.automatic { format!("tol {}", short(rung)) } else { short(rung) }
+}
+
+pub fn order(line: &Line, order: Option<&Order>) -> String {
     let Some(order) = order else { return "no steady order".to_owned() };
     let (from, to) = (short(order.from), short(order.to));
     let floor = order.floor.map_or(String::new(), |floor| format!("; levels off at {floor:.1e}"));
     let caution = if order.runs < 3 { ", which is few" } else { "" };
-    format!("{:.2} over time steps {from} to {to} ({} runs{caution}){floor}", order.order, order.runs)
+    let what = if line.automatic { "tolerances" } else { "time steps" };
+    format!("{:.2} over {what} {from} to {to} ({} runs{caution}){floor}", order.order, order.runs)
 }
 
 /// "0.0021 s (process 0.0070 s), time step 0.0071".
-pub fn cost(of: &Cheapest) -> String {
-    let bound = if of.at_the_top { ", the longest of the ladder" } else { "" };
+pub fn cost(line: &Line, of: &Cheapest) -> String {
+    let what = if line.automatic { "tolerance" } else { "time step" };
+    let bound = if of.at_the_top { ", the first of the ladder" } else { "" };
     let (loop_s, process_s) = (seconds(of.loop_s), seconds(of.process_s));
-    format!("loop {loop_s} s, process {process_s} s, time step {}{bound}", short(of.time_step))
+    format!("loop {loop_s} s, process {process_s} s, {what} {}{bound}", short(of.rung))
 }
 
 /// What errors are measured against.
@@ -98,7 +105,7 @@ pub fn text(found: &Found) -> String {
         .orders
         .iter()
         .enumerate()
-        .map(|(line, of)| vec![format!("  {}", label(line)), order(of.as_ref())])
+        .map(|(line, of)| vec![format!("  {}", label(line)), order(&found.ladder.lines[line], of.as_ref())])
         .collect();
     text += &columns(&orders, 1);
     for (wanted, list) in &found.cheapest {
@@ -111,7 +118,7 @@ pub fn text(found: &Found) -> String {
             .iter()
             .map(|of| {
                 let times = format!("x {:.2}", of.loop_s / list[0].loop_s);
-                vec![format!("  {}", label(of.line)), times, cost(of)]
+                vec![format!("  {}", label(of.line)), times, cost(&found.ladder.lines[of.line], of)]
             })
             .collect();
         text += &columns(&rows, 1);
