@@ -11,7 +11,7 @@
 //! changes when a step is accepted; all else that is written to lives in the step's own scratch. Everything moves as
 //! nodes: a rigid body is a node with inertia, an element sees nodes only, and what it does to a node that rides on a body
 //! is handed to the body in one place, [`system::assembly`]. A scheme is a handful of numbers,
-//! [`integrators::Coefficients`].
+//! [`integrators::Coefficients`]. A [`study`] stands above all that: it runs the program itself, again and again.
 //!
 //! Formulas and code share their symbols; "(58)" is equation 58 of Rojek & Kleiber, Nonlinear dynamic FE analysis of
 //! structures consisting of rigid and deformable parts, Part I (1993).

@@ -189,6 +189,7 @@ fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
         links: true,
         contacts: true,
         sections: true,
+        parts: true,
         plastic_strains: true,
         shells: true,
     };

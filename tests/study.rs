@@ -1,5 +1,7 @@
 //! `rdsolve study`: orders against exact answers, the bar of its own reference, what failed, what it writes.
 
+mod support;
+
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;
@@ -186,6 +188,32 @@ fn orders_are_found_against_an_exact_answer() {
 }
 
 #[test]
+fn errors_are_those_that_runs_in_memory_have() {
+    let name = "two_bodies_on_springs";
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["deck.toml", "reference.csv"] {
+        fs::copy(support::decks().join(name).join(file), folder.path().join(file)).unwrap();
+    }
+    fs::rename(folder.path().join("deck.toml"), folder.path().join("x.toml")).unwrap();
+    study(folder.path(), &["--schemes", "wilson-theta,bathe", "--halvings", "2", "--repeats", "1", "--quiet"], 0);
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert_eq!(rows.len(), 6);
+    for row in &rows {
+        let sets = [format!("integrator.scheme={}", row["scheme"]), format!("analysis.time_step={}", row["time_step"])];
+        let model = support::read(name, &sets);
+        let bodies = ["a", "b"].map(|label| support::node(&model, label));
+        let done = support::run_to_the_end(&model, &mut |frame| {
+            let nodes = bodies.map(|body| &frame.state.nodes[body]);
+            let [x, omega] = [support::position, support::body_omega].map(|of| nodes.map(of).concat());
+            [x, omega].concat()
+        });
+        let error = support::error(&done.rows, &support::reference(name), 0);
+        // The same numbers by way of quaternions in a table: round-off of them, against errors of 1e-4 and more.
+        assert!((number(row, "error") / error - 1.0).abs() < 1e-9, "{row:?}, not {error}");
+    }
+}
+
+#[test]
 fn the_bar_of_its_own_reference_holds_the_true_error() {
     let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
     exact(folder.path());
@@ -293,7 +321,7 @@ fn files_are_whole() {
     let header = fs::read_to_string(out.join("study.csv")).unwrap();
     assert_eq!(
         header.lines().next().unwrap(),
-        "run,scheme,method,mesh,unknowns,time_step,error_tolerance,status,error,resolved,order,reference_error,loop_s,process_s,repeats,steps,\
+        "run,scheme,method,mesh,unknowns,time_step,error_tolerance,status,error,resolved,order,reference_error,loop_s,loop_median_s,process_s,repeats,steps,\
          iterations,factorizations,cuts,folder,reason,error:mass.x,error:mass.vx"
     );
     for row in table(&out.join("study.csv")) {

@@ -3,7 +3,7 @@
 
 use super::build::{Builder, Owner};
 use super::places::Place;
-use super::{Cadence, Control, Method};
+use super::{Control, Method};
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
 use crate::deck::words::{Maybe, OneOrMany};
@@ -285,14 +285,6 @@ pub fn obstacle(model: &super::Model) -> Option<&'static str> {
             Some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
         }
         Control::Time => None,
-    }
-}
-
-/// Time between two rows of output, where there is one.
-pub fn interval(model: &super::Model) -> Option<f64> {
-    match model.output.cadence {
-        Cadence::Interval(interval) => Some(interval),
-        Cadence::Steps(_) => None,
     }
 }
 

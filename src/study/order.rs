@@ -4,7 +4,7 @@ use super::ladder::Ladder;
 use super::runs::Run;
 
 /// Local orders that agree so far are of one slope.
-const SLOPE: f64 = 0.2;
+const SLOPE: f64 = 0.3;
 /// Below this there is no convergence to speak of.
 const LEAST: f64 = 0.4;
 
@@ -36,7 +36,7 @@ pub struct Cheapest {
 }
 
 /// Time step and error of the runs that have one well above that of the reference.
-fn points<'r>(runs: &'r [Run], line: usize) -> Vec<(&'r Run, f64)> {
+fn points(runs: &[Run], line: usize) -> Vec<(&Run, f64)> {
     let of_line = runs.iter().filter(move |run| run.line == line && run.resolved);
     of_line.filter_map(|run| Some((run, run.error.filter(|error| *error > 0.0)?))).collect()
 }

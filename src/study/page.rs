@@ -22,7 +22,8 @@ pub fn page(found: &Found, picture: &str) -> String {
         }
     }
     let picture = picture.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
-    let (title, deck, reference) = (escaped(&found.title), escaped(&found.deck), escaped(&table::reference(found)));
+    let (title, deck) = (escaped(&found.title), escaped(&found.deck));
+    let (reference, timing) = (escaped(&table::reference(found)), escaped(&table::timing(found)));
     let stopped = if found.stopped { "<p><span class=\"badge bad\">stopped by a signal</span></p>\n" } else { "" };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -30,7 +31,7 @@ pub fn page(found: &Found, picture: &str) -> String {
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}: study</title>\n\
          <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}.study {{ width: 100%; height: auto; }}\n\
          .study text {{ fill: var(--ink) !important; }}\n</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n{stopped}\
-         <p class=\"note\">Error against run time of <code>{deck}</code>. Reference: {reference}.</p>\n</header>\n\
+         <p class=\"note\">Error against run time of <code>{deck}</code>. Reference: {reference}.<br>{timing}</p>\n</header>\n\
          <section>\n{picture}</section>\n\
          <section><h2>Measured orders</h2>\n{}</section>\n\
          <section><h2>Cheapest setting</h2>\n{}</section>\n\

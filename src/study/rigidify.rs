@@ -95,9 +95,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
             };
             let mut done = Run::new(0, model.analysis.time_step, folder, &ended, &place)?;
             if let Some(before) = &mut runs[index] {
-                before.repeats += 1;
-                before.loop_s = before.loop_s.min(done.loop_s);
-                before.process_s = before.process_s.min(done.process_s);
+                before.again(done.loop_s, ended.process_s);
                 continue;
             }
             if done.status == Status::Done {
@@ -210,7 +208,7 @@ impl Advice {
     pub fn text(&self) -> String {
         let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
         let percent = |part: f64| match 100.0 * part {
-            p if p == 0.0 => "0 %".to_owned(),
+            0.0 => "0 %".to_owned(),
             p if p.abs() < 0.1 => format!("{p:.0e} %"),
             p => format!("{p:.1} %"),
         };
@@ -265,7 +263,13 @@ impl Advice {
                 Ok(run) => {
                     let [loop_s, process_s] = [run.loop_s, run.process_s].map(|s| maybe(Some(s)));
                     out += &format!(",{},{},{loop_s},{process_s}", run.status.word(), maybe(run.error));
-                    out += &format!(",{},{},{},{}", run.repeats, run.measured.unknowns, run.folder, field(&run.reason));
+                    out += &format!(
+                        ",{},{},{},{}",
+                        run.times.len(),
+                        run.measured.unknowns,
+                        run.folder,
+                        field(&run.reason)
+                    );
                 }
                 Err(reason) => out += &format!(",none,,,,,,,{}", field(reason)),
             }

@@ -7,7 +7,7 @@ use crate::output::replace;
 use std::io;
 use std::path::Path;
 
-const COLUMNS: [&str; 21] = [
+const COLUMNS: [&str; 22] = [
     "run",
     "scheme",
     "method",
@@ -21,6 +21,7 @@ const COLUMNS: [&str; 21] = [
     "order",
     "reference_error",
     "loop_s",
+    "loop_median_s",
     "process_s",
     "repeats",
     "steps",
@@ -67,8 +68,9 @@ pub fn write(found: &Found, folder: &Path) -> io::Result<()> {
             maybe(order),
             maybe(found.reference.as_ref().map(|reference| reference.bar).filter(|bar| *bar > 0.0)),
             if m.steps > 0 { maybe(Some(run.loop_s)) } else { String::new() },
+            if m.steps > 0 { maybe(Some(run.middle_s())) } else { String::new() },
             maybe(Some(run.process_s)),
-            run.repeats.to_string(),
+            run.times.len().to_string(),
             count(m.steps),
             count(m.iterations),
             count(m.factorizations),

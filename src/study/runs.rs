@@ -49,7 +49,8 @@ pub struct Run {
     /// Least seconds of the time stepping and of the whole process.
     pub loop_s: f64,
     pub process_s: f64,
-    pub repeats: usize,
+    /// Seconds of the time stepping, repeat by repeat.
+    pub times: Vec<f64>,
     /// Of all quantities together; `None`: it failed, or there is no reference.
     pub error: Option<f64>,
     /// Of each quantity, relative to its own largest value.
@@ -128,9 +129,7 @@ pub fn climb(
                 let run = Run::new(*line, *rung, folder, &ended, &place)?;
                 runs.push(run.with_history(quantities, ladder, &place));
             } else if let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place)) {
-                run.repeats += 1;
-                run.loop_s = run.loop_s.min(again.loop_s);
-                run.process_s = run.process_s.min(ended.process_s);
+                run.again(again.loop_s, ended.process_s);
             }
         }
         if stopped {
@@ -170,12 +169,24 @@ impl Run {
             measured,
             loop_s: measured.loop_s,
             process_s: ended.process_s,
-            repeats: 1,
+            times: vec![measured.loop_s],
             error: None,
             errors: Vec::new(),
             resolved: false,
             history: Vec::new(),
         })
+    }
+
+    /// One more repeat.
+    pub fn again(&mut self, loop_s: f64, process_s: f64) {
+        self.times.push(loop_s);
+        self.loop_s = self.loop_s.min(loop_s);
+        self.process_s = self.process_s.min(process_s);
+    }
+
+    /// The middle of its times.
+    pub fn middle_s(&self) -> f64 {
+        middle(self.times.clone()).unwrap_or(f64::NAN)
     }
 
     fn with_history(mut self, quantities: &[Quantity], ladder: &Ladder, place: &Path) -> Run {
@@ -187,6 +198,19 @@ impl Run {
         }
         self
     }
+}
+
+/// The upper one of two in the middle; `None`: there is none.
+fn middle(mut numbers: Vec<f64>) -> Option<f64> {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied()
+}
+
+/// How far times can be trusted: the middle of a setting's times over the least of them, in the middle of all settings.
+/// `None`: nothing was run twice.
+pub fn spread(runs: &[Run]) -> Option<f64> {
+    let twice = runs.iter().filter(|run| run.times.len() > 1 && run.loop_s > 0.0);
+    middle(twice.map(|run| run.middle_s() / run.loop_s).collect())
 }
 
 fn result(place: &Path) -> io::Result<Value> {

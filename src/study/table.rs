@@ -1,6 +1,7 @@
 //! A study in words: the table of runs, measured orders, the cheapest setting.
 
 use super::order::{Cheapest, Order, local};
+use super::runs::spread;
 use super::{Found, Line, Run, Status, columns};
 use crate::names::short;
 
@@ -90,10 +91,21 @@ pub fn reference(found: &Found) -> String {
     format!("{against}; {count} {quantities} at {samples} times")
 }
 
+/// How times were taken, and how far they are apart.
+pub fn timing(found: &Found) -> String {
+    let most = found.runs.iter().map(|run| run.times.len()).max().unwrap_or(0);
+    match spread(&found.runs) {
+        Some(spread) => format!(
+            "times: least of up to {most} runs in turn, of which the middle one takes {spread:.2} times as long\n"
+        ),
+        None => "times: of one run each\n".to_owned(),
+    }
+}
+
 pub fn text(found: &Found) -> String {
     let mut rows = vec![HEAD.map(String::from).to_vec()];
     rows.extend(cells(found));
-    let mut text = format!("reference: {}\n", reference(found));
+    let mut text = format!("reference: {}\n{}", reference(found), timing(found));
     if !found.ladder.fitted.is_empty() {
         let fitted: Vec<String> =
             found.ladder.fitted.iter().map(|(asked, step)| format!("{} for {}", short(*step), short(*asked))).collect();

@@ -93,8 +93,10 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
             reactions: true,
             sections: false,
             layers: false,
+            parts: false,
             fields: None,
         },
+        study: None,
     }
 }
 

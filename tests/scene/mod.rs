@@ -115,8 +115,10 @@ pub fn model() -> Model {
             reactions: true,
             sections: true,
             layers: true,
+            parts: false,
             fields: None,
         },
+        study: None,
     }
 }
 
@@ -210,6 +212,7 @@ impl Extras {
             plastic_strains: &[],
             sections: &self.sections,
             shells: &self.shells,
+            parts: &[],
             passed: &[],
             negative_pivots: None,
         }
