@@ -11,6 +11,9 @@ use std::time::{Duration, Instant};
 /// How often a signal is looked for while a run goes on.
 const GLANCE: Duration = Duration::from_millis(50);
 
+/// Exit code of a run that a signal has ended.
+const STOPPED: i32 = 75;
+
 /// A process that has ended.
 pub struct Ended {
     /// `None`: by a signal.
@@ -64,7 +67,7 @@ impl Program {
         let status = child.wait()?;
         let said = reader.join().unwrap_or_default();
         // One at a terminal gets the signal itself, and may be first.
-        if stopped || stop.load(Ordering::Relaxed) {
+        if stopped || stop.load(Ordering::Relaxed) || status.code() == Some(STOPPED) {
             return Ok(None);
         }
         Ok(Some(Ended { code: status.code(), process_s: elapsed.as_secs_f64(), said }))

@@ -1,14 +1,14 @@
 //! What is run: lines of settings, each over the same time steps, as overrides of the deck.
 
 use crate::deck::Deck;
-use crate::deck::analysis::Plane;
+use crate::deck::analysis::{Analysis, Plane};
 use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::Diagnostic;
 use crate::model::study::{Quantity, Study, obstacle};
 use crate::model::{Kind, Model};
 
 /// Intervals between samples where nothing says otherwise.
-const SAMPLES: usize = 200;
+pub const SAMPLES: usize = 200;
 /// The ladder where nothing says otherwise: from so many of the deck's time steps, halved so often.
 const LONGEST: f64 = 8.0;
 const HALVINGS: usize = 6;
@@ -172,11 +172,24 @@ fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
 fn analysis(model: &Model, deck: &Deck) -> String {
     let kind = if model.analysis.kind == Kind::Static { "static" } else { "dynamic" };
     let mut text = format!("kind = \"{kind}\", end_time = {}", float(model.analysis.end_time));
-    let Some(analysis) = &deck.analysis else { return text };
-    if let Some(least) = &analysis.least_step {
+    let Some(at) = &deck.analysis else { return text };
+    // Named one by one, so that none is forgotten.
+    let Analysis {
+        least_step,
+        plane,
+        kind: _,
+        control: _,
+        end_time: _,
+        time_step: _,
+        error_tolerance: _,
+        stop: _,
+        steps: _,
+        growth: _,
+    } = &*at.value;
+    if let Some(least) = least_step {
         text += &format!(", least_step = {}", float(least.value));
     }
-    if analysis.plane.as_ref().is_some_and(|plane| plane.value == Plane::Off) {
+    if plane.as_ref().is_some_and(|plane| plane.value == Plane::Off) {
         text += ", plane = \"off\"";
     }
     text

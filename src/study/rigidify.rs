@@ -2,7 +2,7 @@
 //! a run with that part rigid says what comes of it.
 
 use super::child::{Ended, Program};
-use super::ladder::output;
+use super::ladder::{SAMPLES, output};
 use super::progress::Progress;
 use super::rows::{field, maybe};
 use super::runs::{Run, Status, program};
@@ -67,7 +67,9 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
         return Err(Fault::Deck(problems));
     }
     let end = model.analysis.end_time;
-    let samples = asked.samples.unwrap_or(200);
+    // Samples closer together than the deck's steps would shorten these.
+    let steps = (end / model.analysis.time_step + 1e-9).floor().max(1.0);
+    let samples = asked.samples.unwrap_or(SAMPLES.min(steps as usize));
     let program = program(options)?;
     let common = [output(&quantities, end / samples as f64, true), "expect=[]".to_owned()];
     let mut jobs: Vec<Option<Vec<String>>> = vec![Some(Vec::new())];
