@@ -3,10 +3,12 @@
 //! q, and what they are at the end of the step. All of these are linear, so a scheme is a handful of numbers.
 
 pub mod bathe;
+pub mod central_difference;
 pub mod generalized_alpha;
 pub mod hht_alpha;
 pub mod load_steps;
 pub mod newmark;
+pub mod runge_kutta;
 pub mod spectrum;
 pub mod wilson_theta;
 
@@ -14,9 +16,11 @@ use crate::math::Vec6;
 pub use crate::math::rotation::RotationUpdate;
 use crate::state::Increment;
 pub use bathe::Bathe;
+pub use central_difference::CentralDifference;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use hht_alpha::hht_alpha;
 pub use newmark::newmark;
+pub use runge_kutta::RungeKutta;
 pub use wilson_theta::WilsonTheta;
 
 /// A scheme the deck can name.
@@ -27,6 +31,8 @@ pub enum Scheme {
     HhtAlpha(GeneralizedAlpha),
     GeneralizedAlpha(GeneralizedAlpha),
     Bathe(Bathe),
+    CentralDifference(CentralDifference),
+    RungeKutta(RungeKutta),
 }
 
 impl Scheme {
@@ -38,6 +44,8 @@ impl Scheme {
             Scheme::HhtAlpha(_) => "hht-alpha",
             Scheme::GeneralizedAlpha(_) => "generalized-alpha",
             Scheme::Bathe(_) => "bathe",
+            Scheme::CentralDifference(_) => "central-difference",
+            Scheme::RungeKutta(_) => "runge-kutta",
         }
     }
 
@@ -45,11 +53,16 @@ impl Scheme {
     pub fn follower(&self) -> Option<[f64; 3]> {
         match self {
             Scheme::Newmark(scheme) | Scheme::HhtAlpha(scheme) | Scheme::GeneralizedAlpha(scheme) => scheme.follower(),
-            Scheme::WilsonTheta(_) | Scheme::Bathe(_) => None,
+            Scheme::WilsonTheta(_) | Scheme::Bathe(_) | Scheme::CentralDifference(_) | Scheme::RungeKutta(_) => None,
         }
     }
 
-    /// For a step of length Δt; of a scheme of two stages the first.
+    /// True where a step solves for nothing but M a = r: there is no stiffness matrix.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self, Scheme::CentralDifference(_) | Scheme::RungeKutta(_))
+    }
+
+    /// For a step of length Δt; of a scheme of two stages the first, of Runge-Kutta's the prediction of the motion.
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         match self {
             Scheme::WilsonTheta(scheme) => scheme.coefficients(dt),
@@ -57,6 +70,8 @@ impl Scheme {
                 scheme.coefficients(dt)
             }
             Scheme::Bathe(scheme) => scheme.first(dt),
+            Scheme::CentralDifference(scheme) => scheme.coefficients(dt),
+            Scheme::RungeKutta(_) => CentralDifference { rotation: RotationUpdate::Exponential }.coefficients(dt),
         }
     }
 }
