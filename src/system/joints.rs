@@ -14,7 +14,7 @@ use crate::math::{Mat6, Vec3, Vec6};
 use crate::state::Node;
 
 /// ε: a repeated row is felt as 1e-16/ε of a length, and a gap shrinks by ε in an iteration.
-const SHARED: f64 = 1e-7;
+pub(super) const SHARED: f64 = 1e-7;
 
 /// Directions of a local matrix: two nodes, and the joint's multipliers as a third.
 pub(super) const WIDTH: usize = 6 + 6 + MOST_ROWS;
@@ -94,6 +94,9 @@ impl System {
             for (k, row) in joint.rows.iter().enumerate() {
                 multipliers.gaps[first + k] = row.gap(a, b)[0];
                 let lambda = multipliers.values[first + k];
+                if lambda == 0.0 {
+                    continue;
+                }
                 for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
                     let pull = lambda * G;
                     scale.meet(pull.as_ref());

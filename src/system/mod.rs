@@ -8,9 +8,11 @@ pub mod energy;
 mod inertia;
 pub mod joints;
 mod lanes;
+pub mod masses;
 mod motion;
 mod plane;
 pub mod results;
+pub mod ties;
 mod tiles;
 
 pub use contacts::ContactState;

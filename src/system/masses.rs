@@ -1,0 +1,273 @@
+//! Accelerations from forces where each moving node is a rigid body of its own: its mass and inertia, with those of all that
+//! rides on it, about the centre that they have together. In body axes these never change, so nothing is ever factorised.
+
+use super::System;
+use super::assembly::{NONE, Rows};
+use crate::elements::Force;
+use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
+use crate::state::Node;
+
+/// Part of what an inertia was before others were taken from it that counts as none.
+const NOTHING: f64 = 1e-12;
+
+/// The masses of a scene, one for each node that has an unknown.
+#[derive(Debug, Clone)]
+pub struct Masses {
+    pub blocks: Vec<Block>,
+    /// By node: its place in `blocks`, or [`NONE`].
+    place: Vec<u32>,
+}
+
+/// Mass and inertia that move with a node.
+#[derive(Debug, Clone)]
+pub struct Block {
+    pub node: usize,
+    /// Directions that are unknowns.
+    pub free: [bool; 6],
+    pub mass: f64,
+    /// From the node to the centre of mass; axes that were global at t = 0, like those of `J0`.
+    s0: Vec3,
+    /// About the centre of mass.
+    J0: Mat3,
+    inverse: Mat3,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// No rotation is an unknown, or it has nothing to do with translations and one number for its inertia.
+    Point { of_turn: f64 },
+    /// The centre is the node, or moves freely; so do rotations.
+    Body,
+    /// Some directions are held.
+    Held,
+}
+
+/// Velocities and accelerations, global components.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    pub v: Vec3,
+    pub omega: Vec3,
+    pub a: Vec3,
+    pub alpha: Vec3,
+}
+
+impl Masses {
+    /// `None`: masses of several nodes belong together, by their elements or by riders that turn on their own.
+    pub fn new(system: &System, rows: &Rows) -> Option<Masses> {
+        if !system.consistent.is_empty() {
+            return None;
+        }
+        // Mass, its moment, inertia about the node.
+        let mut sums = vec![(0.0, Vec3::zeros(), Mat3::zeros()); rows.len()];
+        let mut rides = vec![None; rows.len()];
+        system.attachments.iter().for_each(|rider| rides[rider.node] = Some(rider));
+        let point = |mass: f64, s: &Vec3| -mass * skew(s) * skew(s);
+        for inertia in &system.inertias {
+            let (mut node, mut arm, mut J0) = (inertia.node, Vec3::zeros(), inertia.J0);
+            while let Some(rider) = rides[node] {
+                if !rider.rigid {
+                    // A ball joint takes over the mass and leaves the inertia.
+                    if rider.dofs != [true, true, true, false, false, false] || node != inertia.node {
+                        return None;
+                    }
+                    sums[node].2 += J0;
+                    J0 = Mat3::zeros();
+                }
+                arm += rider.S0;
+                node = rider.master;
+            }
+            let (mass, moment, J) = &mut sums[node];
+            *mass += inertia.mass;
+            *moment += inertia.mass * arm;
+            *J += J0 + point(inertia.mass, &arm);
+        }
+        let mut place = vec![NONE; rows.len()];
+        let mut blocks = Vec::new();
+        for (node, (mass, moment, J)) in sums.into_iter().enumerate() {
+            let free = rows[node].map(|row| row != NONE);
+            if !free.contains(&true) || node >= rows.len() - system.joints.len() {
+                continue;
+            }
+            let s0 = if mass > 0.0 { moment / mass } else { Vec3::zeros() };
+            let mut J0 = J - point(mass, &s0);
+            // What is left of a point mass at the end of an arm.
+            let trace = NOTHING * J.amax();
+            J0.iter_mut().filter(|J| J.abs() < trace).for_each(|J| *J = 0.0);
+            place[node] = blocks.len() as u32;
+            blocks.push(Block::new(node, free, mass, s0, J0));
+        }
+        Some(Masses { blocks, place })
+    }
+
+    /// That of a node, where it has unknowns.
+    pub fn of(&self, node: usize) -> Option<&Block> {
+        self.blocks.get(self.place[node] as usize)
+    }
+
+    /// M⁻¹ F, into `out` by node, where there is an unknown; accelerations of what is held stay zero.
+    pub fn accelerate(&self, nodes: &[Node], F: &[Force], out: &mut [Vec6]) {
+        for block in &self.blocks {
+            out[block.node] = block.accelerate(&nodes[block.node], &F[block.node]);
+        }
+    }
+}
+
+impl Block {
+    fn new(node: usize, free: [bool; 6], mass: f64, s0: Vec3, J0: Mat3) -> Block {
+        let [moves, turns] = [&free[..3], &free[3..]].map(|free| free.contains(&true));
+        let all = |free: &[bool]| !free.contains(&false);
+        let apart = s0.amax() == 0.0 || !moves || !turns;
+        let equal = J0 == Mat3::identity() * J0[(0, 0)];
+        let kind = match (turns, all(&free[3..]), apart) {
+            (false, ..) => Kind::Point { of_turn: 0.0 },
+            (true, _, true) if equal => Kind::Point { of_turn: 1.0 / J0[(0, 0)] },
+            (true, true, true) if s0.amax() == 0.0 => Kind::Body,
+            (true, true, false) if all(&free) => Kind::Body,
+            _ => Kind::Held,
+        };
+        let inverse = J0.try_inverse().unwrap_or_else(Mat3::zeros);
+        Block { node, free, mass, s0, J0, inverse, kind }
+    }
+
+    /// The matrix of all six directions, about the node as it lies.
+    fn matrix(&self, R: &Mat3) -> Mat6 {
+        let s = skew(&(R * self.s0));
+        let mut M = Mat6::identity() * self.mass;
+        M.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-self.mass * s));
+        M.fixed_view_mut::<3, 3>(3, 0).copy_from(&(self.mass * s));
+        M.fixed_view_mut::<3, 3>(3, 3).copy_from(&(R * self.J0 * R.transpose() - self.mass * s * s));
+        M
+    }
+
+    /// An unknown direction in which nothing resists but stiffness, as the node lies at t = 0.
+    pub fn massless(&self) -> Option<usize> {
+        let mut M = self.matrix(&Mat3::identity());
+        let scale = M.diagonal();
+        eliminate(&mut M, &mut Vec6::zeros(), &self.free, &scale)
+    }
+
+    /// Accelerations of the unknown directions under a force and a moment at the node.
+    #[inline]
+    pub fn accelerate(&self, node: &Node, F: &Force) -> Vec6 {
+        let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
+        let kept = |a: Vec6| Vec6::from_fn(|i, _| if self.free[i] { a[i] } else { 0.0 });
+        match self.kind {
+            Kind::Point { of_turn } => kept(join(&(f / self.mass), &(m * of_turn))),
+            Kind::Body => {
+                let R = node.R();
+                // About the centre of mass, and back.
+                let s = R * self.s0;
+                let alpha = R * (self.inverse * R.tr_mul(&(m - s.cross(&f))));
+                kept(join(&(f / self.mass - alpha.cross(&s)), &alpha))
+            }
+            Kind::Held => {
+                let mut M = self.matrix(&node.R());
+                let mut x = Vec6::from(*F);
+                let scale = M.diagonal();
+                eliminate(&mut M, &mut x, &self.free, &scale);
+                x
+            }
+        }
+    }
+
+    /// aᵀ M b of small motions of the node.
+    #[inline]
+    pub fn weigh(&self, node: &Node, a: &Vec6, b: &Vec6) -> f64 {
+        match self.kind {
+            Kind::Point { of_turn } => {
+                let turn = if of_turn > 0.0 { bottom(a).dot(&bottom(b)) / of_turn } else { 0.0 };
+                self.mass * top(a).dot(&top(b)) + turn
+            }
+            _ => {
+                let R = node.R();
+                let in_body = |v: &Vec6| (R.tr_mul(&top(v)), R.tr_mul(&bottom(v)));
+                let ((u, theta), (w, phi)) = (in_body(a), in_body(b));
+                let at_centre = |u: Vec3, theta: &Vec3| u + theta.cross(&self.s0);
+                self.mass * at_centre(u, &theta).dot(&at_centre(w, &phi)) + theta.dot(&(self.J0 * phi))
+            }
+        }
+    }
+
+    /// About what accelerations of translations and of rotations weigh, for a quick look.
+    pub fn about(&self) -> [f64; 2] {
+        [self.mass, self.J0.trace() / 3.0]
+    }
+
+    /// F ← F − M a: what accelerations leave of a force, on directions that are held too.
+    #[inline]
+    pub fn settle(&self, node: &Node, a: &Vec6, F: &mut Force) {
+        let rest = match self.kind {
+            Kind::Held => self.matrix(&node.R()) * a,
+            // Nothing couples what is held with what is not.
+            _ => return,
+        };
+        F.iter_mut().zip(&rest).for_each(|(f, rest)| *f -= rest);
+    }
+
+    /// Rates at the end of a step of length `dt` from `start`, where forces F are left over from the motion `now` there: the
+    /// mean of the accelerations makes the velocities. That of a body which turns freely is taken of its angular momentum,
+    /// which no moment of its own inertia changes.
+    #[inline]
+    pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> Motion {
+        let h = 0.5 * dt;
+        if self.kind != Kind::Body {
+            let push = self.accelerate(now, F);
+            let (a, alpha) = (now.a + top(&push), now.alpha + bottom(&push));
+            return Motion { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha };
+        }
+        let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
+        let (R0, R) = (start.R(), now.R());
+        let times = |R: &Mat3, v: &Vec3| R * (self.J0 * R.tr_mul(v));
+        let centripetal = |node: &Node, s: &Vec3| node.alpha.cross(s) + node.omega.cross(&node.omega.cross(s));
+        let (s0, s) = (R0 * self.s0, R * self.s0);
+        // About the centre of mass: Ḷ = m, on both sides of the step.
+        let L0 = times(&R0, &start.omega);
+        let m0 = times(&R0, &start.alpha) + start.omega.cross(&L0);
+        let m1 = m - s.cross(&f) + times(&R, &now.alpha) + now.omega.cross(&times(&R, &now.omega));
+        let L = L0 + h * (m0 + m1);
+        let divided = |v: &Vec3| R * (self.inverse * R.tr_mul(v));
+        let omega = divided(&L);
+        let alpha = divided(&(m1 - omega.cross(&L)));
+        let a0 = start.a + centripetal(start, &s0);
+        let a1 = now.a + centripetal(now, &s) + f / self.mass;
+        let v = start.v + start.omega.cross(&s0) + h * (a0 + a1) - omega.cross(&s);
+        let mut end = Motion { v, omega, a: a1, alpha };
+        end.a -= alpha.cross(&s) + omega.cross(&omega.cross(&s));
+        // Where the centre is the node, it may be held.
+        for i in (0..3).filter(|&i| !self.free[i]) {
+            (end.v[i], end.a[i]) = (now.v[i], now.a[i]);
+        }
+        end
+    }
+}
+
+/// Solves M x = b for the free directions, which overwrites both; the others come out as zero. Returns a direction whose pivot
+/// vanishes, if any.
+fn eliminate(M: &mut Mat6, b: &mut Vec6, free: &[bool; 6], scale: &Vec6) -> Option<usize> {
+    let mut lost = None;
+    for k in 0..6 {
+        if !free[k] {
+            b[k] = 0.0;
+            continue;
+        }
+        let pivot = M[(k, k)];
+        if pivot <= NOTHING * scale[k] {
+            lost = lost.or(Some(k));
+            b[k] = 0.0;
+            continue;
+        }
+        for i in (k + 1..6).filter(|&i| free[i]) {
+            let l = M[(i, k)] / pivot;
+            for j in k..6 {
+                M[(i, j)] -= l * M[(k, j)];
+            }
+            b[i] -= l * b[k];
+        }
+    }
+    for k in (0..6).rev().filter(|&k| free[k] && M[(k, k)] > NOTHING * scale[k]) {
+        let sum: f64 = (k + 1..6).filter(|&j| free[j]).map(|j| M[(k, j)] * b[j]).sum();
+        b[k] = (b[k] - sum) / M[(k, k)];
+    }
+    lost
+}

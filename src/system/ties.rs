@@ -1,0 +1,180 @@
+//! Joints between bodies of their own (see [`Masses`]) by a small dense system, a row for each multiplier: (G M⁻¹ Gᵀ) λ = c.
+//! It gives accelerations that the joints allow, and closes their gaps by the least change in the norm of the masses.
+
+use super::System;
+use super::joints::SHARED;
+use super::masses::Masses;
+use crate::elements::Force;
+use crate::math::{Vec6, bottom, join, top};
+use crate::state::Node;
+
+/// Rows at most: beyond, a sparse factorisation is cheaper.
+const MOST: usize = 64;
+
+/// Allocated once.
+pub struct Ties {
+    /// Of each row: the nodes that move the two ends of its joint, where they are unknown.
+    rows: Vec<[Option<usize>; 2]>,
+    /// Rows of a joint may say what others say.
+    shares: bool,
+    /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit of the multiplier causes there.
+    G: Vec<[Vec6; 2]>,
+    W: Vec<[Vec6; 2]>,
+    /// G M⁻¹ Gᵀ, and its Cholesky factor; row-major.
+    S: Vec<f64>,
+    L: Vec<f64>,
+    /// What is asked for, then what answers it, and room beside it.
+    pub x: Vec<f64>,
+    room: Vec<f64>,
+}
+
+impl Ties {
+    /// `None`: too many rows, or an end rides in some directions only.
+    pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<Ties> {
+        let count = system.multipliers();
+        if count > MOST {
+            return None;
+        }
+        let root = |node: usize| {
+            let mut node = node;
+            while let Some(rider) = system.attachments.iter().find(|rider| rider.node == node) {
+                if !rider.rigid {
+                    return None;
+                }
+                node = rider.master;
+            }
+            Some(node)
+        };
+        let mut rows = Vec::with_capacity(count);
+        for joint in &system.joints {
+            let mut ends = [None; 2];
+            for (end, &node) in ends.iter_mut().zip(&joint.nodes) {
+                let root = root(node)?;
+                *end = masses.of(root).map(|_| root);
+            }
+            rows.extend(joint.rows.iter().map(|_| ends));
+        }
+        let zeros = vec![[Vec6::zeros(); 2]; count];
+        let square = vec![0.0; count * count];
+        let x = vec![0.0; count];
+        Some(Ties { rows, shares, G: zeros.clone(), W: zeros, S: square.clone(), L: square, room: x.clone(), x })
+    }
+
+    /// Forms and factorises the system for joints as they lie; false where they leave no way to close them.
+    pub fn form(&mut self, system: &System, masses: &Masses, nodes: &[Node]) -> bool {
+        let mut k = 0;
+        for joint in &system.joints {
+            let [a, b] = joint.nodes.map(|node| &nodes[node]);
+            for row in &joint.rows {
+                let gradient = row.gradient(a, b);
+                for end in 0..2 {
+                    let Some(root) = self.rows[k][end] else { continue };
+                    let (f, m) = (top(&gradient[end]), bottom(&gradient[end]));
+                    let arm = nodes[joint.nodes[end]].x - nodes[root].x;
+                    let G = join(&f, &(m + arm.cross(&f)));
+                    self.G[k][end] = G;
+                    let push = |block: &super::masses::Block| block.accelerate(&nodes[root], G.as_ref());
+                    self.W[k][end] = masses.of(root).map_or(Vec6::zeros(), push);
+                }
+                k += 1;
+            }
+        }
+        self.factor()
+    }
+
+    fn factor(&mut self) -> bool {
+        let n = self.rows.len();
+        for k in 0..n {
+            for l in 0..=k {
+                let mut sum = 0.0;
+                for (i, root) in self.rows[k].iter().enumerate() {
+                    for (j, other) in self.rows[l].iter().enumerate() {
+                        if root.is_some() && root == other {
+                            sum += self.G[k][i].dot(&self.W[l][j]);
+                        }
+                    }
+                }
+                self.S[k * n + l] = sum;
+                self.S[l * n + k] = sum;
+            }
+        }
+        self.L.copy_from_slice(&self.S);
+        let L = &mut self.L;
+        for k in 0..n {
+            if self.shares {
+                L[k * n + k] *= 1.0 + SHARED;
+            }
+            for l in 0..k {
+                let sum: f64 = (0..l).map(|i| L[k * n + i] * L[l * n + i]).sum();
+                L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
+            }
+            let sum: f64 = (0..k).map(|i| L[k * n + i] * L[k * n + i]).sum();
+            let pivot = L[k * n + k] - sum;
+            if pivot <= 0.0 || pivot.is_nan() {
+                return false;
+            }
+            L[k * n + k] = pivot.sqrt();
+        }
+        true
+    }
+
+    /// x ← (G M⁻¹ Gᵀ)⁻¹ x; of rows that say the same, each has its share.
+    pub fn solve(&mut self) {
+        let n = self.rows.len();
+        if !self.shares {
+            return substitute(&self.L, &mut self.x);
+        }
+        // The shares leave a part of what is asked to be found again; twice leaves its square.
+        std::mem::swap(&mut self.room, &mut self.x);
+        self.x.copy_from_slice(&self.room);
+        substitute(&self.L, &mut self.x);
+        for k in 0..n {
+            let done: f64 = self.S[k * n..(k + 1) * n].iter().zip(&self.x).map(|(s, x)| s * x).sum();
+            self.room[k] -= done;
+        }
+        substitute(&self.L, &mut self.room);
+        self.x.iter_mut().zip(&self.room).for_each(|(x, more)| *x += more);
+    }
+
+    /// x ← x + G δ, by node.
+    pub fn add_rates(&mut self, motion: &[Vec6]) {
+        for ((x, ends), G) in self.x.iter_mut().zip(&self.rows).zip(&self.G) {
+            *x += ends.iter().zip(G).filter_map(|(root, G)| root.map(|root| G.dot(&motion[root]))).sum::<f64>();
+        }
+    }
+
+    /// F ← F − Gᵀ x, on the nodes that move.
+    pub fn pull(&self, F: &mut [Force]) {
+        for ((x, ends), G) in self.x.iter().zip(&self.rows).zip(&self.G) {
+            for (root, G) in ends.iter().zip(G) {
+                if let Some(root) = root {
+                    F[*root].iter_mut().zip(G).for_each(|(f, G)| *f -= G * x);
+                }
+            }
+        }
+    }
+
+    /// δ ← δ − M⁻¹ Gᵀ x, by node.
+    pub fn push(&self, motion: &mut [Vec6]) {
+        for ((x, ends), W) in self.x.iter().zip(&self.rows).zip(&self.W) {
+            for (root, W) in ends.iter().zip(W) {
+                if let Some(root) = root {
+                    motion[*root] -= W * *x;
+                }
+            }
+        }
+    }
+}
+
+/// L Lᵀ x = b.
+fn substitute(L: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    for k in 0..n {
+        let sum: f64 = (0..k).map(|i| L[k * n + i] * x[i]).sum();
+        x[k] = (x[k] - sum) / L[k * n + k];
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|i| L[i * n + k] * x[i]).sum();
+        x[k] = (x[k] - sum) / L[k * n + k];
+    }
+}
