@@ -8,6 +8,9 @@ pub(super) fn check(args: &DeckArgs) -> Result<(), Exit> {
     let (system, plan) = planned(&loaded, 1)?;
     show(&doubts(&plan, &loaded.model, &system), &loaded.source);
     let (solver, _) = plan.build(&system).map_err(no_room)?;
-    let text = plan.explain(&loaded.model, &system);
-    super::print(&format!("{}: no errors\n{text}{:<12}{}\n", loaded.source.path, "  factor", solver.describe()))
+    let mut text = plan.explain(&loaded.model, &system);
+    if !plan.explicit || plan.masses(&system).is_none() {
+        text += &format!("{:<12}{}\n", "  factor", solver.describe());
+    }
+    super::print(&format!("{}: no errors\n{text}", loaded.source.path))
 }

@@ -186,7 +186,8 @@ fn planned(loaded: &Loaded, threads: usize) -> Result<(System, Plan), Exit> {
         Exit::Internal
     })?;
     let plan = Plan::new(&loaded.model, &system, threads);
-    let problems = plan.never_passed(&loaded.model);
+    let mut problems = plan.never_passed(&loaded.model);
+    problems.extend(plan.massless(&loaded.model, &system));
     if problems.is_empty() {
         return Ok((system, plan));
     }

@@ -16,7 +16,7 @@ pub struct Analysis {
     /// The run goes from t = 0 to this time; with arc-length, until the load first comes to it.
     #[schemars(required)]
     pub end_time: Maybe<f64>,
-    /// Time per step; "auto": as long as `error_tolerance` lets it be. With arc-length, that of the first step, from which the
+    /// Time per step; "auto": as long as `error_tolerance` lets it be, and with central-difference as is stable. With arc-length, that of the first step, from which the
     /// length of the others follows.
     #[schemars(required)]
     pub time_step: Maybe<NumberOrAuto>,
@@ -105,6 +105,8 @@ pub struct Integrator {
     pub spectral_radius: Maybe<f64>,
     /// The part of the step that the first stage covers. Default: 0.585786437626905, which lets one matrix serve both. bathe.
     pub split: Maybe<f64>,
+    /// 5 or 8. Default: 8. runge-kutta.
+    pub order: Maybe<u64>,
     /// How rotations follow from their increments. Default: "exponential", which is exact.
     pub rotation_update: Maybe<RotationUpdate>,
 }
@@ -118,6 +120,11 @@ pub enum Scheme {
     GeneralizedAlpha,
     /// The trapezoidal rule, then backward differences: two stages.
     Bathe,
+    /// Explicit, of second order: no matrix but the masses; steps shorter than the fastest mode of the scene asks for. "auto"
+    /// takes 0.9 of the longest step that is stable.
+    CentralDifference,
+    /// Explicit, of high order: for scenes that are not stiff.
+    RungeKutta,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

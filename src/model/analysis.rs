@@ -1,13 +1,15 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
 use super::build::{Builder, Owner, span};
-use super::{Analysis, Control, Gyroscopic, Kind, Method, Update};
+use super::{Analysis, Control, Gyroscopic, Kind, MassKind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, NumberOrAuto};
 use crate::diagnostic::{At, Diagnostic};
 use crate::integrators::wilson_theta::STABLE_THETA;
-use crate::integrators::{Bathe, GeneralizedAlpha, RotationUpdate, Scheme, WilsonTheta, hht_alpha, newmark};
+use crate::integrators::{
+    Bathe, CentralDifference, GeneralizedAlpha, RotationUpdate, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
+};
 use crate::names::short;
 
 /// A step is halved at most so many times, unless the deck says otherwise.
@@ -131,7 +133,12 @@ impl<'d> Builder<'d> {
             ("split", &integrator.split, deck::Scheme::Bathe),
         ];
         let strays = keys.iter().filter(|(.., of)| *of != word).map(|(key, value, _)| (*key, span(value)));
-        let strays: Vec<_> = strays.collect();
+        let mut strays: Vec<_> = strays.collect();
+        if word == deck::Scheme::RungeKutta {
+            strays.push(("rotation_update", span(&integrator.rotation_update)));
+        } else {
+            strays.push(("order", span(&integrator.order)));
+        }
         self.model.scheme = match word {
             deck::Scheme::WilsonTheta => {
                 let theta = self.theta(integrator);
@@ -153,6 +160,8 @@ impl<'d> Builder<'d> {
                 let split = self.between("split", &integrator.split, [0.05, 0.95], 2.0 - 2.0_f64.sqrt());
                 Scheme::Bathe(Bathe { split, rotation })
             }
+            deck::Scheme::CentralDifference => Scheme::CentralDifference(CentralDifference { rotation }),
+            deck::Scheme::RungeKutta => Scheme::RungeKutta(self.runge_kutta(integrator)),
         };
         self.stray(&format!("the scheme \"{}\"", self.model.scheme.word()), &strays);
     }
@@ -191,6 +200,48 @@ impl<'d> Builder<'d> {
             }
         }
         (gamma, beta)
+    }
+
+    fn runge_kutta(&mut self, integrator: &deck::Integrator) -> RungeKutta {
+        let order = integrator.order.as_ref().map_or(8, |order| order.value);
+        let scheme = usize::try_from(order).ok().and_then(RungeKutta::of_order);
+        if let (None, Some(at)) = (&scheme, &integrator.order) {
+            self.error_with::<()>(&at.span, format!("there is no Runge-Kutta scheme of order {order}"), "5 or 8");
+        }
+        scheme.unwrap_or_default()
+    }
+
+    /// What an explicit scheme cannot do, once all parts are known.
+    pub(super) fn check_explicit(&mut self) {
+        let (model, deck) = (&self.model, self.deck);
+        let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
+        if model.analysis.kind == Kind::Static || !model.scheme.is_explicit() {
+            return;
+        }
+        let yields = model.beams.iter().any(|part| part.yielding.is_some())
+            || model.bars.iter().any(|part| part.yielding.is_some())
+            || model.shells.iter().any(|part| part.yielding.is_some());
+        if yields && matches!(model.scheme, Scheme::RungeKutta(_)) {
+            let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
+            self.error_with::<()>(&at.span, "\"runge-kutta\" does not go with material that yields", hint);
+        }
+        let model = &self.model;
+        let consistent = model.beams.iter().map(|part| part.mass).chain(model.bars.iter().map(|part| part.mass));
+        let mut consistent = consistent.chain(model.shells.iter().map(|part| part.mass));
+        if consistent.any(|mass| mass == MassKind::Consistent) {
+            let hint = "mass = \"lumped\" needs no matrix at all";
+            self.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
+        }
+        if let (Scheme::CentralDifference(_), Some(tolerance)) =
+            (&self.model.scheme, deck.analysis.as_ref().and_then(|analysis| analysis.value.error_tolerance.as_ref()))
+        {
+            let hint = "its steps are as long as is stable";
+            self.error_with::<()>(
+                &tolerance.span,
+                "`error_tolerance` means nothing for the scheme \"central-difference\"",
+                hint,
+            );
+        }
     }
 
     fn between(&mut self, key: &str, value: &Maybe<f64>, [low, high]: [f64; 2], default: f64) -> f64 {

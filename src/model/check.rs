@@ -49,6 +49,7 @@ impl<'d> Builder<'d> {
         if self.model.analysis.kind == super::Kind::Static {
             self.check_static();
         }
+        self.check_explicit();
         if let Some(units) = &self.deck.units {
             self.check_units(units.value);
         }

@@ -20,6 +20,8 @@ fn words(scheme: &Scheme) -> String {
             format!("{word} with a spectral radius of {}", short(scheme.alpha_f / (1.0 - scheme.alpha_f)))
         }
         Scheme::Bathe(scheme) => format!("{word} split at {}", short(scheme.split)),
+        Scheme::CentralDifference(_) => word.to_string(),
+        Scheme::RungeKutta(scheme) => format!("{word} of order {}", scheme.tableau.order),
     }
 }
 
@@ -35,6 +37,10 @@ fn note(scheme: &Scheme) -> Option<&'static str> {
              reactions",
         ),
         Scheme::Newmark(_) => Some("with gamma above 0.5 the scheme is of first order and damps low modes too"),
+        Scheme::CentralDifference(_) => {
+            Some("explicit: steps that are too long for the fastest mode are cut, whatever the motion that counts")
+        }
+        Scheme::RungeKutta(_) => Some("explicit: stiff scenes need very short steps, and implicit schemes less time"),
         Scheme::HhtAlpha(_) | Scheme::GeneralizedAlpha(_) | Scheme::Bathe(_) => None,
     }
 }
@@ -93,6 +99,9 @@ impl Plan {
             },
             Analysis::Dynamic => {
                 let time = match analysis.error_tolerance {
+                    Some(_) if matches!(model.scheme, Scheme::CentralDifference(_)) => {
+                        "in steps of 0.9 of the longest that is stable".to_string()
+                    }
                     Some(tolerance) => format!("in steps that follow their error, {tolerance} in all"),
                     None => format!("in {steps} steps of {}", analysis.time_step),
                 };
@@ -174,7 +183,7 @@ impl Plan {
             line("contact", contact_in_words(model, contact));
         }
         let along = matches!(analysis.control, Control::ArcLength(_));
-        if system.yields() {
+        if system.yields() && !self.explicit {
             let method = match model.iteration.method {
                 _ if along => "tangent stiffness: along a path nothing else tells where it goes",
                 Method::TangentStiffness => "tangent stiffness: the matrix is the derivative of the stress",
@@ -184,6 +193,10 @@ impl Plan {
                 Method::Auto => "auto: a matrix is kept while corrections mixed with earlier ones contract well enough",
             };
             line("method", method.to_string());
+        }
+        if self.explicit {
+            self.explain_masses(system).into_iter().for_each(|what| line("matrix", what));
+            return text;
         }
         let matrix = match self.kind {
             Kind::Block if model.iteration.gyroscopic == Gyroscopic::Right => {

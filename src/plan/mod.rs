@@ -3,12 +3,13 @@
 
 mod choose;
 mod explain;
+mod explicit;
 mod passages;
 mod place;
 mod repeated;
 
-use crate::linear::{Kind, Solver, Structure, TooLarge};
-use crate::model::Model;
+use crate::linear::{self, Solver, Structure, TooLarge};
+use crate::model::{Kind, Model};
 use crate::system::System;
 use crate::system::assembly::{self, Assembly, NONE};
 
@@ -21,8 +22,10 @@ pub struct Plan {
     /// (node, direction) of each row; the rows of multipliers come after them.
     pub directions: Vec<(usize, usize)>,
     pub structure: Structure,
-    pub kind: Kind,
+    pub kind: linear::Kind,
     pub omissions: Vec<Omission>,
+    /// Steps solve for accelerations with the masses alone: the matrix is that of masses and joints.
+    pub explicit: bool,
     /// The matrix never changes: it is factorised once per length of step.
     pub linear: bool,
     /// Iterations that a fresh matrix may cost: forming and factorising it against one residual and one solve.
@@ -60,7 +63,8 @@ impl Plan {
             rows.push(own);
             unknowns += joint.rows.len();
         }
-        let structure = structure(system, &rows);
+        let explicit = model.analysis.kind == Kind::Dynamic && model.scheme.is_explicit();
+        let structure = if explicit { structure(&system.bare(), &rows) } else { structure(system, &rows) };
         let kind = choose::kind(&structure, model.iteration.gyroscopic);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
@@ -74,6 +78,7 @@ impl Plan {
         let mut plan = Plan {
             unknowns,
             refresh_cost: choose::refresh_cost(kind),
+            explicit,
             linear,
             rows,
             directions,
@@ -96,7 +101,7 @@ impl Plan {
     /// As for [`Plan::build`].
     pub fn build_bare(&self, bare: &System) -> Result<(Solver, Assembly), TooLarge> {
         let structure = structure(bare, &self.rows);
-        let solver = Solver::new(&structure, Kind::choose(&structure), 1)?;
+        let solver = Solver::new(&structure, linear::Kind::choose(&structure), 1)?;
         let assembly = Assembly::new(bare, &self.rows, &solver, 1);
         Ok((solver, assembly))
     }
@@ -111,6 +116,9 @@ impl Plan {
     /// # Errors
     /// There is no memory for the solver.
     pub fn build(&self, system: &System) -> Result<(Solver, Assembly), TooLarge> {
+        if self.explicit {
+            return self.build_bare(&system.bare());
+        }
         let solver = Solver::new(&self.structure, self.kind, self.threads)?;
         let assembly = Assembly::new(system, &self.rows, &solver, self.threads);
         Ok((solver, assembly))

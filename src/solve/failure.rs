@@ -24,6 +24,12 @@ pub enum Failure {
     Endless { steps: usize },
     /// A step would go through a surface, or into an impact that it does not resolve.
     Contact { name: String },
+    /// A step of central differences is longer than the fastest mode bears.
+    Unstable { dt: f64, longest: f64 },
+    /// A step turns something too far.
+    Turned { dt: f64 },
+    /// The error of a step is larger than what is allowed.
+    Inaccurate { dt: f64 },
     /// A number stopped being one.
     NotFinite { largest: Vec<Largest> },
 }
@@ -133,6 +139,18 @@ impl fmt::Display for Failure {
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
             ),
+            Failure::Unstable { dt, longest } => write!(
+                f,
+                "a step of {dt:.3e} is too long for central differences: the fastest mode of the scene bears {longest:.3e} (a \
+                 shorter `time_step`, \"auto\", or an implicit scheme)"
+            ),
+            Failure::Turned { dt } => write!(f, "in a step of {dt:.3e} something turns by more than 3 radians"),
+            Failure::Inaccurate { dt } => {
+                write!(
+                    f,
+                    "the error of a step of {dt:.3e} is larger than `error_tolerance` allows, however short steps are"
+                )
+            }
             Failure::NotFinite { largest } => {
                 write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;
                 list(f, largest)

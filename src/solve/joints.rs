@@ -18,10 +18,10 @@ use crate::system::assembly::{Assembly, NONE, Weights};
 use crate::system::{Forces, Loading, System};
 
 /// Corrections of a position before the step is given up.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 
 /// Gaps, relative to positions, that rounding may leave.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Wider ones are no joints: what iteration and closing leave is far below.
 const APART: f64 = 1e-9;
 
@@ -124,7 +124,7 @@ impl Stepper<'_> {
         Ok(())
     }
 
-    fn apart(&mut self) -> Failure {
+    pub(super) fn apart(&mut self) -> Failure {
         self.refresh.rejected();
         Failure::Apart { largest: failure::gaps(self.model, self.system, &self.forces.multipliers.gaps) }
     }

@@ -1,6 +1,7 @@
 //! From 0 to the end time: steps land on the times asked for, are cut where they fail and grow again.
 
 use super::accelerate::Anderson;
+use super::explicit::Explicit;
 use super::failure::Failure;
 use super::joints::{self, Closing};
 use super::pace::Pace;
@@ -136,6 +137,9 @@ impl<'a> Run<'a> {
         let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
         // Of multipliers: gaps.
         let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
+        let movers: Vec<usize> = (0..n).filter(moves).collect();
+        let explicit = (plan.explicit).then(|| Box::new(Explicit::new(model, plan, system, movers.len())));
+        let closes = explicit.as_ref().is_none_or(|explicit| explicit.closes());
         let mut stepper = Stepper {
             model,
             plan,
@@ -150,7 +154,7 @@ impl<'a> Run<'a> {
             follower: if model.analysis.kind == Kind::Dynamic { model.scheme.follower() } else { None },
             bases: None,
             composite: None,
-            closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty())
+            closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty() && closes)
                 .then(|| Closing::new(plan, system, n))
                 .transpose()?,
             length,
@@ -163,9 +167,11 @@ impl<'a> Run<'a> {
             r: vec![0.0; plan.unknowns],
             given: [Loading::default(), Loading::default(), Loading::default()],
             held: [Vec::new(), Vec::new(), Vec::new()],
-            movers: (0..n).filter(moves).collect(),
+            movers,
+            explicit,
             leading: joints::leading(model, system),
             wants_forces: wanted.reactions || wanted.energy,
+            wants_energy: wanted.energy,
             mass_weight: 0.0,
             factorizations: 0,
             solves: 0,
@@ -239,9 +245,13 @@ impl<'a> Run<'a> {
         }
         self.show(state, observer, balance, &first)?;
         let model = self.stepper.model;
-        let mut pace = model.analysis.error_tolerance.map(|tolerance| Pace::new(model, tolerance, state));
+        let free = model.analysis.error_tolerance.filter(|_| self.stepper.explicit.is_some());
+        let paced = model.analysis.error_tolerance.filter(|_| self.stepper.explicit.is_none());
+        let mut pace = paced.map(|tolerance| Pace::new(model, tolerance, state));
         for stretch in stretches(model) {
-            if let Some(pace) = &mut pace {
+            if free.is_some() {
+                self.follow_itself(state, &stretch, observer, balance)?;
+            } else if let Some(pace) = &mut pace {
                 self.follow_error(state, &stretch, pace, observer, balance)?;
             } else {
                 for k in 1..=stretch.steps {

@@ -2,15 +2,20 @@
 
 mod accelerate;
 mod arc;
+mod central_difference;
 mod composite;
 mod convergence;
+mod explicit;
 mod failure;
+mod free;
 mod joints;
 mod march;
 mod pace;
 mod path;
 mod refresh;
+mod runge_kutta;
 mod search;
+mod stable;
 mod start;
 mod stations;
 mod step;

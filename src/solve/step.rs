@@ -4,6 +4,7 @@ use super::accelerate::Anderson;
 use super::arc::{Condition, Path};
 use super::composite::Composite;
 use super::convergence::Convergence;
+use super::explicit::Explicit;
 use super::failure::{self, Failure};
 use super::joints::Closing;
 use super::refresh::{Advice, Refresh};
@@ -42,6 +43,8 @@ pub struct Stepper<'a> {
     pub composite: Option<Composite>,
     /// Where a motion in time has joints.
     pub closing: Option<Closing>,
+    /// Where the scheme is explicit.
+    pub explicit: Option<Box<Explicit>>,
     /// Motion at the instant of equilibrium.
     pub trial: Vec<Node>,
     pub increments: Vec<Increment>,
@@ -66,6 +69,7 @@ pub struct Stepper<'a> {
     pub wants_forces: bool,
     /// What multiplies the masses in the matrix at hand.
     pub mass_weight: f64,
+    pub wants_energy: bool,
     pub factorizations: usize,
     pub solves: usize,
     /// Largest departure from orthogonality that a truncated rotation update left to be mended.
@@ -114,8 +118,11 @@ impl<'a> Stepper<'a> {
     /// # Errors
     /// See [`Failure`].
     pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
-        if let (Kind::Dynamic, Scheme::Bathe(bathe)) = (self.model.analysis.kind, &self.model.scheme) {
-            return self.composite(state, to, bathe);
+        match (self.model.analysis.kind, &self.model.scheme) {
+            (Kind::Dynamic, Scheme::Bathe(bathe)) => return self.composite(state, to, bathe),
+            (Kind::Dynamic, Scheme::CentralDifference(scheme)) => return self.central_difference(state, to, scheme),
+            (Kind::Dynamic, Scheme::RungeKutta(scheme)) => return self.runge_kutta(state, to, scheme),
+            _ => {}
         }
         let scheme = self.coefficients(to - state.time);
         self.stage(state, &scheme, to)
@@ -306,9 +313,13 @@ impl<'a> Stepper<'a> {
             let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
             self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
         }
+        self.measure_reach(state);
+        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    }
+
+    pub(super) fn measure_reach(&mut self, state: &State) {
         let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - self.origin).amax());
         self.reach = self.movers.iter().fold(self.length, farthest);
-        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
     }
 
     /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.
@@ -486,6 +497,18 @@ impl<'a> Stepper<'a> {
             let [v, a] = self.bases(state, node, [v, a]);
             self.increments[node] = scheme.finish(&self.increments[node], &v, &a);
         }
+        self.arrive(state, scheme);
+        self.close_joints(state, scheme, dt)?;
+        if scheme.instant != 1.0 && self.system.has_contacts() {
+            self.check_contacts(state, dt)?;
+        }
+        self.check_joints()?;
+        self.commit(state, scheme, to, spent, Some(damping_power));
+        Ok(())
+    }
+
+    /// The trial motion from the increments at the end of the step: held directions as given, riders after their masters.
+    pub(super) fn arrive(&mut self, state: &State, scheme: &Coefficients) {
         for (i, held) in self.model.held.iter().enumerate() {
             let (from, to) = (&self.held[0][i], &self.held[1][i]);
             set(&mut self.increments[held.node], held.dof, &Prescribed { u: to.u - from.u, ..*to });
@@ -495,14 +518,26 @@ impl<'a> Stepper<'a> {
             let end = &mut self.trial[node];
             end.advance(start, &self.increments[node], scheme.rotation);
         }
+        self.carry_riders(&state.nodes);
+    }
+
+    pub(super) fn carry_riders(&mut self, start: &[Node]) {
         for rider in &self.system.attachments {
-            rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
+            rider.follow(&mut self.trial, &mut self.increments, &start[rider.node]);
         }
-        self.close_joints(state, scheme, dt)?;
-        if scheme.instant != 1.0 && self.system.has_contacts() {
-            self.check_contacts(state, dt)?;
-        }
-        self.check_joints()?;
+    }
+
+    /// The trial motion becomes the state; `spent` by material points; `damping_power` there, where work is accounted for here.
+    pub(super) fn commit(
+        &mut self,
+        state: &mut State,
+        scheme: &Coefficients,
+        to: f64,
+        spent: Spent,
+        damping_power: Option<f64>,
+    ) {
+        let dt = to - state.time;
+        let dynamic = self.model.analysis.kind == Kind::Dynamic;
         if dynamic {
             for &node in &self.movers {
                 let (start, end) = (&state.nodes[node], &self.trial[node]);
@@ -524,20 +559,19 @@ impl<'a> Stepper<'a> {
             *old += (value - *old) / scheme.instant;
         }
         self.share_out(state);
-        if self.wants_forces {
+        if let Some(damping_power) = damping_power.filter(|_| self.wants_forces) {
             self.account(state, scheme, dt, damping_power);
         }
-        if remembers {
+        if self.system.history > 0 {
             std::mem::swap(&mut state.history, &mut self.history);
         }
         std::mem::swap(&mut state.nodes, &mut self.trial);
         state.time = to;
-        Ok(())
     }
 
     /// Reactions and dissipation, taken where equilibrium is written and carried to the end of the step on a straight line
     /// (at the end itself stiff parts are not at rest), and the work done.
-    fn account(&mut self, state: &mut State, scheme: &Coefficients, dt: f64, damping_power: f64) {
+    pub(super) fn account(&mut self, state: &mut State, scheme: &Coefficients, dt: f64, damping_power: f64) {
         let carry = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
         for (i, held) in self.model.held.iter().enumerate() {
             let old = state.reactions[i];
@@ -554,12 +588,12 @@ impl<'a> Stepper<'a> {
     }
 
     /// Before any work is done on a step that reaches `since` ahead: an impact goes on in steps that resolve it.
-    fn check_length(&self, state: &State, since: f64) -> Result<(), Failure> {
+    pub(super) fn check_length(&self, state: &State, since: f64) -> Result<(), Failure> {
         self.system.hurried_contact(state, since).map_or(Ok(()), |contact| Err(self.too_long(contact)))
     }
 
     /// Of the motion found, before it is taken: nothing has gone through a surface.
-    fn check_contacts(&self, state: &State, since: f64) -> Result<(), Failure> {
+    pub(super) fn check_contacts(&self, state: &State, since: f64) -> Result<(), Failure> {
         let now = Now { nodes: &self.trial, past: &state.history, since };
         self.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(self.too_long(contact)))
     }
@@ -581,7 +615,7 @@ impl<'a> Stepper<'a> {
         Failure::NotConverged { iterations: taken.iterations, largest }
     }
 
-    fn not_finite(&mut self) -> Failure {
+    pub(super) fn not_finite(&mut self) -> Failure {
         self.refresh.rejected();
         self.gather(&Scale::default());
         Failure::NotFinite { largest: failure::largest(self.model, self.plan, &self.r) }

@@ -1,0 +1,72 @@
+//! What explicit schemes need to know of a scene: masses, and which directions have none.
+
+use super::Plan;
+use crate::diagnostic::Diagnostic;
+use crate::model::{DIRECTIONS, Model};
+use crate::system::System;
+use crate::system::masses::Masses;
+use crate::system::ties::Ties;
+
+/// Named at most; more are counted.
+const MOST: usize = 5;
+
+impl Plan {
+    /// Where each moving node is a rigid body of its own.
+    pub fn masses(&self, system: &System) -> Option<Masses> {
+        Masses::new(system, &self.rows)
+    }
+
+    /// What stands in place of the matrix of an implicit step.
+    pub(super) fn explain_masses(&self, system: &System) -> Vec<String> {
+        let Some(masses) = self.masses(system) else {
+            return vec![
+                "none but that of the masses, and joints, factorised at every evaluation: masses of several nodes \
+                 belong together"
+                    .to_string(),
+            ];
+        };
+        match (system.multipliers(), Ties::new(system, &masses, self.shares())) {
+            (0, _) => vec!["none: the masses of each node stand alone, nothing is factorised".to_string()],
+            (rows, Some(_)) => {
+                vec![format!("none: masses stand alone; joints by a dense system of {rows} rows at every evaluation")]
+            }
+            (_, None) => vec!["none but that of the masses and joints, factorised at every evaluation".to_string()],
+        }
+    }
+
+    /// An error for each unknown of an explicit scheme that nothing gives a mass: it has no equation of motion.
+    pub fn massless(&self, model: &Model, system: &System) -> Vec<Diagnostic> {
+        if !self.explicit {
+            return Vec::new();
+        }
+        let missing: Vec<(usize, usize)> = match self.masses(system) {
+            Some(masses) => {
+                masses.blocks.iter().filter_map(|block| block.massless().map(|dof| (block.node, dof))).collect()
+            }
+            None => {
+                let heavy = system.massive(model.nodes.len());
+                self.directions.iter().filter(|(node, dof)| !heavy[*node][usize::from(*dof > 2)]).copied().collect()
+            }
+        };
+        let scheme = model.scheme.word();
+        let error = |&(node, dof): &(usize, usize)| {
+            let (label, direction) = (&model.nodes[node].label, DIRECTIONS[dof]);
+            let message = format!(
+                "`{label}` has no mass in direction {direction}: \"{scheme}\" finds accelerations with masses alone"
+            );
+            let hint = match dof {
+                0..3 => "give it a mass, its parts a density, or take an implicit scheme",
+                _ => {
+                    "give it inertia (rotary_inertia of beams, inertia of bodies and masses), or take an implicit scheme"
+                }
+            };
+            Diagnostic::error(message).hint(hint)
+        };
+        let mut errors: Vec<Diagnostic> = missing.iter().take(MOST).map(error).collect();
+        if missing.len() > MOST {
+            let message = format!("{} more directions have no mass either", missing.len() - MOST);
+            errors.push(Diagnostic::error(message));
+        }
+        errors
+    }
+}

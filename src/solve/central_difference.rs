@@ -1,0 +1,195 @@
+//! A step by central differences.
+
+use super::explicit::Explicit;
+use super::failure::Failure;
+use super::step::{Stepper, Taken};
+use crate::integrators::{CentralDifference, Coefficients};
+use crate::materials::Spent;
+use crate::math::{Vec6, bottom, join, top};
+use crate::state::{Now, State};
+use crate::system::masses::Motion;
+
+/// Where masses belong together velocities are corrected so many times: gyroscopic moments of bodies would feed the motion if they
+/// met the predicted ones alone.
+const CORRECTIONS: usize = 2;
+
+impl Stepper<'_> {
+    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    pub(super) fn central_difference(
+        &mut self,
+        state: &mut State,
+        to: f64,
+        scheme: &CentralDifference,
+    ) -> Result<Taken, Failure> {
+        let Some(mut explicit) = self.explicit.take() else { return Err(self.not_finite()) };
+        let result = self.leap(&mut explicit, state, to, &scheme.coefficients(to - state.time));
+        self.explicit = Some(explicit);
+        result
+    }
+
+    fn leap(
+        &mut self,
+        explicit: &mut Explicit,
+        state: &mut State,
+        to: f64,
+        scheme: &Coefficients,
+    ) -> Result<Taken, Failure> {
+        let dt = to - state.time;
+        if self.system.has_contacts() {
+            self.check_length(state, dt)?;
+        }
+        self.check_stable(explicit, state, dt)?;
+        let mut evaluations = self.find_accelerations(explicit, state, to, scheme)?;
+        let stiffened = self.resistance(explicit, state, dt) > explicit.stable.known();
+        if stiffened || self.is_growing(explicit, state, dt) {
+            for &node in &self.movers {
+                explicit.stable.hints[node] = self.change(explicit, state, node);
+            }
+            self.look_at_limit(explicit, state, dt, true)?;
+            match explicit.stable.longest {
+                Some(longest) if dt > longest => return Err(Failure::Unstable { dt, longest }),
+                _ => {}
+            }
+            // It only looked so, and looking closer has left nothing of what was found.
+            evaluations += self.find_accelerations(explicit, state, to, scheme)?;
+        }
+        // Bodies take their angular momentum from all that acts on them.
+        if let Some(ties) = &explicit.ties {
+            ties.pull(&mut self.forces.on_nodes);
+        }
+        for k in 0..self.movers.len() {
+            let node = self.movers[k];
+            let (start, now) = (&state.nodes[node], &self.trial[node]);
+            let motion = match explicit.masses.as_ref().and_then(|masses| masses.of(node)) {
+                Some(block) => block.verlet(start, now, &self.forces.on_nodes[node], dt),
+                None => mean(start, now, &explicit.push[node], dt),
+            };
+            self.set_rates_of(node, &motion);
+        }
+        let mut damping_power = 0.0;
+        if self.wants_forces {
+            self.settle_forces(explicit, state, dt);
+            if self.system.is_damped() {
+                let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+                damping_power = self.system.damping_power(&now, self.plan.threads);
+            }
+        }
+        let mut spent = Spent::default();
+        if self.system.history > 0 {
+            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+            spent = self.system.remember(&now, 1.0, &mut self.history, self.plan.threads);
+        }
+        self.arrive(state, scheme);
+        if explicit.closes() {
+            self.close_joints(state, scheme, dt)?;
+        } else if explicit.ties.is_some() {
+            self.close_ties(explicit, state, dt)?;
+        }
+        if self.system.has_contacts() {
+            self.check_contacts(state, dt)?;
+        }
+        self.check_joints()?;
+        self.commit(state, scheme, to, spent, Some(damping_power));
+        Ok(Taken { iterations: evaluations, refactorizations: 0, residual: 0.0, to })
+    }
+
+    /// The trial motion at the end of the step, with predicted velocities, and what is missing of its accelerations; returns how
+    /// many residuals that took.
+    fn find_accelerations(
+        &mut self,
+        explicit: &mut Explicit,
+        state: &State,
+        to: f64,
+        scheme: &Coefficients,
+    ) -> Result<usize, Failure> {
+        let dt = to - state.time;
+        self.give(state.time, to, 1.0);
+        self.predict(state, scheme);
+        if explicit.ties.is_some() {
+            self.forces.multipliers.values.fill(0.0);
+        }
+        self.move_trial(state, scheme);
+        let mut evaluations = 0;
+        let corrections = if explicit.closes() { CORRECTIONS } else { 0 };
+        loop {
+            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+            self.system.residual(&now, &self.given[2], &mut self.forces);
+            evaluations += 1;
+            self.answer(explicit, state, true)?;
+            if evaluations > corrections {
+                break;
+            }
+            for k in 0..self.movers.len() {
+                let node = self.movers[k];
+                let Motion { v, omega, .. } = mean(&state.nodes[node], &self.trial[node], &explicit.push[node], dt);
+                let (a, alpha) = (self.trial[node].a, self.trial[node].alpha);
+                self.set_rates_of(node, &Motion { v, omega, a, alpha });
+            }
+            self.arrive(state, scheme);
+        }
+        if self.is_finite(explicit) { Ok(evaluations) } else { Err(self.not_finite()) }
+    }
+
+    fn set_rates_of(&mut self, node: usize, motion: &Motion) {
+        self.set_rates(node, [motion.v, motion.omega, motion.a, motion.alpha]);
+    }
+
+    /// ω² of the mode as which the scene has resisted over the step, −Δaᵀ M q/qᵀ M q: of its modes a mean. More than that of the
+    /// fastest there was tells that it has stiffened, as where something is struck. Zero where the step is short for it anyway.
+    fn resistance(&self, explicit: &Explicit, state: &State, dt: f64) -> f64 {
+        // Of the limit, by inertias about: below, nothing is looked at closer.
+        const QUICK: f64 = 0.05;
+        let Some(masses) = &explicit.masses else { return 0.0 };
+        let (mut force, mut size) = (0.0, 0.0);
+        for block in &masses.blocks {
+            let [mass, inertia] = block.about();
+            let (da, q) = (self.change(explicit, state, block.node), &self.increments[block.node].q);
+            force -= mass * top(&da).dot(&top(q)) + inertia * bottom(&da).dot(&bottom(q));
+            size += mass * top(q).norm_squared() + inertia * bottom(q).norm_squared();
+        }
+        if force <= QUICK * 4.0 / (dt * dt) * size {
+            return 0.0;
+        }
+        (force, size) = (0.0, 0.0);
+        for block in &masses.blocks {
+            let (da, q) = (self.change(explicit, state, block.node), &self.increments[block.node].q);
+            let node = &self.trial[block.node];
+            force -= block.weigh(node, &da, q);
+            size += block.weigh(node, q, q);
+        }
+        force / size
+    }
+
+    /// Of a node's accelerations over the step.
+    fn change(&self, explicit: &Explicit, state: &State, node: usize) -> Vec6 {
+        let (start, now) = (&state.nodes[node], &self.trial[node]);
+        join(&(now.a - start.a), &(now.alpha - start.alpha)) + explicit.push[node]
+    }
+
+    /// A quick look at whether a mode grows: without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is (ω Δt)², of all modes a
+    /// mean, which the motion of the whole does not hide; what dies out is no matter.
+    fn is_growing(&self, explicit: &Explicit, state: &State, dt: f64) -> bool {
+        let Some(masses) = &explicit.masses else { return false };
+        let (mut change, mut size, mut next) = (0.0, 0.0, 0.0);
+        for block in &masses.blocks {
+            let start = &state.nodes[block.node];
+            let [mass, inertia] = block.about();
+            let first = self.change(explicit, state, block.node);
+            let second = first - state.jerk[block.node] * dt;
+            let now = first + join(&start.a, &start.alpha);
+            next += mass * top(&now).norm_squared() + inertia * bottom(&now).norm_squared();
+            change -= mass * top(&second).dot(&start.a) + inertia * bottom(&second).dot(&start.alpha);
+            size += mass * start.a.norm_squared() + inertia * start.alpha.norm_squared();
+        }
+        // A little beyond what a mode at the limit shows.
+        change > 4.1 * size && next > size
+    }
+}
+
+/// Rates at the end of a step by the mean of the accelerations.
+fn mean(start: &crate::state::Node, now: &crate::state::Node, push: &Vec6, dt: f64) -> Motion {
+    let (a, alpha) = (now.a + top(push), now.alpha + bottom(push));
+    let old = join(&start.a, &start.alpha);
+    let both = (old + join(&a, &alpha)) * (0.5 * dt);
+    Motion { v: start.v + top(&both), omega: start.omega + bottom(&both), a, alpha }
+}

@@ -1,0 +1,227 @@
+//! The longest step that central differences bear: the fastest mode of a scene as it lies, by power iteration on M⁻¹ times
+//! differences of residuals. No matrix is formed. It comes to the limit from above, by a few per cent at most; the march looks
+//! at the motion itself besides.
+
+use super::explicit::Explicit;
+use super::failure::Failure;
+use super::step::Stepper;
+use crate::integrators::central_difference::longest_step;
+use crate::math::rotation::RotationUpdate;
+use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::plan::Plan;
+use crate::state::{Increment, Node, Now, State};
+
+/// Iterations at the start, and when the limit is looked at again: a residual each, two where there is damping.
+const AT_FIRST: usize = 60;
+const AGAIN: usize = 3;
+/// Steps between two looks: they cost a hundredth of the whole.
+const STEPS: usize = 400;
+/// Change from one iteration to the next that ends them.
+const SETTLED: f64 = 1e-4;
+/// Of the longest step.
+const SAFE: f64 = 0.9;
+/// Of the model's length: the motion by which residuals are told apart.
+const SMALL: f64 = 1e-6;
+
+/// Allocated once.
+pub struct Stable {
+    /// The longest step, when last looked at.
+    pub longest: Option<f64>,
+    /// The fastest mode so far, by node.
+    mode: Vec<Vec6>,
+    next: Vec<Vec6>,
+    /// Motion in which it may be looked for, by node.
+    pub hints: Vec<Vec6>,
+    /// Where it is looked at.
+    place: Vec<Node>,
+    /// Forces there, by node.
+    base: Vec<[f64; 6]>,
+    /// Steps taken since.
+    steps: usize,
+    met: bool,
+}
+
+impl Stable {
+    /// A mode of all frequencies to begin with: the same in every run.
+    pub fn new(plan: &Plan, nodes: usize) -> Self {
+        let place = vec![Node::at_rest(Vec3::zeros()); nodes];
+        let mut mode = vec![Vec6::zeros(); nodes];
+        let mut seed = 1u64;
+        for &(node, dof) in &plan.directions {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            mode[node][dof] = (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        }
+        Stable {
+            longest: None,
+            next: mode.clone(),
+            hints: mode.clone(),
+            mode,
+            place,
+            base: vec![[0.0; 6]; nodes],
+            steps: 0,
+            met: false,
+        }
+    }
+
+    /// ω² that the fastest mode is known to have at most: power iteration comes to it from below.
+    pub fn known(&self) -> f64 {
+        const BELOW: f64 = 1.1;
+        BELOW * self.longest.map_or(0.0, |longest| (2.0 / longest).powi(2))
+    }
+}
+
+impl Stepper<'_> {
+    /// # Errors
+    /// [`Failure::Unstable`] where a step of `dt` is too long.
+    pub(super) fn check_stable(&mut self, explicit: &mut Explicit, state: &State, dt: f64) -> Result<(), Failure> {
+        explicit.stable.steps += 1;
+        if explicit.stable.longest.is_none() || explicit.stable.steps >= STEPS {
+            self.look_at_limit(explicit, state, dt, false)?;
+        }
+        match explicit.stable.longest {
+            Some(longest) if dt > longest => Err(Failure::Unstable { dt, longest }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Of central differences: a safe part of the longest that is stable, and no longer than twice what went well last.
+    ///
+    /// # Errors
+    /// As for [`Stepper::answer`].
+    pub(super) fn stable_step(&mut self, explicit: &mut Explicit, state: &State, left: f64) -> Result<f64, Failure> {
+        if explicit.stable.longest.is_none() {
+            // What dampers add depends on the step: from the one found without them to that with them.
+            self.look_at_limit(explicit, state, 0.0, false)?;
+            let first = explicit.stable.longest.unwrap_or(left).min(left);
+            self.look_at_limit(explicit, state, first, false)?;
+        }
+        let cut = explicit.control.as_ref().map_or(f64::INFINITY, |control| control.next);
+        Ok((SAFE * explicit.stable.longest.unwrap_or(left)).min(cut))
+    }
+
+    /// Measures the limit anew, for steps of about `dt`: in the state, or where the trial motion has come to, of which nothing is
+    /// left then.
+    ///
+    /// # Errors
+    /// As for [`Stepper::answer`].
+    pub(super) fn look_at_limit(
+        &mut self,
+        explicit: &mut Explicit,
+        state: &State,
+        dt: f64,
+        ahead: bool,
+    ) -> Result<(), Failure> {
+        let at = if ahead { &self.trial } else { &state.nodes };
+        explicit.stable.place.copy_from_slice(at);
+        if ahead {
+            // What has just met more resistance tells where that is.
+            let Stable { mode, hints, .. } = &mut explicit.stable;
+            let [of_mode, of_hints] = [&*mode, &*hints].map(|motion| self.largest(motion));
+            if of_mode > 0.0 && of_hints > 0.0 && of_hints.is_finite() {
+                // One must not undo the other.
+                let dot: f64 = mode.iter().zip(&*hints).map(|(mode, hint)| mode.dot(hint)).sum();
+                let sign = if dot < 0.0 { -1.0 } else { 1.0 };
+                mode.iter_mut().zip(hints).for_each(|(mode, hint)| *mode = *mode / of_mode + sign * *hint / of_hints);
+            }
+        }
+        let limit = if explicit.stable.met { AGAIN } else { AT_FIRST };
+        let damped = self.system.is_damped();
+        self.give(state.time, state.time, 1.0);
+        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
+        self.shift(&explicit.stable, state, [0.0; 2], dt);
+        explicit.stable.base.copy_from_slice(&self.forces.on_nodes);
+        let (mut longest, mut last) = (f64::INFINITY, 0.0);
+        for _ in 0..limit {
+            let size = self.largest(&explicit.stable.mode);
+            if !(size > 0.0 && size.is_finite()) {
+                break;
+            }
+            let small = SMALL * self.length / size;
+            self.shift(&explicit.stable, state, [small, 0.0], dt);
+            self.answer_difference(explicit, state, small)?;
+            let [own, cross, square] = self.mass_products(explicit);
+            // |ψ|/|φ| is never below ψ·φ/φ·φ, and both come from below.
+            let stiffness = (square / own).sqrt().max(cross / own);
+            let mut damping = 0.0;
+            explicit.stable.next.copy_from_slice(&explicit.push);
+            if damped {
+                explicit.stable.next.iter_mut().for_each(|next| *next *= 0.25 * dt);
+                self.shift(&explicit.stable, state, [0.0, small], dt);
+                self.answer_difference(explicit, state, small)?;
+                let [own, cross, _] = self.mass_products(explicit);
+                damping = (cross / own).max(0.0);
+                explicit.stable.next.iter_mut().zip(&explicit.push).for_each(|(next, push)| *next += push);
+            }
+            let found = longest_step(stiffness, damping);
+            if !found.is_finite() {
+                break;
+            }
+            longest = longest.min(found);
+            let size = self.largest(&explicit.stable.next);
+            if !(size > 0.0 && size.is_finite()) {
+                break;
+            }
+            let stable = &mut explicit.stable;
+            stable.mode.iter_mut().zip(&stable.next).for_each(|(mode, next)| *mode = next / size);
+            if (found - last).abs() <= SETTLED * found {
+                break;
+            }
+            last = found;
+        }
+        let stable = &mut explicit.stable;
+        (stable.longest, stable.steps, stable.met) = (Some(longest), 0, true);
+        Ok(())
+    }
+
+    /// The residual where the place is moved along the mode, or its velocities are.
+    fn shift(&mut self, Stable { place, mode, .. }: &Stable, state: &State, [of_place, of_rate]: [f64; 2], dt: f64) {
+        for &node in &self.movers {
+            let start = &place[node];
+            let d = join(&start.v, &start.omega) + mode[node] * of_rate;
+            self.increments[node] = Increment { q: mode[node] * of_place, d, dd: Vec6::zeros() };
+            self.trial[node].advance(start, &self.increments[node], RotationUpdate::Exponential);
+        }
+        self.carry_riders(place);
+        let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+        self.system.residual(&now, &self.given[2], &mut self.forces);
+    }
+
+    /// Accelerations by what the forces have lost since they were noted, over `small`.
+    fn answer_difference(&mut self, explicit: &mut Explicit, state: &State, small: f64) -> Result<(), Failure> {
+        for (F, base) in self.forces.on_nodes.iter_mut().zip(&explicit.stable.base) {
+            F.iter_mut().zip(base).for_each(|(f, base)| *f = (base - *f) / small);
+        }
+        self.answer(explicit, state, false)
+    }
+
+    /// φ·φ, φ·ψ and ψ·ψ in the norm of the masses, φ the mode and ψ what answers it.
+    fn mass_products(&self, explicit: &Explicit) -> [f64; 3] {
+        let (mode, push) = (&explicit.stable.mode, &explicit.push);
+        let mut sums = [0.0; 3];
+        let mut add = |product: &dyn Fn(&Vec6, &Vec6) -> f64, node: usize| {
+            let (a, b) = (&mode[node], &push[node]);
+            sums[0] += product(a, a);
+            sums[1] += product(a, b);
+            sums[2] += product(b, b);
+        };
+        match &explicit.masses {
+            Some(masses) => {
+                for block in &masses.blocks {
+                    add(&|a, b| block.weigh(&self.trial[block.node], a, b), block.node);
+                }
+            }
+            None => {
+                let turn = self.length * self.length;
+                let product = |a: &Vec6, b: &Vec6| top(a).dot(&top(b)) + turn * bottom(a).dot(&bottom(b));
+                self.movers.iter().for_each(|&node| add(&product, node));
+            }
+        }
+        sums
+    }
+
+    /// The largest motion, rotations over the model's length.
+    fn largest(&self, mode: &[Vec6]) -> f64 {
+        let size = |&node: &usize| top(&mode[node]).amax().max(self.length * bottom(&mode[node]).amax());
+        self.movers.iter().map(size).fold(0.0, f64::max)
+    }
+}
