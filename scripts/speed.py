@@ -5,6 +5,7 @@
     scripts/speed.py B1 C1           some scenes
     scripts/speed.py --orders        degree of the beam element against error and time
     scripts/speed.py --frames        space frames with rigid floors, 1,000 to 100,000 unknowns
+    scripts/speed.py --explicit      explicit schemes on scenes that are not stiff; cost of a step of a long beam
 
 Each setting is run several times; the least time counts. "loop" is the time stepping alone, "process" from start to exit.
 The marks of other programs are process CPU seconds of their time loops on one core, best setting found for each, taken on
@@ -31,6 +32,14 @@ MARKS = {
     "C1": ((0.007, 0.016, 0.043), "MBDyn, 3-node beams", 0.5),
     "C2": ((0.033, 0.12, 0.92), "MBDyn, 3-node beams", 0.5),
     "C4": ((0.12, 0.83), "OpenSees, fibre sections", 0.5),
+}
+
+# Of explicit Runge-Kutta schemes; we aim at half.
+EXPLICIT = {
+    "R1": ((0.0006, 0.0006, 0.0006), "Exudyn, RK44"),
+    "R2": ((0.0025, 0.0036, 0.0046), "Exudyn, RK44 and RK67"),
+    "R3": ((0.005, 0.008, 0.012), "Exudyn, RK44 and RK67"),
+    "B2": ((0.012, 0.018, 0.091), "MBDyn, 3-node beams, implicit"),
 }
 
 # Meshes (elements per segment, order) and divisions of the output interval.
@@ -85,6 +94,41 @@ def speed(names: list[str]) -> None:
                 f" {mark} ({program}) | {loop / mark:.2f} | {part} |",
                 flush=True,
             )
+
+
+def explicit() -> None:
+    """Least loop seconds of the explicit schemes, of steps of a given length and of their own."""
+    table = "| scene | error | setting | loop s | process s | other program, loop s | ratio |\n|---|---|---|---|---|---|---|"
+    print(table)
+    for name, (marks, program) in EXPLICIT.items():
+        scene = SCENES[name]
+        found = []
+        meshes = [scene.mesh(*mesh) for mesh in ((4, 1), (1, 2), (2, 2), (1, 3), (2, 3))] if scene.beams else [[]]
+        schemes = [("central-difference", "")] if scene.beams else []
+        schemes += [("runge-kutta", ""), ("runge-kutta", ", order = 5")]
+        for word, more in schemes:
+            integrator = [f'integrator={{ scheme = "{word}"{more} }}']
+            lengths = [(f"dt {scene.interval / d:.3g}", scene.step(d)) for d in (1, 2, 3, 4)] if word == "runge-kutta" else []
+            lengths.append(("auto", ['analysis.time_step="auto"']))
+            for mesh in meshes:
+                for length, sets in lengths:
+                    error, loop, process, _ = scene.measure(integrator + sets + mesh, 9)
+                    what = f"{word}{more}, {length}" + (f", {' '.join(mesh)}" if mesh else "")
+                    found.append((error, loop, process, what))
+        for wanted, mark in zip(ERRORS, marks):
+            reached = [m for m in found if m[0] <= wanted]
+            if not reached:
+                print(f"| {name} | {wanted:.0e} | not reached | | | {mark} ({program}) | |")
+                continue
+            error, loop, process, what = min(reached, key=lambda m: m[1])
+            ratio = f"{mark} ({program}) | {loop / mark:.2f}"
+            print(f"| {name} | {wanted:.0e} | {what}: {error:.1e} | {loop:.5f} | {process:.4f} | {ratio} |", flush=True)
+    for elements in (100, 1000):
+        sets = [f"beams.rod.elements={elements}", "beams.rod.order=1", 'integrator={ scheme = "central-difference" }']
+        sets += ["analysis.end_time=10.0", 'analysis.time_step="auto"', "output.interval=10.0"]
+        loop, _, report = SCENES["B2"].cost(sets)
+        step = loop / report["counts"]["steps"]
+        print(f"{elements} elements of order 1: {1e6 * step:.1f} us a step, {1e9 * step / elements:.0f} ns an element")
 
 
 def orders() -> None:
@@ -208,5 +252,7 @@ if __name__ == "__main__":
         orders()
     elif "--frames" in words:
         frames()
+    elif "--explicit" in words:
+        explicit()
     else:
         speed(words or list(MARKS))

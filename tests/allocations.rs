@@ -117,6 +117,36 @@ fn no_step_after_the_first_allocates() {
     joints_neither();
     shells_neither();
     large_scenes_neither();
+    explicit_schemes_neither();
+}
+
+/// Bodies on springs, a loop of joints, an impact, beams and bodies that carry one another, and steel that yields.
+fn explicit_schemes_neither() {
+    let decks = [
+        include_str!("../decks/two_bodies_on_springs/deck.toml"),
+        include_str!("../decks/four_bar/deck.toml"),
+        include_str!("../decks/bouncing_ball/deck.toml"),
+        include_str!("../decks/flying_beam/deck.toml"),
+    ];
+    for (deck, end) in decks.into_iter().zip([0.5, 0.5, 0.06, 0.4]) {
+        for scheme in ["central-difference", "runge-kutta"] {
+            let source = Source::new("deck.toml", deck, &[format!("integrator={{scheme=\"{scheme}\"}}")]);
+            let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
+            model.analysis.end_time = end;
+            model.expects.clear();
+            model.output.cadence = Cadence::Steps(1);
+            model.analysis.time_step = end / 500.0;
+            assert_none(&model, rdsolve::linear::Kind::Block);
+        }
+    }
+    let deck = include_str!("../decks/portal_and_block/deck.toml");
+    let sets = ["integrator.scheme=\"central-difference\"", "beams.portal.elements=3", "beams.portal.order=1"];
+    let source = Source::new("deck.toml", deck, &sets.map(str::to_string));
+    let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
+    (model.analysis.end_time, model.analysis.time_step) = (0.02, 4e-5);
+    model.expects.clear();
+    let state = assert_none(&model, rdsolve::linear::Kind::Block);
+    assert!(state.work.material.plastic > 1.0, "{:?}", state.work);
 }
 
 /// A ball that rolls on a floor, lands on a beam and leaves it.

@@ -117,6 +117,13 @@ fn a_large_frame() {
 }
 
 #[test]
+fn a_large_frame_by_central_differences() {
+    let text =
+        space_frame(COMMON).replace("end_time = 0.02\ntime_step = 0.01", "end_time = 2e-4\ntime_step = \"auto\"");
+    assert_same(&(text + "\n[integrator]\nscheme = \"central-difference\"\n\n[output]\ninterval = 1e-4\n"), 3);
+}
+
+#[test]
 fn a_large_frame_that_yields() {
     let shorter = space_frame(SOFT).replace("end_time = 0.02\ntime_step = 0.01", "end_time = 0.002\ntime_step = 0.001");
     let folder = assert_same(&shorter, 3);

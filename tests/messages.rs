@@ -328,6 +328,26 @@ fn schemes() {
 }
 
 #[test]
+fn explicit_schemes() {
+    let scheme = |text: &str| portal_and(&format!("[integrator]\n{text}"));
+    assert_snapshot!(
+        "explicit_order",
+        scheme("scheme = \"runge-kutta\"\norder = 4\nrotation_update = \"first-order\"")
+    );
+    assert_snapshot!("explicit_stray_order", scheme("scheme = \"central-difference\"\norder = 5"));
+    let plastic = "model = \"elastic-plastic\"\nyield_stress = 275e6\n";
+    let yields = [
+        ("model = \"elastic\"\n", plastic),
+        ("[materials.steel]", "[integrator]\nscheme = \"runge-kutta\"\n[materials.steel]"),
+    ];
+    assert_snapshot!("explicit_yields", portal(&yields));
+    let free = "time_step = \"auto\"\nerror_tolerance = 1e-4\n[integrator]\nscheme = \"central-difference\"";
+    assert_snapshot!("explicit_tolerance", portal(&[("time_step = 1e-4", free)]));
+    let heavy = "orientation = [0.0, 1.0, 0.0]\nmass = \"consistent\"\n[integrator]\nscheme = \"central-difference\"";
+    assert_snapshot!("explicit_consistent", portal(&[("orientation = [0.0, 1.0, 0.0]", heavy)]));
+}
+
+#[test]
 fn joints() {
     let joint = |text: &str| portal_and(&format!("[[joints]]\nname = \"pin\"\n{text}"));
     let ends = "from = { node = \"knee_right\" }\nto = { ground = [1.5, 0.0, 2.0] }";
