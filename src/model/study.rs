@@ -302,7 +302,8 @@ impl Method {
 /// What an integrator says besides its scheme, as TOML.
 fn entries(integrator: &deck::Integrator) -> Vec<(&'static str, String)> {
     // Named one by one, so that none is forgotten.
-    let deck::Integrator { scheme: _, theta, gamma, beta, alpha, spectral_radius, split, rotation_update } = integrator;
+    let deck::Integrator { scheme: _, theta, gamma, beta, alpha, spectral_radius, split, order, rotation_update } =
+        integrator;
     let numbers = [
         ("theta", theta),
         ("gamma", gamma),
@@ -313,6 +314,9 @@ fn entries(integrator: &deck::Integrator) -> Vec<(&'static str, String)> {
     ];
     let mut entries: Vec<(&'static str, String)> =
         numbers.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?.value.to_string()))).collect();
+    if let Some(order) = order {
+        entries.push(("order", order.value.to_string()));
+    }
     if let Some(update) = rotation_update {
         entries.push(("rotation_update", format!("\"{}\"", rotation_word(update.value))));
     }

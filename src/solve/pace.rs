@@ -115,7 +115,7 @@ impl Pace {
         let before = self.motion;
         let motion = &mut self.motion;
         for (node, spec) in state.nodes.iter().zip(&model.nodes) {
-            motion.translation = motion.translation.max((node.x - spec.x).norm());
+            motion.translation = motion.translation.max(node.moved(&spec.x).norm());
         }
         for &body in &self.bodies {
             motion.rotation = motion.rotation.max(2.0 * state.nodes[body].q.imag().norm());

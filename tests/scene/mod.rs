@@ -49,6 +49,7 @@ pub fn model() -> Model {
             kind: Kind::Dynamic,
             end_time: 1.0,
             time_step: 0.1,
+            error_tolerance: None,
             least_step: 1e-6,
             plane: false,
             control: Control::Time,
