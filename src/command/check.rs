@@ -12,5 +12,8 @@ pub(super) fn check(args: &DeckArgs) -> Result<(), Exit> {
     if !plan.explicit || plan.masses(&system).is_none() {
         text += &format!("{:<12}{}\n", "  factor", solver.describe());
     }
+    for saving in plan.savings(&loaded.model, &system) {
+        text += &format!("{:<12}{saving}\n", "saved");
+    }
     super::print(&format!("{}: no errors\n{text}", loaded.source.path))
 }

@@ -89,6 +89,8 @@ pub enum Mass {
     Lumped,
     /// Spread as the displacements are.
     Consistent,
+    /// At the nodes, but not at those that are attached to a body.
+    FreeNodes,
     /// The part has no mass.
     None,
 }

@@ -20,6 +20,7 @@ pub use cholesky::Cholesky;
 pub use kind::Kind;
 pub use memory::TooLarge;
 
+use elimination::Elimination;
 use graph::Graph;
 use std::fmt;
 
@@ -34,6 +35,11 @@ pub struct Structure {
     /// The last so many groups hold multipliers, with next to nothing on their diagonal: each is eliminated after all that it
     /// couples with. The matrix is then indefinite.
     pub multipliers: usize,
+}
+
+/// Additions and multiplications of a symmetric factorisation; an unsymmetric one takes twice as many.
+pub fn operations(structure: &Structure) -> f64 {
+    Elimination::new(&Graph::new(structure)).flops
 }
 
 /// A pivot vanished: the matrix is singular to working accuracy, or holds numbers that are not finite.

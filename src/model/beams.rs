@@ -339,6 +339,7 @@ fn frame(along: &Vec3, toward: &Vec3) -> Option<Mat3> {
 pub(super) fn mass_kind(mass: &Maybe<deck::Mass>) -> MassKind {
     match mass.as_ref().map(|mass| mass.value) {
         Some(deck::Mass::Consistent) => MassKind::Consistent,
+        Some(deck::Mass::FreeNodes) => MassKind::FreeNodes,
         Some(deck::Mass::None) => MassKind::None,
         Some(deck::Mass::Lumped) | None => MassKind::Lumped,
     }

@@ -264,7 +264,9 @@ pub enum MassKind {
     Lumped,
     /// Translations by the element's shape functions; rotary inertia at the nodes.
     Consistent,
-    /// The deformable part has no mass.
+    /// Lumped, but not at nodes that ride on a body: the paper's simplification (3).
+    FreeNodes,
+    /// The deformable part has no mass: (4).
     None,
 }
 

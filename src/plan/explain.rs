@@ -5,7 +5,9 @@ use crate::elements::beam::Rule;
 use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
-use crate::model::{Contact, Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MeshFile, Method, Model, Update};
+use crate::model::{
+    Contact, Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MassKind, MeshFile, Method, Model, Update,
+};
 use crate::names::{joined, short};
 use std::fmt::Write;
 
@@ -246,6 +248,11 @@ impl Plan {
 
     /// Terms of the equation of motion that this scene does without.
     fn unneeded(&self, model: &Model, system: &crate::system::System) -> Vec<&'static str> {
+        let kinds = || {
+            let beams = model.beams.iter().map(|part| part.mass);
+            beams.chain(model.bars.iter().map(|part| part.mass)).chain(model.shells.iter().map(|part| part.mass))
+        };
+        let deformable = kinds().next().is_some();
         let static_analysis = model.analysis.kind == Analysis::Static;
         let turning = system.inertias.iter().any(|i| {
             i.rotary && (3..6).any(|dof| self.is_unknown(i.node, dof) || model.riders.iter().any(|r| r.node == i.node))
@@ -261,7 +268,23 @@ impl Plan {
                 out.push("gyroscopic term C(r): rotation about one axis only");
             }
             if !system.is_damped() {
-                out.push("damping: none is given");
+                out.push("damping: none is given, simplification (2)");
+            }
+        }
+        if !deformable {
+            out.push("stiffness of elements: bodies, links and joints are all there is");
+        } else if model.bodies.is_empty() && model.riders.is_empty() {
+            out.push("constraint map (58): nothing rides on a body or node");
+        }
+        if !static_analysis {
+            if deformable && kinds().all(|kind| kind != MassKind::Consistent) {
+                out.push("masses beside the diagonal: they are lumped, the paper's simplification (1)");
+            }
+            if kinds().any(|kind| kind == MassKind::FreeNodes) {
+                out.push("masses of deformable parts at nodes attached to bodies, simplification (3): `mass = \"free-nodes\"`");
+            }
+            if kinds().any(|kind| kind == MassKind::None) {
+                out.push("masses of deformable parts, simplification (4): `mass = \"none\"`");
             }
         }
         if !system.yields() {

@@ -7,6 +7,7 @@ mod explicit;
 mod passages;
 mod place;
 mod repeated;
+mod savings;
 
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{Kind, Model};
@@ -132,20 +133,25 @@ impl Plan {
 
 /// Groups of unknowns, one for each node and each joint that has any, and who couples with whom.
 fn structure(system: &System, rows: &[[u32; 6]]) -> Structure {
+    grouped(rows, assembly::cliques(system, rows.len()), system.joints.len())
+}
+
+/// The same from couplings of nodes, of which the last `multipliers` hold multipliers.
+fn grouped(rows: &[[u32; 6]], cliques: Vec<Vec<usize>>, multipliers: usize) -> Structure {
     let mut sizes = Vec::new();
-    let mut multipliers = 0;
+    let mut last = 0;
     let mut group = vec![usize::MAX; rows.len()];
     for (node, rows) in rows.iter().enumerate() {
         let size = rows.iter().filter(|&&row| row != NONE).count();
         if size > 0 {
             group[node] = sizes.len();
             sizes.push(size);
-            multipliers += usize::from(node >= group.len() - system.joints.len());
+            last += usize::from(node >= group.len() - multipliers);
         }
     }
     let known = |clique: Vec<usize>| -> Vec<usize> {
         clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect()
     };
-    let cliques = assembly::cliques(system, rows.len()).into_iter().map(known).filter(|clique| clique.len() > 1);
-    Structure { sizes, cliques: cliques.collect(), multipliers }
+    let cliques = cliques.into_iter().map(known).filter(|clique| clique.len() > 1);
+    Structure { sizes, cliques: cliques.collect(), multipliers: last }
 }

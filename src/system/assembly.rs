@@ -153,7 +153,19 @@ fn carry_over(system: &System, nodes: &[Node], roots: &[Vec<usize>], carry: &mut
 /// Nodes that are coupled with one another, one list per element or nodal matrix; riders replaced by their roots. `nodes`
 /// counts the joints too: their multipliers are nodes after all others.
 pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    let roots = roots(system, nodes);
+    coupled(system, nodes, &roots(system, nodes))
+}
+
+/// As [`cliques`], but with multipliers in place of elimination: every rider moves by itself, held to its master by one more
+/// node, which stands after all others.
+pub fn loose_cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
+    let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
+    let mut cliques = coupled(system, nodes, &alone);
+    cliques.extend(system.attachments.iter().enumerate().map(|(k, rider)| vec![rider.master, rider.node, nodes + k]));
+    cliques
+}
+
+fn coupled(system: &System, nodes: usize, roots: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut cliques: Vec<Vec<usize>> = Vec::new();
     let mut add = |nodes: &[usize]| {
         let mut all: Vec<usize> = nodes.iter().flat_map(|&n| roots[n].iter().copied()).collect();

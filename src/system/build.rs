@@ -21,6 +21,17 @@ use std::ops::Range;
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
     let mut lumped = Lumped::new(x.len());
     let mut consistent = Vec::new();
+    let mut tied = vec![false; x.len()];
+    for body in &model.bodies {
+        model.riders.iter().filter(|rider| rider.master == body.node).for_each(|rider| tied[rider.node] = true);
+    }
+    // Of a deformable part, at a node: whether its mass lies there, and whether it has inertia there.
+    let lies = |kind: MassKind, node: usize| match kind {
+        MassKind::Lumped => true,
+        MassKind::FreeNodes => !tied[node],
+        MassKind::Consistent | MassKind::None => false,
+    };
+    let turns = |kind: MassKind, node: usize| kind == MassKind::Consistent || lies(kind, node);
     model.bodies.iter().for_each(|body| lumped.add(body.node, body.mass, &body.inertia));
     model.masses.iter().for_each(|mass| lumped.add(mass.node, mass.mass, &mass.inertia));
     for beam in &model.beams {
@@ -30,10 +41,10 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
             let section = &model.stiffnesses[element.section];
             let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
             let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
-            let keep = beam.rotary_inertia && beam.mass != MassKind::None;
             for (&node, w) in nodes.iter().zip(weights) {
                 let share = 0.5 * w * length;
-                let mass = if beam.mass == MassKind::Lumped { share * section.mass_per_length } else { 0.0 };
+                let mass = if lies(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
+                let keep = beam.rotary_inertia && turns(beam.mass, node);
                 lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
             }
             if beam.mass == MassKind::Consistent {
@@ -44,10 +55,11 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
     for part in &model.bars {
         for nodes in &part.elements {
             let mass = part.mass_per_length * part.free * (x[nodes[1]] - x[nodes[0]]).norm();
-            match part.mass {
-                MassKind::Lumped => nodes.iter().for_each(|&n| lumped.add(n, 0.5 * mass, &Mat3::zeros())),
-                MassKind::Consistent => consistent.push(ConsistentMass::new(nodes, mass)),
-                MassKind::None => {}
+            for &node in nodes.iter().filter(|&&node| lies(part.mass, node)) {
+                lumped.add(node, 0.5 * mass, &Mat3::zeros());
+            }
+            if part.mass == MassKind::Consistent {
+                consistent.push(ConsistentMass::new(nodes, mass));
             }
         }
     }
@@ -57,9 +69,9 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
             let nodes = &element.nodes[..part.corners];
             let corners: Vec<Vec3> = nodes.iter().map(|&n| x[n]).collect();
             for (&node, area) in nodes.iter().zip(shell::shares(&corners)) {
-                let mass = if part.mass == MassKind::Lumped { part.density * h * area } else { 0.0 };
+                let mass = if lies(part.mass, node) { part.density * h * area } else { 0.0 };
                 // The same about the normal, where a director has none: no direction is left without inertia.
-                let rotary = if part.mass == MassKind::None { 0.0 } else { part.density * h.powi(3) / 12.0 * area };
+                let rotary = if turns(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
                 lumped.add(node, mass, &(rotary * Mat3::identity()));
             }
             if part.mass == MassKind::Consistent {
