@@ -102,7 +102,10 @@ impl<'d> Builder<'d> {
     pub fn check_joints(&mut self) {
         let mut held = vec![[false; 6]; self.model.nodes.len()];
         self.model.held.iter().filter(|held| held.motion.is_none()).for_each(|h| held[h.node][h.dof] = true);
-        for (index, joint) in self.deck.joints.iter().enumerate() {
+        for joint in &self.deck.joints {
+            // By name: one may have been left out for what is wrong elsewhere, as in a mesh that could not be read.
+            let named = |made: &Joint| joint.name.as_ref().is_some_and(|name| name.value == made.name);
+            let Some(index) = self.model.joints.iter().position(named) else { continue };
             let ends = self.model.joints[index].ends.map(|node| self.carrier(node));
             let name = &self.model.joints[index].name;
             if ends[0] == ends[1] {
