@@ -130,7 +130,7 @@ impl Station {
         match self.what {
             What::Time => (state.time, to),
             What::Displacement { node, dof } => {
-                let from = state.nodes[node].x[dof] - stepper.model.nodes[node].x[dof];
+                let from = state.nodes[node].moved(&stepper.model.nodes[node].x)[dof];
                 (from, from + stepper.increments[node].q[dof])
             }
         }
@@ -219,7 +219,7 @@ impl Run<'_> {
             if ends {
                 self.short_of_stop = control.stop.filter(|stop| !stations.ended_at(stop, landed)).map(|stop| {
                     let Passage { node, dof, .. } = stop;
-                    state.nodes[node].x[dof] - self.stepper.model.nodes[node].x[dof]
+                    state.nodes[node].moved(&self.stepper.model.nodes[node].x)[dof]
                 });
                 return Ok(());
             }
