@@ -44,8 +44,8 @@ impl Scene {
         ))
     }
 
-    /// Asserts that errors are those asked for, within a factor of 5; prints what they cost.
-    fn check(&self, name: &str, finest: usize, tolerances: &[f64]) -> Vec<(f64, usize)> {
+    /// Asserts that errors are those asked for, by no more than the factors given; prints what they cost.
+    fn check(&self, name: &str, finest: usize, tolerances: &[f64], [below, above]: [f64; 2]) -> Vec<(f64, usize)> {
         let reference = self.fixed(finest).rows;
         let of = |done: &Done| (error(&done.rows, &reference, self.skip), done.counts.iterations);
         tolerances
@@ -53,7 +53,10 @@ impl Scene {
             .map(|&tolerance| {
                 let (e, iterations) = of(&self.automatic(tolerance));
                 println!("{name} asked for {tolerance:e}: {e:.2e} in {iterations} iterations");
-                assert!(e < 5.0 * tolerance && e > 0.2 * tolerance, "{name}: {e:e} where {tolerance:e} was asked for");
+                assert!(
+                    e < above * tolerance && below * e > tolerance,
+                    "{name}: {e:e} where {tolerance:e} was asked for"
+                );
                 (e, iterations)
             })
             .collect()
@@ -79,7 +82,7 @@ fn right_angle_cantilever() {
         probe: Box::new(move |model, frame| vec![elbow(model, frame), tip(model, frame)]),
         skip: 0,
     };
-    let found = scene.check("B1", 32, &[1e-2, 1e-3]);
+    let found = scene.check("B1", 32, &[1e-2, 1e-3], [5.0, 5.0]);
     let reference = scene.fixed(32).rows;
     let ladder = [2, 4, 8].map(|division| {
         let done = scene.fixed(division);
@@ -96,7 +99,8 @@ fn right_angle_cantilever() {
     }
 }
 
-/// Steel that yields under a blow.
+/// Steel that yields under a blow. The control watches all nodes and all their vibrations, the two quantities of the scene see
+/// a part of them: the error is up to ten times less than asked for, never more.
 #[test]
 fn portal_and_block() {
     let (knee, block) = (displacement("knee_left", 0), displacement("block", 0));
@@ -107,7 +111,7 @@ fn portal_and_block() {
         probe: Box::new(move |model, frame| vec![knee(model, frame), block(model, frame) - 0.5]),
         skip: 0,
     };
-    scene.check("C4", 32, &[3e-3, 1e-3]);
+    scene.check("C4", 32, &[3e-3, 1e-3], [10.0, 1.0]);
 }
 
 /// What no step resolves is left alone: a spring of 1e7 at rest beside one of 1. The fastest period is 2e-3, that of the motion
@@ -123,7 +127,7 @@ fn stiff_spring_chain() {
             probe: Box::new(move |model, frame| vec![u2(model, frame), u3(model, frame)]),
             skip: 10,
         };
-        let found = scene.check(&format!("X1 {scheme}"), 64, &[1e-2, 1e-3, 1e-4]);
+        let found = scene.check(&format!("X1 {scheme}"), 64, &[1e-2, 1e-3, 1e-4], [5.0, 5.0]);
         // Steps of the fastest period would be 26,000.
         assert!(found[2].1 < 10_000, "{found:?}");
     }

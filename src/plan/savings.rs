@@ -22,7 +22,9 @@ impl Plan {
             let unknowns: usize = with.sizes.iter().sum();
             let times = operations(with) / own;
             if times >= WORTH {
-                out.push(format!("{what}: with them {unknowns} unknowns and {times:.1} times the operations of a factorisation"));
+                out.push(format!(
+                    "{what}: with them {unknowns} unknowns and {times:.1} times the operations of a factorisation"
+                ));
             }
         };
         let kept = [
@@ -37,7 +39,9 @@ impl Plan {
             compare("multipliers of attached nodes", &self.with_multipliers(system));
         }
         if self.kind == Kind::Cholesky && !self.linear {
-            out.push("the unsymmetric part of the tangent: with it 2 times the operations of a factorisation".to_string());
+            out.push(
+                "the unsymmetric part of the tangent: with it 2 times the operations of a factorisation".to_string(),
+            );
         }
         if self.linear && model.analysis.kind == Analysis::Dynamic {
             out.push("iterations: the scene is linear, one solve a step is exact".to_string());
