@@ -178,7 +178,8 @@ fn main() {
     );
     for division in [8, 32, 128] {
         let dt = 0.025 / f64::from(division);
-        let sets = ["expect=[]".to_owned(), "output.every=1000000000".to_owned(), format!("analysis.time_step={dt:?}")];
+        let sets =
+            ["expect=[]".to_owned(), "output={every=1000000000}".to_owned(), format!("analysis.time_step={dt:?}")];
         let model = model::read(&Source::new("deck.toml", deck, &sets)).0.expect("a sound deck");
         let system = System::new(&model).expect("a system");
         let plan = Plan::new(&model, &system, 1);

@@ -63,6 +63,13 @@ impl<'d> Builder<'d> {
         {
             self.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
         }
+        if let (Some(least), Some(end), Some(_), Some(at)) =
+            (least_step, end_time, error_tolerance, &analysis.least_step)
+            && least > FIRST_STEP * end
+        {
+            let longest = short(FIRST_STEP * end);
+            self.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
+        }
         let end_time = end_time.unwrap_or(f64::MAX);
         let (first, least) = match error_tolerance {
             Some(_) => (FIRST_STEP * end_time, end_time / MOST_STEPS),

@@ -247,7 +247,7 @@ impl<'a> Run<'a> {
         let model = self.stepper.model;
         let free = model.analysis.error_tolerance.filter(|_| self.stepper.explicit.is_some());
         let paced = model.analysis.error_tolerance.filter(|_| self.stepper.explicit.is_none());
-        let mut pace = paced.map(|tolerance| Pace::new(model, tolerance, state));
+        let mut pace = paced.map(|tolerance| Pace::new(model, tolerance, self.stepper.length, state));
         for stretch in stretches(model) {
             if free.is_some() {
                 self.follow_itself(state, &stretch, observer, balance)?;

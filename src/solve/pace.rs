@@ -6,11 +6,13 @@
 //! leaves what is resolved as it is (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)). Errors of steps add up: each
 //! step may take the part of the allowance that its length is of the run.
 
+use super::failure::Failure;
 use super::march::{Run, Step};
 use super::stations::Stretch;
 use super::step::{Size, Stepper};
 use super::{Observer, Outcome};
 use crate::integrators::spectrum::error_constant;
+use crate::integrators::{RotationUpdate, newmark};
 use crate::math::{Vec6, bottom, top};
 use crate::model::Model;
 use crate::state::State;
@@ -28,13 +30,17 @@ const SPAN: f64 = 0.05;
 /// ... in which the last step has this weight at least.
 const WEIGHT: f64 = 0.002;
 /// What remains of the sum of all errors: steady growth to 1 has a root mean square of 1/√3 over a run, and an oscillation one of
-/// 1/√2; half of that is what the scenes B1, C4 and X1 have shown, where errors partly cancel.
-const MEAN: f64 = 0.2;
+/// 1/√2; a little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
+const MEAN: f64 = 0.3;
 /// Steps of a run at least.
 const FEWEST: f64 = 50.0;
-/// Of a run: steps that are tried before the first, to see how far things move. Their lengths have no common measure, lest
-/// all of them end where a vibration passes through its middle.
-const TRIALS: [f64; 3] = [0.023, 0.037, 0.053];
+/// Of a run: steps that are tried when things begin to move, to see how far they will; the first are short, for the sake of
+/// blows. Their lengths have no common measure, lest all of them end where a vibration passes through its middle.
+const TRIALS: [f64; 6] = [1.7e-4, 7.1e-4, 2.9e-3, 0.011, 0.037, 0.053];
+/// Of a run: after that the motion speaks for itself.
+const AHEAD: f64 = 0.2;
+/// Of the other kind of motion, over the model's length: less is rounding.
+const TRACE: f64 = 1e-6;
 /// An estimate of which two filters leave less is one of motion that the step does not resolve, a period of four steps or less;
 /// unless there is motion beside it of which a third leaves more than their root.
 const RESOLVED: f64 = 0.3;
@@ -52,8 +58,13 @@ pub struct Pace {
     longest: f64,
     /// What a step would err, over what it may, and over its length squared: a mean of the last steps.
     intensity: Option<f64>,
-    /// Largest displacement of a node and turn of a body, of the run so far or of the trial.
+    /// Largest displacement of a node and turn of a body so far.
     motion: Size,
+    /// The same of the trial, and when that was.
+    ahead: Size,
+    begun: Option<f64>,
+    /// Of the scene: what displacements and turns are compared by.
+    extent: f64,
     /// Nodes of bodies: the errors of their rotations count.
     bodies: Vec<usize>,
     /// To go back to.
@@ -69,10 +80,12 @@ struct Estimate {
     passed: [f64; 3],
     /// All of it that is more than a step may err: motion that the step does not resolve.
     unresolved: bool,
+    /// With the motion at the end of the step.
+    motion: Size,
 }
 
 impl Pace {
-    pub fn new(model: &Model, tolerance: f64, state: &State) -> Self {
+    pub fn new(model: &Model, tolerance: f64, extent: f64, state: &State) -> Self {
         Pace {
             tolerance,
             constant: MEAN * error_constant(&model.scheme),
@@ -80,6 +93,9 @@ impl Pace {
             longest: model.analysis.end_time / FEWEST,
             intensity: None,
             motion: Size::default(),
+            ahead: Size::default(),
+            begun: None,
+            extent,
             bodies: model.bodies.iter().map(|body| body.node).collect(),
             start: state.clone(),
             errors: vec![Vec6::zeros(); state.nodes.len()],
@@ -87,52 +103,58 @@ impl Pace {
     }
 
     /// After a step, which was a `part` of the run: whether it stands. The length of the next follows.
-    fn judge(&mut self, dt: f64, part: f64, estimate: &Estimate, least: f64) -> bool {
+    fn judge(&mut self, dt: f64, part: f64, estimate: &Estimate) -> bool {
         let [_, amplitude, error] = estimate.passed;
         let ratio = error / (self.tolerance * part);
         if estimate.unresolved && amplitude < SLIGHT * self.tolerance {
+            self.motion = estimate.motion;
             return true;
         }
         let now = ratio / (dt * dt);
-        if (ratio > TOO_MUCH || !ratio.is_finite()) && dt > least {
+        if ratio > TOO_MUCH || !ratio.is_finite() {
             self.length = dt * if ratio.is_finite() { (SAFETY / ratio).sqrt().max(0.1) } else { 0.1 };
             self.intensity = Some(now).filter(|now| now.is_finite());
             return false;
         }
-        let mean = self.intensity.map_or(now, |mean| mean + (part / SPAN).clamp(WEIGHT, 1.0) * (now - mean));
+        // Errors so far are the less for what the motion has grown by.
+        let whole = |motion: Size| motion.translation.max(motion.rotation * self.extent);
+        let (before, after) = (whole(self.motion), whole(estimate.motion));
+        let grown = if before > 0.0 { after / before } else { 1.0 };
+        self.motion = estimate.motion;
+        let weight = (part / SPAN).clamp(WEIGHT, 1.0);
+        let mean = self.intensity.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
         self.intensity = Some(mean);
         let allowed = 1.0 / mean.sqrt();
         if allowed < SAFETY * dt {
             self.length = SAFETY * allowed;
         } else if allowed > WORTH * dt {
-            self.length = (SAFETY * allowed).min(2.0 * dt).min(self.longest);
+            // A step may be short because of where it ends.
+            self.length = (SAFETY * allowed).min(2.0 * dt.max(self.length)).min(self.longest);
         }
         true
     }
 
-    /// Largest displacements and turns of a state. Errors so far are the less for what they have grown by.
-    fn meet(&mut self, model: &Model, state: &State) {
-        let before = self.motion;
-        let motion = &mut self.motion;
-        for (node, spec) in state.nodes.iter().zip(&model.nodes) {
-            motion.translation = motion.translation.max(node.moved(&spec.x).norm());
-        }
-        for &body in &self.bodies {
-            motion.rotation = motion.rotation.max(2.0 * state.nodes[body].q.imag().norm());
-        }
-        if before.translation > 0.0 {
-            let grown = motion.translation / before.translation;
-            self.intensity = self.intensity.map(|mean| mean / grown);
+    /// Largest displacements and turns so far, with those of a state.
+    fn with(&self, largest: Size, model: &Model, state: &State) -> Size {
+        let moved = state.nodes.iter().zip(&model.nodes).map(|(node, spec)| node.moved(&spec.x).norm());
+        let turned = self.bodies.iter().map(|&body| 2.0 * state.nodes[body].q.imag().norm());
+        Size {
+            translation: moved.fold(largest.translation, f64::max),
+            rotation: turned.fold(largest.rotation, f64::max),
         }
     }
 
-    /// Relative to the largest motion.
-    fn relative(&self) -> f64 {
-        let translation = self.errors.iter().map(|e| top(e).norm()).fold(0.0, f64::max);
-        let rotation = self.bodies.iter().map(|&body| bottom(&self.errors[body]).norm()).fold(0.0, f64::max);
+    /// The errors at hand, relative to the largest motion.
+    fn relative(&self, motion: Size, time: f64, end: f64) -> f64 {
+        let early = self.begun.is_some_and(|begun| time < begun + AHEAD * end);
+        let ahead = if early { self.ahead } else { Size::default() };
+        let (translation, rotation) = (motion.translation.max(ahead.translation), motion.rotation.max(ahead.rotation));
+        let error = self.errors.iter().map(|e| top(e).norm()).fold(0.0, f64::max);
+        let turn = self.bodies.iter().map(|&body| bottom(&self.errors[body]).norm()).fold(0.0, f64::max);
         // Nothing moves, nothing is wrong.
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
-        part(translation, self.motion.translation).max(part(rotation, self.motion.rotation))
+        part(error, translation.max(TRACE * rotation * self.extent))
+            .max(part(turn, rotation.max(translation / self.extent)))
     }
 }
 
@@ -148,9 +170,6 @@ impl Run<'_> {
     ) -> Result<(), Outcome> {
         let model = self.stepper.model;
         let (end, least) = (model.analysis.end_time, model.analysis.least_step);
-        if pace.motion.translation == 0.0 && pace.motion.rotation == 0.0 {
-            self.stepper.look_ahead(state, pace);
-        }
         let mut cuts = 0;
         while state.time < stretch.to {
             if self.stop.load(Ordering::Relaxed) {
@@ -164,8 +183,17 @@ impl Run<'_> {
             match self.stepper.step(state, target) {
                 Ok(taken) => {
                     let estimate = self.stepper.estimate(state, dt, pace);
-                    if !pace.judge(dt, dt / end, &estimate, least) {
+                    if pace.begun.is_none() && estimate.motion != Size::default() {
                         state.copy_from(&pace.start);
+                        self.stepper.look_ahead(state, pace);
+                        continue;
+                    }
+                    if !pace.judge(dt, dt / end, &estimate) {
+                        state.copy_from(&pace.start);
+                        if dt <= least {
+                            let failure = Failure::Inaccurate { dt };
+                            return Err(Outcome::Failed { time: state.time, failure });
+                        }
                         cuts += 1;
                         self.counts.cuts += 1;
                         continue;
@@ -191,26 +219,29 @@ impl Run<'_> {
 }
 
 impl Stepper<'_> {
-    /// How far things move in a few long steps, or in shorter ones where these fail: errors at the start are small against
-    /// that, whatever they are against the motion so far.
+    /// How far things move in a few long steps: errors at the start are small against that, whatever they are against the
+    /// motion so far. By the trapezoidal rule, which does not overshoot.
     fn look_ahead(&mut self, state: &mut State, pace: &mut Pace) {
         let (drift, violation) = (self.drift, self.violation);
-        pace.start.copy_from(state);
         let mut run = self.model.analysis.end_time;
         for part in TRIALS {
-            match self.step(state, state.time + part * run) {
-                Ok(_) => pace.meet(self.model, state),
+            let dt = part * run;
+            let scheme = newmark(0.5, 0.25, RotationUpdate::Exponential).coefficients(dt);
+            match self.stage(state, &scheme, state.time + dt) {
+                Ok(_) => pace.ahead = pace.with(pace.ahead, self.model, state),
                 Err(_) => run *= 0.1,
             }
         }
         state.copy_from(&pace.start);
         self.refresh.rejected();
         (self.drift, self.violation) = (drift, violation);
+        pace.begun = Some(state.time);
     }
 
     /// Of a step of length `dt` to `state`.
     fn estimate(&mut self, state: &State, dt: f64, pace: &mut Pace) -> Estimate {
-        pace.meet(self.model, state);
+        let motion = pace.with(pace.motion, self.model, state);
+        let (time, end) = (state.time, self.model.analysis.end_time);
         pace.errors.fill(Vec6::zeros());
         let factor = pace.constant * dt.powi(3);
         for &node in &self.movers {
@@ -219,18 +250,18 @@ impl Stepper<'_> {
             pace.errors[node] = Vec6::from_fn(|i, _| entry(i));
         }
         self.system.carry(&state.nodes, &mut pace.errors);
-        let mut passed = [pace.relative(); 3];
+        let mut passed = [pace.relative(motion, time, end); 3];
         for error in &mut passed[1..] {
             self.filter(state, &mut pace.errors);
-            *error = pace.relative();
+            *error = pace.relative(motion, time, end);
         }
         let [raw, _, error] = passed;
-        let mut unresolved = error > pace.tolerance * dt / self.model.analysis.end_time && error < RESOLVED * raw;
+        let mut unresolved = error > pace.tolerance * dt / end && error < RESOLVED * raw;
         if unresolved {
             self.filter(state, &mut pace.errors);
-            unresolved = pace.relative() < RESOLVED.sqrt() * error;
+            unresolved = pace.relative(motion, time, end) < RESOLVED.sqrt() * error;
         }
-        Estimate { passed, unresolved }
+        Estimate { passed, unresolved, motion }
     }
 
     /// e ← (K + w M)⁻¹ w M e, per node.

@@ -92,7 +92,7 @@ pub struct Taken {
 }
 
 /// Largest translations and rotations of a set of increments.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Size {
     pub translation: f64,
     pub rotation: f64,
