@@ -44,8 +44,9 @@ const TRACE: f64 = 1e-6;
 /// An estimate of which two filters leave less is one of motion that the step does not resolve, a period of four steps or less;
 /// unless there is motion beside it of which a third leaves more than their root.
 const RESOLVED: f64 = 0.3;
-/// Of the tolerance: such motion does not matter while its amplitude is less. Shorter steps would only draw it out.
-const SLIGHT: f64 = 0.5;
+/// Of the tolerance: such motion is left to the damping of the scheme while its amplitude is less: shorter steps would only draw
+/// it out.
+const SLIGHT: f64 = 2.0;
 
 /// The length of steps. Allocated once.
 pub struct Pace {
