@@ -24,10 +24,11 @@ use std::sync::atomic::AtomicBool;
 pub struct Part {
     pub kind: &'static str,
     pub name: String,
-    /// Of the largest elastic energy of all parts together at any time: the largest of this part's.
-    pub peak_share: f64,
+    /// Of the largest elastic energy of all parts together at any time: the largest of this part's. `None`, as the next: the deck
+    /// as it is did not come to its end.
+    pub peak_share: Option<f64>,
     /// Of the energy over all times: this part's.
-    pub mean_share: f64,
+    pub mean_share: Option<f64>,
     /// The run with this part rigid; a reason alone where there can be none.
     pub rigid: Result<Run, String>,
 }
@@ -95,14 +96,14 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
                 stopped = true;
                 break 'all;
             };
-            let mut done = Run::new(0, model.analysis.time_step, folder, &ended, &place)?;
+            let done = Run::new(0, model.analysis.time_step, folder, &ended, &place)?;
             if let Some(before) = &mut runs[index] {
-                before.again(done.loop_s, ended.process_s);
+                if done.status == Status::Done {
+                    before.again(done.loop_s, ended.process_s);
+                }
                 continue;
             }
-            if done.status == Status::Done {
-                done.history = history::read(&place, &quantities, samples, end)?;
-            }
+            let done = done.with_history(&quantities, samples, end, &place);
             if index == 0 {
                 if done.status == Status::Failed {
                     return Err(Fault::Deck(vec![Diagnostic::error(format!(
@@ -110,7 +111,9 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
                         done.reason
                     ))]));
                 }
-                shares = read_shares(&place.join("parts.csv"))?;
+                if done.status == Status::Done {
+                    shares = read_shares(&place.join("parts.csv"))?;
+                }
             }
             runs[index] = Some(done);
         }
@@ -126,7 +129,10 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     let count = quantities.len();
     let part = |(candidate, run): (Candidate, Option<Run>)| {
         let key = (candidate.kind.to_owned(), candidate.name.clone());
-        let [peak_share, mean_share] = shares.get(&key).copied().unwrap_or([0.0; 2]);
+        let [peak_share, mean_share] = match base.status {
+            Status::Done => shares.get(&key).copied().unwrap_or([0.0; 2]).map(Some),
+            _ => [None; 2],
+        };
         let rigid = match (run, &candidate.set) {
             (Some(mut run), _) => {
                 if run.status == Status::Done && base.status == Status::Done {
@@ -209,10 +215,11 @@ impl Advice {
     /// For standard output: the parts, those that could go first.
     pub fn text(&self) -> String {
         let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
-        let percent = |part: f64| match 100.0 * part {
-            0.0 => "0 %".to_owned(),
-            p if p.abs() < 0.1 => format!("{p:.0e} %"),
-            p => format!("{p:.1} %"),
+        let percent = |part: Option<f64>| match part.map(|part| 100.0 * part) {
+            None => String::new(),
+            Some(0.0) => "0 %".to_owned(),
+            Some(p) if p.abs() < 0.1 => format!("{p:.0e} %"),
+            Some(p) => format!("{p:.1} %"),
         };
         let base = &self.base;
         let mut rows = vec![head.map(String::from).to_vec()];
@@ -226,7 +233,8 @@ impl Advice {
         rows.push(vec!["(as it is)".into(), empty(), empty(), empty(), empty(), loop_s, empty(), unknowns, status]);
         let mut parts: Vec<&Part> = self.parts.iter().collect();
         let error = |part: &Part| part.rigid.as_ref().ok().and_then(|run| run.error).unwrap_or(f64::INFINITY);
-        parts.sort_by(|a, b| error(a).total_cmp(&error(b)).then(a.peak_share.total_cmp(&b.peak_share)));
+        let share = |part: &Part| part.peak_share.unwrap_or(0.0);
+        parts.sort_by(|a, b| error(a).total_cmp(&error(b)).then(share(a).total_cmp(&share(b))));
         for part in parts {
             let mut row =
                 vec![part.name.clone(), part.kind.to_owned(), percent(part.peak_share), percent(part.mean_share)];
@@ -234,7 +242,7 @@ impl Advice {
                 Ok(run) if run.status == Status::Done => row.extend([
                     run.error.map_or(empty(), |error| format!("{error:.2e}")),
                     seconds(run.loop_s),
-                    percent(1.0 - run.loop_s / base.loop_s),
+                    percent((base.status == Status::Done).then(|| 1.0 - run.loop_s / base.loop_s)),
                     run.measured.unknowns.to_string(),
                     "done".into(),
                 ]),
@@ -283,7 +291,7 @@ impl Advice {
         };
         row("all", "", [None, None], Ok(&self.base));
         for part in &self.parts {
-            let shares = [Some(part.peak_share), Some(part.mean_share)];
+            let shares = [part.peak_share, part.mean_share];
             row(part.kind, &part.name, shares, part.rigid.as_ref().map_err(String::as_str));
         }
         replace(&folder.join("rigidify.csv"), out.as_bytes())

@@ -127,8 +127,10 @@ pub fn climb(
             progress.did(work(*line, *rung));
             if repeat == 0 {
                 let run = Run::new(*line, *rung, folder, &ended, &place)?;
-                runs.push(run.with_history(quantities, ladder, &place));
-            } else if let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place)) {
+                runs.push(run.with_history(quantities, ladder.samples, ladder.end_time, &place));
+            } else if ended.code == Some(0)
+                && let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place))
+            {
                 run.again(again.loop_s, ended.process_s);
             }
         }
@@ -189,11 +191,12 @@ impl Run {
         middle(self.times.clone()).unwrap_or(f64::NAN)
     }
 
-    fn with_history(mut self, quantities: &[Quantity], ladder: &Ladder, place: &Path) -> Run {
+    /// With what it has written; where that is not whole, it has failed.
+    pub fn with_history(mut self, quantities: &[Quantity], samples: usize, end: f64, place: &Path) -> Run {
         if self.status == Status::Done {
-            match history::read(place, quantities, ladder.samples, ladder.end_time) {
+            match history::read(place, quantities, samples, end) {
                 Ok(values) => self.history = values,
-                Err(error) => (self.status, self.reason) = (Status::Failed, error.to_string()),
+                Err(error) => (self.status, self.reason) = (Status::Failed, one_line(&error.to_string())),
             }
         }
         self
@@ -221,7 +224,12 @@ fn result(place: &Path) -> io::Result<Value> {
 
 fn reason(place: &Path) -> String {
     let result = result(place).unwrap_or_default();
-    result["reason"].as_str().unwrap_or_default().trim_end_matches("; results are valid up to this time").to_owned()
+    one_line(result["reason"].as_str().unwrap_or_default().trim_end_matches("; results are valid up to this time"))
+}
+
+/// For a row of a table.
+fn one_line(text: &str) -> String {
+    text.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 /// Counts and the seconds of the time stepping.
@@ -238,4 +246,18 @@ pub fn measured(place: &Path) -> io::Result<Measured> {
         cuts: count("cuts"),
         loop_s: result["timings"]["loop_s"].as_f64().unwrap_or(f64::NAN),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_is_one_line() {
+        assert_eq!(
+            one_line("at t = 1: no root\n  the beam is straight\n\nat its end\n"),
+            "at t = 1: no root; the beam is straight; at its end"
+        );
+        assert_eq!(one_line("at t = 1"), "at t = 1");
+    }
 }
