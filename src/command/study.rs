@@ -8,7 +8,11 @@ use clap::Args;
 
 use super::run::stop_on_signals;
 use super::{Exit, MOST_THREADS, complain, counted, free_folder, load_with, say, show};
+use crate::diagnostic::Diagnostic;
+use crate::model::Model;
+use crate::plan::Plan;
 use crate::study::{Fault, Options, Status, rigidify, study as studied};
+use crate::system::System;
 
 #[derive(Debug, Args)]
 #[command(
@@ -116,6 +120,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
         budget: args.budget,
         quiet: args.quiet,
     };
+    let problems = if args.rigidify { Vec::new() } else { massless(&loaded.model)? };
     let stop = Arc::new(AtomicBool::new(false));
     let fault = |fault: Fault| match fault {
         Fault::Deck(problems) => {
@@ -132,6 +137,9 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
             Exit::InputOutput
         }
     };
+    if !problems.is_empty() {
+        return Err(fault(Fault::Deck(problems)));
+    }
     stop_on_signals(&stop).map_err(|error| fault(error.into()))?;
     let (text, stopped, any) = if args.rigidify {
         let advice = rigidify(&loaded.model, &deck, &options, &stop).map_err(fault)?;
@@ -153,6 +161,22 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
         return Err(Exit::NotConverged);
     }
     Ok(())
+}
+
+/// What the explicit schemes of a study lack.
+fn massless(model: &Model) -> Result<Vec<Diagnostic>, Exit> {
+    let listed = model.study.iter().flat_map(|study| &study.schemes).map(|choice| &choice.scheme);
+    let own = model.study.as_ref().is_none_or(|study| study.schemes.is_empty()).then_some(&model.scheme);
+    let mut problems = Vec::new();
+    for scheme in listed.chain(own).filter(|scheme| scheme.is_explicit()) {
+        let model = Model { scheme: scheme.clone(), ..model.clone() };
+        let system = System::new(&model).map_err(|error| {
+            complain(&error);
+            Exit::Internal
+        })?;
+        problems.extend(Plan::new(&model, &system, 1).massless(&model, &system));
+    }
+    Ok(problems)
 }
 
 impl StudyArgs {

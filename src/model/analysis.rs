@@ -5,7 +5,7 @@ use super::{Analysis, Control, Gyroscopic, Kind, MassKind, Method, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, NumberOrAuto};
-use crate::diagnostic::{At, Diagnostic};
+use crate::diagnostic::{At, Diagnostic, Span};
 use crate::integrators::wilson_theta::STABLE_THETA;
 use crate::integrators::{
     Bathe, CentralDifference, GeneralizedAlpha, RotationUpdate, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
@@ -218,20 +218,26 @@ impl<'d> Builder<'d> {
         scheme.unwrap_or_default()
     }
 
-    /// What an explicit scheme cannot do, once all parts are known.
-    pub(super) fn check_explicit(&mut self) {
-        let (model, deck) = (&self.model, self.deck);
-        let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
-        if model.analysis.kind == Kind::Static || !model.scheme.is_explicit() {
-            return;
-        }
+    /// Whether the scheme at hand, named there, goes with the materials.
+    pub(super) fn check_yielding(&mut self, scheme: &Span) {
+        let model = &self.model;
         let yields = model.beams.iter().any(|part| part.yielding.is_some())
             || model.bars.iter().any(|part| part.yielding.is_some())
             || model.shells.iter().any(|part| part.yielding.is_some());
         if yields && matches!(model.scheme, Scheme::RungeKutta(_)) {
             let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
-            self.error_with::<()>(&at.span, "\"runge-kutta\" does not go with material that yields", hint);
+            self.error_with::<()>(scheme, "\"runge-kutta\" does not go with material that yields", hint);
         }
+    }
+
+    /// What an explicit scheme cannot do, once all parts are known.
+    pub(super) fn check_explicit(&mut self) {
+        let deck = self.deck;
+        let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
+        if self.model.analysis.kind == Kind::Static || !self.model.scheme.is_explicit() {
+            return;
+        }
+        self.check_yielding(&at.span);
         let model = &self.model;
         let consistent = model.beams.iter().map(|part| part.mass).chain(model.bars.iter().map(|part| part.mass));
         let mut consistent = consistent.chain(model.shells.iter().map(|part| part.mass));

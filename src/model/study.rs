@@ -63,6 +63,7 @@ impl Quantity {
 pub struct Choice {
     /// "newmark:gamma=0.6".
     pub label: String,
+    pub scheme: Scheme,
     /// The table `[integrator]` that asks for it, in line.
     pub table: String,
 }
@@ -149,10 +150,10 @@ impl<'d> Builder<'d> {
             found.push((quantity, column.map_or_else(|| word.value.clone(), |(column, _)| column.value.clone())));
         }
         if let Some((_, values)) = listed.filter(|_| study.reference.is_some()) {
-            for (column, word) in &study.columns.0 {
+            // A list given with the command leaves columns aside: they need only be what they say.
+            for (_, word) in &study.columns.0 {
                 if !values.iter().any(|value| value.value == word.value) {
-                    let message = format!("column `{}` is `{}`, which is no quantity here", column.value, word.value);
-                    self.error_with::<()>(&word.span, message, "`quantities` does not list it");
+                    self.quantity(word);
                 }
             }
         }
@@ -246,11 +247,13 @@ impl<'d> Builder<'d> {
                 && let Some(own) = own
             {
                 entries = self::entries(own);
+                self.model.scheme = deck_scheme.clone();
             } else if let Some(rotation) = rotation
                 && !entries.iter().any(|(key, _)| *key == "rotation_update")
             {
                 entries.push(("rotation_update", format!("\"{rotation}\"")));
             }
+            self.check_yielding(&at.span);
             let choice = choice(&self.model.scheme, &entries);
             if choices.iter().any(|other| other.label == choice.label) {
                 self.error::<()>(&at.span, format!("`{}` is listed twice", choice.label));
@@ -338,5 +341,5 @@ fn choice(scheme: &Scheme, entries: &[(&'static str, String)]) -> Choice {
         label += &format!(":{key}={}", value.trim_matches('"'));
         table += &format!(", {key} = {value}");
     }
-    Choice { label, table: table + " }" }
+    Choice { label, scheme: scheme.clone(), table: table + " }" }
 }
