@@ -49,6 +49,15 @@ impl Scheme {
         }
     }
 
+    /// Of its error in the time step.
+    pub fn order(&self) -> usize {
+        match self {
+            Scheme::Newmark(scheme) if scheme.gamma != 0.5 => 1,
+            Scheme::RungeKutta(scheme) => scheme.tableau.order,
+            _ => 2,
+        }
+    }
+
     /// Where a scheme's formulas run on another acceleration than that of equilibrium: how it follows (a, q̈ before, q̈ now).
     pub fn follower(&self) -> Option<[f64; 3]> {
         match self {

@@ -4,6 +4,7 @@ use crate::deck::Deck;
 use crate::deck::analysis::{Analysis, Plane};
 use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::Diagnostic;
+use crate::integrators::Scheme;
 use crate::model::study::{Quantity, Study, obstacle};
 use crate::model::{Kind, Model};
 
@@ -12,6 +13,8 @@ pub const SAMPLES: usize = 200;
 /// The ladder where nothing says otherwise: from so many of the deck's time steps, halved so often.
 const LONGEST: f64 = 8.0;
 const HALVINGS: usize = 6;
+/// Over a load step only material that yields makes an error, of first order in general and never above second.
+const OF_LOAD_STEPS: f64 = 2.0;
 
 /// A scheme, a method and a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +27,8 @@ pub struct Line {
     pub mesh: f64,
     /// The step is automatic, and its tolerance is what the ladder goes over.
     pub automatic: bool,
+    /// That of the scheme in the time step; of load steps, the highest there is.
+    pub order: f64,
     /// Overrides.
     pub sets: Vec<String>,
 }
@@ -65,6 +70,10 @@ impl Ladder {
         }
         if model.analysis.kind == Kind::Static && !study.schemes.is_empty() {
             problems.push(Diagnostic::error("schemes integrate in time, and a static analysis has none"));
+        }
+        if model.analysis.kind == Kind::Static && !study.error_tolerances.is_empty() {
+            let message = "error tolerances are about steps in time, and a static analysis has none";
+            problems.push(Diagnostic::error(message).hint("load steps have no error in time: give time steps"));
         }
         let end_time = model.analysis.end_time;
         let samples = study.samples.or(samples).unwrap_or(SAMPLES);
@@ -202,12 +211,18 @@ fn fitting(interval: f64, step: f64) -> f64 {
 
 fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<Line> {
     let word = model.scheme.word().to_owned();
-    let scheme = |label: &str, set: Option<String>| (label.to_owned(), set);
+    let is_static = model.analysis.kind == Kind::Static;
+    let scheme = |label: &str, scheme: &Scheme, set: Option<String>| (label.to_owned(), scheme.clone(), set);
     let schemes: Vec<_> = match study.schemes[..] {
-        [] if model.analysis.kind == Kind::Static => vec![scheme("static", None)],
-        [] => vec![scheme(&word, None)],
-        ref list => list.iter().map(|of| scheme(&of.label, Some(format!("integrator={}", of.table)))).collect(),
+        [] if is_static => vec![scheme("static", &model.scheme, None)],
+        [] => vec![scheme(&word, &model.scheme, None)],
+        ref list => {
+            list.iter().map(|of| scheme(&of.label, &of.scheme, Some(format!("integrator={}", of.table)))).collect()
+        }
     };
+    if !is_static && kinds.contains(&true) {
+        problems.extend(schemes.iter().filter_map(|(label, scheme, _)| no_tolerance(label, scheme)));
+    }
     let methods: Vec<_> = match study.methods[..] {
         [] => vec![(model.iteration.method.word(), None)],
         ref list => list.iter().map(|of| (of.word(), Some(format!("iteration.method=\"{}\"", of.word())))).collect(),
@@ -215,7 +230,8 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
     let meshes: Vec<f64> = if study.meshes.is_empty() { vec![1.0] } else { study.meshes.clone() };
     let refined: Vec<Vec<String>> = meshes.iter().map(|&mesh| refine(deck, mesh, problems)).collect();
     let mut lines = Vec::new();
-    for (scheme, of_scheme) in &schemes {
+    for (scheme, which, of_scheme) in &schemes {
+        let order = if is_static { OF_LOAD_STEPS } else { which.order() as f64 };
         for (method, of_method) in &methods {
             let meshes = meshes.iter().zip(&refined).flat_map(|of| kinds.iter().map(move |kind| (of, *kind)));
             for ((&mesh, of_mesh), automatic) in meshes {
@@ -234,11 +250,28 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
                 }
                 let label = words.join(", ");
                 let sets = of_scheme.iter().chain(of_method).chain(of_mesh).cloned().collect();
-                lines.push(Line { label, scheme: scheme.clone(), method: (*method).to_owned(), mesh, automatic, sets });
+                let (scheme, method) = (scheme.clone(), (*method).to_owned());
+                lines.push(Line { label, scheme, method, mesh, automatic, order, sets });
             }
         }
     }
     lines
+}
+
+/// Why a scheme cannot be studied over tolerances; `None`: it can.
+fn no_tolerance(label: &str, scheme: &Scheme) -> Option<Diagnostic> {
+    let (message, hint) = match scheme {
+        Scheme::CentralDifference(_) => (
+            format!("`{label}` has no error tolerance to go over: its automatic steps are as long as is stable"),
+            "give time steps (--time-steps): those too long to be stable are cut",
+        ),
+        Scheme::Newmark(_) if scheme.order() == 1 => (
+            format!("`{label}` is of first order, and automatic steps want second"),
+            "leave gamma at 0.5, use \"generalized-alpha\", or give time steps (--time-steps)",
+        ),
+        _ => return None,
+    };
+    Some(Diagnostic::error(message).hint(hint))
 }
 
 /// Overrides that multiply all numbers of elements.

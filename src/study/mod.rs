@@ -71,8 +71,8 @@ pub struct Found {
     pub ladder: Ladder,
     /// By line, longest time step first.
     pub runs: Vec<Run>,
-    /// `None`: no run reached its end, or too few did.
-    pub reference: Option<Reference>,
+    /// Or why there is none, in words.
+    pub reference: Result<Reference, String>,
     /// Of each line; `None`: fewer than two runs with an error.
     pub orders: Vec<Option<Order>>,
     /// For each error asked for, by cost; empty where no line comes to it.
@@ -98,10 +98,10 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     fs::create_dir_all(&options.folder).map_err(|error| crate::output::at(&options.folder, error))?;
     let (mut runs, stopped) = runs::climb(&ladder, &quantities, options, stop)?;
     let reference = match given {
-        Some(given) => Some(given.into()),
-        None => reference::extrapolate(&ladder, &runs),
+        Some(given) => Ok(given.into()),
+        None => reference::extrapolate(&ladder, &runs, &quantities),
     };
-    if let Some(reference) = &reference {
+    if let Ok(reference) = &reference {
         runs.iter_mut().for_each(|run| run.judge(reference, quantities.len()));
     }
     let orders = order::orders(&ladder, &runs);

@@ -6,6 +6,9 @@
 //! ones on both sides give the bound. Over several meshes the limits in
 //! time are extrapolated in the same way. The line with the least bound is taken, and its bound raised where another line's
 //! limit lies farther off than both bounds allow.
+//!
+//! The step of a run is the mean of those it took: what was asked for may have been cut to the limit of stability, or to the
+//! interval between samples, and runs with the same steps show nothing of their error.
 
 use super::history;
 use super::ladder::Ladder;
@@ -15,6 +18,12 @@ use crate::model::Model;
 use crate::model::study::{Quantity, Study};
 use crate::names::{nearest, quoted};
 use std::path::Path;
+
+/// Steps less than so many times as long as others are as long: fewer than the halves of a ladder, more than what rounding to
+/// whole steps makes of equal ones.
+const ALIKE: f64 = 1.05;
+/// A measured order is that of a scheme up to so much above it; beyond, it is chance.
+const ABOVE: f64 = 0.3;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
@@ -100,12 +109,17 @@ pub fn read(
     }
     let end = model.analysis.end_time;
     let samples = study.samples.unwrap_or(times.len().saturating_sub(1)).max(1);
+    let near = 1e-6 * end / samples as f64;
+    let mut by_time: Vec<usize> = (0..times.len()).collect();
+    by_time.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    let mut by_time = by_time.into_iter().peekable();
     let mut values = Vec::new();
     for k in 0..=samples {
         let time = end * k as f64 / samples as f64;
-        match times.iter().position(|t| (t - time).abs() <= 1e-6 * end / samples as f64) {
-            Some(row) => values.extend(&rows[row]),
-            None => {
+        while by_time.next_if(|&row| times[row] < time - near).is_some() {}
+        match by_time.peek() {
+            Some(&row) if times[row] <= time + near => values.extend(&rows[row]),
+            _ => {
                 let hint = format!("{} intervals are looked for from 0 to {end}: see `samples`", samples);
                 return Err(vec![error(format!("has no row at t = {time}")).hint(hint)]);
             }
@@ -129,8 +143,8 @@ struct Limit {
     growth: f64,
 }
 
-/// From runs with steps or element sizes `h`, coarse to fine.
-fn limit(h: &[f64], q: &[&[f64]], count: usize) -> Option<Limit> {
+/// From runs with steps or element sizes `h`, coarse to fine; `most`: no higher order can be theirs.
+fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     let n = q.len();
     let (fine, before) = (q.last()?, q.get(n.checked_sub(2)?)?);
     let last = history::error(before, fine, count, |_| true);
@@ -140,7 +154,7 @@ fn limit(h: &[f64], q: &[&[f64]], count: usize) -> Option<Limit> {
     let Some(first) = n.checked_sub(3).map(|i| q[i]) else { return Some(as_it_is) };
     let (r1, r2) = (h[n - 3] / h[n - 2], h[n - 2] / h[n - 1]);
     let ratio = distance(first, before) / distance(before, fine);
-    let Some(order) = order(ratio, r1, r2) else { return Some(as_it_is) };
+    let Some(order) = order(ratio, r1, r2).filter(|order| *order <= most + ABOVE) else { return Some(as_it_is) };
     let whole = (order - order.round()).abs() < 0.2;
     let order = if whole { order.round() } else { order };
     let toward = |coarse: &[f64], fine: &[f64], r: f64, order: f64| -> Vec<f64> {
@@ -181,22 +195,66 @@ fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-/// What the runs of a ladder tend to; `None` where no two of a line on the finest mesh came to their end.
-pub fn extrapolate(ladder: &Ladder, runs: &[Run]) -> Option<Reference> {
+/// Mean steps of the runs of a line, coarse to fine, each shorter than the one before. Those that the limit of stability or the
+/// interval between samples has made alike are one run: the last of them counts.
+fn distinct<'a>(runs: impl DoubleEndedIterator<Item = &'a Run>, end_time: f64) -> Vec<(f64, &'a Run)> {
+    let mut kept: Vec<(f64, &Run)> = Vec::new();
+    for run in runs.rev().filter(|run| run.measured.steps > 0) {
+        let h = end_time / run.measured.steps as f64;
+        if kept.last().is_none_or(|(finer, _)| h > ALIKE * finer) {
+            kept.push((h, run));
+        }
+    }
+    kept.reverse();
+    kept
+}
+
+/// Why there is nothing to extrapolate.
+fn nothing(ladder: &Ladder, runs: &[Run]) -> String {
+    let ended = |line: usize| runs.iter().filter(move |run| run.line == line && run.status == Status::Done).count();
+    let rungs = |line: usize| ladder.rungs(line).len();
+    let lines = || 0..ladder.lines.len();
+    if lines().any(|line| ended(line) > 1) {
+        "no two runs of a line differ: steps are as long as samples or stability allow".to_owned()
+    } else if lines().all(|line| ended(line) == rungs(line)) {
+        "each line has one run: take two time steps or more".to_owned()
+    } else {
+        "too few runs came to their end".to_owned()
+    }
+}
+
+/// What is said of quantities that are zero throughout.
+fn at_rest(quantities: &[Quantity]) -> String {
+    let turns = quantities.iter().find(|quantity| quantity.body && quantity.column.starts_with('u'));
+    let hint = turns.map(|body| format!("; a body that turns: `quantities = [\"{}.body_wx\"]`", body.name));
+    format!("nothing moves of what errors are measured on{}", hint.unwrap_or_default())
+}
+
+/// What the runs of a ladder tend to; or, in words, why that is not known.
+pub fn extrapolate(ladder: &Ladder, runs: &[Run], quantities: &[Quantity]) -> Result<Reference, String> {
     let ended = runs.iter().filter(|run| run.status == Status::Done);
     let finest = ended.map(|run| ladder.lines[run.line].mesh).fold(0.0, f64::max);
-    let candidates: Vec<(usize, Limit, Option<Limit>)> = ladder
+    let mut candidates: Vec<(usize, Limit, Option<Limit>)> = ladder
         .lines
         .iter()
         .enumerate()
-        .filter(|(_, line)| line.mesh == finest && (!line.automatic || ladder.time_steps.is_empty()))
+        .filter(|(_, line)| line.mesh == finest)
         .filter_map(|(index, _)| over_meshes(ladder, runs, index).map(|(time, mesh)| (index, time, mesh)))
         .collect();
+    // Automatic steps differ from rung to rung in more than their length.
+    if candidates.iter().any(|(line, ..)| !ladder.lines[*line].automatic) {
+        candidates.retain(|(line, ..)| !ladder.lines[*line].automatic);
+    }
     let of = |(_, time, mesh): &(usize, Limit, Option<Limit>)| mesh.clone().unwrap_or_else(|| time.clone());
-    let best = candidates.iter().min_by(|a, b| of(a).bar.total_cmp(&of(b).bar))?;
+    let Some(best) = candidates.iter().min_by(|a, b| of(a).bar.total_cmp(&of(b).bar)) else {
+        return Err(nothing(ladder, runs));
+    };
     let limit = of(best);
-    if limit.q.iter().all(|value| *value == 0.0) || !limit.bar.is_finite() {
-        return None;
+    if limit.q.iter().all(|value| *value == 0.0) {
+        return Err(at_rest(quantities));
+    }
+    if !limit.bar.is_finite() {
+        return Err("the runs are too far apart to tell a limit".to_owned());
     }
     let count = limit.q.len() / (ladder.samples + 1);
     let apart = |other: &Limit| history::error(&other.q, &limit.q, count, |_| true) - other.bar;
@@ -205,15 +263,11 @@ pub fn extrapolate(ladder: &Ladder, runs: &[Run]) -> Option<Reference> {
         Some(order) => format!("extrapolated in the {what} at order {}", crate::names::short(order)),
         None => format!("not extrapolated in the {what}"),
     };
-    let mut source = format!(
-        "the finest runs of {}, {}",
-        ladder.lines[best.0].label,
-        order(&best.1, if ladder.lines[best.0].automatic { "tolerance" } else { "time step" })
-    );
+    let mut source = format!("the finest runs of {}, {}", ladder.lines[best.0].label, order(&best.1, "time step"));
     if let Some(mesh) = &best.2 {
         source += &format!(" and {}", order(mesh, "mesh"));
     }
-    Some(Reference { values: limit.q, bar, source })
+    Ok(Reference { values: limit.q, bar, source })
 }
 
 /// The limits of a line in time, and of it and its coarser meshes in both.
@@ -221,9 +275,10 @@ fn over_meshes(ladder: &Ladder, runs: &[Run], index: usize) -> Option<(Limit, Op
     let line = &ladder.lines[index];
     let of_line = |index: usize| {
         let done = runs.iter().filter(|run| run.line == index && run.status == Status::Done);
-        let (h, q): (Vec<f64>, Vec<&[f64]>) = done.map(|run| (run.rung, run.history.as_slice())).unzip();
+        let (h, q): (Vec<f64>, Vec<&[f64]>) =
+            distinct(done, ladder.end_time).iter().map(|(h, run)| (*h, run.history.as_slice())).unzip();
         let count = q.first()?.len() / (ladder.samples + 1);
-        limit(&h, &q, count).map(|limit| (limit, count))
+        limit(&h, &q, count, ladder.lines[index].order).map(|limit| (limit, count))
     };
     let (time, count) = of_line(index)?;
     let same = |other: &super::Line| {
@@ -237,7 +292,7 @@ fn over_meshes(ladder: &Ladder, runs: &[Run], index: usize) -> Option<(Limit, Op
         return Some((time, None));
     }
     let (h, q): (Vec<f64>, Vec<&[f64]>) = meshes.iter().map(|(h, limit)| (*h, limit.q.as_slice())).unzip();
-    let mut mesh = limit(&h, &q, count)?;
+    let mut mesh = limit(&h, &q, count, f64::INFINITY)?;
     let in_time = meshes.iter().rev().take(2).map(|(_, limit)| limit.bar).fold(0.0, f64::max);
     mesh.bar += mesh.growth * in_time;
     Some((time, Some(mesh)))
@@ -258,7 +313,7 @@ mod tests {
             for h in [[0.4, 0.2, 0.1], [0.3, 0.2, 0.1], [0.3, 0.15, 0.1]] {
                 let runs = runs(&h, p, 0.2);
                 let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
-                let limit = limit(&h, &q, 1).unwrap();
+                let limit = limit(&h, &q, 1, f64::INFINITY).unwrap();
                 let error = history::error(&limit.q, &[1.0, 1.0], 1, |_| true);
                 let finest = history::error(&runs[2], &[1.0, 1.0], 1, |_| true);
                 assert!(error <= limit.bar, "order {p}, {h:?}: {error} of {}", limit.bar);
@@ -284,10 +339,19 @@ mod tests {
     }
 
     #[test]
+    fn an_order_above_that_of_the_scheme_is_none() {
+        let runs = runs(&[0.4, 0.2, 0.1], 3.0, 0.0);
+        let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
+        let of = |most: f64| limit(&[0.4, 0.2, 0.1], &q, 1, most).unwrap();
+        assert_eq!((of(3.0).order, of(2.0).order), (Some(3.0), None));
+        assert_eq!((of(2.0).q.as_slice(), of(2.0).bar), (q[2], history::error(q[1], q[2], 1, |_| true)));
+    }
+
+    #[test]
     fn runs_without_an_order_are_their_own_bar() {
         let runs = [vec![1.0, 2.0], vec![1.1, 1.9], vec![0.9, 2.2]];
         let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
-        let limit = limit(&[4.0, 2.0, 1.0], &q, 1).unwrap();
+        let limit = limit(&[4.0, 2.0, 1.0], &q, 1, f64::INFINITY).unwrap();
         assert_eq!((limit.q.as_slice(), limit.order), (&runs[2][..], None));
         assert_eq!(limit.bar, history::error(&runs[1], &runs[2], 1, |_| true));
     }

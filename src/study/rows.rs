@@ -66,7 +66,7 @@ pub fn write(found: &Found, folder: &Path) -> io::Result<()> {
             maybe(run.error),
             resolved.to_owned(),
             maybe(order),
-            maybe(found.reference.as_ref().map(|reference| reference.bar).filter(|bar| *bar > 0.0)),
+            maybe(found.reference.as_ref().ok().map(|reference| reference.bar).filter(|bar| *bar > 0.0)),
             if m.steps > 0 { maybe(Some(run.loop_s)) } else { String::new() },
             if m.steps > 0 { maybe(Some(run.middle_s())) } else { String::new() },
             maybe(Some(run.process_s)),

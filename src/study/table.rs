@@ -81,11 +81,11 @@ pub fn cost(line: &Line, of: &Cheapest) -> String {
 pub fn reference(found: &Found) -> String {
     let (samples, count) = (found.ladder.samples + 1, found.quantities.len());
     let against = match &found.reference {
-        None => return "no reference: too few runs came to their end, or nothing moves".to_owned(),
-        Some(reference) if reference.bar > 0.0 => {
+        Err(reason) => return format!("no reference: {reason}"),
+        Ok(reference) if reference.bar > 0.0 => {
             format!("{}; its own error is about {:.1e} or less", reference.source, reference.bar)
         }
-        Some(reference) => reference.source.clone(),
+        Ok(reference) => reference.source.clone(),
     };
     let quantities = if count == 1 { "quantity" } else { "quantities" };
     format!("{against}; {count} {quantities} at {samples} times")
