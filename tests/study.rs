@@ -500,3 +500,86 @@ fn wrong_references_are_said() {
     let rigid = study(folder.path(), &["--rigidify", "--overwrite"], 3).1;
     assert!(rigid.contains("the deck has no part that deforms"), "{rigid}");
 }
+
+// Central differences on the oscillator are stable up to 2/ω = 0.2.
+#[test]
+fn runs_whose_steps_were_made_alike_say_nothing_of_each_other() {
+    let folder = folder(&format!("{OSCILLATOR}\n[integrator]\nscheme = \"central-difference\"\n"));
+    let common = ["--repeats", "1", "--quiet", "--overwrite", "--quantities", "mass.x"];
+    let of = |arguments: &[&str]| study(folder.path(), &[&common[..], arguments].concat(), 0).0;
+    // Steps of 0.5 and of 0.25 are both cut, to the same; 0.02 and 0.01 are not.
+    let text = of(&["--samples", "2", "--time-steps", "0.5,0.25"]);
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert_eq!(rows[0]["steps"], rows[1]["steps"], "{text}");
+    assert!(text.contains("no reference: no two runs of a line differ: steps are as long as samples"), "{text}");
+    let text = of(&["--samples", "2", "--time-steps", "0.5,0.25,0.02,0.01"]);
+    assert!(text.contains("its own error is about"), "{text}");
+    // Tolerances so loose that all steps are as long as the samples allow.
+    let newmark = ["--schemes", "newmark", "--error-tolerances", "0.9,0.5", "--samples", "1000"];
+    let text = of(&newmark);
+    assert!(text.contains("no two runs of a line differ"), "{text}");
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert!(rows.iter().all(|row| row["status"] == "done" && row["error"].is_empty()), "{rows:?}");
+}
+
+#[test]
+fn why_there_is_no_reference_is_said() {
+    let folder = folder(OSCILLATOR);
+    let common = ["--repeats", "1", "--quiet", "--overwrite", "--samples", "10"];
+    let of = |arguments: &[&str]| study(folder.path(), &[&common[..], arguments].concat(), 0).0;
+    let text = of(&["--time-steps", "0.01"]);
+    assert!(text.contains("no reference: each line has one run: take two time steps or more"), "{text}");
+    // Beside one fixed step, automatic ones tell the limit.
+    let text = of(&["--time-steps", "0.01", "--error-tolerances", "1e-2,1e-3,1e-4", "--schemes", "newmark"]);
+    assert!(text.contains("the finest runs of newmark, automatic, "), "{text}");
+    let spin = OSCILLATOR.replace("velocity = [1.0, 0.0, 0.0]", "angular_velocity = [1.0, 0.0, 0.0]");
+    let spin = spin.replace("\"uz\", \"rx\", \"ry\"", "\"uz\", \"ry\"");
+    fs::write(folder.path().join("x.toml"), spin).unwrap();
+    let text = of(&["--time-steps", "0.02,0.01"]);
+    assert!(text.contains("nothing moves") && text.contains("`quantities = [\"mass.body_wx\"]`"), "{text}");
+}
+
+#[test]
+fn what_no_run_could_do_is_refused_before_any() {
+    let folder = folder(
+        &OSCILLATOR
+            .replace("0.005", "\"auto\"")
+            .replace("[[bodies]]", "[integrator]\nscheme = \"central-difference\"\n[[bodies]]"),
+    );
+    let said = study(folder.path(), &[], 3).1;
+    assert!(said.contains("`central-difference` has no error tolerance to go over"), "{said}");
+    study(folder.path(), &["--time-steps", "0.02,0.01", "--samples", "50", "--repeats", "1", "--quiet"], 0);
+    let said = study(folder.path(), &["--schemes", "newmark:gamma=0.6", "--overwrite"], 3).1;
+    assert!(said.contains("`newmark:gamma=0.6` is of first order"), "{said}");
+    fs::write(folder.path().join("x.toml"), STRIP.replace("\"dynamic\"", "\"static\"")).unwrap();
+    let said = study(folder.path(), &["--error-tolerances", "1e-3", "--overwrite"], 3).1;
+    assert!(said.contains("error tolerances are about steps in time"), "{said}");
+    let plastic = STRIP.replace("model = \"elastic\"", "model = \"elastic-plastic\"\nyield_stress = 235e6");
+    fs::write(folder.path().join("x.toml"), plastic).unwrap();
+    let said = study(folder.path(), &["--schemes", "runge-kutta", "--overwrite"], 2).1;
+    assert!(said.contains("does not go with material that yields"), "{said}");
+    fs::write(folder.path().join("x.toml"), STRIP.replace("order = 2", "order = 2\nmass = \"none\"")).unwrap();
+    let said = study(folder.path(), &["--schemes", "bathe,central-difference", "--overwrite"], 3).1;
+    assert!(said.contains("has no mass in direction"), "{said}");
+}
+
+#[test]
+fn quantities_of_the_command_leave_columns_aside() {
+    let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
+    exact(folder.path());
+    let (text, _) = study(folder.path(), &["--quantities", "mass.vx", "--repeats", "1", "--quiet"], 0);
+    assert!(text.contains("exact.csv; 1 quantity at 51 times"), "{text}");
+    let (text, _) = study(folder.path(), &["--quantities", "mass.x", "--repeats", "1", "--quiet", "--overwrite"], 0);
+    assert!(text.contains("exact.csv; 1 quantity at 51 times"), "{text}");
+}
+
+#[test]
+fn the_advisor_says_nothing_against_a_base_that_did_not_end() {
+    // One iteration is too few for a strip that deforms.
+    let folder = folder(&format!("{STRIP}\n[iteration]\nlimit = 1\n"));
+    let arguments = ["--rigidify", "--samples", "50", "--repeats", "2", "--quiet"];
+    let (text, _) = study(folder.path(), &arguments, 4);
+    assert!(!text.contains('%') && text.contains("(as it is)"), "{text}");
+    let rows = table(&folder.path().join("x.study/rigidify.csv"));
+    assert!(rows.iter().all(|row| row["peak_share"].is_empty() && row["mean_share"].is_empty()), "{rows:?}");
+}
