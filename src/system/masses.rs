@@ -35,7 +35,7 @@ pub struct Block {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
-    /// No rotation is an unknown, or it has nothing to do with translations and one number for its inertia.
+    /// No rotation is an unknown, or the centre is the node and the inertia is one number.
     Point { of_turn: f64 },
     /// The centre is the node, or moves freely; so do rotations.
     Body,
@@ -115,14 +115,15 @@ impl Masses {
 
 impl Block {
     fn new(node: usize, free: [bool; 6], mass: f64, s0: Vec3, J0: Mat3) -> Block {
-        let [moves, turns] = [&free[..3], &free[3..]].map(|free| free.contains(&true));
         let all = |free: &[bool]| !free.contains(&false);
-        let apart = s0.amax() == 0.0 || !moves || !turns;
+        let turns = free[3..].contains(&true);
+        // A node that is held turns a centre elsewhere about itself.
+        let centred = s0.amax() == 0.0;
         let equal = J0 == Mat3::identity() * J0[(0, 0)];
-        let kind = match (turns, all(&free[3..]), apart) {
+        let kind = match (turns, all(&free[3..]), centred) {
             (false, ..) => Kind::Point { of_turn: 0.0 },
             (true, _, true) if equal => Kind::Point { of_turn: 1.0 / J0[(0, 0)] },
-            (true, true, true) if s0.amax() == 0.0 => Kind::Body,
+            (true, true, true) => Kind::Body,
             (true, true, false) if all(&free) => Kind::Body,
             _ => Kind::Held,
         };
