@@ -583,3 +583,53 @@ interval = 0.1
         }
     }
 }
+
+/// A mass on an arm of a body that does not turn: what holds it bears m s a, here 2 · 1 · 3/(1 + 2).
+#[test]
+fn held_rotations_bear_what_is_off_the_node() {
+    let text = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = 0.01
+
+[integrator]
+scheme = "wilson-theta"
+
+[points]
+q = [0.0, 0.0, 1.0]
+
+[[bodies]]
+name = "b"
+center = [0.0, 0.0, 0.0]
+mass = 1.0
+inertia = [0.1, 0.1, 0.1]
+
+[[masses]]
+at = "q"
+mass = 2.0
+
+[[attachments]]
+body = "b"
+nodes = "q"
+
+[[supports]]
+at = "b"
+fix = ["uy", "uz", "rx", "ry", "rz"]
+
+[[loads]]
+at = "b"
+force = [3.0, 0.0, 0.0]
+
+[output]
+interval = 0.5
+reactions = true
+"#;
+    for scheme in [WILSON, CENTRAL, EIGHT] {
+        let model = scene(text, &[scheme]);
+        let moment = model.held.iter().position(|held| held.dof == 4).unwrap();
+        let done = run_to_the_end(&model, &mut |frame| vec![frame.reactions[moment]]);
+        // Rounding.
+        assert!(done.rows.iter().all(|row| (row[0] - 2.0).abs() < 1e-12), "{scheme}: {:?}", done.rows);
+    }
+}

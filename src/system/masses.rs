@@ -198,11 +198,16 @@ impl Block {
     /// F ← F − M a: what accelerations leave of a force, on directions that are held too.
     #[inline]
     pub fn settle(&self, node: &Node, a: &Vec6, F: &mut Force) {
-        let rest = match self.kind {
-            Kind::Held => self.matrix(&node.R()) * a,
-            // Nothing couples what is held with what is not.
-            _ => return,
+        // Elsewhere nothing couples what is held with what is not.
+        let coupled = match self.kind {
+            Kind::Held => true,
+            Kind::Point { .. } => self.s0.amax() > 0.0,
+            Kind::Body => false,
         };
+        if !coupled {
+            return;
+        }
+        let rest = self.matrix(&node.R()) * a;
         F.iter_mut().zip(&rest).for_each(|(f, rest)| *f -= rest);
     }
 
