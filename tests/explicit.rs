@@ -157,6 +157,11 @@ fn row_of_masses(count: usize, damping: f64) -> String {
     text + "[[initial]]\nat = \"p1\"\nvelocity = [1.0, 0.0, 0.0]\n"
 }
 
+/// Of a mode with ω² = κ and a damper γ: ¼ κ Δt² + γ Δt = 1.
+fn longest(stiffness: f64, damping: f64) -> f64 {
+    2.0 / (damping + (damping * damping + stiffness).sqrt())
+}
+
 /// Steps are 0.9 of 2/ω of the fastest mode, which a row of masses has in closed form: ω² = 4 k/m sin²(π (2n − 1)/(4 n + 2)).
 #[test]
 fn automatic_steps_are_a_part_of_the_limit() {
@@ -172,7 +177,7 @@ fn automatic_steps_are_a_part_of_the_limit() {
         assert!(steps > 0.995 * expected - 1.0 && steps < expected + 1.0, "{count}: {steps} {expected}");
     }
     // One mass with a damper of 30: ¼ κ Δt² + γ Δt = 1, κ = 50, γ = 15.
-    let limit = 2.0 / (15.0 + (15f64 * 15.0 + 50.0).sqrt());
+    let limit = longest(50.0, 15.0);
     let model = scene(&row_of_masses(1, 30.0), &[]);
     let done = run_to_the_end(&model, &mut |_| Vec::new());
     let expected = (2.0 / (0.9 * limit)).ceil();
@@ -631,5 +636,31 @@ reactions = true
         let done = run_to_the_end(&model, &mut |frame| vec![frame.reactions[moment]]);
         // Rounding.
         assert!(done.rows.iter().all(|row| (row[0] - 2.0).abs() < 1e-12), "{scheme}: {:?}", done.rows);
+    }
+}
+
+/// A damper at one end of a row of masses, a stiff link near the other: whichever asks for the shorter step has it from the
+/// first step on.
+#[test]
+fn dampers_do_not_hide_what_is_stiff() {
+    let row = |damping: f64| {
+        let link = |stiffness: &str| {
+            format!("from = {{ node = \"p50\" }}\nto = {{ node = \"p51\" }}\nstiffness = {stiffness}\n")
+        };
+        row_of_masses(60, damping).replace(&link("100.0"), &link("10000.0")).replace("interval = 2.0", "every = 1")
+    };
+    let steps = |text: &str| -> Vec<f64> {
+        let done = run_to_the_end(&scene(text, &[]), &mut |frame| vec![frame.dt]);
+        done.rows.into_iter().skip(1).map(|row| row[0]).collect()
+    };
+    // Two masses against each other, each held by a spring besides; a mass at the damper, between springs. Neighbours that
+    // give way change κ by a part of about k/κ m of it, which is 1e-4.
+    let stiff = 0.9 * longest(2.0 * 5000.0 + 50.0, 0.0);
+    let damped = 0.9 * longest(100.0, 500.0 / 2.0);
+    for (damping, expected) in [(0.0, stiff), (5.0, stiff), (500.0, damped)] {
+        let steps = steps(&row(damping));
+        println!("{damping}: first {:.5}, of {expected:.5}", steps[0]);
+        // A whole number of steps, and half a per cent that power iteration leaves.
+        assert!(steps.iter().all(|step| (0.97..1.005).contains(&(step / expected))), "{damping}: {steps:?}");
     }
 }

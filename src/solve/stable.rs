@@ -38,6 +38,7 @@ pub struct Stable {
     base: Vec<[f64; 6]>,
     /// Steps taken since.
     steps: usize,
+    /// The fastest mode has been looked for, with dampers if there are any.
     met: bool,
 }
 
@@ -92,14 +93,19 @@ impl Stepper<'_> {
         if explicit.stable.longest.is_none() {
             // What dampers add depends on the step: from the one found without them to that with them.
             self.look_at_limit(explicit, state, 0.0, false)?;
-            let first = explicit.stable.longest.unwrap_or(left).min(left);
-            self.look_at_limit(explicit, state, first, false)?;
+            if self.system.is_damped() {
+                let first = explicit.stable.longest.unwrap_or(left).min(left);
+                // The fastest mode without dampers may know nothing of them: what the search began with does.
+                let Stable { mode, hints, .. } = &mut explicit.stable;
+                mode.iter_mut().zip(hints).for_each(|(mode, first)| *mode += *first);
+                self.look_at_limit(explicit, state, first, false)?;
+            }
         }
         let cut = explicit.control.as_ref().map_or(f64::INFINITY, |control| control.next);
         Ok((SAFE * explicit.stable.longest.unwrap_or(left)).min(cut))
     }
 
-    /// Measures the limit anew, for steps of about `dt`: in the state, or where the trial motion has come to, of which nothing is
+    /// Measures the limit anew, for steps of about `dt`, without dampers where that is zero: in the state, or where the trial motion has come to, of which nothing is
     /// left then.
     ///
     /// # Errors
@@ -125,7 +131,7 @@ impl Stepper<'_> {
             }
         }
         let limit = if explicit.stable.met { AGAIN } else { AT_FIRST };
-        let damped = self.system.is_damped();
+        let damped = dt > 0.0 && self.system.is_damped();
         self.give(state.time, state.time, 1.0);
         self.forces.multipliers.values.copy_from_slice(&state.multipliers);
         self.shift(&explicit.stable, state, [0.0; 2], dt);
@@ -168,8 +174,9 @@ impl Stepper<'_> {
             }
             last = found;
         }
+        let met = dt > 0.0 || !self.system.is_damped();
         let stable = &mut explicit.stable;
-        (stable.longest, stable.steps, stable.met) = (Some(longest), 0, true);
+        (stable.longest, stable.steps, stable.met) = (Some(longest), 0, met);
         Ok(())
     }
 
