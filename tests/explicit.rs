@@ -664,3 +664,35 @@ fn dampers_do_not_hide_what_is_stiff() {
         assert!(steps.iter().all(|step| (0.97..1.005).contains(&(step / expected))), "{damping}: {steps:?}");
     }
 }
+
+/// A bar of a thousand elements that is struck at its end until it yields: steps stay below h/c of what is elastic.
+#[test]
+fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
+    let count = 1000;
+    let mut text = String::from(
+        "[analysis]\nkind = \"dynamic\"\nend_time = 4e-5\ntime_step = \"auto\"\n[integrator]\nscheme = \
+         \"central-difference\"\n[materials.steel]\nmodel = \"elastic-plastic\"\nyield_stress = 200e6\n\
+         youngs_modulus = 200e9\ndensity = 7800.0\n[output]\nevery = 1\n[points]\n",
+    );
+    (0..=count).for_each(|k| text += &format!("p{k} = [{}, 0.0, 0.0]\n", f64::from(k) / f64::from(count)));
+    let points: Vec<String> = (0..=count).map(|k| format!("\"p{k}\"")).collect();
+    text += &format!(
+        "[[bars]]\nname = \"bar\"\npath = [{}]\nmaterial = \"steel\"\narea = 1e-4\nmass = \"lumped\"\n\
+         [[supports]]\nat = \"p0\"\nfix = \"all\"\n[[supports]]\nat = [{}]\nfix = [\"uy\", \"uz\"]\n\
+         [[initial]]\nat = \"p{count}\"\nvelocity = [10.0, 0.0, 0.0]\n",
+        points.join(", "),
+        points[1..].join(", "),
+    );
+    let limit = (7800.0 / 200e9_f64).sqrt() / f64::from(count);
+    let mut plastic = 0.0;
+    let done = run_to_the_end(&scene(&text, &[]), &mut |frame| {
+        plastic = frame.energy.unwrap().plastic;
+        vec![frame.dt / limit]
+    });
+    let steps: Vec<f64> = done.rows.into_iter().skip(1).map(|row| row[0]).collect();
+    let most = steps.iter().copied().fold(0.0, f64::max);
+    println!("{} steps, first {:.3} of the limit, longest {most:.3}", steps.len(), steps[0]);
+    assert!(plastic > 0.0);
+    // 0.9, and what power iteration leaves of the many modes near the fastest.
+    assert!(steps[0] > 0.89 && most < 0.95, "{} {most}", steps[0]);
+}
