@@ -696,3 +696,43 @@ fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
     // 0.9, and what power iteration leaves of the many modes near the fastest.
     assert!(steps[0] > 0.89 && most < 0.95, "{} {most}", steps[0]);
 }
+
+/// A mass that only a load moves bears any step: it has a fiftieth of the run.
+#[test]
+fn what_nothing_resists_is_followed_all_the_same() {
+    let text = r#"
+[analysis]
+kind = "dynamic"
+end_time = 10.0
+time_step = "auto"
+
+[integrator]
+scheme = "central-difference"
+
+[points]
+p = [0.0, 0.0, 0.0]
+
+[[masses]]
+at = "p"
+mass = 1.0
+
+[[loads]]
+at = "p"
+force = [1.0, 0.0, 0.0]
+amplitude = "s"
+
+[amplitudes.s]
+kind = "sine"
+frequency = 1.0
+
+[output]
+interval = 10.0
+"#;
+    let model = scene(text, &[]);
+    let done = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[0].x.x]);
+    assert_eq!(done.counts.steps, 50);
+    // t/2π but for a trapezoidal rule of five steps a period: the mean velocity is ½ Δt cot(π/5). To rounding of 50 steps.
+    let expected = 10.0 * 0.1 / (std::f64::consts::PI / 5.0).tan();
+    let found = done.rows[1][0];
+    assert!((found - expected).abs() < 1e-12, "{found}, expected {expected}");
+}

@@ -18,6 +18,8 @@ const AGAIN: usize = 3;
 const STEPS: usize = 400;
 /// Change from one iteration to the next that ends them.
 const SETTLED: f64 = 1e-4;
+/// Steps of a run at least, where little or nothing resists: loads are still to be seen.
+const FEWEST: f64 = 50.0;
 /// Of the longest step.
 const SAFE: f64 = 0.9;
 /// Of the model's length: the motion by which residuals are told apart. Over the length of an element it is a strain, and that must
@@ -86,7 +88,8 @@ impl Stepper<'_> {
         }
     }
 
-    /// Of central differences: a safe part of the longest that is stable, and no longer than twice what went well last.
+    /// Of central differences: a safe part of the longest that is stable, and no longer than twice what went well last, or a
+    /// fiftieth of the run.
     ///
     /// # Errors
     /// As for [`Stepper::answer`].
@@ -103,7 +106,8 @@ impl Stepper<'_> {
             }
         }
         let cut = explicit.control.as_ref().map_or(f64::INFINITY, |control| control.next);
-        Ok((SAFE * explicit.stable.longest.unwrap_or(left)).min(cut))
+        let most = self.model.analysis.end_time / FEWEST;
+        Ok((SAFE * explicit.stable.longest.unwrap_or(left)).min(cut).min(most))
     }
 
     /// Measures the limit anew, for steps of about `dt`, without dampers where that is zero: in the state, or where the trial motion has come to, of which nothing is
