@@ -11,6 +11,9 @@ use crate::state::Node;
 /// Rows at most: beyond, a sparse factorisation is cheaper.
 const MOST: usize = 64;
 
+/// Part of a row that counts as none.
+const NOTHING: f64 = 1e-12;
+
 /// Allocated once.
 pub struct Ties {
     /// Of each row: the nodes that move the two ends of its joint, where they are unknown.
@@ -20,6 +23,9 @@ pub struct Ties {
     /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit of the multiplier causes there.
     G: Vec<[Vec6; 2]>,
     W: Vec<[Vec6; 2]>,
+    /// Rows that pull at held directions only, as out of the plane of bodies that stay in one: no acceleration answers them, and
+    /// they carry nothing.
+    idle: Vec<bool>,
     /// G M⁻¹ Gᵀ, and its Cholesky factor; row-major.
     S: Vec<f64>,
     L: Vec<f64>,
@@ -57,7 +63,8 @@ impl Ties {
         let zeros = vec![[Vec6::zeros(); 2]; count];
         let square = vec![0.0; count * count];
         let x = vec![0.0; count];
-        Some(Ties { rows, shares, G: zeros.clone(), W: zeros, S: square.clone(), L: square, room: x.clone(), x })
+        let idle = vec![false; count];
+        Some(Ties { rows, shares, G: zeros.clone(), W: zeros, idle, S: square.clone(), L: square, room: x.clone(), x })
     }
 
     /// Forms and factorises the system for joints as they lie; false where they leave no way to close them.
@@ -67,15 +74,20 @@ impl Ties {
             let [a, b] = joint.nodes.map(|node| &nodes[node]);
             for row in &joint.rows {
                 let gradient = row.gradient(a, b);
+                let (mut whole, mut moving) = (0.0f64, 0.0f64);
                 for end in 0..2 {
                     let Some(root) = self.rows[k][end] else { continue };
                     let (f, m) = (top(&gradient[end]), bottom(&gradient[end]));
                     let arm = nodes[joint.nodes[end]].x - nodes[root].x;
                     let G = join(&f, &(m + arm.cross(&f)));
                     self.G[k][end] = G;
-                    let push = |block: &super::masses::Block| block.accelerate(&nodes[root], G.as_ref());
-                    self.W[k][end] = masses.of(root).map_or(Vec6::zeros(), push);
+                    let Some(block) = masses.of(root) else { continue };
+                    self.W[k][end] = block.accelerate(&nodes[root], G.as_ref());
+                    whole = whole.max(G.amax());
+                    let free = G.iter().zip(block.free).filter(|(_, free)| *free);
+                    moving = free.map(|(g, _)| g.abs()).fold(moving, f64::max);
                 }
+                self.idle[k] = moving <= NOTHING * whole;
                 k += 1;
             }
         }
@@ -87,7 +99,8 @@ impl Ties {
         for k in 0..n {
             for l in 0..=k {
                 let mut sum = 0.0;
-                for (i, root) in self.rows[k].iter().enumerate() {
+                let idle = self.idle[k] || self.idle[l];
+                for (i, root) in self.rows[k].iter().enumerate().filter(|_| !idle) {
                     for (j, other) in self.rows[l].iter().enumerate() {
                         if root.is_some() && root == other {
                             sum += self.G[k][i].dot(&self.W[l][j]);
@@ -108,6 +121,10 @@ impl Ties {
                 let sum: f64 = (0..l).map(|i| L[k * n + i] * L[l * n + i]).sum();
                 L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
             }
+            if self.idle[k] {
+                L[k * n + k] = 1.0;
+                continue;
+            }
             let sum: f64 = (0..k).map(|i| L[k * n + i] * L[k * n + i]).sum();
             let pivot = L[k * n + k] - sum;
             if pivot <= 0.0 || pivot.is_nan() {
@@ -121,6 +138,7 @@ impl Ties {
     /// x ← (G M⁻¹ Gᵀ)⁻¹ x; of rows that say the same, each has its share.
     pub fn solve(&mut self) {
         let n = self.rows.len();
+        self.x.iter_mut().zip(&self.idle).filter(|(_, idle)| **idle).for_each(|(x, _)| *x = 0.0);
         if !self.shares {
             return substitute(&self.L, &mut self.x);
         }
