@@ -188,6 +188,7 @@ fn planned(loaded: &Loaded, threads: usize) -> Result<(System, Plan), Exit> {
     let plan = Plan::new(&loaded.model, &system, threads);
     let mut problems = plan.never_passed(&loaded.model);
     problems.extend(plan.massless(&loaded.model, &system));
+    problems.extend(plan.half_turning(&loaded.model));
     if problems.is_empty() {
         return Ok((system, plan));
     }

@@ -1,7 +1,9 @@
 //! What explicit schemes need to know of a scene: masses, and which directions have none.
 
 use super::Plan;
+use super::place::Why;
 use crate::diagnostic::Diagnostic;
+use crate::integrators::Scheme;
 use crate::model::{DIRECTIONS, Model};
 use crate::system::System;
 use crate::system::masses::Masses;
@@ -68,5 +70,31 @@ impl Plan {
             errors.push(Diagnostic::error(message));
         }
         errors
+    }
+
+    /// An error for each node that rides in some rotations and turns on its own in others, with Runge-Kutta: rotations of a step
+    /// tie it to its master, not rates at its stages, and that is of first order in them.
+    pub fn half_turning(&self, model: &Model) -> Vec<Diagnostic> {
+        if !matches!(model.scheme, Scheme::RungeKutta(_)) {
+            return Vec::new();
+        }
+        let master = |node: usize| model.riders.iter().find(|rider| rider.node == node).map(|rider| rider.master);
+        let moves = |mut node: usize, dof: usize| {
+            while let (Why::Rides, Some(next)) = (self.nodes[node][dof], master(node)) {
+                node = next;
+            }
+            let driven = || model.held.iter().any(|held| (held.node, held.dof) == (node, dof) && held.motion.is_some());
+            self.nodes[node][dof] == Why::Unknown || driven()
+        };
+        let half = model.riders.iter().filter(|rider| {
+            (3..6).any(|dof| self.nodes[rider.node][dof] == Why::Unknown)
+                && (3..6).any(|dof| rider.dofs[dof] && moves(rider.master, dof))
+        });
+        let error = |rider: &crate::model::Rider| {
+            let [node, master] = [rider.node, rider.master].map(|node| &model.nodes[node].label);
+            let message = format!("`{node}` turns with `{master}` about some axes only, which \"runge-kutta\" does not follow");
+            Diagnostic::error(message).hint("a joint of kind \"hinge\", or another scheme")
+        };
+        half.take(MOST).map(error).collect()
     }
 }

@@ -150,13 +150,25 @@ impl Stepper<'_> {
             self.r[..directions].fill(0.0);
             self.hand_on_accelerations();
         }
+        // Where a node has some directions of its own, the others go with its master.
+        self.note_ridden(|push, now| *push = now, explicit);
         // As it was given.
         for &node in &self.movers {
             self.trial[node].a -= top(&explicit.push[node]);
             self.trial[node].alpha -= bottom(&explicit.push[node]);
         }
         self.hand_on_accelerations();
+        self.note_ridden(|push, given| *push -= given, explicit);
         Ok(())
+    }
+
+    /// Goes through accelerations of the trial motion in directions that ride, beside what is missing of them.
+    fn note_ridden(&self, note: impl Fn(&mut f64, f64), explicit: &mut Explicit) {
+        for rider in &self.system.attachments {
+            let (push, node) = (&mut explicit.push[rider.node], &self.trial[rider.node]);
+            let now = join(&node.a, &node.alpha);
+            (0..6).filter(|&i| rider.dofs[i]).for_each(|i| note(&mut push[i], now[i]));
+        }
     }
 
     /// Accelerations of what rides, from those of the masters.
