@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, doubts, load, no_room, output_folder, planned, show};
 use crate::diagnostic::Diagnostic;
+use crate::integrators::Scheme;
 use crate::model::{ArcLength, Control, DIRECTIONS, Kind, Model};
 use crate::names::short;
 use crate::output::expect::{Expectations, Verdict};
@@ -250,14 +251,23 @@ struct Balance {
     taken: f64,
     given: f64,
     most: f64,
+    /// [`crate::system::energy::Energy::of_accelerations`] at t = 0.
+    start: f64,
 }
 
 impl Balance {
     fn see(&mut self, frame: &Frame) {
         // In statics the work of a step is that of its ends, whatever lies between.
         if let Some(energy) = frame.energy.filter(|_| frame.model.analysis.kind == Kind::Dynamic) {
-            self.taken = self.taken.max(energy.numerical);
-            self.given = self.given.max(-energy.numerical);
+            if frame.step == 0 {
+                self.start = energy.of_accelerations;
+            }
+            let numerical = match frame.model.scheme {
+                Scheme::CentralDifference(_) => energy.taken_by_central_differences(self.start, frame.dt),
+                _ => energy.numerical,
+            };
+            self.taken = self.taken.max(numerical);
+            self.given = self.given.max(-numerical);
             self.most = self.most.max(energy.total.abs()).max(energy.external.abs());
         }
     }

@@ -92,7 +92,8 @@ impl Plan {
         });
         let error = |rider: &crate::model::Rider| {
             let [node, master] = [rider.node, rider.master].map(|node| &model.nodes[node].label);
-            let message = format!("`{node}` turns with `{master}` about some axes only, which \"runge-kutta\" does not follow");
+            let message =
+                format!("`{node}` turns with `{master}` about some axes only, which \"runge-kutta\" does not follow");
             Diagnostic::error(message).hint("a joint of kind \"hinge\", or another scheme")
         };
         half.take(MOST).map(error).collect()

@@ -332,7 +332,7 @@ impl System {
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
-            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes)).sum::<f64>();
+            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes, |node| node.v)).sum::<f64>();
         }
         for d in &self.nodal_damping {
             let node = &nodes[d.node];
