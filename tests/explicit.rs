@@ -166,12 +166,14 @@ fn longest(stiffness: f64, damping: f64) -> f64 {
 /// Steps are 0.9 of 2/ω of the fastest mode, which a row of masses has in closed form: ω² = 4 k/m sin²(π (2n − 1)/(4 n + 2)).
 #[test]
 fn automatic_steps_are_a_part_of_the_limit() {
+    // A fiftieth of it is no limit then.
+    let long = ["analysis.end_time=20.0", "output.interval=20.0"];
     for count in [1usize, 2, 5, 12] {
         let n = count as f64;
         let omega = 2.0 * 50f64.sqrt() * (std::f64::consts::PI * (2.0 * n - 1.0) / (4.0 * n + 2.0)).sin();
-        let model = scene(&row_of_masses(count, 0.0), &[]);
+        let model = scene(&row_of_masses(count, 0.0), &long);
         let done = run_to_the_end(&model, &mut |_| Vec::new());
-        let expected = 2.0 / (0.9 * 2.0 / omega);
+        let expected = 20.0 / (0.9 * 2.0 / omega);
         println!("{count}: {} steps, {expected:.2} expected", done.counts.steps);
         // A whole number of steps; power iteration leaves half a per cent.
         let steps = done.counts.steps as f64;
@@ -179,9 +181,9 @@ fn automatic_steps_are_a_part_of_the_limit() {
     }
     // One mass with a damper of 30: ¼ κ Δt² + γ Δt = 1, κ = 50, γ = 15.
     let limit = longest(50.0, 15.0);
-    let model = scene(&row_of_masses(1, 30.0), &[]);
+    let model = scene(&row_of_masses(1, 30.0), &long);
     let done = run_to_the_end(&model, &mut |_| Vec::new());
-    let expected = (2.0 / (0.9 * limit)).ceil();
+    let expected = (20.0 / (0.9 * limit)).ceil();
     assert_eq!(done.counts.steps as f64, expected, "limit {limit}, {} cuts", done.counts.cuts);
 }
 
@@ -584,8 +586,8 @@ interval = 0.1
         for scheme in [CENTRAL, EIGHT] {
             let off = difference(&run(scheme), &wilson);
             println!("{scheme}: {off:.2e}");
-            // Wilson-θ damps the stretching of the beam, 0.05 rad a step, which weight lets loose: 1e-4 m of 0.6 m.
-            assert!(off < 2e-4, "{off}");
+            // Of second order: steps of 1e-3 rad of the swing, and the stretching of the beam, of 0.05 rad a step, is as small.
+            assert!(off < 1e-6, "{off}");
         }
     }
 }
