@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Error against run time of four scenes, and what schemes do where steps are too long: the picture and the table of the README.
 
-    scripts/precision.py            # 10 minutes; draws decks/precision.svg, prints both tables as Markdown
+    scripts/precision.py            # some minutes; draws decks/precision.svg, prints both tables as Markdown
 
 Each scene is a `rdsolve study` of its deck, with schemes and automatic steps; other programs' loops are marked with crosses (see
 the README for where they come from; measured on another machine). Then scripts/stability.py. Python's standard library only.
@@ -39,7 +39,7 @@ WIDTH, HEIGHT, LEFT, TOP = 360.0, 250.0, 62.0, 34.0
 def study(panel: Panel, folder: Path) -> list[dict]:
     deck = ROOT / "decks" / panel.folder / "deck.toml"
     arguments = [str(PROGRAM), "study", str(deck), "-o", str(folder), "--quiet", "--error-tolerances", TOLERANCES, *panel.options]
-    arguments += ["--repeats", "5", "--budget", "3", "--set", "expect=[]", "--wanted-error", "1e-2,1e-3,1e-4"]
+    arguments += ["--repeats", "5", "--budget", "1.5", "--set", "expect=[]", "--wanted-error", "1e-2,1e-3,1e-4"]
     done = subprocess.run(arguments, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"{panel.title}: exit code {done.returncode}\n{done.stderr}")
