@@ -95,18 +95,19 @@ def picture(panels: list[tuple[Panel, list[dict]]]) -> str:
     step_x, step_y = WIDTH + LEFT + 24, HEIGHT + TOP + 36
     parts = [draw(panel, rows, LEFT + (k % 2) * step_x, TOP + (k // 2) * step_y) for k, (panel, rows) in enumerate(panels)]
     whole, tall = 2 * step_x + 10, 2 * step_y + 40
+    foot = tall + 6
     legend, at = [], LEFT
     for name, colour in COLOURS.items():
         legend.append(f'<line x1="{at}" y1="{tall - 20}" x2="{at + 22}" y2="{tall - 20}" stroke="{colour}" stroke-width="2"/>')
         legend.append(f'<text x="{at + 28}" y="{tall - 16}">{name}</text>')
         at += 44 + 8.0 * len(name)
-    legend.append(f'<text x="{at}" y="{tall - 16}">dashed: automatic steps; x: best of other programs</text>')
+    legend.append(f'<text x="{LEFT}" y="{foot}">dashed: automatic steps; x: best of other programs</text>')
     style = (
         ".p{font:12px sans-serif}.p text{fill:#57606a}.p .rule{stroke:#808890;stroke-opacity:.25}.p .edge{fill:none;stroke:#808890}"
         ".p .mark{stroke:#c4432b;stroke-width:1.8;fill:none}"
     )
     label = "Error against the time of the loop, four scenes"
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {whole:.0f} {tall:.0f}" class="p" role="img" aria-label="{label}">'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {whole:.0f} {foot + 10:.0f}" class="p" role="img" aria-label="{label}">'
     return "\n".join([head, f"<style>{style}</style>", *parts, *legend, "</svg>\n"])
 
 
