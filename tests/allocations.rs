@@ -214,6 +214,7 @@ fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
     let system = System::new(m).unwrap();
     let stop = AtomicBool::new(false);
     let wanted = Wanted {
+        steps: true,
         energy: true,
         reactions: true,
         links: true,

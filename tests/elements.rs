@@ -108,14 +108,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("damped beam of 2 nodes", beam::<2>(&frame, start, 0.3), &nodes_of(2, &frame, start));
     add("damped beam of 4 nodes", beam::<4>(&frame, start, 0.3), &nodes_of(4, &frame, start));
     let ends = nodes_of(2, &frame, start);
-    let link = |law, direction| Link {
-        nodes: [0, 1],
-        law,
-        damping: 0.7,
-        direction,
-        free_length: 1.2,
-        start: [ends[0], ends[1]],
-    };
+    let link = |law, direction| Link::new([0, 1], law, 0.7, direction, 1.2, [ends[0], ends[1]]);
     let linear = Law::Linear { stiffness: 20.0, preload: 1.0 };
     let d = frame.column(1).into_owned();
     add("link", Box::new(Links(vec![link(linear.clone(), None)])), &ends);

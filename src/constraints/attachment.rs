@@ -5,7 +5,7 @@
 //! constrained remain the node's own. Components are global.
 
 use crate::math::rotation::change;
-use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
+use crate::math::{Mat3, Mat6, Vec3, skew};
 use crate::state::{Increment, Node};
 
 /// A node on its master.
@@ -13,6 +13,8 @@ use crate::state::{Increment, Node};
 pub struct Attachment {
     pub node: usize,
     pub master: usize,
+    /// The first of its masters, their masters and so on that is not attached in all directions: it has the same turn in a step.
+    turner: usize,
     /// From master to node in the undeformed state.
     pub S0: Vec3,
     /// Where master and node lay then.
@@ -27,46 +29,47 @@ impl Attachment {
     /// `x`: initial positions of all nodes.
     pub fn new(node: usize, master: usize, x: &[Vec3], dofs: [bool; 6]) -> Self {
         let start = [x[master], x[node]];
-        Attachment { node, master, S0: start[1] - start[0], start, dofs, rigid: dofs == [true; 6] }
+        let rigid = dofs == [true; 6];
+        Attachment { node, master, turner: master, S0: start[1] - start[0], start, dofs, rigid }
     }
 
+    /// S = R_d S₀.
     #[inline]
     pub fn arm(&self, master: &Node) -> Vec3 {
-        master.R() * self.S0
+        self.S0 + change(&master.q, &self.S0)
     }
 
     /// Sets the constrained part of the node's motion from its master. `start` is the node at the start of the step;
-    /// the free directions have been advanced with `increment` already.
+    /// the free directions have been advanced with its increment already. Where all are constrained nobody asks for that.
     #[inline]
     pub fn follow(&self, nodes: &mut [Node], increments: &mut [Increment], start: &Node) {
-        let master = nodes[self.master];
-        let S = self.arm(&master);
-        let omega_S = master.omega.cross(&S);
-        // (45), (46) with g = ω×(ω×S) (49)
-        let mut placed = Node { v: master.v + omega_S, ..master };
+        let master = &nodes[self.master];
+        let Node { q, omega, alpha, .. } = *master;
         // By displacements, whose digits the position does not have: u_b = u_d + (R_d − 1) S₀.
+        let turned = change(&q, &self.S0);
         let [u, low] = master.parts(&self.start[0]);
-        placed.place(&self.start[1], &(low + change(&master.q, &self.S0)), &u);
-        let u = placed.seen_from(start);
-        let a = master.a + master.alpha.cross(&S) + master.omega.cross(&omega_S);
+        let S = self.S0 + turned;
+        let omega_S = omega.cross(&S);
+        // (45), (46) with g = ω×(ω×S) (49)
+        let v = master.v + omega_S;
+        let a = master.a + alpha.cross(&S) + omega.cross(&omega_S);
         if self.rigid {
-            nodes[self.node] = Node { a, ..placed };
-            let turn = &increments[self.master];
-            increments[self.node] = Increment {
-                q: join(&u, &bottom(&turn.q)),
-                d: join(&placed.v, &bottom(&turn.d)),
-                dd: join(&a, &bottom(&turn.dd)),
-            };
+            let node = &mut nodes[self.node];
+            node.place(&self.start[1], &(low + turned), &u);
+            (node.q, node.v, node.omega, node.a, node.alpha) = (q, v, omega, a, alpha);
             return;
         }
+        let mut placed = *master;
+        placed.place(&self.start[1], &(low + turned), &u);
+        let u = placed.seen_from(start);
         // The rotation of a node with some directions of its own is put together from components of the step's rotation
         // vector, then advanced like any other.
-        let turn = increments[self.master];
+        let turn = increments[self.turner];
         let own = &mut increments[self.node];
         for i in 0..3 {
             if self.dofs[i] {
                 own.q[i] = u[i];
-                own.d[i] = placed.v[i];
+                own.d[i] = v[i];
                 own.dd[i] = a[i];
             }
             if self.dofs[3 + i] {
@@ -87,19 +90,20 @@ impl Attachment {
     /// Hands the force on the constrained directions over to the master: F_d += Dᵀ F_b.
     #[inline]
     pub fn lift(&self, nodes: &[Node], F: &mut [[f64; 6]]) {
-        let S = self.arm(&nodes[self.master]);
-        let mut f = Vec6::from(F[self.node]);
-        for i in 0..6 {
-            if self.dofs[i] {
-                F[self.node][i] = 0.0;
-            } else {
-                f[i] = 0.0;
+        let mut f = F[self.node];
+        if self.rigid {
+            F[self.node] = [0.0; 6];
+        } else {
+            for i in 0..6 {
+                *(if self.dofs[i] { &mut F[self.node][i] } else { &mut f[i] }) = 0.0;
             }
         }
-        let moment = S.cross(&top(&f)) + bottom(&f);
+        let S = self.arm(&nodes[self.master]);
+        let moment = S.cross(&Vec3::new(f[0], f[1], f[2]));
+        let F = &mut F[self.master];
         for i in 0..3 {
-            F[self.master][i] += f[i];
-            F[self.master][3 + i] += moment[i];
+            F[i] += f[i];
+            F[3 + i] += moment[i] + f[3 + i];
         }
     }
 
@@ -126,14 +130,19 @@ pub fn sorted(mut attachments: Vec<Attachment>, nodes: usize) -> Option<Vec<Atta
     for a in &attachments {
         waiting[a.node] = true;
     }
-    let mut done = Vec::with_capacity(attachments.len());
+    let mut done: Vec<Attachment> = Vec::with_capacity(attachments.len());
+    let mut turner: Vec<usize> = (0..nodes).collect();
     while !attachments.is_empty() {
         let before = done.len();
         let (ready, rest): (Vec<_>, Vec<_>) = attachments.into_iter().partition(|a| !waiting[a.master]);
-        for a in &ready {
+        for mut a in ready {
             waiting[a.node] = false;
+            a.turner = turner[a.master];
+            if a.rigid {
+                turner[a.node] = a.turner;
+            }
+            done.push(a);
         }
-        done.extend(ready);
         attachments = rest;
         if done.len() == before && !attachments.is_empty() {
             return None;

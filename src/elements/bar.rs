@@ -24,7 +24,7 @@ pub fn links(
             true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
             false => LinkLaw::Linear { stiffness, preload: 0.0 },
         };
-        Link { nodes, law, damping: damping * stiffness, direction: None, free_length: length, start }
+        Link::new(nodes, law, damping * stiffness, None, length, start)
     };
     Links(elements.iter().map(link).collect())
 }
@@ -90,7 +90,7 @@ impl YieldingBars {
         let [a, b] = ends.map(|node| &nodes[node]);
         let (dx, dv) = (b.seen_from(a), b.v - a.v);
         let (length, before) = (dx.norm(), start[1] - start[0]);
-        let more = elongation(&before, &stretch(a, b, start), length);
+        let more = elongation(&before, before.norm(), &stretch(a, b, start), length);
         // Points that have met leave the direction open: no force until they part.
         let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
         Stretch { e, length, strain: ((before.norm() - free) + more) / free, strain_rate: e.dot(&dv) / free, dv }

@@ -82,10 +82,13 @@ pub struct Link {
     pub damping: f64,
     /// Fixed unit vector, or the line of the nodes.
     pub direction: Option<Vec3>,
-    /// Length or projection of zero elongation.
-    pub free_length: f64,
-    /// Where its nodes lay at t = 0.
-    pub start: [Vec3; 2],
+    /// Where its nodes lay at t = 0, and the vector from the first to the second then.
+    start: [Vec3; 2],
+    span: Vec3,
+    /// Length or projection at t = 0.
+    before: f64,
+    /// Its elongation then: how much longer it was than without force.
+    already: f64,
 }
 
 struct Line {
@@ -99,22 +102,36 @@ struct Line {
 }
 
 impl Link {
+    /// `free_length`: length or projection of zero elongation; `start`: where its nodes lay at t = 0.
+    pub fn new(
+        nodes: [usize; 2],
+        law: Law,
+        damping: f64,
+        direction: Option<Vec3>,
+        free_length: f64,
+        start: [Vec3; 2],
+    ) -> Self {
+        let span = start[1] - start[0];
+        let before = direction.map_or_else(|| span.norm(), |d| d.dot(&span));
+        Link { nodes, law, damping, direction, start, span, before, already: before - free_length }
+    }
+
     #[inline]
     fn line(&self, nodes: &[Node]) -> Line {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let (dx, dv) = (b.seen_from(a), b.v - a.v);
         // Displacements have more digits than positions: what they add to the length at the start.
-        let (start, u) = (self.start[1] - self.start[0], stretch(a, b, &self.start));
-        let (e, length, before, more) = match self.direction {
-            Some(d) => (d, d.dot(&dx), d.dot(&start), d.dot(&u)),
+        let u = stretch(a, b, &self.start);
+        let (e, length, more) = match self.direction {
+            Some(d) => (d, d.dot(&dx), d.dot(&u)),
             None => {
                 let length = dx.norm();
                 // Points that have met leave the direction open: no force until they part.
                 let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
-                (e, length, start.norm(), elongation(&start, &u, length))
+                (e, length, elongation(&self.span, self.before, &u, length))
             }
         };
-        Line { e, length, delta: (before - self.free_length) + more, rate: e.dot(&dv), dv }
+        Line { e, length, delta: self.already + more, rate: e.dot(&dv), dv }
     }
 
     /// Elongation, its rate and the force (tension positive).

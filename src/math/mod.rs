@@ -14,6 +14,12 @@ pub fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// The larger of two numbers, or `a` where `b` is none: one instruction, where `f64::max` takes four for an `a` that is none.
+#[inline(always)]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 /// The matrix of the vector product: `skew(a) b = a × b` (20).
 #[inline]
 pub fn skew(a: &Vec3) -> Mat3 {

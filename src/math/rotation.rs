@@ -159,7 +159,7 @@ fn coefficients(t2: f64) -> (f64, f64, f64, f64) {
 }
 
 /// Angular velocity and acceleration of the motion R = exp(Θ(t)~) R_n from Θ, Θ̇, Θ̈.
-#[inline]
+#[inline(always)]
 pub fn rates(theta: &Vec3, d: &Vec3, dd: &Vec3) -> (Vec3, Vec3) {
     let t2 = theta.norm_squared();
     if t2 == 0.0 {

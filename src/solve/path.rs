@@ -130,8 +130,13 @@ impl Station {
         match self.what {
             What::Time => (state.time, to),
             What::Displacement { node, dof } => {
-                let from = state.nodes[node].moved(&stepper.model.nodes[node].x)[dof];
-                (from, from + stepper.increments[node].q[dof])
+                let start = &state.nodes[node];
+                let from = start.moved(&stepper.model.nodes[node].x)[dof];
+                // What rides has no increment.
+                let moves = stepper.movers.binary_search(&node).is_ok();
+                let way =
+                    if moves { stepper.increments[node].q[dof] } else { stepper.trial[node].seen_from(start)[dof] };
+                (from, from + way)
             }
         }
     }

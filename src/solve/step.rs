@@ -14,7 +14,7 @@ use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::materials::Spent;
 use crate::math::rotation::{inverse_tangent, rates};
-use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::math::{Vec3, Vec6, bottom, join, larger, top};
 use crate::model::{Kind, Model};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, Now, State};
@@ -345,19 +345,22 @@ impl<'a> Stepper<'a> {
 
     /// Residual per unknown; returns its largest entry relative to the forces (moments) it is made of.
     pub(super) fn gather(&mut self, scale: &Scale) -> f64 {
-        let mut largest = [0.0f64; 2];
+        let (mut force, mut moment) = (0.0, 0.0);
         for (r, &(node, dof)) in self.r.iter_mut().zip(&self.plan.directions) {
             *r = self.forces.on_nodes[node][dof];
-            // NaN must not vanish in max().
+            // NaN must not vanish in a comparison.
             let size = if r.is_nan() { f64::INFINITY } else { r.abs() };
-            let kind = usize::from(dof > 2);
-            largest[kind] = largest[kind].max(size);
+            if dof < 3 {
+                force = larger(force, size);
+            } else {
+                moment = larger(moment, size);
+            }
         }
         // Forces and moments apart; one counts against the other over the model's length where its own scale is nil.
-        let force = scale.force.max(1e-3 * scale.moment / self.length);
-        let moment = scale.moment.max(1e-3 * scale.force * self.length);
+        let forces = scale.force.max(1e-3 * scale.moment / self.length);
+        let moments = scale.moment.max(1e-3 * scale.force * self.length);
         let ratio = |size: f64, of: f64| if size == 0.0 { 0.0 } else { size / of.max(f64::MIN_POSITIVE) };
-        ratio(largest[0], force).max(ratio(largest[1], moment))
+        ratio(force, forces).max(ratio(moment, moments))
     }
 
     /// Where all that resists has yielded its derivative may be singular; the elastic matrix then leads on.
@@ -421,10 +424,10 @@ impl<'a> Stepper<'a> {
                 if rows[3 + i] != NONE {
                     increment[3 + i] += dtheta[i];
                 }
-                correction.translation = correction.translation.max(dq[i].abs());
-                correction.rotation = correction.rotation.max(dq[3 + i].abs());
-                motion.translation = motion.translation.max(increment[i].abs());
-                motion.rotation = motion.rotation.max(increment[3 + i].abs());
+                correction.translation = larger(correction.translation, dq[i].abs());
+                correction.rotation = larger(correction.rotation, dq[3 + i].abs());
+                motion.translation = larger(motion.translation, increment[i].abs());
+                motion.rotation = larger(motion.rotation, increment[3 + i].abs());
             }
             if dq.iter().any(|c| !c.is_finite()) {
                 correction.translation = f64::NAN;

@@ -94,10 +94,10 @@ pub fn stretch(a: &Node, b: &Node, start: &[Vec3; 2]) -> Vec3 {
     (b - a) + (b_low - a_low)
 }
 
-/// Change of the length of a vector `d`, |d + u| − |d|, to the digits of `u`; `now`: the length |d + u|.
+/// Change of the length of a vector `d`, |d + u| − |d|, to the digits of `u`; `before`, `now`: the lengths |d| and |d + u|.
 #[inline]
-pub fn elongation(d: &Vec3, u: &Vec3, now: f64) -> f64 {
-    let sum = now + d.norm();
+pub fn elongation(d: &Vec3, before: f64, u: &Vec3, now: f64) -> f64 {
+    let sum = now + before;
     if sum > 0.0 { (2.0 * d + u).dot(u) / sum } else { 0.0 }
 }
 
@@ -222,7 +222,7 @@ mod tests {
         // Digits of 5e5 in two parts: 1e-16 of 6e-11.
         assert!((stretched - own).amax() < 1e-26, "{stretched:?}");
         let d = start[1] - start[0];
-        let more = elongation(&d, &stretched, (d + stretched).norm());
+        let more = elongation(&d, d.norm(), &stretched, (d + stretched).norm());
         assert!((more / (d.dot(&own) / d.norm()) - 1.0).abs() < 1e-12, "{more:e}");
     }
 }

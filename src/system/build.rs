@@ -208,14 +208,8 @@ fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn Block>; 2], Vec<Watched>) {
     for link in &model.links {
         match &link.kind {
             model::LinkKind::Line { law, damping, direction, free_length } => {
-                let line = Link {
-                    nodes: link.ends,
-                    law: law.clone(),
-                    damping: *damping,
-                    direction: *direction,
-                    free_length: *free_length,
-                    start: link.ends.map(|node| x[node]),
-                };
+                let start = link.ends.map(|node| x[node]);
+                let line = Link::new(link.ends, law.clone(), *damping, *direction, *free_length, start);
                 watched.push(Watched::Line(line.clone()));
                 lines.push(line);
             }

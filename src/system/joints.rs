@@ -99,7 +99,7 @@ impl System {
                 }
                 for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
                     let pull = lambda * G;
-                    scale.meet(pull.as_ref());
+                    scale.meet(&pull.data.0);
                     F[node].iter_mut().zip(&pull).for_each(|(f, pull)| *f -= pull);
                 }
             }

@@ -25,7 +25,7 @@ use crate::constraints::attachment::{self, Attachment};
 use crate::constraints::joint::Joint;
 use crate::elements::{Block, Force};
 use crate::materials::Spent;
-use crate::math::{Mat3, Vec3, rotation, skew};
+use crate::math::{Mat3, Vec3, larger, rotation, skew};
 use crate::model::{self, Model};
 use crate::state::{Node, Now};
 use inertia::ConsistentMass;
@@ -139,18 +139,24 @@ pub struct Scale {
 impl Scale {
     #[inline]
     fn meet_force(&mut self, f: &Vec3) {
-        self.force = self.force.max(f.amax());
+        self.force = f.iter().fold(self.force, |most, f| larger(most, f.abs()));
     }
 
     #[inline]
     fn meet_moment(&mut self, m: &Vec3) {
-        self.moment = self.moment.max(m.amax());
+        self.moment = m.iter().fold(self.moment, |most, m| larger(most, m.abs()));
     }
 
     #[inline]
-    fn meet(&mut self, f: &Force) {
-        self.force = self.force.max(f[0].abs()).max(f[1].abs()).max(f[2].abs());
-        self.moment = self.moment.max(f[3].abs()).max(f[4].abs()).max(f[5].abs());
+    fn meet(&mut self, forces: &[Force]) {
+        let mut most = [0.0; 6];
+        for f in forces {
+            for i in 0..6 {
+                most[i] = larger(most[i], f[i].abs());
+            }
+        }
+        self.force = larger(self.force, larger(most[0], larger(most[1], most[2])));
+        self.moment = larger(self.moment, larger(most[3], larger(most[4], most[5])));
     }
 }
 
@@ -214,9 +220,7 @@ impl System {
         F.fill([0.0; 6]);
         let mut scale = Scale::default();
         lanes::subtract_forces(&self.groups, now, &mut forces.lanes, forces.threads, F);
-        for f in F.iter() {
-            scale.meet(f);
-        }
+        scale.meet(F);
         for inertia in &self.inertias {
             let node = &nodes[inertia.node];
             let mut f = inertia.force(node, &loading.field, self.dynamic, &mut scale);
@@ -263,7 +267,7 @@ impl System {
         for (load, factor) in self.loads.iter().zip(&loading.factors) {
             let (f, m) = load_on(load, *factor, &nodes[load.node]);
             let f = [f.x, f.y, f.z, m.x, m.y, m.z];
-            scale.meet(&f);
+            scale.meet(&[f]);
             for (sum, f) in F[load.node].iter_mut().zip(f) {
                 *sum += f;
             }
