@@ -35,7 +35,8 @@ pub struct Energy {
     pub friction: f64,
     /// Dissipated so far in impacts.
     pub impact: f64,
-    /// ½ aᵀ M a: the kinetic energy with accelerations for velocities. Not a column.
+    /// ½ aᵀ M a: the kinetic energy with accelerations for velocities. Not a column; summed with central differences alone, whose
+    /// balance needs it.
     pub of_accelerations: f64,
 }
 
@@ -105,12 +106,11 @@ impl System {
         let is_part = |kind| kind != GroupKind::Link && kind != GroupKind::Contact;
         let (strain, links) = (stored(&is_part) + work.material.stored, stored(&|kind| kind == GroupKind::Link));
         let contact = if self.has_contacts() { stored(&|kind| kind == GroupKind::Contact) } else { 0.0 };
-        let (mut kinetic, mut of_accelerations) = (0.0, 0.0);
+        let mut kinetic = 0.0;
         let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
         for inertia in &self.inertias {
             let node = &nodes[inertia.node];
             kinetic += inertia.kinetic_energy(node);
-            of_accelerations += inertia.kinetic_energy(&Node { v: node.a, omega: node.alpha, ..*node });
             let momentum = inertia.mass * node.v;
             p += momentum;
             l += node.x.cross(&momentum);
@@ -120,7 +120,6 @@ impl System {
         }
         for mass in &self.consistent {
             kinetic += mass.kinetic_energy(nodes, |node| node.v);
-            of_accelerations += mass.kinetic_energy(nodes, |node| node.a);
             let (dp, dl) = mass.momentum(nodes);
             p += dp;
             l += dl;
@@ -150,7 +149,14 @@ impl System {
             contact,
             friction: work.material.friction,
             impact: work.material.impact,
-            of_accelerations,
+            of_accelerations: if self.swings { self.energy_of_accelerations(nodes) } else { 0.0 },
         }
+    }
+
+    fn energy_of_accelerations(&self, nodes: &[Node]) -> f64 {
+        let moving = |node: &Node| Node { v: node.a, omega: node.alpha, ..*node };
+        let of_nodes = self.inertias.iter().map(|inertia| inertia.kinetic_energy(&moving(&nodes[inertia.node])));
+        let of_elements = self.consistent.iter().map(|mass| mass.kinetic_energy(nodes, |node| node.a));
+        of_nodes.chain(of_elements).sum()
     }
 }

@@ -24,6 +24,7 @@ pub use results::{LinkState, SectionPoint, ShellState};
 use crate::constraints::attachment::{self, Attachment};
 use crate::constraints::joint::Joint;
 use crate::elements::{Block, Force};
+use crate::integrators::Scheme;
 use crate::materials::Spent;
 use crate::math::{Mat3, Vec3, larger, rotation, skew};
 use crate::model::{self, Model};
@@ -86,6 +87,8 @@ pub struct System {
     pub plane: Option<usize>,
     /// Inertia does not act in a static analysis; weight does.
     dynamic: bool,
+    /// Energies at a step swing with accelerations: [`energy::Energy::of_accelerations`] is wanted.
+    swings: bool,
 }
 
 /// Loads at the instant of equilibrium.
@@ -188,6 +191,7 @@ impl System {
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: model.damping.mass_factor,
             dynamic: model.analysis.kind == model::Kind::Dynamic,
+            swings: matches!(model.scheme, Scheme::CentralDifference(_)),
         })
     }
 
@@ -209,6 +213,7 @@ impl System {
             gyroscopic: false,
             plane: self.plane,
             dynamic: self.dynamic,
+            swings: self.swings,
         }
     }
 
