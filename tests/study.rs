@@ -421,31 +421,132 @@ fn elastic_energies_of_parts_are_those_of_the_whole() {
     }
 }
 
-#[test]
+/// A study that goes on by itself for minutes, by a shell that does something before.
 #[cfg(unix)]
-fn a_signal_ends_it_with_what_there_is() {
-    let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
-    exact(folder.path());
+fn going_on(folder: &Path, before: &str, arguments: &str) -> std::process::Child {
     let program = assert_cmd::cargo::cargo_bin("rdsolve");
-    let mut child = std::process::Command::new(program)
-        .current_dir(folder.path())
-        .args(["study", "x.toml", "--quiet", "--repeats", "1000", "--budget", "1000"])
+    std::process::Command::new("sh")
+        .current_dir(folder)
+        .args(["-c", &format!("{before} exec '{}' study x.toml --quiet {arguments}", program.display())])
+        .stdin(std::process::Stdio::null())
         .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null())
         .spawn()
-        .unwrap();
-    let first = folder.path().join("x.study/runs/8/result.json");
-    for _ in 0..1000 {
-        if first.exists() {
-            break;
-        }
+        .unwrap()
+}
+
+#[cfg(unix)]
+fn send(signal: &str, child: &std::process::Child) {
+    assert!(std::process::Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+}
+
+/// Whether something comes to be within twenty seconds.
+fn comes(what: impl Fn() -> bool) -> bool {
+    (0..2000).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(10));
+        what()
+    })
+}
+
+#[test]
+#[cfg(unix)]
+fn a_signal_ends_it_with_what_there_is() {
+    for (before, signals) in [("", &["-TERM"][..]), ("", &["-HUP"]), ("trap '' HUP;", &["-HUP", "-TERM"])] {
+        let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
+        exact(folder.path());
+        let mut child = going_on(folder.path(), before, "--repeats 1000 --budget 1000");
+        let first = folder.path().join("x.study/runs/8/result.json");
+        assert!(comes(|| first.exists()));
+        let (last, others) = signals.split_last().unwrap();
+        for signal in others {
+            send(signal, &child);
+            // Ignored as under nohup: runs come and go as before.
+            let written = || fs::metadata(&first).and_then(|found| found.modified()).ok();
+            let before = written();
+            assert!(comes(|| written() > before));
+            assert!(child.try_wait().unwrap().is_none());
+        }
+        send(last, &child);
+        assert_eq!(child.wait().unwrap().code(), Some(75), "{signals:?}");
+        let rows = table(&folder.path().join("x.study/study.csv"));
+        assert!((7..=8).contains(&rows.len()), "{}", rows.len());
+        assert!(fs::read_to_string(folder.path().join("x.study/study.html")).unwrap().contains("stopped by a signal"));
     }
-    std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(75));
-    let rows = table(&folder.path().join("x.study/study.csv"));
-    assert!((7..=8).contains(&rows.len()), "{}", rows.len());
-    assert!(fs::read_to_string(folder.path().join("x.study/study.html")).unwrap().contains("stopped by a signal"));
+}
+
+/// What nothing can catch: the run sees that its study is gone.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_study_that_is_killed_leaves_no_run_behind() {
+    // Runs that end by themselves say nothing: a hundred million steps do not, here.
+    let long = OSCILLATOR.replace("end_time = 1.0", "end_time = 10000.0");
+    let folder = folder(&long);
+    let mut child = going_on(folder.path(), "", "--time-steps 1e-4 --samples 2");
+    let runs = || {
+        let here = fs::canonicalize(folder.path()).unwrap();
+        let processes = fs::read_dir("/proc").unwrap().filter_map(|entry| Some(entry.ok()?.path()));
+        let in_folder = processes.filter(|process| fs::read_link(process.join("cwd")).is_ok_and(|cwd| cwd == here));
+        in_folder.filter(|process| !process.ends_with(child.id().to_string())).count()
+    };
+    let started = folder.path().join("x.study/runs/1/steps.csv");
+    assert!(comes(|| started.exists()) && runs() == 1);
+    send("-KILL", &child);
+    let gone = comes(|| runs() == 0);
+    child.wait().unwrap();
+    assert!(gone, "the run goes on");
+}
+
+#[test]
+fn an_older_study_is_cleared_away() {
+    let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
+    exact(folder.path());
+    let steps =
+        |list: &str| study(folder.path(), &["--time-steps", list, "--repeats", "1", "--quiet", "--overwrite"], 0);
+    steps("0.02,0.01,0.005,0.0025");
+    let at = |name: &str| folder.path().join("x.study").join(name);
+    // What no study has written stays, wherever it lies.
+    let own =
+        ["notes.txt", "runs/7/notes.txt", "runs/mine/result.json", "runs/04b/result.json", "runs/rigid_x/steps.csv"];
+    for name in own {
+        fs::create_dir_all(at(name).parent().unwrap()).unwrap();
+        fs::write(at(name), "mine").unwrap();
+    }
+    fs::create_dir(at("runs/rigid_2")).unwrap();
+    for name in ["rigidify.csv", "runs/rigid_2/result.json.tmp", "runs/rigid_2/run.log"] {
+        fs::write(at(name), "old").unwrap();
+    }
+    steps("0.02,0.01");
+    assert!(at("study.csv").exists() && at("runs/4/result.json").exists());
+    assert!(own.iter().all(|name| fs::read_to_string(at(name)).unwrap() == "mine"));
+    assert_eq!(fs::read_dir(at("runs/7")).unwrap().count(), 1);
+    for name in ["runs/5", "runs/8", "runs/rigid_2", "rigidify.csv"] {
+        assert!(!at(name).exists(), "{name}");
+    }
+    // The advisor's runs are others.
+    fs::write(folder.path().join("x.toml"), STRIP).unwrap();
+    study(folder.path(), &["--rigidify", "--repeats", "1", "--quiet", "--overwrite"], 0);
+    assert!(at("rigidify.csv").exists() && at("runs/as_it_is/result.json").exists());
+    for name in ["runs/1", "runs/2", "study.csv", "study.html", "study.svg"] {
+        assert!(!at(name).exists(), "{name}");
+    }
+}
+
+/// `a.v1.toml` and `a.v2.toml` are two decks.
+#[test]
+fn the_folder_has_the_whole_name_of_the_deck() {
+    let folder = folder(OSCILLATOR);
+    for name in ["a.v1", "a.v2"] {
+        fs::copy(folder.path().join("x.toml"), folder.path().join(format!("{name}.toml"))).unwrap();
+    }
+    for name in ["a.v1", "a.v2"] {
+        let rdsolve = || Command::cargo_bin("rdsolve").unwrap();
+        let deck = format!("{name}.toml");
+        rdsolve().current_dir(folder.path()).args(["run", &deck, "--quiet"]).assert().code(0);
+        let study = ["study", &deck, "--quiet", "--time-steps", "0.02,0.01", "--samples", "50", "--repeats", "1"];
+        rdsolve().current_dir(folder.path()).args(study).assert().code(0);
+        assert!(folder.path().join(format!("{name}.out/result.json")).exists());
+        assert!(folder.path().join(format!("{name}.study/runs/2/result.json")).exists());
+    }
 }
 
 #[test]

@@ -250,9 +250,16 @@ fn is_styled() -> bool {
 
 /// The folder for the results of a deck, which must be new, empty, or given up by `--overwrite`.
 fn output_folder(args: &RunArgs) -> Result<PathBuf, Exit> {
-    let default = || PathBuf::from(args.deck.file_stem().unwrap_or_default()).with_extension("out");
-    let folder = args.output.clone().unwrap_or_else(default);
+    let folder = args.output.clone().unwrap_or_else(|| beside(&args.deck, "out"));
     free_folder(&folder, args.overwrite).map(|()| folder)
+}
+
+/// A folder named after a deck, whose last extension alone goes: `a.v1.toml` and `a.v2.toml` are two.
+fn beside(deck: &Path, extension: &str) -> PathBuf {
+    let mut name = deck.file_stem().unwrap_or_default().to_owned();
+    name.push(".");
+    name.push(extension);
+    PathBuf::from(name)
 }
 
 /// A folder is new, empty, or given up.

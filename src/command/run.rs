@@ -1,6 +1,6 @@
 //! `rdsolve run deck.toml`: read, plan, march, write.
 
-use std::io;
+use std::io::{self, Read};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -18,9 +18,13 @@ use crate::output::result_json::{Counts, Report, Status, Timings, peak_memory_by
 use crate::output::{Files, wanted};
 use crate::solve::{Frame, Observer, Outcome, Run};
 use crate::state::State;
+use crate::study::LIFELINE;
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Exit> {
     let began = Instant::now();
+    if std::env::var_os(LIFELINE).is_some() {
+        std::thread::spawn(end_with_input);
+    }
     let mut loaded = load(&args.deck, &args.sets)?;
     let folder = output_folder(args)?;
     if !args.quiet {
@@ -142,7 +146,16 @@ fn compute(
     Ok(report)
 }
 
-/// Interrupt and termination raise the flag: the run ends after the step in hand, with whole files.
+/// Nobody is left who wants the run of a study that is gone: it ends at once, as a study itself ends its runs.
+fn end_with_input() {
+    let mut input = io::stdin().lock();
+    let mut bytes = [0; 64];
+    // Zero bytes are the end, and so is an input that cannot be read.
+    while input.read(&mut bytes).is_ok_and(|count| count > 0) {}
+    std::process::exit(i32::from(Exit::Stopped as u8));
+}
+
+/// Interrupt, termination and the loss of the terminal raise the flag: the run ends after the step in hand, with whole files.
 pub(super) fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
     // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
     // two at the same moment.
@@ -151,7 +164,20 @@ pub(super) fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
         signal_hook::flag::register(signal, Arc::clone(flag))?;
     }
+    #[cfg(unix)]
+    if !is_ignored(signal_hook::consts::SIGHUP) {
+        signal_hook::flag::register(signal_hook::consts::SIGHUP, Arc::clone(flag))?;
+    }
     Ok(())
+}
+
+/// As `nohup` asks for; also where nobody tells, so that nothing is caught that was to be ignored.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 fn judge(outcome: Outcome, expectations: &[Verdict]) -> io::Result<(Status, String)> {

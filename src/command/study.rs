@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use clap::Args;
 
 use super::run::stop_on_signals;
-use super::{Exit, MOST_THREADS, complain, counted, free_folder, load_with, say, show};
+use super::{Exit, MOST_THREADS, beside, complain, counted, free_folder, load_with, say, show};
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::plan::Plan;
@@ -101,10 +101,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
         names.push(name.to_owned());
     }
     let loaded = load_with(&args.deck, &sets, names)?;
-    let folder = match &args.output {
-        Some(folder) => folder.clone(),
-        None => PathBuf::from(args.deck.file_stem().unwrap_or_default()).with_extension("study"),
-    };
+    let folder = args.output.clone().unwrap_or_else(|| beside(&args.deck, "study"));
     free_folder(&folder, args.overwrite)?;
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);

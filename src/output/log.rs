@@ -6,6 +6,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+pub const NAME: &str = "run.log";
+
 /// Lines reach the file at once: they are few, and the last ones matter when a run dies.
 pub struct Log {
     path: PathBuf,
@@ -17,7 +19,7 @@ pub struct Log {
 impl Log {
     /// A new log, or the old one continued.
     pub fn open(dir: &Path, resume: bool) -> io::Result<Log> {
-        let path = dir.join("run.log");
+        let path = dir.join(NAME);
         let mut options = OpenOptions::new();
         options.create(true).write(true).append(resume).truncate(!resume);
         let file = std::fs::create_dir_all(dir).and_then(|()| options.open(&path)).map_err(|e| at(&path, e))?;

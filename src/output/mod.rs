@@ -175,24 +175,47 @@ fn yields(model: &Model) -> bool {
         || model.shells.iter().any(|shell| shell.yielding.is_some())
 }
 
+/// Files that a run writes, besides those of fields and its log.
+const OURS: [&str; 14] = [
+    "nodes.csv",
+    "bodies.csv",
+    "energy.csv",
+    "links.csv",
+    "contacts.csv",
+    "reactions.csv",
+    "sections.csv",
+    "shells.csv",
+    "layers.csv",
+    "parts.csv",
+    "steps.csv",
+    "fields.csv",
+    "fields.pvd",
+    "result.json",
+];
+
 /// Takes away results of an earlier run, so that none of them is taken for one of this; other files stay.
 fn remove_stale(dir: &Path) -> io::Result<()> {
-    const OURS: [&str; 14] = [
-        "nodes.csv",
-        "bodies.csv",
-        "energy.csv",
-        "links.csv",
-        "contacts.csv",
-        "reactions.csv",
-        "sections.csv",
-        "shells.csv",
-        "layers.csv",
-        "parts.csv",
-        "steps.csv",
-        "fields.csv",
-        "fields.pvd",
-        "result.json",
-    ];
+    remove(dir, &is_ours)
+}
+
+fn is_ours(name: &str) -> bool {
+    OURS.contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu"))
+}
+
+/// Takes away what an earlier run has left, and its folder unless something else is in it.
+pub(crate) fn remove_run(dir: &Path) -> io::Result<()> {
+    remove(dir, &|name| name == log::NAME || is_ours(name.strip_suffix(PART).unwrap_or(name)))?;
+    remove_empty(dir)
+}
+
+/// Takes away a folder with nothing in it.
+pub(crate) fn remove_empty(dir: &Path) -> io::Result<()> {
+    let mut entries = fs::read_dir(dir).map_err(|e| at(dir, e))?;
+    if entries.next().is_none() { fs::remove_dir(dir).map_err(|e| at(dir, e)) } else { Ok(()) }
+}
+
+/// Takes away the files of these names.
+pub(crate) fn remove(dir: &Path, ours: &dyn Fn(&str) -> bool) -> io::Result<()> {
     for entry in fs::read_dir(dir).map_err(|e| at(dir, e))? {
         let entry = entry.map_err(|e| at(dir, e))?;
         let path = entry.path();
@@ -201,7 +224,7 @@ fn remove_stale(dir: &Path) -> io::Result<()> {
             continue;
         }
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        if OURS.contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu")) {
+        if ours(name) {
             fs::remove_file(&path).map_err(|e| at(&path, e))?;
         }
     }
@@ -213,10 +236,13 @@ pub(crate) fn at(path: &Path, error: io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
+/// At the end of the name of a file that is not whole yet.
+const PART: &str = ".tmp";
+
 /// Writes a small file so that a reader sees the old one or the new one, never a part.
 pub(crate) fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
     let mut name = path.as_os_str().to_owned();
-    name.push(".tmp");
+    name.push(PART);
     fs::write(&name, text).and_then(|()| fs::rename(&name, path)).map_err(|e| at(path, e))
 }
 

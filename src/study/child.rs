@@ -14,6 +14,9 @@ const GLANCE: Duration = Duration::from_millis(50);
 /// Exit code of a run that a signal has ended.
 const STOPPED: i32 = 75;
 
+/// Set in the environment of a run: it ends when its standard input does, which is when the study is gone, however it went.
+pub const LIFELINE: &str = "RDSOLVE_LIFELINE";
+
 /// A process that has ended.
 pub struct Ended {
     /// `None`: by a signal.
@@ -40,9 +43,11 @@ impl Program {
         sets.iter().for_each(|set| {
             command.arg("--set").arg(set);
         });
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+        command.env(LIFELINE, "1").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
         let began = Instant::now();
         let mut child = command.spawn().map_err(|error| at(&self.path, error))?;
+        // Waiting for the process would close it.
+        let lifeline = child.stdin.take();
         let (sender, ended) = channel();
         let pipe = child.stderr.take();
         // The pipe closes when the process ends: its reader knows the moment without asking again and again.
@@ -65,6 +70,7 @@ impl Program {
             }
         };
         let status = child.wait()?;
+        drop(lifeline);
         let said = reader.join().unwrap_or_default();
         // One at a terminal gets the signal itself, and may be first.
         if stopped || stop.load(Ordering::Relaxed) || status.code() == Some(STOPPED) {

@@ -18,6 +18,7 @@ mod rows;
 mod runs;
 mod table;
 
+pub use child::LIFELINE;
 pub use ladder::{Ladder, Line};
 pub use order::{Cheapest, Order};
 pub use reference::Reference;
@@ -96,6 +97,7 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
         }
     };
     fs::create_dir_all(&options.folder).map_err(|error| crate::output::at(&options.folder, error))?;
+    runs::clear(&options.folder)?;
     let (mut runs, stopped) = runs::climb(&ladder, &quantities, options, stop)?;
     let reference = match given {
         Some(given) => Ok(given.into()),

@@ -5,7 +5,7 @@ use super::child::{Ended, Program};
 use super::ladder::{SAMPLES, output};
 use super::progress::Progress;
 use super::rows::{field, maybe};
-use super::runs::{Run, Status, program};
+use super::runs::{AS_IT_IS, RIGID, RUNS, Run, Status, clear, program};
 use super::table::seconds;
 use super::{Fault, Options, columns, history};
 use crate::deck::Deck;
@@ -67,6 +67,8 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     if !problems.is_empty() {
         return Err(Fault::Deck(problems));
     }
+    std::fs::create_dir_all(&options.folder).map_err(|error| crate::output::at(&options.folder, error))?;
+    clear(&options.folder)?;
     let end = model.analysis.end_time;
     // Samples closer together than the deck's steps would shorten these.
     let steps = (end / model.analysis.time_step + 1e-9).floor().max(1.0);
@@ -89,7 +91,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
             if repeat > 0 && runs[index].as_ref().is_none_or(enough) {
                 continue;
             }
-            let folder = if index == 0 { "runs/as_it_is".into() } else { format!("runs/rigid_{index}") };
+            let folder = if index == 0 { format!("{RUNS}/{AS_IT_IS}") } else { format!("{RUNS}/{RIGID}{index}") };
             let place = options.folder.join(&folder);
             let sets: Vec<String> = options.sets.iter().chain(own).chain(&common).cloned().collect();
             let Some(ended) = run(&program, &sets, &place, stop)? else {

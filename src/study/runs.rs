@@ -8,11 +8,20 @@ use super::progress::Progress;
 use super::reference::Reference;
 use super::{Fault, Options};
 use crate::model::study::Quantity;
+use crate::output;
 use serde_json::Value;
 use std::fs;
 use std::io;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+
+/// Below the folder of a study, that of its runs: one for each setting, by number, ...
+pub const RUNS: &str = "runs";
+/// ... or the deck as it is, and with a part rigid, by number.
+pub const AS_IT_IS: &str = "as_it_is";
+pub const RIGID: &str = "rigid_";
+/// What a study writes besides.
+const FILES: [&str; 4] = ["study.csv", "study.svg", "study.html", "rigidify.csv"];
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +122,7 @@ pub fn climb(
         for (index, (line, rung, sets)) in jobs.iter().enumerate() {
             let label = format!("{}, {}", ladder.lines[*line].label, crate::names::short(*rung));
             progress.show(&label, repeat + 1, options.repeats);
-            let folder = format!("runs/{}", index + 1);
+            let folder = format!("{RUNS}/{}", index + 1);
             let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
             if repeat > 0 && runs.get(index).is_none_or(enough) {
                 progress.did(work(*line, *rung));
@@ -140,6 +149,27 @@ pub fn climb(
     }
     progress.finish();
     Ok((runs, stopped))
+}
+
+/// Takes away what an older study has left in a folder that is given up, by the names that its files and runs have; what else
+/// is there stays.
+pub fn clear(folder: &Path) -> io::Result<()> {
+    let has = |number: &str| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+    let is_run = |name: &str| has(name) || name == AS_IT_IS || name.strip_prefix(RIGID).is_some_and(has);
+    output::remove(folder, &|name| FILES.contains(&name))?;
+    let runs = folder.join(RUNS);
+    // A link was put there by somebody.
+    let is_folder = |path: &Path| fs::symlink_metadata(path).is_ok_and(|found| found.is_dir());
+    if !is_folder(&runs) {
+        return Ok(());
+    }
+    for entry in fs::read_dir(&runs).map_err(|error| output::at(&runs, error))? {
+        let entry = entry.map_err(|error| output::at(&runs, error))?;
+        if entry.file_name().to_str().is_some_and(is_run) && is_folder(&entry.path()) {
+            output::remove_run(&entry.path())?;
+        }
+    }
+    output::remove_empty(&runs)
 }
 
 /// This program itself, for the deck of a study.
@@ -218,8 +248,8 @@ pub fn spread(runs: &[Run]) -> Option<f64> {
 
 fn result(place: &Path) -> io::Result<Value> {
     let path = place.join("result.json");
-    let bytes = fs::read(&path).map_err(|error| crate::output::at(&path, error))?;
-    serde_json::from_slice(&bytes).map_err(|error| crate::output::at(&path, error.into()))
+    let bytes = fs::read(&path).map_err(|error| output::at(&path, error))?;
+    serde_json::from_slice(&bytes).map_err(|error| output::at(&path, error.into()))
 }
 
 fn reason(place: &Path) -> String {
