@@ -592,11 +592,19 @@ fn wrong_references_are_said() {
         text.iter().for_each(|text| fs::write(&path, text).unwrap());
         study(folder.path(), &arguments, 3).1
     };
-    let none = said(None);
-    assert!(none.contains("the reference `exact.csv` cannot be read"), "{none}");
+    assert_snapshot!("no_reference", said(None));
     assert_snapshot!("no_column", said(Some("t,displacment,v\n0,0,1\n")));
     assert_snapshot!("no_time", said(Some("displacement,mass.vx\n0,1\n")));
     assert_snapshot!("no_number", said(Some("t,displacement,mass.vx\n0,0,1\n0.02,,0.9\n")));
+    // The line is the file's own, whatever is blank or quoted before it; a column may be missing besides.
+    let many = "\u{feff}time,displacement,note\n\n0,nan,\"a\nb\"\r\n\n0.02,0.1\n 0.02 , 1e999,\"c\"\n0.01,0.1,\n0.03\n";
+    assert_snapshot!("many_faults", said(Some(many)));
+    assert_snapshot!("empty", said(Some("")));
+    let lines: String = (0..30).map(|k| format!("{k},x,0\n")).collect();
+    let said_of_many = said(Some(&format!("t,displacement,mass.vx\n{lines}")));
+    assert_eq!(said_of_many.matches("no finite number").count(), 20);
+    assert!(said_of_many.contains("may have more errors; correct these first"), "{said_of_many}");
+    assert_snapshot!("last_row", said(Some("t,displacement,mass.vx\n0,0,1\n0.5,0.1,0.9\n\n")));
     assert_snapshot!("no_row", said(Some("t,displacement,mass.vx\n0,0,1\n0.02,0.1,0.9\n")));
     let rigid = study(folder.path(), &["--rigidify", "--overwrite"], 3).1;
     assert!(rigid.contains("the deck has no part that deforms"), "{rigid}");

@@ -8,7 +8,7 @@ mod abaqus;
 mod draft;
 mod gmsh;
 mod normals;
-mod text;
+pub mod text;
 
 use crate::diagnostic::Diagnostic;
 use crate::math::Vec3;

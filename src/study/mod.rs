@@ -87,7 +87,8 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);
     let base = options.deck.parent().map(PathBuf::from).unwrap_or_default();
-    let given = reference::read(model, &asked, &quantities, &base);
+    let key = deck.study.as_ref().and_then(|study| study.reference.as_ref()).map(|file| &file.span);
+    let given = reference::read(model, &asked, &quantities, &base, key);
     let samples = given.as_ref().ok().and_then(|given| given.as_ref()).map(|given| given.samples);
     let ladder = Ladder::new(model, deck, &asked, &quantities, samples);
     let (given, ladder) = match (given, ladder) {
