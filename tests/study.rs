@@ -306,6 +306,13 @@ fn runs_that_fail_are_listed_as_failed() {
     assert!(rows[2]["reason"].contains("`least_step` is above `time_step`"), "{text}");
     assert!(text.contains("failed: `least_step` is above"), "{text}");
     assert!(rows[2]["error"].is_empty() && rows[2]["loop_s"].is_empty());
+    // One setting has an order with none.
+    let folder = self::folder(&format!("{OSCILLATOR}{KEYS}"));
+    exact(folder.path());
+    let refused = ["--set", "analysis.least_step=0.003", "--time-steps", "0.02,0.0025,0.00125", "--repeats", "1"];
+    let (text, _) = study(folder.path(), &refused, 0);
+    assert_eq!(text.matches("no order: no two settings next to each other came to their end").count(), 2, "{text}");
+    let folder = self::folder(&deck);
     let (text, said) = study(folder.path(), &["--time-steps", "0.02", "--samples", "10", "-o", "none", "--quiet"], 4);
     assert!(text.contains("not-converged: at t = "), "{text}");
     assert!(text.contains("no reference: too few runs came to their end"), "{text}");

@@ -74,8 +74,8 @@ pub struct Found {
     pub runs: Vec<Run>,
     /// Or why there is none, in words.
     pub reference: Result<Reference, String>,
-    /// Of each line; `None`: fewer than two runs with an error.
-    pub orders: Vec<Option<Order>>,
+    /// Of each line; or why there is none, in words.
+    pub orders: Vec<Result<Order, &'static str>>,
     /// For each error asked for, by cost; empty where no line comes to it.
     pub cheapest: Vec<(f64, Vec<Cheapest>)>,
     /// A signal ended it.

@@ -1,7 +1,7 @@
 //! What a line of runs says: its order where it has one, and what an error costs.
 
 use super::ladder::Ladder;
-use super::runs::Run;
+use super::runs::{Run, Status};
 
 /// Local orders that agree so far are of one slope.
 const SLOPE: f64 = 0.3;
@@ -35,19 +35,32 @@ pub struct Cheapest {
     pub at_the_top: bool,
 }
 
-/// Time step and error of the runs that have one well above that of the reference.
-fn points(runs: &[Run], line: usize) -> Vec<(&Run, f64)> {
-    let of_line = runs.iter().filter(move |run| run.line == line && run.resolved);
-    of_line.filter_map(|run| Some((run, run.error.filter(|error| *error > 0.0)?))).collect()
-}
-
-pub fn orders(ladder: &Ladder, runs: &[Run]) -> Vec<Option<Order>> {
+/// Of each line; or why it has none.
+pub fn orders(ladder: &Ladder, runs: &[Run]) -> Vec<Result<Order, &'static str>> {
     let of = |line| {
-        let points: Vec<(f64, f64)> =
-            points(runs, line).iter().map(|(run, error)| (run.rung.ln(), error.ln())).collect();
-        order(&points)
+        let of_line: Vec<&Run> = runs.iter().filter(|run| run.line == line).collect();
+        of_rungs(ladder.rungs(line), &of_line)
     };
     (0..ladder.lines.len()).map(of).collect()
+}
+
+/// Over settings next to each other: one that failed, or was not come to, parts the line.
+fn of_rungs(rungs: &[f64], runs: &[&Run]) -> Result<Order, &'static str> {
+    let run = |rung: &f64| runs.iter().find(|run| run.rung == *rung && run.status == Status::Done);
+    // Errors well above that of the reference.
+    let point = |rung: &f64| {
+        let run = run(rung).filter(|run| run.resolved)?;
+        Some((run.rung.ln(), run.error.filter(|error| *error > 0.0)?.ln()))
+    };
+    let points: Vec<Option<(f64, f64)>> = rungs.iter().map(point).collect();
+    // The last of the longest.
+    let stretches = points.split(Option::is_none).map(|of| of.iter().copied().flatten().collect::<Vec<_>>());
+    let best = stretches.filter_map(|points| order(&points)).max_by_key(|order| order.runs);
+    let in_a_row = || rungs.windows(2).any(|pair| pair.iter().all(|rung| run(rung).is_some()));
+    best.ok_or_else(|| match rungs.iter().all(|rung| run(rung).is_some()) || in_a_row() {
+        true => "no steady order",
+        false => "no order: no two settings next to each other came to their end",
+    })
 }
 
 /// Of (ln h, ln e), h falling.
@@ -92,14 +105,15 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 /// and log time, never beyond the ladder.
 pub fn cheapest(ladder: &Ladder, runs: &[Run], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
     let of = |error: f64| {
-        let mut found: Vec<Cheapest> = (0..ladder.lines.len()).filter_map(|line| cost(runs, line, error)).collect();
+        let lines = 0..ladder.lines.len();
+        let mut found: Vec<Cheapest> = lines.filter_map(|line| cost(ladder.rungs(line), runs, line, error)).collect();
         found.sort_by(|a, b| a.loop_s.total_cmp(&b.loop_s));
         (error, found)
     };
     wanted.iter().map(|&error| of(error)).collect()
 }
 
-fn cost(runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
+fn cost(rungs: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
     // Bounds count: what they hold is at least as good.
     let points: Vec<(&Run, f64)> =
         runs.iter().filter(|run| run.line == line).filter_map(|run| Some((run, run.error?))).collect();
@@ -112,10 +126,11 @@ fn cost(runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
         at_the_top,
     };
     let mut best = reached.map(|(run, _)| at(run, false)).min_by(|a, b| a.loop_s.total_cmp(&b.loop_s))?;
-    best.at_the_top = points.first().is_some_and(|(run, _)| run.rung == best.rung);
+    best.at_the_top = rungs.first() == Some(&best.rung);
     for pair in points.windows(2) {
         let ((coarse, above), (fine, below)) = (pair[0], pair[1]);
-        if !(above > wanted && below <= wanted && below > 0.0) {
+        let neighbours = rungs.windows(2).any(|pair| pair == [coarse.rung, fine.rung]);
+        if !(neighbours && above > wanted && below <= wanted && below > 0.0) {
             continue;
         }
         let part = (above / wanted).ln() / (above / below).ln();
@@ -140,6 +155,7 @@ pub fn local(before: Option<&Run>, run: &Run) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::runs::Measured;
     use super::*;
 
     fn line(errors: &[f64]) -> Vec<(f64, f64)> {
@@ -159,5 +175,40 @@ mod tests {
         assert!((found.floor.unwrap() - 0.0119).abs() < 1e-9);
         assert_eq!(order(&line(&[1.0, 1.1, 0.95])), None);
         assert_eq!(order(&line(&[1.0])), None);
+    }
+
+    #[test]
+    fn settings_that_failed_part_a_line() {
+        let rungs = [0.08, 0.04, 0.02, 0.01, 0.005];
+        let run = |rung: f64, status| Run {
+            line: 0,
+            rung,
+            folder: String::new(),
+            status,
+            reason: String::new(),
+            measured: Measured::default(),
+            loop_s: 1.0,
+            process_s: 1.0,
+            times: vec![1.0],
+            error: (status == Status::Done).then_some(rung * rung),
+            errors: Vec::new(),
+            resolved: status == Status::Done,
+            history: Vec::new(),
+        };
+        let of = |words: &str| {
+            let status = |word| if word == 'd' { Status::Done } else { Status::NotConverged };
+            // Those behind the words were never run.
+            let runs: Vec<Run> = rungs.iter().zip(words.chars()).map(|(&rung, word)| run(rung, status(word))).collect();
+            of_rungs(&rungs, &runs.iter().collect::<Vec<_>>()).map(|order| (order.runs, order.from, order.to))
+        };
+        let (near, exact) = (|a: f64, b: f64| (a / b - 1.0).abs() < 1e-12, of("ddddd").unwrap());
+        assert!(exact.0 == 5 && near(exact.1, 0.08) && near(exact.2, 0.005), "{exact:?}");
+        // Errors of the first and the third say nothing of what lies between them.
+        let none = Err("no order: no two settings next to each other came to their end");
+        assert_eq!([of("dndnd"), of("d"), of("nndn"), of("")], [none; 4]);
+        let parted = of("ddndd").unwrap();
+        assert!(parted.0 == 2 && near(parted.1, 0.01) && near(parted.2, 0.005), "{parted:?}");
+        let cut = of("ddd").unwrap();
+        assert!(cut.0 == 3 && near(cut.2, 0.02), "{cut:?}");
     }
 }

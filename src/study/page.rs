@@ -10,7 +10,7 @@ pub fn page(found: &Found, picture: &str) -> String {
         .orders
         .iter()
         .enumerate()
-        .map(|(line, order)| vec![label(line), table::order(&found.ladder.lines[line], order.as_ref())])
+        .map(|(line, order)| vec![label(line), table::order(&found.ladder.lines[line], order)])
         .collect();
     let mut cheapest = Vec::new();
     for (wanted, list) in &found.cheapest {

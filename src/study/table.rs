@@ -60,8 +60,11 @@ pub fn rung(line: &Line, rung: f64) -> String {
     if line.automatic { format!("tol {}", short(rung)) } else { short(rung) }
 }
 
-pub fn order(line: &Line, order: Option<&Order>) -> String {
-    let Some(order) = order else { return "no steady order".to_owned() };
+pub fn order(line: &Line, order: &Result<Order, &str>) -> String {
+    let order = match order {
+        Ok(order) => order,
+        Err(reason) => return (*reason).to_owned(),
+    };
     let (from, to) = (short(order.from), short(order.to));
     let floor = order.floor.map_or(String::new(), |floor| format!("; levels off at {floor:.1e}"));
     let caution = if order.runs < 3 { ", which is few" } else { "" };
@@ -117,7 +120,7 @@ pub fn text(found: &Found) -> String {
         .orders
         .iter()
         .enumerate()
-        .map(|(line, of)| vec![format!("  {}", label(line)), order(&found.ladder.lines[line], of.as_ref())])
+        .map(|(line, of)| vec![format!("  {}", label(line)), order(&found.ladder.lines[line], of)])
         .collect();
     text += &columns(&orders, 1);
     for (wanted, list) in &found.cheapest {
