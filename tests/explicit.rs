@@ -4,7 +4,7 @@
 mod support;
 
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
-use rdsolve::diagnostic::Source;
+use rdsolve::diagnostic::{Diagnostic, Source};
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Run, Wanted};
@@ -486,9 +486,20 @@ fn massless_directions_are_named() {
     let model = deck("right_angle_cantilever", &sets);
     let system = System::new(&model).unwrap();
     let plan = Plan::new(&model, &system, 1);
-    let problems: Vec<String> = plan.massless(&model, &system).into_iter().map(|problem| problem.message).collect();
+    let problems = plan.massless(&model, &system);
     assert_eq!(problems.len(), 2, "{problems:?}");
-    assert!(problems[0].contains("`elbow` has no mass in direction rx"), "{problems:?}");
+    assert!(problems[0].message.contains("`elbow` has no mass in direction rx"), "{problems:?}");
+    // Each at the name of its point; a node between them at that of the beam.
+    let text = std::fs::read_to_string("decks/right_angle_cantilever/deck.toml").unwrap();
+    let places = |problems: &[Diagnostic]| -> Vec<String> {
+        problems.iter().map(|problem| text[problem.place.clone().expect("a place")].to_owned()).collect()
+    };
+    assert_eq!(places(&problems), ["elbow", "tip"]);
+    let finer = deck("right_angle_cantilever", &[&sets[..1], &["beams.legs.elements=2"], &sets[2..]].concat());
+    let system = System::new(&finer).unwrap();
+    let inner = places(&Plan::new(&finer, &system, 1).massless(&finer, &system));
+    assert!(inner.contains(&"\"legs\"".to_owned()), "{inner:?}");
+    let system = System::new(&model).unwrap();
     let text = plan.explain(&model, &system);
     assert!(text.contains("nothing is factorised"), "{text}");
 }

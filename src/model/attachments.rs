@@ -69,7 +69,8 @@ impl<'d> Builder<'d> {
             self.error_with::<()>(spot.span, message, "leave out `method`, or write \"multipliers\"");
         } else {
             self.rides.insert(spot.node, (self.model.riders.len(), spot.span.clone()));
-            self.model.riders.push(Rider { node: spot.node, master, dofs });
+            let place = Some([spot.span.start, spot.span.end]);
+            self.model.riders.push(Rider { node: spot.node, master, dofs, place });
         }
     }
 

@@ -63,6 +63,7 @@ pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnost
     b.output();
     b.study();
     b.check();
+    b.place_nodes();
     b.drop_unused();
     let sound = !b.problems.iter().any(Diagnostic::is_error);
     (sound.then_some(b.model), super::fold::fold(b.problems))
@@ -364,7 +365,7 @@ impl<'d> Builder<'d> {
 
     /// A new node at rest.
     pub fn node(&mut self, label: String, named: bool, x: Vec3) -> usize {
-        self.model.nodes.push(Node { label, named, x, v: Vec3::zeros(), omega: Vec3::zeros() });
+        self.model.nodes.push(Node { label, named, x, v: Vec3::zeros(), omega: Vec3::zeros(), place: None });
         self.acts.push([false; 6]);
         self.model.nodes.len() - 1
     }
@@ -381,7 +382,7 @@ impl<'d> Builder<'d> {
     pub fn rider(&mut self, label: String, x: Vec3, master: usize, place: &Span) -> usize {
         let node = self.node(label, false, x);
         self.rides.insert(node, (self.model.riders.len(), place.clone()));
-        self.model.riders.push(super::Rider { node, master, dofs: [true; 6] });
+        self.model.riders.push(super::Rider { node, master, dofs: [true; 6], place: Some([place.start, place.end]) });
         node
     }
 }

@@ -211,6 +211,8 @@ pub struct Node {
     /// Initial velocity and angular velocity, global components.
     pub v: Vec3,
     pub omega: Vec3,
+    /// Where the deck names it, or the part that it belongs to: first byte, and the one after the last.
+    pub place: Option<[usize; 2]>,
 }
 
 /// A rigid body: a node at its centre of mass, with mass and inertia.
@@ -386,6 +388,8 @@ pub struct Rider {
     pub master: usize,
     /// ux, uy, uz, rx, ry, rz: which are taken from the master.
     pub dofs: [bool; 6],
+    /// Where the deck attaches it: first byte, and the one after the last.
+    pub place: Option<[usize; 2]>,
 }
 
 /// Two nodes held together by multipliers (57).

@@ -69,6 +69,36 @@ impl<'d> Builder<'d> {
         }
     }
 
+    /// Tells nodes where the deck names them, for what is found out about a sound model.
+    pub fn place_nodes(&mut self) {
+        let deck = self.deck;
+        let beams =
+            deck.beams.iter().map(|part| part.name.as_ref().or(part.group.as_ref()).map_or(&part.span, |at| &at.span));
+        let bars = deck.bars.iter().map(|part| part.name.as_ref().map_or(&part.span, |at| &at.span));
+        let shells =
+            deck.shells.iter().map(|part| part.name.as_ref().or(part.group.as_ref()).map_or(&part.span, |at| &at.span));
+        let of_parts =
+            beams.zip(&self.beam_nodes).chain(bars.zip(&self.bar_nodes)).chain(shells.zip(&self.shell_nodes));
+        let nodes = &mut self.model.nodes;
+        let place = |span: &Span| Some([span.start, span.end]);
+        for (span, of_part) in of_parts {
+            for &node in of_part {
+                nodes[node].place = nodes[node].place.or(place(span));
+            }
+        }
+        for rider in &self.model.riders {
+            nodes[rider.node].place = rider.place;
+        }
+        // Names of their own before all others.
+        for (named, span) in self.places.values() {
+            match *named {
+                Place::Point(node) => nodes[node].place = place(span),
+                Place::Body(body) => nodes[self.model.bodies[body].node].place = place(span),
+                _ => {}
+            }
+        }
+    }
+
     /// Takes a name for something; names of points, bodies, sets, beams, bars, shells, links and joints are all different.
     pub fn name(&mut self, name: &'d At<String>, place: Place) {
         if name.is_empty() {

@@ -310,7 +310,8 @@ impl<'d> Builder<'d> {
             return self.error_with(owner.span, message, "make one body of them: list both in its `parts`");
         }
         self.rides.insert(node, (self.model.riders.len(), owner.span.clone()));
-        self.model.riders.push(Rider { node, master, dofs: [true; 6] });
+        let place = Some([owner.span.start, owner.span.end]);
+        self.model.riders.push(Rider { node, master, dofs: [true; 6], place });
         Some(())
     }
 }

@@ -62,7 +62,7 @@ impl Plan {
                     "give it inertia (rotary_inertia of beams, inertia of bodies and masses), or take an implicit scheme"
                 }
             };
-            Diagnostic::error(message).hint(hint)
+            placed(Diagnostic::error(message).hint(hint), model.nodes[node].place)
         };
         let mut errors: Vec<Diagnostic> = missing.iter().take(MOST).map(error).collect();
         if missing.len() > MOST {
@@ -94,8 +94,15 @@ impl Plan {
             let [node, master] = [rider.node, rider.master].map(|node| &model.nodes[node].label);
             let message =
                 format!("`{node}` turns with `{master}` about some axes only, which \"runge-kutta\" does not follow");
-            Diagnostic::error(message).hint("a joint of kind \"hinge\", or another scheme")
+            placed(Diagnostic::error(message).hint("a joint of kind \"hinge\", or another scheme"), rider.place)
         };
         half.take(MOST).map(error).collect()
+    }
+}
+
+fn placed(error: Diagnostic, place: Option<[usize; 2]>) -> Diagnostic {
+    match place {
+        Some([start, end]) => error.at(&(start..end)),
+        None => error,
     }
 }

@@ -102,7 +102,7 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
 
 pub fn node(m: &mut Model, x: Vec3) -> usize {
     let label = format!("n{}", m.nodes.len());
-    m.nodes.push(Node { label, named: true, x, v: Vec3::zeros(), omega: Vec3::zeros() });
+    m.nodes.push(Node { label, named: true, x, v: Vec3::zeros(), omega: Vec3::zeros(), place: None });
     m.nodes.len() - 1
 }
 
@@ -117,7 +117,7 @@ pub fn mass(m: &mut Model, node: usize, mass: f64, inertia: Mat3) {
 }
 
 pub fn ride(m: &mut Model, node: usize, master: usize, dofs: [bool; 6]) {
-    m.riders.push(Rider { node, master, dofs });
+    m.riders.push(Rider { node, master, dofs, place: None });
 }
 
 /// A section whose stiffnesses are of the same order, so that all of them show.
