@@ -187,6 +187,16 @@ fn quantities() {
     );
     assert_snapshot!("theta", portal_and("[integrator]\ntheta = 1.2"));
     assert_snapshot!("low_theta", portal_and("[integrator]\ntheta = 0.9"));
+    // Of order 8 a tolerance asks for far fewer steps.
+    let of = |tolerance: &str, scheme: &str| {
+        let text = format!("time_step = \"auto\"\nerror_tolerance = {tolerance}\n[integrator]\nscheme = \"{scheme}\"");
+        portal(&[("time_step = 1e-4", &text)])
+    };
+    assert_snapshot!("tiny_tolerance", of("1e-12", "generalized-alpha"));
+    for tolerance in ["0.0", "-1e-3", "inf", "nan"] {
+        assert!(of(tolerance, "bathe").starts_with("error: "), "{tolerance}");
+    }
+    assert!(of("1e-12", "runge-kutta").is_empty() && of("1e-9", "bathe").is_empty());
     assert_snapshot!(
         "stray_keys",
         portal(&[

@@ -18,6 +18,8 @@ const HALVINGS: i32 = 20;
 const FIRST_STEP: f64 = 5e-3;
 /// More steps are a slip of the keyboard.
 const MOST_STEPS: f64 = 1e9;
+/// Steps of a run whose error is to be τ are about so many over τ^(1/p), p the order of the scheme.
+const STEPS: f64 = 20.0;
 
 impl<'d> Builder<'d> {
     pub fn analysis(&mut self) {
@@ -33,6 +35,12 @@ impl<'d> Builder<'d> {
             self.scheme(integrator);
         }
         self.can_follow_error();
+        if let (Some(tolerance), Some(analysis)) = (self.model.analysis.error_tolerance, &self.deck.analysis)
+            && let Some(at) = &analysis.value.error_tolerance
+        {
+            let scheme = self.model.scheme.clone();
+            self.can_be_kept("error_tolerance", tolerance, &scheme, &at.span);
+        }
         if let Some(iteration) = &self.deck.iteration {
             self.iteration(iteration);
         }
@@ -121,6 +129,18 @@ impl<'d> Builder<'d> {
         {
             let message = format!("`time_step` is \"auto\", but Newmark with gamma = {gamma} is of first order");
             self.error_with::<()>(&at.span, message, "leave gamma at 0.5, or use \"generalized-alpha\"");
+        }
+    }
+
+    /// Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p), the sum may be more than the tolerance. (A mass on
+    /// a spring ends at 7e-11, whatever is asked of a scheme of second order.)
+    pub(super) fn can_be_kept(&mut self, key: &str, tolerance: f64, scheme: &Scheme, place: &Span) {
+        let order = scheme.order() as f64;
+        let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
+        if tolerance > 0.0 && tolerance < least {
+            let message = format!("`{key}` is below what the digits of numbers hold with \"{}\"", scheme.word());
+            let hint = format!("rounding of so many steps may add up to more than {least:.0e}");
+            self.warn(place, message, hint);
         }
     }
 

@@ -107,6 +107,13 @@ impl<'d> Builder<'d> {
         }
         let finest = study.finest.as_ref().is_some_and(|finest| finest.value);
         let schemes = self.schemes(study);
+        if let (Some(at), Some(&least)) = (&study.error_tolerances, error_tolerances.last()) {
+            let listed: Vec<Scheme> = schemes.iter().map(|choice| choice.scheme.clone()).collect();
+            let all = if listed.is_empty() { vec![self.model.scheme.clone()] } else { listed };
+            for scheme in &all {
+                self.can_be_kept("error_tolerances", least, scheme, &at.span);
+            }
+        }
         let methods = self.methods(&study.methods);
         let meshes = self.sorted("meshes", &study.meshes);
         let wanted_errors = self.sorted("wanted_error", &study.wanted_error).into_iter().rev().collect();
