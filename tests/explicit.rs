@@ -158,6 +158,11 @@ fn row_of_masses(count: usize, damping: f64) -> String {
     text + "[[initial]]\nat = \"p1\"\nvelocity = [1.0, 0.0, 0.0]\n"
 }
 
+/// The same, every step of it.
+fn steps_of_row(count: usize, damping: f64, sets: &[&str]) -> Model {
+    scene(&row_of_masses(count, damping).replace("interval = 2.0", "every = 1"), sets)
+}
+
 /// Of a mode with ω² = κ and a damper γ: ¼ κ Δt² + γ Δt = 1.
 fn longest(stiffness: f64, damping: f64) -> f64 {
     2.0 / (damping + (damping * damping + stiffness).sqrt())
@@ -194,10 +199,8 @@ fn steps_beyond_the_limit_are_cut() {
     let limit = 2.0 / 50f64.sqrt();
     let run = |part: f64| -> Done {
         let [step, end] = [1.0, 2000.0].map(|steps| steps * part * limit);
-        let sets =
-            [format!("analysis.time_step={step}"), format!("analysis.end_time={end}"), "output.every=1".to_owned()];
-        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-        let model = scene(&row_of_masses(1, 0.0).replace("interval = 2.0\n", ""), &sets);
+        let sets = [format!("analysis.time_step={step}"), format!("analysis.end_time={end}")];
+        let model = steps_of_row(1, 0.0, &sets.each_ref().map(String::as_str));
         let mass = node(&model, "p1");
         run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[mass].x.x - 1.0])
     };
@@ -907,9 +910,10 @@ fn tumbling_rotor() -> Vec<Vec<f64>> {
 #[test]
 fn order_with_rotations_of_its_own() {
     let exact = tumbling_rotor();
-    let rung = |division: u32| {
+    let rung = |scheme: &str, division: u32| {
         let step = 0.25 / f64::from(division);
-        let model = scene(ROTOR, &[&format!("analysis.time_step={step:e}")]);
+        let sets = [format!("analysis.time_step={step:e}"), format!("integrator={{scheme=\"{scheme}\"}}")];
+        let model = scene(ROTOR, &sets.each_ref().map(String::as_str));
         let at = ["a", "b"].map(|name| node(&model, name));
         let attitudes = |frame: &Frame| {
             at.iter().flat_map(|&n| frame.state.nodes[n].R().iter().copied().collect::<Vec<_>>()).collect()
@@ -918,27 +922,36 @@ fn order_with_rotations_of_its_own() {
         println!("{step:12.5e} {off:10.3e}");
         (step, off)
     };
-    let points: Vec<(f64, f64)> = [16, 32, 64, 128].into_iter().map(rung).collect();
-    assert_order(&points, 1.8..2.2);
+    let ladder = |scheme: &str| -> Vec<(f64, f64)> {
+        println!("{scheme}");
+        [16, 32, 64, 128].into_iter().map(|division| rung(scheme, division)).collect()
+    };
+    assert_order(&ladder("central-difference"), 1.8..2.2);
+    // Implicit schemes tie the rotation vectors of a step, which is of first order in the rates.
+    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe"] {
+        assert_order(&ladder(scheme), 0.9..1.1);
+    }
     // Stages of Runge-Kutta do not keep to it: said, not done.
-    let model = scene(ROTOR, &[EIGHT]);
-    let system = System::new(&model).unwrap();
-    let problems = Plan::new(&model, &system, 1).half_turning(&model);
+    let half_turning = |text: &str| {
+        let model = scene(text, &[EIGHT]);
+        let system = System::new(&model).unwrap();
+        Plan::new(&model, &system, 1).half_turning(&model)
+    };
+    let problems = half_turning(ROTOR);
     assert_eq!(problems.len(), 1);
     assert!(problems[0].message.contains("`b` turns with `a` about some axes only"), "{}", problems[0].message);
+    assert_eq!(&ROTOR[problems[0].place.clone().expect("a place")], "\"b\"");
     // All or none of the rotations are as good as any.
     for dofs in ["[\"ux\",\"uy\",\"uz\"]", "[\"ux\",\"uy\",\"uz\",\"rx\",\"ry\",\"rz\"]"] {
         let text = ROTOR.replace("[\"ux\", \"uy\", \"uz\", \"rx\", \"ry\"]", dofs).replace("6.0]", "0.5]");
-        let model = scene(&text, &[EIGHT]);
-        let system = System::new(&model).unwrap();
-        assert!(Plan::new(&model, &system, 1).half_turning(&model).is_empty());
+        assert!(half_turning(&text).is_empty());
     }
 }
 
 /// Energies at a step swing at 0.9 of the limit; what central differences keep does not, and a growing mode shows in both.
 #[test]
 fn what_swings_is_not_made_from_nothing() {
-    let model = scene(&row_of_masses(12, 0.0).replace("interval = 2.0", "every = 1"), &[]);
+    let model = steps_of_row(12, 0.0, &[]);
     let (mut start, mut most, mut swing, mut made) = (0.0, 0.0f64, 0.0f64, 0.0f64);
     let mut last = None;
     run_to_the_end(&model, &mut |frame| {
@@ -953,7 +966,6 @@ fn what_swings_is_not_made_from_nothing() {
         Vec::new()
     });
     println!("swings by {:.2} of the most, makes {:.1e}", swing / most, made / most);
-    assert!(start > 0.0 || last.is_some_and(|(energy, _)| energy.of_accelerations > 0.0));
     assert!(swing > 0.02 * most, "{swing} of {most}");
     assert!(made < 1e-12 * most, "{made} of {most}"); // rounding
     // The state at the end, ten times as large.
@@ -965,8 +977,7 @@ fn what_swings_is_not_made_from_nothing() {
     assert!(grown.taken_by_central_differences(start, dt) < -0.5 * grown.kinetic);
     // Others have no use for what swings, and do not sum it.
     let sets = ["integrator.scheme=\"newmark\"", "analysis.time_step=0.01"];
-    let model = scene(&row_of_masses(12, 0.0).replace("interval = 2.0", "every = 1"), &sets);
-    run_to_the_end(&model, &mut |frame| {
+    run_to_the_end(&steps_of_row(12, 0.0, &sets), &mut |frame| {
         assert_eq!(frame.energy.unwrap().of_accelerations, 0.0);
         Vec::new()
     });
