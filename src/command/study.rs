@@ -79,7 +79,7 @@ pub(super) struct StudyArgs {
     /// Folder for the study [default: the deck's name with .study, in the current folder]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write into a folder that already holds files
+    /// Write into a folder that already holds files; an older study there goes
     #[arg(long)]
     overwrite: bool,
     /// No progress bar, no warnings
