@@ -3,8 +3,12 @@
 //! In a step a scheme of second order puts a smooth motion wrong by c Δt³ |q‴|; for Newmark's that is the estimate of
 //! O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Modes that the step does not resolve have large
 //! accelerations and hardly move, so the estimate e is passed through the matrix of the step, (K + w M)⁻¹ w M e, which
-//! leaves what is resolved as it is (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)). Errors of steps add up: each
-//! step may take the part of the allowance that its length is of the run.
+//! leaves what is resolved as it is (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
+//!
+//! Errors of steps add up: each step may take the part of the allowance that its length is of the run. A vibration of amplitude A
+//! goes out of phase, wrong by φ A with φ = c ω³ Δt² T at the end of a run of length T, but never by much more than A. Butterworth's
+//! filter of third order over the time, with its corner at φ = 1, makes that φ A/√(1 + φ²): what is long out of phase counts by its
+//! amplitude.
 
 use super::failure::Failure;
 use super::march::{Run, Step};
@@ -19,7 +23,7 @@ use crate::state::State;
 use crate::system::assembly::NONE;
 use std::sync::atomic::Ordering;
 
-/// Of what a step may err, where it is taken back.
+/// Of what a step may err, and of what steps have erred lately, where it is taken back: something has happened.
 const TOO_MUCH: f64 = 4.0;
 /// Of a length that would just do: for the next step to be no more than that.
 const SAFETY: f64 = 0.9;
@@ -29,8 +33,8 @@ const WORTH: f64 = 1.4;
 const SPAN: f64 = 0.05;
 /// ... in which the last step has this weight at least.
 const WEIGHT: f64 = 0.002;
-/// What remains of the sum of all errors: steady growth to 1 has a root mean square of 1/√3 over a run, and an oscillation one of
-/// 1/√2; a little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
+/// What remains of the sum of all errors: steady growth to 1 of an oscillation has a root mean square of 1/√6 over a run; a
+/// little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
 const MEAN: f64 = 0.3;
 /// Steps of a run at least.
 const FEWEST: f64 = 50.0;
@@ -57,21 +61,57 @@ pub struct Pace {
     /// Of the next step, and of the longest.
     length: f64,
     longest: f64,
-    /// What a step would err, over what it may, and over its length squared: a mean of the last steps.
+    /// What a step would err, over what it may, and over its length squared: means of the last steps, of what lasts and of all.
     intensity: Option<f64>,
+    usual: Option<f64>,
     /// Largest displacement of a node and turn of a body so far.
     motion: Size,
-    /// The same of the trial, and when that was.
+    measure: Measure,
+    /// To go back to.
+    start: State,
+    /// Errors of a step per node, and room for one more passage.
+    errors: [Vec<Vec6>; 2],
+    lasting: Lasting,
+}
+
+/// What errors are compared with.
+struct Measure {
+    /// Largest motion of the trial, and when that was.
     ahead: Size,
     begun: Option<f64>,
     /// Of the scene: what displacements and turns are compared by.
     extent: f64,
     /// Nodes of bodies: the errors of their rotations count.
     bodies: Vec<usize>,
-    /// To go back to.
-    start: State,
-    /// Errors per node.
-    errors: Vec<Vec6>,
+}
+
+/// What lasts of the errors of steps, per node and over c Δt³: through a filter of one time constant and one of second order.
+struct Lasting {
+    first: Vec<Vec6>,
+    value: Vec<Vec6>,
+    /// Of the value, times the time constant.
+    rate: Vec<Vec6>,
+    begun: bool,
+}
+
+impl Lasting {
+    /// Takes in the errors of a step of length `dt`, `per` c Δt³; implicit Euler for
+    /// τ y₁' + y₁ = e and τ² y'' + τ y' + y = y₁.
+    fn take(&mut self, errors: &[Vec6], per: f64, dt: f64, tau: f64) {
+        let s = dt / tau;
+        for (i, error) in errors.iter().enumerate() {
+            let error = error / per;
+            if !self.begun {
+                (self.first[i], self.value[i]) = (error, error);
+                continue;
+            }
+            let (first, value, rate) = (&mut self.first[i], &mut self.value[i], &mut self.rate[i]);
+            *first += (error - *first) * (s / (1.0 + s));
+            *rate = (*rate + (*first - *value) * s) / (1.0 + s + s * s);
+            *value += *rate * s;
+        }
+        self.begun = true;
+    }
 }
 
 /// An estimated error relative to the largest motion.
@@ -87,44 +127,59 @@ struct Estimate {
 
 impl Pace {
     pub fn new(model: &Model, tolerance: f64, extent: f64, state: &State) -> Self {
+        let zeros = vec![Vec6::zeros(); state.nodes.len()];
         Pace {
             tolerance,
             constant: MEAN * error_constant(&model.scheme),
             length: model.analysis.time_step,
             longest: model.analysis.end_time / FEWEST,
             intensity: None,
+            usual: None,
             motion: Size::default(),
-            ahead: Size::default(),
-            begun: None,
-            extent,
-            bodies: model.bodies.iter().map(|body| body.node).collect(),
+            measure: Measure {
+                ahead: Size::default(),
+                begun: None,
+                extent,
+                bodies: model.bodies.iter().map(|body| body.node).collect(),
+            },
             start: state.clone(),
-            errors: vec![Vec6::zeros(); state.nodes.len()],
+            errors: [zeros.clone(), zeros.clone()],
+            lasting: Lasting { first: zeros.clone(), value: zeros.clone(), rate: zeros, begun: false },
         }
     }
 
     /// After a step, which was a `part` of the run: whether it stands. The length of the next follows.
-    fn judge(&mut self, dt: f64, part: f64, estimate: &Estimate) -> bool {
+    fn judge(&mut self, dt: f64, time: f64, end: f64, estimate: &Estimate) -> bool {
+        let part = dt / end;
         let [_, amplitude, error] = estimate.passed;
         let ratio = error / (self.tolerance * part);
         if estimate.unresolved && amplitude < SLIGHT * self.tolerance {
             self.motion = estimate.motion;
             return true;
         }
-        let now = ratio / (dt * dt);
-        if ratio > TOO_MUCH || !ratio.is_finite() {
+        let all = ratio / (dt * dt);
+        let sudden = self.usual.is_none_or(|usual| all > TOO_MUCH * usual);
+        if ratio > TOO_MUCH && sudden || !ratio.is_finite() {
             self.length = dt * if ratio.is_finite() { (SAFETY / ratio).sqrt().max(0.1) } else { 0.1 };
-            self.intensity = Some(now).filter(|now| now.is_finite());
+            self.intensity = Some(all).filter(|all| all.is_finite());
             return false;
         }
         // Errors so far are the less for what the motion has grown by.
-        let whole = |motion: Size| motion.translation.max(motion.rotation * self.extent);
+        let whole = |motion: Size| motion.translation.max(motion.rotation * self.measure.extent);
         let (before, after) = (whole(self.motion), whole(estimate.motion));
         let grown = if before > 0.0 { after / before } else { 1.0 };
         self.motion = estimate.motion;
+        let factor = self.constant * dt.powi(3);
+        let tau = (self.constant * dt * dt * end).cbrt();
+        self.lasting.take(&self.errors[0], factor, dt, tau);
+        let lasting = factor * self.measure.relative(&self.lasting.value, self.motion, time, end);
+        let lasting = lasting / (self.tolerance * part) / (dt * dt);
         let weight = (part / SPAN).clamp(WEIGHT, 1.0);
-        let mean = self.intensity.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
+        let update =
+            |mean: Option<f64>, now: f64| mean.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
+        let mean = update(self.intensity, lasting);
         self.intensity = Some(mean);
+        self.usual = Some(update(self.usual, all));
         let allowed = 1.0 / mean.sqrt();
         if allowed < SAFETY * dt {
             self.length = SAFETY * allowed;
@@ -134,7 +189,9 @@ impl Pace {
         }
         true
     }
+}
 
+impl Measure {
     /// Largest displacements and turns so far, with those of a state.
     fn with(&self, largest: Size, model: &Model, state: &State) -> Size {
         let moved = state.nodes.iter().zip(&model.nodes).map(|(node, spec)| node.moved(&spec.x).norm());
@@ -145,13 +202,13 @@ impl Pace {
         }
     }
 
-    /// The errors at hand, relative to the largest motion.
-    fn relative(&self, motion: Size, time: f64, end: f64) -> f64 {
+    /// Errors per node, relative to the largest motion.
+    fn relative(&self, errors: &[Vec6], motion: Size, time: f64, end: f64) -> f64 {
         let early = self.begun.is_some_and(|begun| time < begun + AHEAD * end);
         let ahead = if early { self.ahead } else { Size::default() };
         let (translation, rotation) = (motion.translation.max(ahead.translation), motion.rotation.max(ahead.rotation));
-        let error = self.errors.iter().map(|e| top(e).norm()).fold(0.0, f64::max);
-        let turn = self.bodies.iter().map(|&body| bottom(&self.errors[body]).norm()).fold(0.0, f64::max);
+        let error = errors.iter().map(|e| top(e).norm()).fold(0.0, f64::max);
+        let turn = self.bodies.iter().map(|&body| bottom(&errors[body]).norm()).fold(0.0, f64::max);
         // Nothing moves, nothing is wrong.
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
         part(error, translation.max(TRACE * rotation * self.extent))
@@ -184,12 +241,12 @@ impl Run<'_> {
             match self.stepper.step(state, target) {
                 Ok(taken) => {
                     let estimate = self.stepper.estimate(state, dt, pace);
-                    if pace.begun.is_none() && estimate.motion != Size::default() {
+                    if pace.measure.begun.is_none() && estimate.motion != Size::default() {
                         state.copy_from(&pace.start);
                         self.stepper.look_ahead(state, pace);
                         continue;
                     }
-                    if !pace.judge(dt, dt / end, &estimate) {
+                    if !pace.judge(dt, state.time, end, &estimate) {
                         state.copy_from(&pace.start);
                         if dt <= least {
                             let failure = Failure::Inaccurate { dt };
@@ -229,38 +286,40 @@ impl Stepper<'_> {
             let dt = part * run;
             let scheme = newmark(0.5, 0.25, RotationUpdate::Exponential).coefficients(dt);
             match self.stage(state, &scheme, state.time + dt) {
-                Ok(_) => pace.ahead = pace.with(pace.ahead, self.model, state),
+                Ok(_) => pace.measure.ahead = pace.measure.with(pace.measure.ahead, self.model, state),
                 Err(_) => run *= 0.1,
             }
         }
         state.copy_from(&pace.start);
         self.refresh.rejected();
         (self.drift, self.violation) = (drift, violation);
-        pace.begun = Some(state.time);
+        pace.measure.begun = Some(state.time);
     }
 
     /// Of a step of length `dt` to `state`.
     fn estimate(&mut self, state: &State, dt: f64, pace: &mut Pace) -> Estimate {
-        let motion = pace.with(pace.motion, self.model, state);
+        let motion = pace.measure.with(pace.motion, self.model, state);
         let (time, end) = (state.time, self.model.analysis.end_time);
-        pace.errors.fill(Vec6::zeros());
+        let [errors, again] = &mut pace.errors;
+        errors.fill(Vec6::zeros());
         let factor = pace.constant * dt.powi(3);
         for &node in &self.movers {
             let rows = &self.plan.rows[node];
             let entry = |i: usize| if rows[i] == NONE { 0.0 } else { factor * state.jerk[node][i] };
-            pace.errors[node] = Vec6::from_fn(|i, _| entry(i));
+            errors[node] = Vec6::from_fn(|i, _| entry(i));
         }
-        self.system.carry(&state.nodes, &mut pace.errors);
-        let mut passed = [pace.relative(motion, time, end); 3];
+        self.system.carry(&state.nodes, errors);
+        let mut passed = [pace.measure.relative(errors, motion, time, end); 3];
         for error in &mut passed[1..] {
-            self.filter(state, &mut pace.errors);
-            *error = pace.relative(motion, time, end);
+            self.filter(state, errors);
+            *error = pace.measure.relative(errors, motion, time, end);
         }
         let [raw, _, error] = passed;
         let mut unresolved = error > pace.tolerance * dt / end && error < RESOLVED * raw;
         if unresolved {
-            self.filter(state, &mut pace.errors);
-            unresolved = pace.relative(motion, time, end) < RESOLVED.sqrt() * error;
+            again.copy_from_slice(errors);
+            self.filter(state, again);
+            unresolved = pace.measure.relative(again, motion, time, end) < RESOLVED.sqrt() * error;
         }
         Estimate { passed, unresolved, motion }
     }
