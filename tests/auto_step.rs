@@ -184,7 +184,8 @@ fn small_vibrations_are_not_followed() {
     assert!(iterations <= 2 * least, "{iterations} for {least}");
     let (followed, more) = pair(5.0 * tolerance, tolerance);
     println!("with a larger one {followed:.2e} in {more}");
-    assert!(followed < 2.0 * tolerance && more > 2 * least, "{followed:e} in {more}");
+    // Left alone it would be wrong by its amplitude, five times the tolerance.
+    assert!(followed < 3.0 * tolerance && more > 2 * least, "{followed:e} in {more}");
 }
 
 /// What no step resolves is left alone: a spring of 1e7 at rest beside one of 1. The fastest period is 2e-3, that of the motion
