@@ -1,6 +1,7 @@
 //! The plan in words, for `rdsolve check` and the log.
 
 use super::Plan;
+use super::explicit::part_of_limit;
 use crate::elements::beam::Rule;
 use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
@@ -102,7 +103,7 @@ impl Plan {
             Analysis::Dynamic => {
                 let time = match analysis.error_tolerance {
                     Some(_) if matches!(model.scheme, Scheme::CentralDifference(_)) => {
-                        "in steps of 0.9 of the longest that is stable".to_string()
+                        format!("in steps of {} of the longest that is stable", part_of_limit(model))
                     }
                     Some(tolerance) => format!("in steps that follow their error, {tolerance} in all"),
                     None => format!("in {steps} steps of {}", analysis.time_step),

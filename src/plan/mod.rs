@@ -3,7 +3,7 @@
 
 mod choose;
 mod explain;
-mod explicit;
+pub mod explicit;
 mod passages;
 mod place;
 mod repeated;

@@ -6,12 +6,8 @@ use super::step::{Stepper, Taken};
 use crate::integrators::{CentralDifference, Coefficients};
 use crate::materials::Spent;
 use crate::math::{Vec6, bottom, join, top};
-use crate::state::{Now, State};
-use crate::system::masses::Motion;
-
-/// Where masses belong together velocities are corrected so many times: gyroscopic moments of bodies would feed the motion if they
-/// met the predicted ones alone.
-const CORRECTIONS: usize = 2;
+use crate::state::{Now, State, Work};
+use crate::system::masses::{CORRECTIONS, Motion};
 
 impl Stepper<'_> {
     /// Takes `state` from its time to `to`. On failure `state` is untouched.
@@ -41,7 +37,8 @@ impl Stepper<'_> {
         self.check_stable(explicit, state, dt)?;
         let mut evaluations = self.find_accelerations(explicit, state, to, scheme)?;
         let stiffened = self.resistance(explicit, state, dt) > explicit.stable.known();
-        if stiffened || self.is_growing(explicit, state, dt) {
+        let mut accelerations = self.weigh_accelerations(explicit, None);
+        if stiffened || explicit.stable.is_struck(accelerations) || self.is_growing(explicit, state, dt) {
             for &node in &self.movers {
                 explicit.stable.hints[node] = self.change(explicit, state, node);
             }
@@ -52,7 +49,9 @@ impl Stepper<'_> {
             }
             // It only looked so, and looking closer has left nothing of what was found.
             evaluations += self.find_accelerations(explicit, state, to, scheme)?;
+            accelerations = self.weigh_accelerations(explicit, None);
         }
+        explicit.stable.loudest = explicit.stable.loudest.max(accelerations);
         // Bodies take their angular momentum from all that acts on them.
         if let Some(ties) = &explicit.ties {
             ties.pull(&mut self.forces.on_nodes);
@@ -90,6 +89,11 @@ impl Stepper<'_> {
         }
         self.check_joints()?;
         self.commit(state, scheme, to, spent, Some(damping_power));
+        let Work { swing, accelerations: before, step, .. } = &mut state.work;
+        // ⅛ Δt² aᵀMa at both ends, each with the step before it: what a change of the step makes or takes does not swing.
+        let last = if *step > 0.0 { *step } else { dt };
+        *swing += 0.125 * (dt * dt * accelerations - last * last * *before);
+        (*before, *step) = (accelerations, dt);
         Ok(Taken { iterations: evaluations, refactorizations: 0, residual: 0.0, to })
     }
 
@@ -110,6 +114,7 @@ impl Stepper<'_> {
         }
         self.move_trial(state, scheme);
         let mut evaluations = 0;
+        // Where masses belong together: gyroscopic moments of bodies would feed the motion if they met the predicted velocities alone.
         let corrections = if explicit.closes() { CORRECTIONS } else { 0 };
         loop {
             let now = Now { nodes: &self.trial, past: &state.history, since: dt };
@@ -136,10 +141,15 @@ impl Stepper<'_> {
 
     /// ω² of the mode as which the scene has resisted over the step, −Δaᵀ M q/qᵀ M q: of its modes a mean. More than that of the
     /// fastest there was tells that it has stiffened, as where something is struck. Zero where the step is short for it anyway.
-    fn resistance(&self, explicit: &Explicit, state: &State, dt: f64) -> f64 {
+    fn resistance(&mut self, explicit: &mut Explicit, state: &State, dt: f64) -> f64 {
         // Of the limit, by inertias about: below, nothing is looked at closer.
         const QUICK: f64 = 0.05;
-        let Some(masses) = &explicit.masses else { return 0.0 };
+        let Some(masses) = &explicit.masses else {
+            self.weigh_together(&mut explicit.room, None, |stepper, node| stepper.increments[node].q);
+            let size = self.times_weighed(|node| self.increments[node].q);
+            let force = -self.times_weighed(|node| self.change(explicit, state, node));
+            return if size > 0.0 { force / size } else { 0.0 };
+        };
         let (mut force, mut size) = (0.0, 0.0);
         for block in &masses.blocks {
             let [mass, inertia] = block.about();
@@ -168,8 +178,24 @@ impl Stepper<'_> {
 
     /// A quick look at whether a mode grows: without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is (ω Δt)², of all modes a
     /// mean, which the motion of the whole does not hide; what dies out is no matter.
-    fn is_growing(&self, explicit: &Explicit, state: &State, dt: f64) -> bool {
-        let Some(masses) = &explicit.masses else { return false };
+    fn is_growing(&mut self, explicit: &mut Explicit, state: &State, dt: f64) -> bool {
+        // A little beyond what a mode at the limit shows.
+        const LIMIT: f64 = 4.1;
+        let before = |node: usize| join(&state.nodes[node].a, &state.nodes[node].alpha);
+        let Some(masses) = &explicit.masses else {
+            self.weigh_together(&mut explicit.room, None, |_, node| before(node));
+            let size = self.times_weighed(before);
+            let second = |node: usize| self.change(explicit, state, node) - state.jerk[node] * dt;
+            if -self.times_weighed(second) <= LIMIT * size {
+                return false;
+            }
+            let mut room = std::mem::take(&mut explicit.room);
+            let now = |stepper: &Self, node: usize| before(node) + stepper.change(explicit, state, node);
+            self.weigh_together(&mut room, None, now);
+            let next = self.times_weighed(|node| now(self, node));
+            explicit.room = room;
+            return next > size;
+        };
         let (mut change, mut size, mut next) = (0.0, 0.0, 0.0);
         for block in &masses.blocks {
             let start = &state.nodes[block.node];
@@ -181,8 +207,7 @@ impl Stepper<'_> {
             change -= mass * top(&second).dot(&start.a) + inertia * bottom(&second).dot(&start.alpha);
             size += mass * start.a.norm_squared() + inertia * start.alpha.norm_squared();
         }
-        // A little beyond what a mode at the limit shows.
-        change > 4.1 * size && next > size
+        change > LIMIT * size && next > size
     }
 }
 

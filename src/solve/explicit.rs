@@ -13,10 +13,10 @@ use crate::math::rotation::{exp, inverse_tangent, rates, renormalise};
 use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::Model;
 use crate::plan::Plan;
-use crate::state::{Now, State};
+use crate::state::{Node, Now, State};
 use crate::system::System;
 use crate::system::assembly::{NONE, Weights};
-use crate::system::masses::Masses;
+use crate::system::masses::{Block, Masses};
 use crate::system::ties::Ties;
 
 /// Allocated once.
@@ -26,6 +26,8 @@ pub struct Explicit {
     pub ties: Option<Ties>,
     /// Accelerations beyond those of the trial motion, by node.
     pub push: Vec<Vec6>,
+    /// Where masses belong together: motions that are weighed, by node.
+    pub room: Vec<Vec6>,
     /// Rates of (q, v) of Runge-Kutta's stages, by stage, of each node that moves.
     pub stages: Vec<[Vec6; 2]>,
     /// Loads change with time.
@@ -51,6 +53,7 @@ impl Explicit {
             },
             None => (None, None),
         };
+        let alone = masses.is_some();
         let stages = match &model.scheme {
             Scheme::RungeKutta(scheme) => scheme.tableau.stages(),
             _ => 0,
@@ -63,10 +66,11 @@ impl Explicit {
             masses,
             ties,
             push: vec![Vec6::zeros(); nodes],
+            room: vec![Vec6::zeros(); if alone { 0 } else { nodes }],
             stages: vec![[Vec6::zeros(); 2]; stages * movers],
             varying,
             driven: model.held.iter().any(|held| held.motion.is_some()),
-            stable: Stable::new(plan, nodes),
+            stable: Stable::new(model, plan),
             work: [0.0; 2],
             control: model.analysis.error_tolerance.map(|tolerance| Control::new(tolerance, model)),
         }
@@ -76,6 +80,11 @@ impl Explicit {
     pub fn closes(&self) -> bool {
         self.masses.is_none()
     }
+}
+
+/// Motion of a node in directions that are unknown.
+fn kept(rows: &[u32; 6], motion: &Vec6) -> Vec6 {
+    Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { motion[i] })
 }
 
 impl Stepper<'_> {
@@ -268,6 +277,58 @@ impl Stepper<'_> {
         ties.push(push);
     }
 
+    /// M times small motions of nodes that move, where masses belong together, in unknown directions alone; into the forces on
+    /// nodes, of which nothing is left. As nodes lie, or else as in the trial motion.
+    pub(super) fn weigh_together(
+        &mut self,
+        room: &mut [Vec6],
+        nodes: Option<&[Node]>,
+        of: impl Fn(&Self, usize) -> Vec6,
+    ) {
+        for k in 0..self.movers.len() {
+            let node = self.movers[k];
+            room[node] = kept(&self.plan.rows[node], &of(self, node));
+        }
+        self.system.weigh(nodes.unwrap_or(&self.trial), room, &mut self.forces);
+    }
+
+    /// A motion times what was weighed last.
+    pub(super) fn times_weighed(&self, of: impl Fn(usize) -> Vec6) -> f64 {
+        let times = |&node: &usize| kept(&self.plan.rows[node], &of(node)).dot(&Vec6::from(self.forces.on_nodes[node]));
+        self.movers.iter().map(times).sum()
+    }
+
+    /// aᵀ M a of accelerations in unknown directions, as nodes lie, or else as in the trial motion with what is missing there.
+    pub(super) fn weigh_accelerations(&mut self, explicit: &mut Explicit, nodes: Option<&[Node]>) -> f64 {
+        let Explicit { masses, room, push, .. } = explicit;
+        let a = |stepper: &Self, node: usize| match nodes {
+            Some(nodes) => join(&nodes[node].a, &nodes[node].alpha),
+            None => join(&stepper.trial[node].a, &stepper.trial[node].alpha) + push[node],
+        };
+        let Some(masses) = masses else {
+            self.weigh_together(room, nodes, a);
+            return self.times_weighed(|node| a(self, node));
+        };
+        let weight = |block: &Block| {
+            let a = kept(&self.plan.rows[block.node], &a(self, block.node));
+            block.weigh(&nodes.unwrap_or(&self.trial)[block.node], &a, &a)
+        };
+        masses.blocks.iter().map(weight).sum()
+    }
+
+    /// At the start and after a jump: energies swing from here.
+    pub(super) fn start_swing(&mut self, state: &mut State) {
+        if !matches!(self.model.scheme, Scheme::CentralDifference(_)) {
+            return;
+        }
+        let Some(mut explicit) = self.explicit.take() else { return };
+        state.work.accelerations = self.weigh_accelerations(&mut explicit, Some(&state.nodes));
+        state.work.step = 0.0;
+        // What they were before tells nothing of a mode.
+        state.jerk.fill(Vec6::zeros());
+        self.explicit = Some(explicit);
+    }
+
     /// The increments at the end of a step that leads to given velocities and accelerations of the movers.
     pub(super) fn set_rates(&mut self, node: usize, [v, omega, a, alpha]: [Vec3; 4]) {
         let increment = &mut self.increments[node];
@@ -301,12 +362,13 @@ impl Stepper<'_> {
         }
     }
 
-    /// Central differences grow back to what is stable.
-    pub(super) fn went_well(&mut self) {
+    /// Central differences grow back to what is stable: little by little, since each change of the step makes or takes energy.
+    pub(super) fn went_well(&mut self, proposed: f64) {
+        const GROWTH: f64 = 1.2;
         if let (Scheme::CentralDifference(_), Some(explicit)) = (&self.model.scheme, &mut self.explicit)
             && let Some(control) = &mut explicit.control
         {
-            control.next *= 2.0;
+            control.next = GROWTH * proposed;
         }
     }
 

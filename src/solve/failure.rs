@@ -26,6 +26,8 @@ pub enum Failure {
     Contact { name: String },
     /// A step of central differences is longer than the fastest mode bears.
     Unstable { dt: f64, longest: f64 },
+    /// Central differences have made so many times the energy that there was.
+    Growing { made: f64 },
     /// A step turns something too far.
     Turned { dt: f64 },
     /// The error of a step is larger than what is allowed.
@@ -143,6 +145,11 @@ impl fmt::Display for Failure {
                 f,
                 "a step of {dt:.3e} is too long for central differences: the fastest mode of the scene bears {longest:.3e} (a \
                  shorter `time_step`, \"auto\", or an implicit scheme)"
+            ),
+            Failure::Growing { made } => write!(
+                f,
+                "the motion grows by itself: central differences have made {made:.1e} times the energy that there was; their \
+                 steps are too long for this motion (a shorter `time_step`, or an implicit scheme)"
             ),
             Failure::Turned { dt } => write!(f, "in a step of {dt:.3e} something turns by more than 3 radians"),
             Failure::Inaccurate { dt } => {

@@ -30,7 +30,7 @@ impl Run<'_> {
             let dt = target - state.time;
             match self.stepper.step(state, target) {
                 Ok(taken) => {
-                    self.stepper.went_well();
+                    self.stepper.went_well(length);
                     let at_end = state.time >= stretch.to;
                     let last = at_end && stretch.to >= analysis.end_time * (1.0 - 1e-9);
                     let step = Step { dt, taken: &taken, cuts, due: at_end && stretch.due, last, passed: &[] };

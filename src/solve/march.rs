@@ -10,12 +10,13 @@ use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken, extent};
 use super::{ContactState, Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
+use crate::integrators::Scheme;
 use crate::linear::TooLarge;
 use crate::math::Vec3;
 use crate::model::{Cadence, Control, Kind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
-use crate::system::energy::{Energy, PartEnergy};
+use crate::system::energy::{Balance, Energy, PartEnergy};
 use crate::system::{Drive, Forces, Loading, System};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -69,6 +70,8 @@ pub struct Run<'a> {
     pub counts: Counts,
     /// Time spent in the observer.
     pub observing: Duration,
+    /// Of a motion in time: in statics the work of a step is that of its ends, whatever lies between.
+    pub balance: Balance,
     /// Where a path ended that never came to its `stop`: the displacement asked for.
     pub short_of_stop: Option<f64>,
     /// Steps in a row cut into many pieces, and those pieces.
@@ -140,6 +143,7 @@ impl<'a> Run<'a> {
         // Of multipliers: gaps.
         let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
         let movers: Vec<usize> = (0..n).filter(moves).collect();
+        let watched = is_watched(model);
         let explicit = (plan.explicit).then(|| Box::new(Explicit::new(model, plan, system, movers.len())));
         let closes = explicit.as_ref().is_none_or(|explicit| explicit.closes());
         let mut stepper = Stepper {
@@ -172,7 +176,7 @@ impl<'a> Run<'a> {
             movers,
             explicit,
             leading: joints::leading(model, system),
-            wants_forces: wanted.reactions || wanted.energy,
+            wants_forces: wanted.reactions || wanted.energy || watched,
             wants_energy: wanted.energy,
             mass_weight: 0.0,
             factorizations: 0,
@@ -191,6 +195,7 @@ impl<'a> Run<'a> {
             stop,
             counts: Counts::default(),
             observing: Duration::ZERO,
+            balance: Balance::default(),
             short_of_stop: None,
             crawling: [0; 2],
             energy: None,
@@ -236,7 +241,8 @@ impl<'a> Run<'a> {
     }
 
     fn march(&mut self, state: &mut State, observer: &mut dyn Observer) -> Result<(), Outcome> {
-        let initial = self.wanted.energy.then(|| self.stepper.system.energy(state, None, self.stepper.plan.threads));
+        let initial = (self.wanted.energy || is_watched(self.stepper.model))
+            .then(|| self.stepper.system.energy(state, None, self.stepper.plan.threads));
         let balance = initial.map(|e| e.total);
         let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to: 0.0 };
         let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, last: false, passed: &[] };
@@ -372,6 +378,7 @@ impl<'a> Run<'a> {
         // Two looks at the clock are a twentieth of a step of two bodies.
         let began = (due || drawn || self.wanted.steps).then(Instant::now);
         self.derive(state, due, drawn, balance);
+        let failure = self.watch(last);
         let frame = Frame {
             model,
             state,
@@ -383,7 +390,7 @@ impl<'a> Run<'a> {
             cuts,
             due,
             last,
-            energy: self.energy.as_ref(),
+            energy: self.energy.as_ref().filter(|_| self.wanted.energy),
             reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
             joints: &self.joints,
             links: &self.links,
@@ -401,7 +408,19 @@ impl<'a> Run<'a> {
         if let Some(began) = began {
             self.observing += began.elapsed();
         }
-        Ok(())
+        failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
+    }
+
+    /// Sums the balance of energies up. Central differences that have made more than there was have failed; while there is next to
+    /// nothing yet that says little, unless it is by far.
+    fn watch(&mut self, last: bool) -> Option<Failure> {
+        const FAR: f64 = 100.0;
+        let energy = self.energy.as_ref().filter(|_| self.stepper.model.analysis.kind == Kind::Dynamic)?;
+        self.balance.see(energy);
+        let Balance { made, had, plastic, .. } = self.balance;
+        // What plastic flow takes too much of does not move.
+        let most = if last && made > plastic { had } else { FAR * had };
+        (is_watched(self.stepper.model) && had > 0.0 && made > most).then(|| Failure::Growing { made: made / had })
     }
 
     /// What is computed only to be shown.
@@ -424,7 +443,7 @@ impl<'a> Run<'a> {
         if !due {
             return;
         }
-        if self.wanted.energy {
+        if self.wanted.energy || is_watched(self.stepper.model) {
             self.energy = Some(system.energy(state, balance, self.stepper.plan.threads));
         }
         if self.wanted.reactions {
@@ -443,4 +462,9 @@ impl<'a> Run<'a> {
             system.part_energies(self.stepper.model, &state.now(), &mut self.parts);
         }
     }
+}
+
+/// Energies are summed whoever wants them: nothing else tells of motion that grows though the scene as it lies is stable.
+fn is_watched(model: &Model) -> bool {
+    matches!(model.scheme, Scheme::CentralDifference(_)) && model.analysis.kind == Kind::Dynamic
 }

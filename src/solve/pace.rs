@@ -238,6 +238,7 @@ impl Run<'_> {
             let target = if pieces == 1.0 { stretch.to } else { state.time + left / pieces };
             let dt = target - state.time;
             pace.start.copy_from(state);
+            let (drift, violation) = (self.stepper.drift, self.stepper.violation);
             match self.stepper.step(state, target) {
                 Ok(taken) => {
                     let estimate = self.stepper.estimate(state, dt, pace);
@@ -248,6 +249,7 @@ impl Run<'_> {
                     }
                     if !pace.judge(dt, state.time, end, &estimate) {
                         state.copy_from(&pace.start);
+                        (self.stepper.drift, self.stepper.violation) = (drift, violation);
                         if dt <= least {
                             let failure = Failure::Inaccurate { dt };
                             return Err(Outcome::Failed { time: state.time, failure });

@@ -47,7 +47,12 @@ impl Stepper<'_> {
     /// Takes `state` from its time to `to`. On failure `state` is untouched.
     pub(super) fn runge_kutta(&mut self, state: &mut State, to: f64, scheme: &RungeKutta) -> Result<Taken, Failure> {
         let Some(mut explicit) = self.explicit.take() else { return Err(self.not_finite()) };
+        let before = explicit.control;
         let result = self.take(&mut explicit, state, to, scheme.tableau);
+        if let (Err(_), Some(before), Some(control)) = (&result, before, &mut explicit.control) {
+            // What contacts or joints refuse has not moved: errors are not to be judged by it.
+            control.motion = before.motion;
+        }
         self.explicit = Some(explicit);
         result
     }

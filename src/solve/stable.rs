@@ -8,7 +8,9 @@ use super::step::Stepper;
 use crate::integrators::central_difference::longest_step;
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::model::Model;
 use crate::plan::Plan;
+use crate::plan::explicit::{may_stiffen, part_of_limit};
 use crate::state::{Increment, Node, Now, State};
 
 /// Iterations at the start, and when the limit is looked at again: a residual each, two where there is damping.
@@ -20,8 +22,10 @@ const STEPS: usize = 400;
 const SETTLED: f64 = 1e-4;
 /// Steps of a run at least, where little or nothing resists: loads are still to be seen.
 const FEWEST: f64 = 50.0;
-/// Of the longest step.
-const SAFE: f64 = 0.9;
+/// A limit that is longer by so much is another mode's.
+const LONGER: f64 = 1.05;
+/// One that is shorter by so much has been cut.
+const SHORTER: f64 = 0.95;
 /// Of the model's length: the motion by which residuals are told apart. Over the length of an element it is a strain, and that must
 /// not make steel yield: at a thousand elements this is one of 2e-6. Positions in two parts leave seven digits of it.
 const SMALL: f64 = 1e-9;
@@ -41,30 +45,57 @@ pub struct Stable {
     base: Vec<[f64; 6]>,
     /// Steps taken since.
     steps: usize,
+    /// Steps since the limit was last cut, and those after which it may rise again: twice as many from cut to cut, since each change
+    /// of the step makes or takes energy.
+    calm: usize,
+    patience: usize,
+    /// Of the longest step.
+    part: f64,
+    /// Something may be struck; and the largest aᵀMa since the last look.
+    stiffens: bool,
+    pub loudest: f64,
     /// The fastest mode has been looked for, with dampers if there are any.
     met: bool,
 }
 
 impl Stable {
-    /// A mode of all frequencies to begin with: the same in every run.
-    pub fn new(plan: &Plan, nodes: usize) -> Self {
+    /// With a mode of all frequencies to begin with: the same in every run.
+    pub fn new(model: &Model, plan: &Plan) -> Self {
+        let nodes = model.nodes.len();
         let place = vec![Node::at_rest(Vec3::zeros()); nodes];
-        let mut mode = vec![Vec6::zeros(); nodes];
-        let mut seed = 1u64;
-        for &(node, dof) in &plan.directions {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            mode[node][dof] = (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
-        }
-        Stable {
+        let zeros = vec![Vec6::zeros(); nodes];
+        let mut stable = Stable {
             longest: None,
-            next: mode.clone(),
-            hints: mode.clone(),
-            mode,
+            mode: zeros.clone(),
+            next: zeros.clone(),
+            hints: zeros,
             place,
             base: vec![[0.0; 6]; nodes],
             steps: 0,
+            calm: 0,
+            patience: STEPS,
+            part: part_of_limit(model),
+            stiffens: may_stiffen(model),
+            loudest: 0.0,
             met: false,
+        };
+        stable.add_all(plan);
+        stable.hints.copy_from_slice(&stable.mode);
+        stable
+    }
+
+    /// Adds a motion of all frequencies to the mode.
+    fn add_all(&mut self, plan: &Plan) {
+        let mut seed = 1u64;
+        for &(node, dof) in &plan.directions {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            self.mode[node][dof] += (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
         }
+    }
+
+    /// Accelerations have doubled at once, aᵀMa: something may have been struck, though the motion of the whole hides it.
+    pub fn is_struck(&self, accelerations: f64) -> bool {
+        self.stiffens && accelerations > 4.0 * self.loudest
     }
 
     /// ω² that the fastest mode is known to have at most: power iteration comes to it from below.
@@ -79,6 +110,7 @@ impl Stepper<'_> {
     /// [`Failure::Unstable`] where a step of `dt` is too long.
     pub(super) fn check_stable(&mut self, explicit: &mut Explicit, state: &State, dt: f64) -> Result<(), Failure> {
         explicit.stable.steps += 1;
+        explicit.stable.calm += 1;
         if explicit.stable.longest.is_none() || explicit.stable.steps >= STEPS {
             self.look_at_limit(explicit, state, dt, false)?;
         }
@@ -107,7 +139,7 @@ impl Stepper<'_> {
         }
         let cut = explicit.control.as_ref().map_or(f64::INFINITY, |control| control.next);
         let most = self.model.analysis.end_time / FEWEST;
-        Ok((SAFE * explicit.stable.longest.unwrap_or(left)).min(cut).min(most))
+        Ok((explicit.stable.part * explicit.stable.longest.unwrap_or(left)).min(cut).min(most))
     }
 
     /// Measures the limit anew, for steps of about `dt`, without dampers where that is zero: in the state, or where the trial motion has come to, of which nothing is
@@ -135,14 +167,48 @@ impl Stepper<'_> {
                 mode.iter_mut().zip(hints).for_each(|(mode, hint)| *mode = *mode / of_mode + sign * *hint / of_hints);
             }
         }
-        let limit = if explicit.stable.met { AGAIN } else { AT_FIRST };
-        let damped = dt > 0.0 && self.system.is_damped();
         self.give(state.time, state.time, 1.0);
         self.forces.multipliers.values.copy_from_slice(&state.multipliers);
         self.shift(&explicit.stable, state, [0.0; 2], dt);
         explicit.stable.base.copy_from_slice(&self.forces.on_nodes);
-        let (mut longest, mut last) = (f64::INFINITY, 0.0);
-        for _ in 0..limit {
+        let before = explicit.stable.longest;
+        // What yields now is as stiff as ever when it turns back.
+        let rises = !self.system.yields() && explicit.stable.calm >= explicit.stable.patience;
+        let iterations = if explicit.stable.met { AGAIN } else { AT_FIRST };
+        let mut longest = self.fastest(explicit, state, dt, (iterations, f64::INFINITY))?;
+        if rises && before.is_some_and(|before| longest > LONGER * before) {
+            // What was stiff has let go, and its mode knows little of the others.
+            explicit.stable.add_all(self.plan);
+            longest = self.fastest(explicit, state, dt, (AT_FIRST, longest))?;
+        }
+        let met = dt > 0.0 || !self.system.is_damped();
+        let stable = &mut explicit.stable;
+        if let Some(before) = before {
+            if longest < SHORTER * before && stable.met {
+                (stable.calm, stable.patience) = (0, 2 * stable.patience);
+            } else if !rises {
+                longest = longest.min(before);
+            }
+        }
+        (stable.longest, stable.steps, stable.met) = (Some(longest), 0, met);
+        stable.loudest = state.work.accelerations;
+        Ok(())
+    }
+
+    /// The longest step by the modes that power iteration comes to, if that is shorter than `longest`.
+    ///
+    /// # Errors
+    /// As for [`Stepper::answer`].
+    fn fastest(
+        &mut self,
+        explicit: &mut Explicit,
+        state: &State,
+        dt: f64,
+        (iterations, mut longest): (usize, f64),
+    ) -> Result<f64, Failure> {
+        let damped = dt > 0.0 && self.system.is_damped();
+        let mut last = 0.0;
+        for _ in 0..iterations {
             let size = self.largest(&explicit.stable.mode);
             if !(size > 0.0 && size.is_finite()) {
                 break;
@@ -179,16 +245,7 @@ impl Stepper<'_> {
             }
             last = found;
         }
-        let met = dt > 0.0 || !self.system.is_damped();
-        let stable = &mut explicit.stable;
-        if self.system.history > 0
-            && let Some(before) = stable.longest
-        {
-            // What yields now is as stiff as ever when it turns back.
-            longest = longest.min(before);
-        }
-        (stable.longest, stable.steps, stable.met) = (Some(longest), 0, met);
-        Ok(())
+        Ok(longest)
     }
 
     /// The residual where the place is moved along the mode, or its velocities are.
@@ -213,25 +270,20 @@ impl Stepper<'_> {
     }
 
     /// φ·φ, φ·ψ and ψ·ψ in the norm of the masses, φ the mode and ψ what answers it.
-    fn mass_products(&self, explicit: &Explicit) -> [f64; 3] {
-        let (mode, push) = (&explicit.stable.mode, &explicit.push);
-        let mut sums = [0.0; 3];
-        let mut add = |product: &dyn Fn(&Vec6, &Vec6) -> f64, node: usize| {
-            let (a, b) = (&mode[node], &push[node]);
-            sums[0] += product(a, a);
-            sums[1] += product(a, b);
-            sums[2] += product(b, b);
+    fn mass_products(&mut self, explicit: &mut Explicit) -> [f64; 3] {
+        let Explicit { masses, stable, push, room, .. } = explicit;
+        let mode = &stable.mode;
+        let Some(masses) = masses else {
+            self.weigh_together(room, None, |_, node| mode[node]);
+            let [own, cross] = [mode, &*push].map(|other| self.times_weighed(|node| other[node]));
+            self.weigh_together(room, None, |_, node| push[node]);
+            return [own, cross, self.times_weighed(|node| push[node])];
         };
-        match &explicit.masses {
-            Some(masses) => {
-                for block in &masses.blocks {
-                    add(&|a, b| block.weigh(&self.trial[block.node], a, b), block.node);
-                }
-            }
-            None => {
-                let turn = self.length * self.length;
-                let product = |a: &Vec6, b: &Vec6| top(a).dot(&top(b)) + turn * bottom(a).dot(&bottom(b));
-                self.movers.iter().for_each(|&node| add(&product, node));
+        let mut sums = [0.0; 3];
+        for block in &masses.blocks {
+            let (a, b) = (&mode[block.node], &push[block.node]);
+            for (sum, (a, b)) in sums.iter_mut().zip([(a, a), (a, b), (b, b)]) {
+                *sum += block.weigh(&self.trial[block.node], a, b);
             }
         }
         sums

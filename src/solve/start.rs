@@ -96,6 +96,7 @@ impl Stepper<'_> {
         state.work.damping_power =
             if dynamic { self.system.damping_power(&state.now(), self.plan.threads) } else { 0.0 };
         self.trial.clone_from(&state.nodes);
+        self.start_swing(&mut state);
         Ok(state)
     }
 
@@ -143,6 +144,7 @@ impl Stepper<'_> {
                 *reaction -= self.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
             }
         }
+        self.start_swing(state);
         Ok(())
     }
 

@@ -184,6 +184,12 @@ pub struct Work {
     pub damping_power: f64,
     /// Of the material points.
     pub material: Spent,
+    /// By how much energies at a step are more than what central differences keep, ⅛ Δt² aᵀMa, than they were at the start. Loads
+    /// that jump change accelerations and put nothing in.
+    pub swing: f64,
+    /// aᵀMa, and the length of the last step; none at the start and after a jump. With central differences alone.
+    pub accelerations: f64,
+    pub step: f64,
 }
 
 #[cfg(test)]

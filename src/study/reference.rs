@@ -24,6 +24,9 @@ use std::path::Path;
 /// Steps less than so many times as long as others are as long: fewer than the halves of a ladder, more than what rounding to
 /// whole steps makes of equal ones.
 const ALIKE: f64 = 1.05;
+/// Runs that are alike to the last digit tell no more than this of what they tend to, relative to the largest motion: rounding of
+/// many steps.
+const ROUNDING: f64 = 1e-10;
 /// A measured order is that of a scheme up to so much above it; beyond, it is chance.
 const ABOVE: f64 = 0.3;
 
@@ -246,7 +249,7 @@ struct Limit {
 fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     let n = q.len();
     let (fine, before) = (q.last()?, q.get(n.checked_sub(2)?)?);
-    let last = history::error(before, fine, count, |_| true);
+    let last = history::error(before, fine, count, |_| true).max(ROUNDING);
     // Of first order the finest run is off by Δ/(r − 1): less is not taken for granted where no order is seen.
     let ratio = h[n - 2] / h[n - 1];
     let as_it_is = Limit { q: fine.to_vec(), bar: last / (ratio - 1.0).min(1.0), order: None, growth: 1.0 };
@@ -262,7 +265,7 @@ fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     };
     let best = toward(before, fine, r2, order);
     let apart = |other: &[f64]| history::error(other, &best, count, |_| true);
-    let mut bar = apart(&toward(first, before, r1, order));
+    let mut bar = apart(&toward(first, before, r1, order)).max(ROUNDING);
     // An order as it was measured makes the two agree whatever the truth is: the orders next to it may be that.
     if !whole {
         let least = if order < 1.0 { fine.to_vec() } else { toward(before, fine, r2, order.floor()) };
@@ -444,6 +447,17 @@ mod tests {
         let of = |most: f64| limit(&[0.4, 0.2, 0.1], &q, 1, most).unwrap();
         assert_eq!((of(3.0).order, of(2.0).order), (Some(3.0), None));
         assert_eq!((of(2.0).q.as_slice(), of(2.0).bar), (q[2], history::error(q[1], q[2], 1, |_| true)));
+    }
+
+    #[test]
+    fn runs_that_are_alike_resolve_no_more_than_rounding() {
+        let run = vec![1.0, 2.0];
+        let other = vec![1.1, 1.9];
+        for q in [vec![run.as_slice(); 2], vec![run.as_slice(); 3], vec![&other, &run, &run]] {
+            let h: Vec<f64> = (0..q.len()).rev().map(|k| 2f64.powi(k as i32)).collect();
+            let limit = limit(&h, &q, 1, f64::INFINITY).unwrap();
+            assert_eq!((limit.bar, limit.q), (ROUNDING, run.clone()));
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{GroupKind, System, lanes};
 use crate::math::Vec3;
 use crate::model::Model;
-use crate::state::{Node, Now, State};
+use crate::state::{Now, State};
 
 /// The columns of energy.csv.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,19 +35,52 @@ pub struct Energy {
     pub friction: f64,
     /// Dissipated so far in impacts.
     pub impact: f64,
-    /// ½ aᵀ M a: the kinetic energy with accelerations for velocities. Not a column; summed with central differences alone, whose
-    /// balance needs it.
-    pub of_accelerations: f64,
+    /// [`crate::state::Work::swing`]. Not a column.
+    pub swing: f64,
 }
 
 impl Energy {
-    /// What the time integration by central differences has taken; `numerical` but for what swings with the motion. Velocity
-    /// Verlet keeps ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa of linear motion, so energies at a step swing by the last of these: by up to
-    /// 1/(1 − (ωΔt/2)²), which is five at 0.9 of the limit. `start`: `of_accelerations` at t = 0. An unstable mode would keep
-    /// the sum too; but no more than what is stored can swing, and what moves then tells.
-    pub fn taken_by_central_differences(&self, start: f64, dt: f64) -> f64 {
-        let swing = 0.25 * dt * dt * (self.of_accelerations - start);
-        self.numerical + swing.min(self.strain + self.links + self.contact)
+    /// What the time integration has taken: `numerical` but for what swings with the motion. Velocity Verlet keeps
+    /// ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa of linear motion, so energies at a step swing by the last of these: by up to
+    /// 1/(1 − (ωΔt/2)²), which is nearly three at 0.8 of the limit.
+    pub fn taken(&self) -> f64 {
+        self.numerical + self.swing
+    }
+}
+
+/// What the time integration has made of energies, over a run.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Balance {
+    /// The most that it took, and that it made.
+    pub taken: f64,
+    pub made: f64,
+    /// The most energy there was.
+    pub most: f64,
+    /// What there was at the start, and the most that was put in or let go since: no more can move.
+    pub had: f64,
+    /// Dissipated by plastic flow.
+    pub plastic: f64,
+    start: Option<f64>,
+    external: f64,
+    released: f64,
+}
+
+impl Balance {
+    pub fn see(&mut self, energy: &Energy) {
+        let stored = energy.strain + energy.links + energy.contact;
+        let sizes = energy.strain.abs() + energy.links.abs() + energy.contact.abs();
+        let start = *self.start.get_or_insert(energy.kinetic + stored.abs());
+        self.external = self.external.max(energy.external.abs());
+        // Less than nothing is stored where preloads give way.
+        self.released = self.released.max(-stored);
+        self.had = start + self.external + self.released;
+        self.plastic = energy.plastic;
+        let taken = energy.taken();
+        self.taken = self.taken.max(taken);
+        // A mode beyond the limit of stability may keep what central differences keep, and grow: then what moves tells.
+        self.made = self.made.max(-taken).max(energy.kinetic - self.had);
+        // Where the total is zero by chance, or external work, the motion is not.
+        self.most = self.most.max(energy.total.abs()).max(energy.external.abs()).max(energy.kinetic).max(sizes);
     }
 }
 
@@ -119,7 +152,7 @@ impl System {
             }
         }
         for mass in &self.consistent {
-            kinetic += mass.kinetic_energy(nodes, |node| node.v);
+            kinetic += mass.kinetic_energy(nodes);
             let (dp, dl) = mass.momentum(nodes);
             p += dp;
             l += dl;
@@ -149,14 +182,7 @@ impl System {
             contact,
             friction: work.material.friction,
             impact: work.material.impact,
-            of_accelerations: if self.swings { self.energy_of_accelerations(nodes) } else { 0.0 },
+            swing: work.swing,
         }
-    }
-
-    fn energy_of_accelerations(&self, nodes: &[Node]) -> f64 {
-        let moving = |node: &Node| Node { v: node.a, omega: node.alpha, ..*node };
-        let of_nodes = self.inertias.iter().map(|inertia| inertia.kinetic_energy(&moving(&nodes[inertia.node])));
-        let of_elements = self.consistent.iter().map(|mass| mass.kinetic_energy(nodes, |node| node.a));
-        of_nodes.chain(of_elements).sum()
     }
 }

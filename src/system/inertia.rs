@@ -155,9 +155,8 @@ impl ConsistentMass {
         }
     }
 
-    /// ½ vᵀ M v, of what `of` takes from nodes for v: their velocities, say.
-    pub fn kinetic_energy(&self, nodes: &[Node], of: impl Fn(&Node) -> Vec3) -> f64 {
-        self.pairs().map(|(a, b, m)| 0.5 * m * of(&nodes[a]).dot(&of(&nodes[b]))).sum()
+    pub fn kinetic_energy(&self, nodes: &[Node]) -> f64 {
+        self.pairs().map(|(a, b, m)| 0.5 * m * nodes[a].v.dot(&nodes[b].v)).sum()
     }
 
     /// Linear momentum, and angular momentum about the origin.

@@ -9,6 +9,8 @@ use crate::state::Node;
 
 /// Part of what an inertia was before others were taken from it that counts as none.
 const NOTHING: f64 = 1e-12;
+/// Velocities that what is held leaves to a node are corrected so many times.
+pub const CORRECTIONS: usize = 2;
 
 /// The masses of a scene, one for each node that has an unknown.
 #[derive(Debug, Clone)]
@@ -29,6 +31,9 @@ pub struct Block {
     s0: Vec3,
     /// About the centre of mass.
     J0: Mat3,
+    /// Of a body: where it turns about, from the node, and its inertia about that.
+    arm: Vec3,
+    turning: Mat3,
     inverse: Mat3,
     kind: Kind,
 }
@@ -37,7 +42,7 @@ pub struct Block {
 enum Kind {
     /// No rotation is an unknown, or the centre is the node and the inertia is one number.
     Point { of_turn: f64 },
-    /// The centre is the node, or moves freely; so do rotations.
+    /// Rotations are free. The centre is the node, or moves freely; or the node does not move and is what the body turns about.
     Body,
     /// Some directions are held.
     Held,
@@ -125,10 +130,13 @@ impl Block {
             (true, _, true) if equal => Kind::Point { of_turn: 1.0 / J0[(0, 0)] },
             (true, true, true) => Kind::Body,
             (true, true, false) if all(&free) => Kind::Body,
+            (true, true, false) if !free[..3].contains(&true) => Kind::Body,
             _ => Kind::Held,
         };
-        let inverse = J0.try_inverse().unwrap_or_else(Mat3::zeros);
-        Block { node, free, mass, s0, J0, inverse, kind }
+        let pivots = !free[..3].contains(&true);
+        let (arm, turning) = if pivots { (Vec3::zeros(), J0 - mass * skew(&s0) * skew(&s0)) } else { (s0, J0) };
+        let inverse = turning.try_inverse().unwrap_or_else(Mat3::zeros);
+        Block { node, free, mass, s0, J0, arm, turning, inverse, kind }
     }
 
     /// The matrix of all six directions, about the node as it lies.
@@ -158,7 +166,7 @@ impl Block {
             Kind::Body => {
                 let R = node.R();
                 // About the centre of mass, and back.
-                let s = R * self.s0;
+                let s = R * self.arm;
                 let alpha = R * (self.inverse * R.tr_mul(&(m - s.cross(&f))));
                 kept(join(&(f / self.mass - alpha.cross(&s)), &alpha))
             }
@@ -199,35 +207,49 @@ impl Block {
     #[inline]
     pub fn settle(&self, node: &Node, a: &Vec6, F: &mut Force) {
         // Elsewhere nothing couples what is held with what is not.
-        let coupled = match self.kind {
-            Kind::Held => true,
-            Kind::Point { .. } => self.s0.amax() > 0.0,
-            Kind::Body => false,
-        };
-        if !coupled {
+        let coupled = self.s0.amax() > 0.0 && self.free.contains(&false);
+        if !coupled && self.kind != Kind::Held {
             return;
         }
         let rest = self.matrix(&node.R()) * a;
         F.iter_mut().zip(&rest).for_each(|(f, rest)| *f -= rest);
     }
 
+    /// What angular velocities make of mass off the node and of inertia: m ω × (ω × s), and ω × J ω about the centre.
+    fn whirl(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
+        let s = R * self.s0;
+        let f = self.mass * omega.cross(&omega.cross(&s));
+        join(&f, &(omega.cross(&(R * (self.J0 * R.tr_mul(omega)))) + s.cross(&f)))
+    }
+
     /// Rates at the end of a step of length `dt` from `start`, where forces F are left over from the motion `now` there: the
     /// mean of the accelerations makes the velocities. That of a body which turns freely is taken of its angular momentum,
-    /// which no moment of its own inertia changes.
+    /// which no moment of its own inertia changes. Elsewhere what masses off the node and inertias make of the predicted angular
+    /// velocities is corrected: it would feed the motion.
     #[inline]
     pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> Motion {
         let h = 0.5 * dt;
         if self.kind != Kind::Body {
-            let push = self.accelerate(now, F);
-            let (a, alpha) = (now.a + top(&push), now.alpha + bottom(&push));
-            return Motion { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha };
+            let mean = |push: Vec6| {
+                let (a, alpha) = (now.a + top(&push), now.alpha + bottom(&push));
+                Motion { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
+            };
+            let mut end = mean(self.accelerate(now, F));
+            for _ in 0..if self.kind == Kind::Held { CORRECTIONS } else { 0 } {
+                let R = now.R();
+                let given = |i: usize| if self.free[3 + i] { end.omega[i] } else { now.omega[i] };
+                let change = self.whirl(&R, &Vec3::from_fn(|i, _| given(i))) - self.whirl(&R, &now.omega);
+                let F = Vec6::from(*F) - change;
+                end = mean(self.accelerate(now, F.as_ref()));
+            }
+            return end;
         }
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
         let (R0, R) = (start.R(), now.R());
-        let times = |R: &Mat3, v: &Vec3| R * (self.J0 * R.tr_mul(v));
+        let times = |R: &Mat3, v: &Vec3| R * (self.turning * R.tr_mul(v));
         let centripetal = |node: &Node, s: &Vec3| node.alpha.cross(s) + node.omega.cross(&node.omega.cross(s));
-        let (s0, s) = (R0 * self.s0, R * self.s0);
-        // About the centre of mass: Ḷ = m, on both sides of the step.
+        let (s0, s) = (R0 * self.arm, R * self.arm);
+        // About the centre of mass, or a node that does not move: Ḷ = m, on both sides of the step.
         let L0 = times(&R0, &start.omega);
         let m0 = times(&R0, &start.alpha) + start.omega.cross(&L0);
         let m1 = m - s.cross(&f) + times(&R, &now.alpha) + now.omega.cross(&times(&R, &now.omega));

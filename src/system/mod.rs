@@ -24,7 +24,6 @@ pub use results::{LinkState, SectionPoint, ShellState};
 use crate::constraints::attachment::{self, Attachment};
 use crate::constraints::joint::Joint;
 use crate::elements::{Block, Force};
-use crate::integrators::Scheme;
 use crate::materials::Spent;
 use crate::math::{Mat3, Vec3, larger, rotation, skew};
 use crate::model::{self, Model};
@@ -87,8 +86,6 @@ pub struct System {
     pub plane: Option<usize>,
     /// Inertia does not act in a static analysis; weight does.
     dynamic: bool,
-    /// Energies at a step swing with accelerations: [`energy::Energy::of_accelerations`] is wanted.
-    swings: bool,
 }
 
 /// Loads at the instant of equilibrium.
@@ -191,7 +188,6 @@ impl System {
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: model.damping.mass_factor,
             dynamic: model.analysis.kind == model::Kind::Dynamic,
-            swings: matches!(model.scheme, Scheme::CentralDifference(_)),
         })
     }
 
@@ -213,7 +209,6 @@ impl System {
             gyroscopic: false,
             plane: self.plane,
             dynamic: self.dynamic,
-            swings: self.swings,
         }
     }
 
@@ -341,7 +336,7 @@ impl System {
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
-            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes, |node| node.v)).sum::<f64>();
+            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes)).sum::<f64>();
         }
         for d in &self.nodal_damping {
             let node = &nodes[d.node];

@@ -184,7 +184,7 @@ impl Extras {
                 contact: 0.5,
                 friction: 0.25,
                 impact: 0.125,
-                of_accelerations: 0.0,
+                swing: 0.0,
             },
             reactions: [time, -1.0],
             links: [LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
