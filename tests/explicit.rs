@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use rdsolve::diagnostic::{Diagnostic, Source};
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
-use rdsolve::solve::{Frame, Run, Wanted};
+use rdsolve::solve::{Failure, Frame, Outcome, Run, Wanted};
 use rdsolve::system::System;
 use rdsolve::system::energy::Balance;
 use std::sync::atomic::AtomicBool;
@@ -673,8 +673,8 @@ fn dampers_do_not_hide_what_is_stiff() {
     };
     // Two masses against each other, each held by a spring besides; a mass at the damper, between springs. Neighbours that
     // give way change κ by a part of about k/κ m of it, which is 1e-4.
-    let stiff = 0.9 * longest(2.0 * 5000.0 + 50.0, 0.0);
-    let damped = 0.9 * longest(100.0, 500.0 / 2.0);
+    let stiff = 0.8 * longest(2.0 * 5000.0 + 50.0, 0.0);
+    let damped = 0.8 * longest(100.0, 500.0 / 2.0);
     for (damping, expected) in [(0.0, stiff), (5.0, stiff), (500.0, damped)] {
         let steps = steps(&row(damping));
         println!("{damping}: first {:.5}, of {expected:.5}", steps[0]);
@@ -711,8 +711,8 @@ fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
     let most = steps.iter().copied().fold(0.0, f64::max);
     println!("{} steps, first {:.3} of the limit, longest {most:.3}", steps.len(), steps[0]);
     assert!(plastic > 0.0);
-    // 0.9, and what power iteration leaves of the many modes near the fastest.
-    assert!(steps[0] > 0.89 && most < 0.95, "{} {most}", steps[0]);
+    // 0.8, and what power iteration leaves of the many modes near the fastest.
+    assert!(steps[0] > 0.79 && most < 0.85, "{} {most}", steps[0]);
 }
 
 /// A mass that only a load moves bears any step: it has a fiftieth of the run.
@@ -1037,8 +1037,8 @@ fn load_steps_and_preloads_balance() {
             let model = scene(&text, &[&format!("analysis.time_step={step}")]);
             let Balance { made, taken, most, .. } = balance_of(&model);
             println!("made {made:.1e}, taken {taken:.1e} of {most:.2}");
-            // The spring gives way by 0.1 under 10.
-            assert!(most > 0.4, "{most}");
+            // Half of 10 · 0.1 moves, but for (ω Δt/2)² of it: a quarter.
+            assert!(most > 0.37, "{most}");
             assert!(made.max(taken) < 1e-12 * most, "{made} and {taken} of {most}"); // rounding
         }
     }
@@ -1111,27 +1111,217 @@ const DAMPED: &str = "[damping]\nnodal = [{ at = \"ball\", translation = 1.0 }]\
 #[test]
 fn blows_neither_make_energy_nor_keep_steps_short() {
     let run = |text: &str| {
-        let model = scene(text, &[]);
-        let (mut balance, mut rows, mut dts) = (Balance::default(), Vec::new(), Vec::new());
-        let done = run_to_the_end(&model, &mut |frame| {
+        let mut rows = Vec::new();
+        let done = run_to_the_end(&scene(text, &[]), &mut |frame| {
             let energy = frame.energy.unwrap();
-            balance.see(energy);
-            rows.push([energy.total, energy.damping]);
-            dts.push(frame.dt);
+            rows.push([energy.total, energy.total - energy.swing, frame.dt]);
             Vec::new()
         });
-        let most = rows.iter().map(|row| row[0]).fold(0.0, f64::max);
-        println!(
-            "{} steps, {} cuts: most {most:.3}, at the end {:?}, made {:.3}, taken {:.3}",
-            done.counts.steps,
-            done.counts.cuts,
-            rows.last().unwrap(),
-            balance.made,
-            balance.taken
-        );
-        (done, balance, most, dts)
+        let [most, kept] = [0, 1].map(|k| rows.iter().map(|row| row[k]).fold(0.0, f64::max));
+        println!("{} steps, {} cuts: at most {most:.3}, kept {kept:.3}", done.counts.steps, done.counts.cuts);
+        (most, kept, rows)
     };
-    let undamped = run(&ball(&WALL.replace("GAP", "-0.15"), ""));
-    let wall = run(&ball(&WALL.replace("GAP", "-0.05"), DAMPED));
-    let stop = run(&ball(STOP, DAMPED));
+    // By half of the limit ¼ of what is stored at a step swings, and a cut may take that for all there is: 2/(1 − ¼) = 2.67.
+    let (most, kept, rows) = run(&ball(&WALL.replace("GAP", "-0.15"), ""));
+    assert!(most < 2.0 / 0.75, "{most}");
+    // Some forty blows in steps that resolve them, and few changes of the step: a tenth.
+    assert!(kept < 2.2 && rows.last().unwrap()[1] > 1.8, "{kept}, {:?}", rows.last());
+    // A damper takes all of it; the wall is met for some periods at first, and then no more.
+    for text in [ball(&WALL.replace("GAP", "-0.05"), DAMPED), ball(STOP, DAMPED)] {
+        let (most, _, rows) = run(&text);
+        assert!(most < 2.0 / 0.75, "{most}");
+        // Half of the limit of the soft spring, 2/10, again, within a whole number of steps.
+        assert!(rows.last().unwrap()[2] > 0.09, "{:?}", rows.last());
+        assert!(rows.len() < 5000, "{}", rows.len());
+    }
+}
+
+/// A cantilever of eight elements whose tip is thrown.
+fn thrown(mass: &str, speed: f64, more: &str) -> String {
+    format!(
+        r#"
+[analysis]
+kind = "dynamic"
+end_time = 0.5
+time_step = "auto"
+[integrator]
+scheme = "central-difference"
+[materials.steel]
+model = "elastic"
+youngs_modulus = 1e6
+poisson_ratio = 0.0
+density = 1.0
+[sections.s]
+shape = "rectangle"
+width = 0.1
+height = 0.1
+[points]
+a = [0.0, 0.0, 0.0]
+b = [1.0, 0.0, 0.0]
+[[beams]]
+name = "beam"
+path = ["a", "b"]
+elements = 8
+material = "steel"
+section = "s"
+orientation = [0.0, 1.0, 0.0]
+mass = "{mass}"
+order = 1
+[[supports]]
+at = "a"
+fix = "all"
+[[initial]]
+at = "b"
+velocity = [0.0, 0.0, {speed:?}]
+[output]
+interval = 0.01
+{more}
+"#
+    )
+}
+
+/// Elements that bend far can make motion grow at steps that each mode of the scene bears: automatic steps stay clear of it, and a
+/// run that has more energy than there was is none.
+#[test]
+fn motion_that_grows_by_itself_fails() {
+    let text = thrown("lumped", -10.0, "");
+    let balance = balance_of(&scene(&text, &[]));
+    println!("made {:.3} of {:.3}", balance.made, balance.had);
+    assert!(balance.made < 0.2 * balance.had, "{balance:?}"); // of second order: bends by a third of the length at 2.5 rad a step
+    // 0.91 of the limit, without energies asked for too.
+    for energy in ["output.energy=true", "output.energy=false"] {
+        let model = scene(&text, &["analysis.time_step=1e-4", energy]);
+        let done = support::run(&model, &mut |_| Vec::new());
+        let Outcome::Failed { time, failure } = done.outcome else { panic!("{:?}", done.outcome) };
+        println!("{time}: {failure}");
+        assert!(matches!(failure, Failure::Growing { made } if made > 1.0), "{failure:?}");
+        assert!(time < 0.2, "{time}");
+        assert!(failure.to_string().contains("times the energy that there was"), "{failure}");
+    }
+}
+
+/// Masses that belong together are watched as others are: the tip meets a stop that is sixty times as stiff as any mode.
+#[test]
+fn blows_on_consistent_masses_and_small_ones_are_seen() {
+    let stop = r#"
+[[links]]
+name = "stop"
+from = { node = "b" }
+to = { ground = [1.0, 0.0, -3.0] }
+law = "table"
+points = [[-1.0, -2e7], [-0.001, 0.0], [0.0, 0.0], [5.0, 0.0]]
+direction = [0.0, 0.0, -1.0]
+"#;
+    for (mass, end) in [("consistent", "analysis.end_time=0.05"), ("lumped", "analysis.end_time=0.5")] {
+        let balance = balance_of(&scene(&thrown(mass, -3.0, stop), &[end]));
+        println!("{mass}: made {:.4}, taken {:.4} of {:.4}", balance.made, balance.taken, balance.had);
+        // Of second order where the tip leaves the stop between two steps.
+        assert!(balance.made.max(balance.taken) < 0.1 * balance.had, "{balance:?}");
+    }
+}
+
+/// A top of Brüls & Cardona (2010): the mass may be given at its pivot, or at the end of an arm.
+#[test]
+fn a_top_turns_about_its_pivot_wherever_its_mass_is_given() {
+    let ends = [
+        ("mass = 15.0", "[15.234375, 0.46875, 15.234375]", ""),
+        ("mass = 1e-9", "[0.234375, 0.46875, 0.234375]", "[[masses]]\nat = \"centre_of_mass\"\nmass = 15.0\n"),
+    ]
+    .map(|(mass, inertia, more)| {
+        let text = format!(
+            r#"
+[analysis]
+kind = "dynamic"
+end_time = 2.0
+time_step = 1e-3
+[integrator]
+scheme = "central-difference"
+[points]
+centre_of_mass = [0.0, 1.0, 0.0]
+[[bodies]]
+name = "top"
+center = [0.0, 0.0, 0.0]
+{mass}
+inertia = {inertia}
+angular_velocity = [0.0, 150.0, -4.61538]
+[[attachments]]
+body = "top"
+nodes = "centre_of_mass"
+[[supports]]
+at = "top"
+fix = ["ux", "uy", "uz"]
+[[loads]]
+at = "centre_of_mass"
+force = [0.0, 0.0, -147.15]
+{more}
+[output]
+interval = 0.1
+"#
+        );
+        let model = scene(&text, &[]);
+        let at = node(&model, "centre_of_mass");
+        let done = run_to_the_end(&model, &mut |frame| {
+            let mut row = position(&frame.state.nodes[at]).to_vec();
+            // Forces on the pivot over the weight.
+            row.extend(frame.reactions.iter().map(|force| force / 147.15));
+            row
+        });
+        // On a guide all rotations are free and one translation is.
+        let guided = scene(
+            &text.replace("\"uy\", \"uz\"]", "\"uy\"]").replace("-147.15", "0.0"),
+            &["analysis.time_step=2e-3", "analysis.end_time=20.0"],
+        );
+        (done.rows, balance_of(&guided))
+    });
+    let [(centred, _), (held, guided)] = ends;
+    let off = difference(&held, &centred);
+    println!("{off:.1e}, on a guide made {:.1e} of {:.1e}", guided.made, guided.had);
+    // Rounding of 2000 steps of 0.15 rad, and a mass of 1e-9 beside 15.
+    assert!(off < 1e-8, "{off}");
+    // At 0.3 rad a step, of second order; moments that met the predicted velocities alone made two thousand times what there was.
+    assert!(guided.made < 0.05 * guided.had, "{guided:?}");
+}
+
+/// A step that a floor refuses has not moved anything, and errors are not judged by it: a ball falls by 0.3, bounces, and has its
+/// steps as if it had been watched closely.
+#[test]
+fn refused_steps_leave_nothing_behind() {
+    let text = r#"
+[analysis]
+kind = "dynamic"
+end_time = 3.0
+time_step = "auto"
+error_tolerance = 1e-6
+[integrator]
+scheme = "runge-kutta"
+[output]
+interval = 3.0
+[points]
+ball = [0.0, 0.0, 0.3]
+[[masses]]
+at = "ball"
+mass = 1.0
+[[contacts]]
+name = "floor"
+surface = { shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+with = "ball"
+stiffness = 1e4
+restitution = 1.0
+[environment]
+gravity = [0.0, 0.0, -9.81]
+"#;
+    let model = scene(text, &[]);
+    let ball = node(&model, "ball");
+    let done = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[ball].x.z]);
+    // Free flight of t_f, half an oscillation and a little on the floor of ω = 100, and so on.
+    let (g, omega) = (9.81f64, 100.0);
+    let speed = (2.0 * g * 0.3).sqrt();
+    let (flight, touch) = (2.0 * speed / g, 2.0 / omega * (std::f64::consts::PI - (omega * speed / g).atan()));
+    let since = (3.0 - 0.5 * flight - touch).rem_euclid(flight + touch);
+    assert!(since < flight);
+    let exact = speed * since - 0.5 * g * since * since;
+    let off = (done.rows.last().unwrap()[0] - exact).abs();
+    println!("{off:.1e}, {} steps", done.counts.steps);
+    // Order is lost at impacts, of which there are six: 2e-4; with what a refused step of the rest of the run moved by, 6e-4.
+    assert!(off < 4e-4, "{off}");
 }
