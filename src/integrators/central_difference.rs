@@ -1,6 +1,8 @@
 //! Central differences, as velocity Verlet: positions at t + Δt from the motion at t alone, accelerations there from equilibrium
 //! with the mass alone, velocities by the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping,
-//! periods shortened, momenta kept; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2.
+//! periods shortened; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2. Momenta of what moves freely are kept.
+//! A rotation by Δt ω + ½ Δt² α is not the same from its end backwards: a body that spins under moments gains or loses energy
+//! steadily, by the third power of the step.
 //!
 //! Forces that depend on velocities meet the predicted ones, v + Δt a, which costs no order; the limit becomes
 //! ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1.
