@@ -1,0 +1,44 @@
+//! What is shown of a contact: the resultant of its points and its least gap.
+
+use super::{Contacts, Point, Surface};
+use crate::math::Vec3;
+use crate::state::{Node, Now};
+
+/// The resultant of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resultant {
+    /// Points that touch.
+    pub touching: usize,
+    /// On the surface, and its moment about the node that carries it.
+    pub f: Vec3,
+    pub m: Vec3,
+}
+
+impl Default for Resultant {
+    fn default() -> Self {
+        Resultant { touching: 0, f: Vec3::zeros(), m: Vec3::zeros() }
+    }
+}
+
+impl Contacts {
+    /// What the points at hand do to the surface.
+    pub fn resultant(&self, now: &Now) -> Resultant {
+        let mut sum = Resultant::default();
+        for e in 0..self.points.len() {
+            let Some((meeting, action)) = self.touch(e, now) else { continue };
+            let f = meeting.R * action.F;
+            sum.touching += 1;
+            sum.f -= f;
+            sum.m -= meeting.d.cross(&f) + meeting.R * action.M;
+        }
+        sum
+    }
+}
+
+/// Least distance of points from a surface; infinite where there are none.
+pub fn least_gap(surface: &Surface, carrier: usize, points: &[Point], nodes: &[Node]) -> f64 {
+    let carrier = &nodes[carrier];
+    let R = carrier.R();
+    let gap = |point: &Point| surface.distance(&R.tr_mul(&point.seen_from(carrier, nodes))) - point.radius;
+    points.iter().map(gap).fold(f64::INFINITY, f64::min)
+}
