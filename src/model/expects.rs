@@ -13,8 +13,10 @@ const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
 const JOINT: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 const LINK: [&str; 2] = ["force", "elongation"];
-const CONTACT: [&str; 9] = ["touching", "gap", "fx", "fy", "fz", "mx", "my", "mz", "force"];
-const ENERGY: [&str; 18] = [
+/// Of a contact: points that touch, the least gap, force and moment on the surface, and the size of the force.
+pub const CONTACT: [&str; 9] = ["touching", "gap", "fx", "fy", "fz", "mx", "my", "mz", "force"];
+/// The energy balance and the momenta.
+pub const ENERGY: [&str; 18] = [
     "kinetic",
     "strain",
     "plastic",

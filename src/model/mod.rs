@@ -27,6 +27,7 @@ mod supports;
 mod unused;
 
 pub use build::{build, read};
+pub use expects::{CONTACT, ENERGY};
 pub use meshes::Input;
 pub use study::Study;
 

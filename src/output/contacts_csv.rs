@@ -1,11 +1,11 @@
 //! contacts.csv: gaps and forces of the contacts.
 
 use super::table::Table;
+pub use crate::model::CONTACT as QUANTITIES;
 use crate::solve::{ContactState, Frame};
 use std::io;
 
-/// Points that touch, the least gap, force and moment on the surface; then what only `[[expect]]` asks for: the force's size.
-pub const QUANTITIES: [&str; 9] = ["touching", "gap", "fx", "fy", "fz", "mx", "my", "mz", "force"];
+/// All but the size of the force, which only `[[expect]]` asks for.
 const COLUMNS: usize = 8;
 
 /// The quantities of one contact.

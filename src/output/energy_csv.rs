@@ -1,30 +1,10 @@
 //! energy.csv: the energy balance and the momenta.
 
 use super::table::Table;
+pub use crate::model::ENERGY as COLUMNS;
 use crate::solve::Frame;
 use crate::system::energy::Energy;
 use std::io;
-
-pub const COLUMNS: [&str; 18] = [
-    "kinetic",
-    "strain",
-    "plastic",
-    "viscous",
-    "damping",
-    "links",
-    "external",
-    "numerical",
-    "total",
-    "px",
-    "py",
-    "pz",
-    "lx",
-    "ly",
-    "lz",
-    "contact",
-    "friction",
-    "impact",
-];
 
 /// The columns of one state.
 pub fn values(e: &Energy) -> [f64; 18] {
