@@ -1,9 +1,18 @@
 //! The same deck gives the same bytes, whatever the number of threads, and every time.
 
+use rdsolve::diagnostic::Source;
+use rdsolve::materials::Spent;
+use rdsolve::model::{self, Model};
+use rdsolve::output::energy_csv;
+use rdsolve::plan::Plan;
+use rdsolve::solve::{ContactState, Frame, JointState, Observer, Outcome, Run, Wanted};
+use rdsolve::state::{Node, State, Work};
+use rdsolve::system::System;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
+use std::sync::atomic::AtomicBool;
 
 /// All files a run leaves, but for those that tell the clock.
 fn files(deck: &Path, folder: &Path, threads: &str) -> BTreeMap<String, Vec<u8>> {
@@ -278,4 +287,207 @@ fn a_path_of_a_roof() {
     let deck = include_str!("../decks/hinged_roof/deck.toml").split("# ---- expected").next().unwrap();
     let deck = deck.replace("[16, 16]", "[34, 34]").replace("time_step = 0.05", "time_step = 0.2\nsteps = 3");
     assert_same(&format!("{deck}\n[output]\nnodes = \"all\"\nreactions = true\n"), 4);
+}
+
+/// Every number of a state, to the bit.
+fn bits(state: &State) -> Vec<u64> {
+    let State { time, nodes, history, jerk, reactions, multipliers, followers, work } = state;
+    let Work { external, damping, damping_power, material, swing, accelerations, step } = *work;
+    let Spent { plastic, viscous, stored, friction, impact } = material;
+    let mut numbers = vec![*time, external, damping, damping_power, swing, accelerations, step];
+    numbers.extend([plastic, viscous, stored, friction, impact]);
+    for Node { x, low, q, v, omega, a, alpha } in nodes {
+        numbers.extend([x, low, v, omega, a, alpha].into_iter().flatten());
+        numbers.extend(q.coords.iter());
+    }
+    numbers.extend(jerk.iter().chain(followers).flatten());
+    numbers.extend([history, reactions, multipliers].into_iter().flatten());
+    assert!(numbers.iter().all(|number| number.is_finite()));
+    numbers.into_iter().map(f64::to_bits).collect()
+}
+
+/// A step: its length, the state after it, and what is summed over all elements, to the bit.
+#[derive(PartialEq)]
+struct Step {
+    dt: f64,
+    state: Vec<u64>,
+    sums: Vec<u64>,
+    /// Points that touch, of each contact.
+    touching: Vec<usize>,
+}
+
+#[derive(Default)]
+struct Steps(Vec<Step>);
+
+impl Observer for Steps {
+    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+        let mut sums: Vec<f64> = frame.energy.map_or(Vec::new(), |energy| energy_csv::values(energy).to_vec());
+        let mut touching = Vec::new();
+        for JointState { f, m } in frame.joints {
+            sums.extend(f.iter().chain(m));
+        }
+        for ContactState { touching: points, gap, f, m } in frame.contacts {
+            touching.push(*points);
+            sums.push(*gap);
+            sums.extend(f.iter().chain(m));
+        }
+        let sums = sums.into_iter().map(f64::to_bits).collect();
+        self.0.push(Step { dt: frame.dt, state: bits(frame.state), sums, touching });
+        Ok(())
+    }
+}
+
+/// The run on so many threads, step by step, and the state it ends with.
+fn steps(model: &Model, threads: usize) -> (Vec<Step>, State) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let system = System::new(model).unwrap();
+        let plan = Plan::new(model, &system, threads);
+        let stop = AtomicBool::new(false);
+        let all = Wanted {
+            steps: true,
+            energy: true,
+            reactions: true,
+            links: true,
+            contacts: true,
+            sections: true,
+            parts: true,
+            plastic_strains: true,
+            shells: true,
+        };
+        let mut seen = Steps::default();
+        let (outcome, state) = Run::new(model, &system, &plan, all, &stop).unwrap().run(&mut seen);
+        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+        (seen.0, state.unwrap())
+    })
+}
+
+/// A scene of enough elements for threads takes the same steps through the same states on one thread, two and five: more
+/// than most machines that run this have cores.
+fn assert_same_bits(text: &str) -> (Vec<Step>, State) {
+    let source = Source::new("deck.toml", text, &[]);
+    let (model, problems) = model::read(&source);
+    let said = || problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n");
+    let model = model.unwrap_or_else(|| panic!("{}", said()));
+    let parts = model.beams.iter().map(|beam| beam.elements.len());
+    let parts = parts.chain(model.shells.iter().map(|shell| shell.elements.len()));
+    let elements: usize = parts.chain(model.contacts.iter().map(|contact| contact.points.len())).sum();
+    assert!(elements > 1024, "too small for threads: {elements} elements");
+    let one = steps(&model, 1);
+    for threads in [2, 5] {
+        let (others, _) = steps(&model, threads);
+        for (number, (step, other)) in one.0.iter().zip(&others).enumerate() {
+            assert!(step == other, "step {number} differs on {threads} threads");
+        }
+        assert_eq!(others.len(), one.0.len(), "{threads} threads");
+    }
+    one
+}
+
+/// Six trusses in a row, by a joint of every kind from one to the next: they fall, held at the start. Each is three bent beams
+/// of 70 elements that share their ends: sums of three, whose last bits would show another order.
+fn jointed_row(steps: &str) -> String {
+    let kinds = ["hinge", "ball", "universal", "cylinder", "fixed"];
+    let bends = [[0.1, 0.0], [-0.05, 0.08], [-0.04, -0.09]];
+    let mut deck = format!("[analysis]\nkind = \"dynamic\"\n{steps}\n{COMMON}\n[points]\n");
+    for k in 0..6 {
+        let x = k as f64;
+        let _ = writeln!(deck, "from{k} = [{x}, 0.0, 0.0]\nto{k} = [{}, 0.0, 0.0]", x + 1.0);
+        for (b, [y, z]) in bends.into_iter().enumerate() {
+            let _ = writeln!(deck, "middle{k}{b} = [{}, {y}, {z}]", x + 0.5);
+        }
+    }
+    for (k, b) in (0..6).flat_map(|k| (0..bends.len()).map(move |b| (k, b))) {
+        let _ = write!(
+            deck,
+            "\n[[beams]]\nname = \"beam{k}{b}\"\npath = [\"from{k}\", \"middle{k}{b}\", \"to{k}\"]\nelements = 35\n\
+             order = 1\nmaterial = \"steel\"\nsection = \"tube\"\norientation = [0.0, 1.0, 0.2]\n"
+        );
+    }
+    for (k, kind) in kinds.into_iter().enumerate() {
+        let axes = match kind {
+            "hinge" => "axis = [0.0, 1.0, 0.0]\n",
+            "cylinder" => "axis = [1.0, 0.0, 0.0]\n",
+            "universal" => "axis = [0.0, 1.0, 0.0]\ncross_axis = [0.0, 0.0, 1.0]\n",
+            _ => "",
+        };
+        let next = k + 1;
+        let _ = write!(
+            deck,
+            "\n[[joints]]\nname = \"joint{k}\"\nkind = \"{kind}\"\n{axes}from = {{ node = \"to{k}\" }}\nto = {{ node = \"from{next}\" }}\n"
+        );
+    }
+    deck + "\n[[supports]]\nat = \"from0\"\nfix = \"all\"\n"
+}
+
+#[test]
+fn joints_between_many_elements() {
+    let (_, state) = assert_same_bits(&jointed_row("end_time = 0.01\ntime_step = 0.0005"));
+    assert!(state.multipliers.iter().any(|force| force.abs() > 1.0), "the joints bear nothing");
+}
+
+#[test]
+fn automatic_steps_of_many_elements() {
+    let (steps, _) = assert_same_bits(&jointed_row("end_time = 0.02\ntime_step = \"auto\"\nerror_tolerance = 1e-2"));
+    let (least, most) =
+        steps[1..].iter().fold((f64::INFINITY, 0.0_f64), |(a, b), step| (a.min(step.dt), b.max(step.dt)));
+    assert!(most > 2.0 * least, "steps from {least:e} to {most:e} choose nothing");
+}
+
+/// A sheet slides over the ground as a ball falls on it; points between its nodes touch too.
+const TOUCHING: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 0.005
+time_step = 2.5e-4
+
+[points]
+a = [0.0, 0.0, 0.005]
+b = [1.0, 0.0, 0.005]
+c = [1.0, 1.0, 0.006]
+d = [0.0, 1.0, 0.007]
+
+[[shells]]
+name = "sheet"
+corners = ["a", "b", "c", "d"]
+elements = [12, 12]
+thickness = 0.01
+material = "steel"
+
+[[bodies]]
+name = "ball"
+center = [0.47, 0.52, 0.113]
+mass = 20.0
+shape = { kind = "sphere", radius = 0.1 }
+velocity = [0.5, 0.0, -2.0]
+angular_velocity = [0.0, 3.0, 0.0]
+
+[[initial]]
+at = "sheet"
+velocity = [1.0, 0.5, -0.5]
+
+[[contacts]]
+name = "ground"
+surface = { shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+with = "sheet"
+stiffness = 1e5
+restitution = 0.5
+friction = 0.3
+points = 2
+
+[[contacts]]
+name = "landing"
+surface = { shape = "sphere", body = "ball", radius = 0.1 }
+with = "sheet"
+stiffness = 1e6
+friction = 0.2
+points = 2
+"#;
+
+#[test]
+fn contacts_of_many_points() {
+    let (steps, state) = assert_same_bits(&format!("{TOUCHING}{COMMON}"));
+    assert!((0..2).all(|contact| steps.iter().any(|step| step.touching[contact] > 0)), "a contact never touches");
+    let spent = state.work.material;
+    assert!(spent.friction > 0.0 && spent.impact > 0.0, "{spent:?}");
 }
