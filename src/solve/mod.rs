@@ -1,15 +1,18 @@
 //! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 
 mod accelerate;
+mod accept;
 mod arc;
 mod central_difference;
 mod composite;
 mod convergence;
+mod correction;
 mod explicit;
 mod failure;
 mod free;
 mod joints;
 mod march;
+mod motion;
 mod pace;
 mod path;
 mod refresh;

@@ -10,10 +10,11 @@
 //! filter of third order over the time, with its corner at φ = 1, makes that φ A/√(1 + φ²): what is long out of phase counts by its
 //! amplitude.
 
+use super::correction::Size;
 use super::failure::Failure;
 use super::march::{Run, Step};
 use super::stations::Stretch;
-use super::step::{Size, Stepper};
+use super::step::Stepper;
 use super::{Observer, Outcome};
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{RotationUpdate, newmark};

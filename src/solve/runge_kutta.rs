@@ -1,8 +1,9 @@
 //! A step by an explicit Runge-Kutta scheme, of given length or with its own error under control.
 
+use super::correction::Size;
 use super::explicit::Explicit;
 use super::failure::Failure;
-use super::step::{Size, Stepper, Taken};
+use super::step::{Stepper, Taken};
 use crate::integrators::runge_kutta::{Tableau, Weights};
 use crate::integrators::{RungeKutta, Scheme};
 use crate::materials::Spent;
@@ -167,7 +168,7 @@ impl Stepper<'_> {
             let increment = &mut self.increments[node];
             let (theta, omega) = (bottom(&increment.q), bottom(&increment.d));
             let trial = &mut self.trial[node];
-            trial.x = start.x + top(&increment.q);
+            trial.place(&start.x, &start.low, &top(&increment.q));
             trial.v = top(&increment.d);
             trial.omega = omega;
             (trial.a, trial.alpha) = (top(&increment.dd), bottom(&increment.dd));
