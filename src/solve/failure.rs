@@ -93,7 +93,10 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<Largest>
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let list = |f: &mut fmt::Formatter, largest: &[Largest]| {
-            largest.iter().try_for_each(|l| write!(f, "\n  {} {}: {:.3e}", l.label, l.direction, l.residual))
+            largest.iter().try_for_each(|l| match l.residual.is_finite() {
+                true => write!(f, "\n  {} {}: {:.3e}", l.label, l.direction, l.residual),
+                false => write!(f, "\n  {} {}: beyond all numbers", l.label, l.direction),
+            })
         };
         match self {
             Failure::Singular { label, direction } => write!(
