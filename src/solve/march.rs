@@ -5,6 +5,7 @@ use super::explicit::Explicit;
 use super::failure::Failure;
 use super::joints::{self, Closing};
 use super::motion::extent;
+use super::own_length::{Free, OwnLength};
 use super::pace::Pace;
 use super::refresh::Refresh;
 use super::search::Search;
@@ -254,14 +255,14 @@ impl<'a> Run<'a> {
         }
         self.show(state, observer, balance, &first)?;
         let model = self.stepper.model;
-        let free = model.analysis.error_tolerance.filter(|_| self.stepper.explicit.is_some());
-        let paced = model.analysis.error_tolerance.filter(|_| self.stepper.explicit.is_none());
-        let mut pace = paced.map(|tolerance| Pace::new(model, tolerance, self.stepper.length, state));
+        let explicit = self.stepper.explicit.is_some();
+        let mut own: Option<Box<dyn OwnLength>> = model.analysis.error_tolerance.map(|tolerance| match explicit {
+            true => Box::new(Free) as Box<dyn OwnLength>,
+            false => Box::new(Pace::new(model, tolerance, self.stepper.length, state)),
+        });
         for stretch in stretches(model) {
-            if free.is_some() {
-                self.follow_itself(state, &stretch, observer, balance)?;
-            } else if let Some(pace) = &mut pace {
-                self.follow_error(state, &stretch, pace, observer, balance)?;
+            if let Some(own) = &mut own {
+                self.follow_length(state, &stretch, own.as_mut(), observer, balance)?;
             } else {
                 for k in 1..=stretch.steps {
                     self.advance(state, &stretch, k, observer, balance)?;

@@ -12,17 +12,14 @@
 
 use super::correction::Size;
 use super::failure::Failure;
-use super::march::{Run, Step};
-use super::stations::Stretch;
-use super::step::Stepper;
-use super::{Observer, Outcome};
+use super::own_length::OwnLength;
+use super::step::{Stepper, Taken};
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{RotationUpdate, newmark};
 use crate::math::{Vec6, bottom, top};
 use crate::model::Model;
 use crate::state::State;
 use crate::system::assembly::NONE;
-use std::sync::atomic::Ordering;
 
 /// Of what a step may err, and of what steps have erred lately, where it is taken back: something has happened.
 const TOO_MUCH: f64 = 4.0;
@@ -217,65 +214,32 @@ impl Measure {
     }
 }
 
-impl Run<'_> {
-    /// Through a stretch in steps of equal length as long as nothing asks for another.
-    pub(super) fn follow_error(
-        &mut self,
-        state: &mut State,
-        stretch: &Stretch,
-        pace: &mut Pace,
-        observer: &mut dyn Observer,
-        balance: Option<f64>,
-    ) -> Result<(), Outcome> {
-        let model = self.stepper.model;
-        let (end, least) = (model.analysis.end_time, model.analysis.least_step);
-        let mut cuts = 0;
-        while state.time < stretch.to {
-            if self.stop.load(Ordering::Relaxed) {
-                return Err(Outcome::Stopped { time: state.time });
-            }
-            let left = stretch.to - state.time;
-            let pieces = (left / pace.length * (1.0 - 1e-9)).ceil().max(1.0);
-            let target = if pieces == 1.0 { stretch.to } else { state.time + left / pieces };
-            let dt = target - state.time;
-            pace.start.copy_from(state);
-            let (drift, violation) = (self.stepper.drift, self.stepper.violation);
-            match self.stepper.step(state, target) {
-                Ok(taken) => {
-                    let estimate = self.stepper.estimate(state, dt, pace);
-                    if pace.measure.begun.is_none() && estimate.motion != Size::default() {
-                        state.copy_from(&pace.start);
-                        self.stepper.look_ahead(state, pace);
-                        continue;
-                    }
-                    if !pace.judge(dt, state.time, end, &estimate) {
-                        state.copy_from(&pace.start);
-                        (self.stepper.drift, self.stepper.violation) = (drift, violation);
-                        if dt <= least {
-                            let failure = Failure::Inaccurate { dt };
-                            return Err(Outcome::Failed { time: state.time, failure });
-                        }
-                        cuts += 1;
-                        self.counts.cuts += 1;
-                        continue;
-                    }
-                    let at_end = state.time >= stretch.to;
-                    let last = at_end && stretch.to >= end * (1.0 - 1e-9);
-                    let step = Step { dt, taken: &taken, cuts, due: at_end && stretch.due, last, passed: &[] };
-                    self.show(state, observer, balance, &step)?;
-                    cuts = 0;
-                }
-                Err(failure) => {
-                    if dt <= least {
-                        return Err(Outcome::Failed { time: state.time, failure });
-                    }
-                    pace.length = 0.5 * dt;
-                    cuts += 1;
-                    self.counts.cuts += 1;
-                }
-            }
+impl OwnLength for Pace {
+    fn propose(&mut self, _: &mut Stepper, _: &State, _: f64) -> Result<f64, Failure> {
+        Ok(self.length)
+    }
+
+    fn take(&mut self, stepper: &mut Stepper, state: &mut State, to: f64, _: f64) -> Result<Option<Taken>, Failure> {
+        let dt = to - state.time;
+        self.start.copy_from(state);
+        let (drift, violation) = (stepper.drift, stepper.violation);
+        let taken = stepper.step(state, to)?;
+        let estimate = stepper.estimate(state, dt, self);
+        if self.measure.begun.is_none() && estimate.motion != Size::default() {
+            state.copy_from(&self.start);
+            stepper.look_ahead(state, self);
+            return Ok(None);
         }
-        Ok(())
+        if self.judge(dt, state.time, stepper.model.analysis.end_time, &estimate) {
+            return Ok(Some(taken));
+        }
+        state.copy_from(&self.start);
+        (stepper.drift, stepper.violation) = (drift, violation);
+        Err(Failure::Inaccurate { dt })
+    }
+
+    fn went_wrong(&mut self, _: &mut Stepper, dt: f64) {
+        self.length = 0.5 * dt;
     }
 }
 
