@@ -213,17 +213,7 @@ fn large_scenes_neither() {
 fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
     let system = System::new(m).unwrap();
     let stop = AtomicBool::new(false);
-    let wanted = Wanted {
-        steps: true,
-        energy: true,
-        reactions: true,
-        links: true,
-        contacts: true,
-        sections: true,
-        parts: true,
-        plastic_strains: true,
-        shells: true,
-    };
+    let wanted = Wanted::ALL;
     let mut plan = Plan::new(m, &system, 1);
     plan.kind = kind;
     let mut run = Run::new(m, &system, &plan, wanted, &stop).unwrap();

@@ -344,17 +344,7 @@ fn steps(model: &Model, threads: usize) -> (Vec<Step>, State) {
         let system = System::new(model).unwrap();
         let plan = Plan::new(model, &system, threads);
         let stop = AtomicBool::new(false);
-        let all = Wanted {
-            steps: true,
-            energy: true,
-            reactions: true,
-            links: true,
-            contacts: true,
-            sections: true,
-            parts: true,
-            plastic_strains: true,
-            shells: true,
-        };
+        let all = Wanted::ALL;
         let mut seen = Steps::default();
         let (outcome, state) = Run::new(model, &system, &plan, all, &stop).unwrap().run(&mut seen);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");

@@ -240,7 +240,8 @@ impl Stepper<'_> {
             for block in &masses.blocks {
                 let (change, increment) = (push[block.node], &mut self.increments[block.node]);
                 let node = &mut self.trial[block.node];
-                node.x += top(&change);
+                let Node { x, low, .. } = *node;
+                node.place(&x, &low, &top(&change));
                 node.q = renormalise(&(exp(&bottom(&change)) * node.q));
                 let turn = inverse_tangent(&bottom(&increment.q), &bottom(&change));
                 increment.q += join(&top(&change), &turn);

@@ -38,6 +38,20 @@ pub struct Wanted {
     pub shells: bool,
 }
 
+impl Wanted {
+    pub const ALL: Wanted = Wanted {
+        steps: true,
+        energy: true,
+        reactions: true,
+        links: true,
+        contacts: true,
+        sections: true,
+        parts: true,
+        plastic_strains: true,
+        shells: true,
+    };
+}
+
 /// How a run ended.
 #[derive(Debug)]
 pub enum Outcome {
