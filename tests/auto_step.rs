@@ -202,6 +202,7 @@ fn stiff_spring_chain() {
             skip: 10,
         };
         let found = scene.check(&format!("X1 {scheme}"), 64, &[1e-2, 1e-3, 1e-4], [5.0, 5.0]);
+        scene.check_cost("X1", &scene.fixed(64).rows, &[2, 4, 8, 16, 32], &found);
         // Steps of the fastest period would be 26,000.
         assert!(found[2].1 < 10_000, "{found:?}");
     }

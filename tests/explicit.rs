@@ -1021,7 +1021,7 @@ kind = "step"
 fn balance_of(model: &Model) -> Balance {
     let mut balance = Balance::default();
     run_to_the_end(model, &mut |frame| {
-        balance.see(&frame.energy.unwrap());
+        balance.see(frame.energy.unwrap());
         Vec::new()
     });
     balance
