@@ -16,7 +16,7 @@ use super::own_length::OwnLength;
 use super::step::{Stepper, Taken};
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{RotationUpdate, newmark};
-use crate::math::{Vec6, bottom, top};
+use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::Model;
 use crate::state::State;
 use crate::system::assembly::NONE;
@@ -46,6 +46,8 @@ const TRACE: f64 = 1e-6;
 /// An estimate of which two filters leave less is one of motion that the step does not resolve, a period of four steps or less;
 /// unless there is motion beside it of which a third leaves more than their root.
 const RESOLVED: f64 = 0.3;
+/// Passages that leave nothing of such motion, and most of what has ten steps a period.
+const PASSAGES: usize = 8;
 /// Of the tolerance: such motion is left to the damping of the scheme while its amplitude is less: shorter steps would only draw
 /// it out.
 const SLIGHT: f64 = 2.0;
@@ -89,36 +91,33 @@ struct Lasting {
     value: Vec<Vec6>,
     /// Of the value, times the time constant.
     rate: Vec<Vec6>,
-    begun: bool,
+    /// The time constant of the last step; `None` before the first.
+    tau: Option<f64>,
 }
 
 impl Lasting {
     /// Takes in the errors of a step of length `dt`, `per` c Δt³; implicit Euler for
     /// τ y₁' + y₁ = e and τ² y'' + τ y' + y = y₁.
     fn take(&mut self, errors: &[Vec6], per: f64, dt: f64, tau: f64) {
-        let s = dt / tau;
+        let (s, stretched) = (dt / tau, self.tau.map(|before| tau / before));
+        self.tau = Some(tau);
         for (i, error) in errors.iter().enumerate() {
             let error = error / per;
-            if !self.begun {
+            let Some(stretched) = stretched else {
                 (self.first[i], self.value[i]) = (error, error);
                 continue;
-            }
+            };
             let (first, value, rate) = (&mut self.first[i], &mut self.value[i], &mut self.rate[i]);
             *first += (error - *first) * (s / (1.0 + s));
-            *rate = (*rate + (*first - *value) * s) / (1.0 + s + s * s);
+            *rate = (*rate * stretched + (*first - *value) * s) / (1.0 + s + s * s);
             *value += *rate * s;
         }
-        self.begun = true;
     }
 }
 
 /// An estimated error relative to the largest motion.
 struct Estimate {
-    /// As it is, and after one and two passages through the matrix. What is not resolved comes out of the first with about its
-    /// amplitude.
-    passed: [f64; 3],
-    /// All of it that is more than a step may err: motion that the step does not resolve.
-    unresolved: bool,
+    error: f64,
     /// With the motion at the end of the step.
     motion: Size,
 }
@@ -142,19 +141,14 @@ impl Pace {
             },
             start: state.clone(),
             errors: [zeros.clone(), zeros.clone()],
-            lasting: Lasting { first: zeros.clone(), value: zeros.clone(), rate: zeros, begun: false },
+            lasting: Lasting { first: zeros.clone(), value: zeros.clone(), rate: zeros, tau: None },
         }
     }
 
     /// After a step, which was a `part` of the run: whether it stands. The length of the next follows.
     fn judge(&mut self, dt: f64, time: f64, end: f64, estimate: &Estimate) -> bool {
         let part = dt / end;
-        let [_, amplitude, error] = estimate.passed;
-        let ratio = error / (self.tolerance * part);
-        if estimate.unresolved && amplitude < SLIGHT * self.tolerance {
-            self.motion = estimate.motion;
-            return true;
-        }
+        let ratio = estimate.error / (self.tolerance * part);
         let all = ratio / (dt * dt);
         let sudden = self.usual.is_none_or(|usual| all > TOO_MUCH * usual);
         if ratio > TOO_MUCH && sudden || !ratio.is_finite() {
@@ -205,8 +199,10 @@ impl Measure {
         let early = self.begun.is_some_and(|begun| time < begun + AHEAD * end);
         let ahead = if early { self.ahead } else { Size::default() };
         let (translation, rotation) = (motion.translation.max(ahead.translation), motion.rotation.max(ahead.rotation));
-        let error = errors.iter().map(|e| top(e).norm()).fold(0.0, f64::max);
-        let turn = self.bodies.iter().map(|&body| bottom(&errors[body]).norm()).fold(0.0, f64::max);
+        // What is not a number must not vanish among those that are.
+        let worst = |most: f64, e: f64| if e > most || e.is_nan() { e } else { most };
+        let error = errors.iter().map(|e| top(e).norm()).fold(0.0, worst);
+        let turn = self.bodies.iter().map(|&body| bottom(&errors[body]).norm()).fold(0.0, worst);
         // Nothing moves, nothing is wrong.
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
         part(error, translation.max(TRACE * rotation * self.extent))
@@ -272,8 +268,11 @@ impl Stepper<'_> {
         let factor = pace.constant * dt.powi(3);
         for &node in &self.movers {
             let rows = &self.plan.rows[node];
-            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { factor * state.jerk[node][i] };
-            errors[node] = Vec6::from_fn(|i, _| entry(i));
+            let (start, end) = (&pace.start.nodes[node], &state.nodes[node]);
+            // Of the rotation vector of a step Θ‴ = α̇ − ½ ω×α: a body that spins turns α without changing it.
+            let across = 0.25 * (start.omega.cross(&start.alpha) + end.omega.cross(&end.alpha));
+            let third = state.jerk[node] - join(&Vec3::zeros(), &across);
+            errors[node] = Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { factor * third[i] });
         }
         self.system.carry(&state.nodes, errors);
         let mut passed = [pace.measure.relative(errors, motion, time, end); 3];
@@ -281,14 +280,22 @@ impl Stepper<'_> {
             self.filter(state, errors);
             *error = pace.measure.relative(errors, motion, time, end);
         }
-        let [raw, _, error] = passed;
-        let mut unresolved = error > pace.tolerance * dt / end && error < RESOLVED * raw;
-        if unresolved {
+        // What is not resolved comes out of the first passage with about its amplitude.
+        let [raw, amplitude, mut error] = passed;
+        if amplitude < SLIGHT * pace.tolerance && error > pace.tolerance * dt / end && error < RESOLVED * raw {
             again.copy_from_slice(errors);
             self.filter(state, again);
-            unresolved = pace.measure.relative(again, motion, time, end) < RESOLVED.sqrt() * error;
+            let left = pace.measure.relative(again, motion, time, end);
+            if left < RESOLVED.sqrt() * error {
+                // It is left alone; what else there is has to show.
+                for _ in 0..PASSAGES {
+                    self.filter(state, again);
+                }
+                error = pace.measure.relative(again, motion, time, end);
+                std::mem::swap(errors, again);
+            }
         }
-        Estimate { passed, unresolved, motion }
+        Estimate { error, motion }
     }
 
     /// e ← (K + w M)⁻¹ w M e, per node.
