@@ -171,6 +171,58 @@ fn overrides() {
     assert_eq!(portal_set(&["links.0.stiffness=1e6", "beams.portal.elements=[2, 3, 4]", "title=fine/other.msh"]), "");
 }
 
+/// A support on nothing would leave the structure free without a word.
+#[test]
+fn empty_sets() {
+    let sets = ("[sets]\n", "[sets]\nnone = []\nbumpers = [\"bumper\"]\nall_of_none = [\"none\"]\n");
+    let tables = "fix = \"all\"
+
+[[supports]]
+at = \"all_of_none\"
+fix = \"all\"
+
+[[supports]]
+at = [\"feet\", \"bumpers\"]
+fix = \"all\"
+
+[[attachments]]
+body = \"block\"
+nodes = \"none\"
+
+[[contacts]]
+name = \"floor\"
+surface = { shape = \"plane\", point = [0.0, 0.0, -1.0], normal = [0.0, 0.0, 1.0] }
+with = [\"none\"]
+
+[[initial]]
+at = \"none\"
+velocity = [1.0, 0.0, 0.0]
+
+[damping]
+nodal = [{ at = \"none\", translation = 1.0 }]
+";
+    let edits = [sets, ("at = \"feet\"", "at = \"none\""), ("at = \"knee_right\"", "at = \"none\"")];
+    assert_snapshot!("empty_sets", portal(&[&edits[..], &[("fix = \"all\"\n", tables)]].concat()));
+    // What is wrong with a member is said alone.
+    let wrong = ("[sets]\n", "[sets]\nnone = [\"fooot\"]\n");
+    assert_snapshot!("empty_by_a_slip", portal(&[wrong, ("at = \"feet\"", "at = \"none\"")]));
+}
+
+/// A beam is no list of nodes, so it is not offered as one.
+#[test]
+fn names_that_are_offered_fit() {
+    assert_snapshot!("not_a_beam", portal(&[("at = \"knee_right\"", "at = \"portel\"")]));
+}
+
+#[test]
+fn schemes_in_statics() {
+    let integrator = ("[materials.steel]", "[integrator]\nscheme = \"wilson-theta\"\ntheta = 1.5\n\n[materials.steel]");
+    let velocity = ("velocity = [4.0, 0.0, 0.0]\n", "");
+    assert_snapshot!("static_scheme", portal(&[("\"dynamic\"", "\"static\""), velocity, integrator]));
+    let rotations = ("[materials.steel]", "[integrator]\nrotation_update = \"second-order\"\n\n[materials.steel]");
+    assert_eq!(portal(&[("\"dynamic\"", "\"static\""), velocity, rotations]), "");
+}
+
 #[test]
 fn quantities() {
     assert_snapshot!("times", portal(&[("time_step = 1e-4", "time_step = 1.0\nleast_step = 2.0")]));

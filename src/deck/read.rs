@@ -165,7 +165,7 @@ impl Reader {
 fn wanted(expected: &str) -> &str {
     match expected {
         "f64" => "a number, such as 2.5",
-        "u64" | "usize" => "a whole number, such as 12",
+        "u64" | "usize" => "a whole number of 1 or more, such as 12",
         "a boolean" => "true or false",
         "a string" => "text in quotes, such as \"steel\"",
         "a sequence" => "a list in brackets, such as [1.0, 2.0, 3.0]",

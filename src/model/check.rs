@@ -89,6 +89,14 @@ impl<'d> Builder<'d> {
         for place in places {
             self.warn(place, "this has no effect in a static analysis", "nothing moves by itself");
         }
+        // Rotations are updated in load steps too.
+        let Some(integrator) = &deck.integrator else { return };
+        let numbers = [&integrator.theta, &integrator.gamma, &integrator.beta, &integrator.alpha];
+        let numbers = numbers.into_iter().chain([&integrator.spectral_radius, &integrator.split]).filter_map(span);
+        let words = [span(&integrator.scheme), span(&integrator.order)].into_iter().flatten();
+        for place in words.chain(numbers) {
+            self.warn(place, "this has no effect in a static analysis", "load steps take no scheme in time");
+        }
     }
 
     fn check_table(&mut self, what: &'static str, names: impl Iterator<Item = &'d At<String>>) {

@@ -204,6 +204,9 @@ impl<'d> Builder<'d> {
             if found.is_empty() {
                 // A part with errors of its own has no nodes, and these have been said.
                 sound = false;
+                if self.nodes_of(place).is_empty() {
+                    self.report_empty(place, at);
+                }
                 continue;
             }
             found.retain(|touch| carrier.is_none_or(|body| !touch.nodes.iter().all(|&(n, _)| self.rides_on(n, body))));
@@ -265,7 +268,7 @@ impl<'d> Builder<'d> {
     }
 
     /// A place without its sets, in the order of the deck.
-    fn leaves(&self, place: Place) -> Vec<Place> {
+    pub(super) fn leaves(&self, place: Place) -> Vec<Place> {
         let (mut leaves, mut todo, mut seen) = (Vec::new(), vec![place], HashSet::new());
         while let Some(place) = todo.pop() {
             match place {

@@ -223,6 +223,11 @@ impl<'d> Builder<'d> {
 
     /// What a name stands for; reports a name that stands for nothing.
     pub fn lookup(&mut self, name: &At<String>) -> Option<Place> {
+        self.lookup_among(name, Reach::Parts)
+    }
+
+    /// [`Builder::lookup`] where a list reaches so far.
+    fn lookup_among(&mut self, name: &At<String>, reach: Reach) -> Option<Place> {
         if let Some(place) = self.place(name) {
             if let Place::Group(group) = place {
                 self.meshed.named[group] = true;
@@ -230,10 +235,22 @@ impl<'d> Builder<'d> {
             return Some(place);
         }
         let is_link = |place: &Place| matches!(place, Place::Link(_) | Place::Joint(_) | Place::Contact(_));
-        let known = self.places.iter().filter(|(_, (place, _))| !is_link(place)).map(|(name, _)| *name);
-        let mut known: Vec<&str> = known.collect();
+        let known = self.places.iter().filter(|(_, (place, _))| !is_link(place));
+        let (what, known): (_, Vec<_>) = match reach {
+            Reach::Nodes => ("point, body or set", known.filter(|(_, (place, _))| !self.is_part(*place)).collect()),
+            Reach::Parts => ("point, body, set or part", known.collect()),
+        };
+        let mut known: Vec<&str> = known.into_iter().map(|(name, _)| *name).collect();
         known.sort_unstable();
-        self.unknown("point, body or set", name, known.into_iter())
+        self.unknown(what, name, known.into_iter())
+    }
+
+    /// Not a list of nodes.
+    fn is_part(&self, place: Place) -> bool {
+        match place {
+            Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
+            place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_)),
+        }
     }
 
     /// The node of a point; `key` wants nothing else.
@@ -280,21 +297,16 @@ impl<'d> Builder<'d> {
         let mut spots = Vec::new();
         let mut seen = std::collections::HashSet::new();
         for name in &names.values {
-            let Some(place) = self.lookup(name) else { continue };
-            let is_part = match place {
-                Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
-                place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_)),
-            };
-            if reach == Reach::Nodes && is_part {
+            let Some(place) = self.lookup_among(name, reach) else { continue };
+            if reach == Reach::Nodes && self.is_part(place) {
                 let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
                 self.error_with::<()>(&name.span, message, "name its points");
                 continue;
             }
             let direct = matches!(place, Place::Point(_) | Place::Body(_));
             let nodes = self.nodes_of(place);
-            if nodes.is_empty() && matches!(place, Place::Group(_)) {
-                let hint = "its elements are of kinds that are skipped, or there are none";
-                self.error_with::<()>(&name.span, format!("the group `{}` has no nodes", name.value), hint);
+            if nodes.is_empty() {
+                self.report_empty(place, name);
             }
             for node in nodes {
                 if seen.insert(node) {
@@ -304,6 +316,26 @@ impl<'d> Builder<'d> {
             }
         }
         spots
+    }
+
+    /// Says of a set or group that it covers no node, unless an error of what is in it has been said.
+    pub fn report_empty(&mut self, place: Place, name: &At<String>) {
+        let members = match place {
+            Place::Group(_) => {
+                let hint = "its elements are of kinds that are skipped, or there are none";
+                self.error_with::<()>(&name.span, format!("the group `{}` has no nodes", name.value), hint);
+                return;
+            }
+            Place::Set(set) => &self.deck.sets.0[set].1.values,
+            _ => return,
+        };
+        let bare =
+            |leaf: &Place| matches!(leaf, Place::Link(_) | Place::Joint(_) | Place::Contact(_) | Place::Group(_));
+        if members.is_empty() {
+            self.error::<()>(&name.span, format!("the set `{}` is empty", name.value));
+        } else if !self.unsure && self.leaves(place).iter().all(bare) {
+            self.error::<()>(&name.span, format!("the set `{}` has no nodes", name.value));
+        }
     }
 
     /// The name under which the deck knows a node that a set or a part brought in.
