@@ -35,6 +35,17 @@ fn what_a_plane_saves() {
     assert!((5.0..=8.5).contains(&times), "{line}");
 }
 
+/// The shear centre of a box lies at its centroid but for rounding, which is another one for each thickness.
+#[test]
+fn boxes_of_any_thickness_stay_in_their_plane() {
+    let (rectangle, _) = savings("portal_and_block", &[]);
+    for thickness in ["0.003", "0.004", "0.005", "0.006", "0.0071"] {
+        let section = format!("sections.square={{shape=\"box\",width=0.08,height=0.08,thickness={thickness}}}");
+        let (unknowns, _) = savings("portal_and_block", &[&section]);
+        assert_eq!(unknowns, rectangle, "{thickness}");
+    }
+}
+
 /// A hub with two blades: eliminated nodes would be unknowns, and their multipliers as many more.
 #[test]
 fn what_elimination_saves() {

@@ -52,7 +52,11 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     let beams = model.beams.iter().flat_map(|b| &b.elements).all(|e| {
         let C = &model.stiffnesses[e.section];
         let turn = |K: &Mat3| e.frame * K * e.frame.transpose();
-        !mixes(&turn(&C.N)) && !mixes(&turn(&C.M)) && !pairs_wrongly(&turn(&C.NM))
+        // What pairs forces with curvatures may be nothing but rounding, that of a shear centre at the centroid: it is small
+        // beside what both do by themselves, the geometric mean of forces and moments.
+        let rest = turn(&C.NM);
+        let paired = rest.amax() > small * C.N.amax().sqrt() * C.M.amax().sqrt();
+        !mixes(&turn(&C.N)) && !mixes(&turn(&C.M)) && (!paired || !pairs_wrongly(&rest))
     });
     let links = model.links.iter().all(|link| match &link.kind {
         LinkKind::Line { direction, .. } => direction.is_none_or(|d| !out_of_plane(&d)),
