@@ -298,3 +298,21 @@ fn what_plastic_flow_takes_too_much_of_is_called_so() {
     let short = ["ball.toml", "--overwrite", "--set", "analysis.time_step=0.005"];
     assert_eq!(said(&rdsolve(folder.path(), &short).code(0)), "");
 }
+
+/// Steps that find their own length are never shorter than the least: what refuses that ends the run, and does not advise what
+/// is done already. The spring of 5 and the mass of 0.1 bear 2/√50 = 0.28.
+#[test]
+fn the_least_step_ends_steps_of_their_own_length() {
+    let folder = folder(YIELDING);
+    let least = |least: &str| {
+        let least = format!("analysis.least_step={least}");
+        let sets = ["analysis.time_step=\"auto\"", "analysis.end_time=100.0", &least];
+        let sets = sets.iter().flat_map(|set| ["--set", *set]);
+        let arguments: Vec<&str> = ["ball.toml", "--overwrite"].into_iter().chain(sets).collect();
+        rdsolve(folder.path(), &arguments)
+    };
+    let told = said(&least("0.4").code(4));
+    assert!(told.contains("a step of 4.000e-1 is too long for central differences"), "{told}");
+    assert!(told.contains("a smaller `least_step`") && !told.contains("auto"), "{told}");
+    least("0.2").code(0);
+}

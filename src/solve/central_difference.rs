@@ -44,7 +44,9 @@ impl Stepper<'_> {
             }
             self.look_at_limit(explicit, state, dt, true)?;
             match explicit.stable.longest {
-                Some(longest) if dt > longest => return Err(Failure::Unstable { dt, longest }),
+                Some(longest) if dt > longest => {
+                    return Err(Failure::Unstable { dt, longest, automatic: explicit.control.is_some() });
+                }
                 _ => {}
             }
             // It only looked so, and looking closer has left nothing of what was found.

@@ -24,8 +24,8 @@ pub enum Failure {
     Endless { steps: usize },
     /// A step would go through a surface, or into an impact that it does not resolve.
     Contact { name: String },
-    /// A step of central differences is longer than the fastest mode bears.
-    Unstable { dt: f64, longest: f64 },
+    /// A step of central differences is longer than the fastest mode bears; whether steps find their own length.
+    Unstable { dt: f64, longest: f64, automatic: bool },
     /// Central differences have made so many times the energy that there was.
     Growing { made: f64 },
     /// A step turns something too far.
@@ -144,11 +144,18 @@ impl fmt::Display for Failure {
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
             ),
-            Failure::Unstable { dt, longest } => write!(
-                f,
-                "a step of {dt:.3e} is too long for central differences: the fastest mode of the scene bears {longest:.3e} (a \
-                 shorter `time_step`, \"auto\", or an implicit scheme)"
-            ),
+            Failure::Unstable { dt, longest, automatic } => {
+                let help = if *automatic {
+                    "smaller loads, a smaller `least_step`"
+                } else {
+                    "a shorter `time_step`, \"auto\""
+                };
+                write!(
+                    f,
+                    "a step of {dt:.3e} is too long for central differences: the fastest mode of the scene bears \
+                     {longest:.3e} ({help}, or an implicit scheme)"
+                )
+            }
             Failure::Growing { made } => write!(
                 f,
                 "the motion grows by itself: central differences have made {made:.1e} times the energy that there was; their \

@@ -63,7 +63,8 @@ impl Run<'_> {
                 }
                 Ok(None) => {}
                 Err(failure) => {
-                    if dt <= analysis.least_step {
+                    // The difference of two times is a length only to rounding.
+                    if length <= analysis.least_step || dt <= analysis.least_step {
                         return Err(Outcome::Failed { time: state.time, failure });
                     }
                     if !matches!(failure, Failure::Inaccurate { .. }) {
@@ -83,7 +84,9 @@ pub struct Free;
 
 impl OwnLength for Free {
     fn propose(&mut self, stepper: &mut Stepper, state: &State, left: f64) -> Result<f64, Failure> {
-        stepper.proposed(state, left)
+        // Where a shorter one is asked for, what refuses the least says why.
+        let length = stepper.proposed(state, left)?;
+        Ok(length.max(stepper.model.analysis.least_step))
     }
 
     fn take(

@@ -115,7 +115,9 @@ impl Stepper<'_> {
             self.look_at_limit(explicit, state, dt, false)?;
         }
         match explicit.stable.longest {
-            Some(longest) if dt > longest => Err(Failure::Unstable { dt, longest }),
+            Some(longest) if dt > longest => {
+                Err(Failure::Unstable { dt, longest, automatic: explicit.control.is_some() })
+            }
             _ => Ok(()),
         }
     }
