@@ -297,6 +297,15 @@ fn what_plastic_flow_takes_too_much_of_is_called_so() {
     assert!(told.contains("plastic strains are too large") && !told.contains("from nothing"), "{told}");
     let short = ["ball.toml", "--overwrite", "--set", "analysis.time_step=0.005"];
     assert_eq!(said(&rdsolve(folder.path(), &short).code(0)), "");
+    // What makes steps shorter where they find their own length.
+    let tolerated =
+        ["analysis={kind=\"dynamic\",end_time=40.0,time_step=\"auto\",error_tolerance=0.5}", "integrator={}"];
+    let stable = ["analysis.time_step=\"auto\"", "title=\"\""];
+    for (sets, advice) in [(tolerated, "try a smaller `error_tolerance`"), (stable, "try a number as `time_step`")] {
+        let told =
+            said(&rdsolve(folder.path(), &["ball.toml", "--overwrite", "--set", sets[0], "--set", sets[1]]).code(0));
+        assert!(told.contains(advice), "{told}");
+    }
 }
 
 /// Steps that find their own length are never shorter than the least: what refuses that ends the run, and does not advise what

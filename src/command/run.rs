@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, doubts, load, no_room, output_folder, planned, show};
 use crate::diagnostic::Diagnostic;
+use crate::integrators::Scheme;
 use crate::model::{ArcLength, Control, DIRECTIONS, Model};
 use crate::names::short;
 use crate::output::expect::{Expectations, Verdict};
@@ -101,7 +102,7 @@ fn compute(
         }
         warnings.push(text);
     }
-    if let Some(text) = imbalance(&run.balance) {
+    if let Some(text) = imbalance(&run.balance, model) {
         if !quiet {
             show(&[Diagnostic::warning(&text)], &loaded.source);
         }
@@ -271,11 +272,16 @@ fn line(v: &Verdict) -> String {
 }
 
 /// A balance of energies that no one should take on trust.
-fn imbalance(balance: &Balance) -> Option<String> {
+fn imbalance(balance: &Balance, model: &Model) -> Option<String> {
     const MADE: f64 = 0.02; // of the most there was: schemes make next to nothing
     const TAKEN: f64 = 0.2; // they may damp what no step resolves
     let part = |energy: f64| format!("{:.0} % of the most energy there was", 100.0 * energy / balance.most);
-    let longer = "look at `numerical` in energy.csv, and try shorter steps";
+    let shorter = match (model.analysis.error_tolerance, &model.scheme) {
+        (None, _) => "shorter steps",
+        (Some(_), Scheme::CentralDifference(_)) => "a number as `time_step`, shorter than the steps of \"auto\"",
+        (Some(_), _) => "a smaller `error_tolerance`",
+    };
+    let longer = format!("look at `numerical` in energy.csv, and try {shorter}");
     if balance.made > MADE * balance.most {
         let part = part(balance.made);
         // Flow is booked with the stress at the end of a step, which the motion meets only then. It is the plastic strain that

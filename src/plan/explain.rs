@@ -118,18 +118,21 @@ impl Plan {
         let bars: usize = model.bars.iter().map(|b| b.elements.len()).sum();
         let shells: usize = model.shells.iter().map(|s| s.elements.len()).sum();
         let parts = [
-            (model.nodes.len(), "nodes"),
-            (model.bodies.len(), "bodies"),
-            (beams, "beam elements"),
-            (bars, "bar elements"),
-            (shells, "shell elements"),
-            (model.links.len(), "links"),
-            (model.contacts.len(), "contacts"),
-            (model.riders.len(), "attached nodes"),
-            (model.joints.len(), "joints"),
+            (model.nodes.len(), ["node", "nodes"]),
+            (model.bodies.len(), ["body", "bodies"]),
+            (beams, ["beam element", "beam elements"]),
+            (bars, ["bar element", "bar elements"]),
+            (shells, ["shell element", "shell elements"]),
+            (model.links.len(), ["link", "links"]),
+            (model.contacts.len(), ["contact", "contacts"]),
+            (model.riders.len(), ["attached node", "attached nodes"]),
+            (model.joints.len(), ["joint", "joints"]),
         ];
-        let parts: Vec<String> =
-            parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        let parts: Vec<String> = parts
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, [one, more])| format!("{count} {}", if *count == 1 { one } else { more }))
+            .collect();
         line("model", parts.join(", "));
         if let Some(mesh) = &model.mesh {
             let MeshFile { path, nodes, elements, used, .. } = mesh;
