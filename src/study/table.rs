@@ -114,6 +114,9 @@ pub fn text(found: &Found) -> String {
             found.ladder.fitted.iter().map(|(asked, step)| format!("{} for {}", short(*step), short(*asked))).collect();
         text += &format!("time steps that end at all samples: {}\n", fitted.join(", "));
     }
+    if found.ladder.lines.iter().any(|line| line.automatic) {
+        text += "automatic steps land on all samples: plain runs may take longer ones and err more\n";
+    }
     text += &format!("\n{}\nmeasured order\n", columns(&rows, 1));
     let label = |line: usize| found.ladder.lines[line].label.clone();
     let orders: Vec<Vec<String>> = found
