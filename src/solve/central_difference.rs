@@ -53,7 +53,6 @@ impl Stepper<'_> {
             evaluations += self.find_accelerations(explicit, state, to, scheme)?;
             accelerations = self.weigh_accelerations(explicit, None);
         }
-        explicit.stable.loudest = explicit.stable.loudest.max(accelerations);
         // Bodies take their angular momentum from all that acts on them.
         if let Some(ties) = &explicit.ties {
             ties.pull(&mut self.forces.on_nodes);
@@ -91,6 +90,7 @@ impl Stepper<'_> {
         }
         self.check_joints()?;
         self.commit(state, scheme, to, spent, Some(damping_power));
+        explicit.stable.took(accelerations);
         let Work { swing, accelerations: before, step, .. } = &mut state.work;
         // ⅛ Δt² aᵀMa at both ends, each with the step before it: what a change of the step makes or takes does not swing.
         let last = if *step > 0.0 { *step } else { dt };

@@ -12,10 +12,11 @@ use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken};
 use super::{ContactState, Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
+use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::linear::TooLarge;
 use crate::math::Vec3;
-use crate::model::{Cadence, Control, Kind, Method, Model, Update};
+use crate::model::{Cadence, Control, Kind, LinkKind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::{Balance, Energy, PartEnergy};
@@ -394,7 +395,7 @@ impl<'a> Run<'a> {
         // Two looks at the clock are a twentieth of a step of two bodies.
         let began = (due || drawn || self.wanted.steps).then(Instant::now);
         self.derive(state, due, drawn, balance);
-        let failure = self.watch(last);
+        let failure = self.watch(state, balance, last);
         let frame = Frame {
             model,
             state,
@@ -428,11 +429,18 @@ impl<'a> Run<'a> {
     }
 
     /// Sums the balance of energies up. Central differences that have made more than there was have failed; while there is next to
-    /// nothing yet that says little, unless it is by far.
-    fn watch(&mut self, last: bool) -> Option<Failure> {
+    /// nothing yet that says little, unless it is by far. What there was does not depend on the times of output: work is looked at
+    /// in every step, and energies are where links may let some go.
+    fn watch(&mut self, state: &State, balance: Option<f64>, last: bool) -> Option<Failure> {
         const FAR: f64 = 100.0;
-        let energy = self.energy.as_ref().filter(|_| self.stepper.model.analysis.kind == Kind::Dynamic)?;
-        self.balance.see(energy);
+        let Stepper { model, system, plan, .. } = &self.stepper;
+        if model.analysis.kind != Kind::Dynamic {
+            return None;
+        }
+        self.balance.work(state.work.external);
+        let letting_go =
+            || (is_watched(model) && may_let_go(model)).then(|| system.energy(state, balance, plan.threads));
+        self.balance.see(&self.energy.or_else(letting_go)?);
         let Balance { made, had, plastic, .. } = self.balance;
         // What plastic flow takes too much of does not move.
         let most = if last && made > plastic { had } else { FAR * had };
@@ -483,4 +491,10 @@ impl<'a> Run<'a> {
 /// Energies are summed whoever wants them: nothing else tells of motion that grows though the scene as it lies is stable.
 fn is_watched(model: &Model) -> bool {
     matches!(model.scheme, Scheme::CentralDifference(_)) && model.analysis.kind == Kind::Dynamic
+}
+
+/// Some links store less than nothing where they give way.
+fn may_let_go(model: &Model) -> bool {
+    let law = |law: &Law| matches!(law, Law::Table { .. }) || law.force(0.0).0 != 0.0;
+    model.links.iter().any(|link| matches!(&link.kind, LinkKind::Line { law: of, .. } if law(of)))
 }

@@ -22,6 +22,9 @@ const STEPS: usize = 400;
 const SETTLED: f64 = 1e-4;
 /// Steps of a run at least, where little or nothing resists: loads are still to be seen.
 const FEWEST: f64 = 50.0;
+/// Radians by which a body turns in a step at most: nothing stiff limits tops and mechanisms, and an error of θ²/24 of the angle, as
+/// central differences have in a swing, is 6.5e-4 in a turn.
+const TURN: f64 = 0.05;
 /// A limit that is longer by so much is another mode's.
 const LONGER: f64 = 1.05;
 /// One that is shorter by so much has been cut.
@@ -53,7 +56,9 @@ pub struct Stable {
     part: f64,
     /// Something may be struck; and the largest aᵀMa since the last look.
     stiffens: bool,
-    pub loudest: f64,
+    loudest: f64,
+    /// Of all bodies so far, their |ω|.
+    quickest: f64,
     /// The fastest mode has been looked for, with dampers if there are any.
     met: bool,
 }
@@ -77,6 +82,7 @@ impl Stable {
             part: part_of_limit(model),
             stiffens: may_stiffen(model),
             loudest: 0.0,
+            quickest: 0.0,
             met: false,
         };
         stable.add_all(plan);
@@ -98,6 +104,13 @@ impl Stable {
         self.stiffens && accelerations > 4.0 * self.loudest
     }
 
+    /// A step with these accelerations, aᵀMa, was taken; what is refused leaves nothing behind.
+    pub fn took(&mut self, accelerations: f64) {
+        self.steps += 1;
+        self.calm += 1;
+        self.loudest = self.loudest.max(accelerations);
+    }
+
     /// ω² that the fastest mode is known to have at most: power iteration comes to it from below.
     pub fn known(&self) -> f64 {
         const BELOW: f64 = 1.1;
@@ -109,8 +122,6 @@ impl Stepper<'_> {
     /// # Errors
     /// [`Failure::Unstable`] where a step of `dt` is too long.
     pub(super) fn check_stable(&mut self, explicit: &mut Explicit, state: &State, dt: f64) -> Result<(), Failure> {
-        explicit.stable.steps += 1;
-        explicit.stable.calm += 1;
         if explicit.stable.longest.is_none() || explicit.stable.steps >= STEPS {
             self.look_at_limit(explicit, state, dt, false)?;
         }
@@ -122,8 +133,8 @@ impl Stepper<'_> {
         }
     }
 
-    /// Of central differences: a safe part of the longest that is stable, and no longer than twice what went well last, or a
-    /// fiftieth of the run.
+    /// Of central differences: a safe part of the longest that is stable, little longer than what went well last, no body turning
+    /// by more than [`TURN`], and no longer than a fiftieth of the run.
     ///
     /// # Errors
     /// As for [`Stepper::answer`].
@@ -141,11 +152,22 @@ impl Stepper<'_> {
         }
         let cut = explicit.control.as_ref().map_or(f64::INFINITY, |control| control.next);
         let most = self.model.analysis.end_time / FEWEST;
-        Ok((explicit.stable.part * explicit.stable.longest.unwrap_or(left)).min(cut).min(most))
+        let turning = self.turning_step(&mut explicit.stable, state);
+        Ok((explicit.stable.part * explicit.stable.longest.unwrap_or(left)).min(cut).min(most).min(turning))
     }
 
-    /// Measures the limit anew, for steps of about `dt`, without dampers where that is zero: in the state, or where the trial motion has come to, of which nothing is
-    /// left then.
+    /// In which no body turns by more than [`TURN`]: as fast as the fastest has ever been, since each change of the step makes or
+    /// takes energy, and with the accelerations there are.
+    fn turning_step(&self, stable: &mut Stable, state: &State) -> f64 {
+        let nodes = || self.model.bodies.iter().map(|body| &state.nodes[body.node]);
+        stable.quickest = nodes().map(|node| node.omega.norm()).fold(stable.quickest, f64::max);
+        let (rate, acceleration) = (stable.quickest, nodes().map(|node| node.alpha.norm()).fold(0.0, f64::max));
+        // ω Δt + ½ α Δt², without a difference of like numbers.
+        2.0 * TURN / (rate + (rate * rate + 2.0 * acceleration * TURN).sqrt())
+    }
+
+    /// Measures the limit anew, for steps of about `dt`, without dampers where that is zero: in the state, or where the trial
+    /// motion has come to, of which nothing is left then.
     ///
     /// # Errors
     /// As for [`Stepper::answer`].

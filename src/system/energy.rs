@@ -66,11 +66,18 @@ pub struct Balance {
 }
 
 impl Balance {
+    /// The work of what acts from outside, which is known in every step: energies are summed at some only, and by then it may have
+    /// been given back.
+    pub fn work(&mut self, external: f64) {
+        self.external = self.external.max(external.abs());
+        self.most = self.most.max(external.abs());
+    }
+
     pub fn see(&mut self, energy: &Energy) {
         let stored = energy.strain + energy.links + energy.contact;
         let sizes = energy.strain.abs() + energy.links.abs() + energy.contact.abs();
         let start = *self.start.get_or_insert(energy.kinetic + stored.abs());
-        self.external = self.external.max(energy.external.abs());
+        self.work(energy.external);
         // Less than nothing is stored where preloads give way.
         self.released = self.released.max(-stored);
         self.had = start + self.external + self.released;
@@ -80,7 +87,7 @@ impl Balance {
         // A mode beyond the limit of stability may keep what central differences keep, and grow: then what moves tells.
         self.made = self.made.max(-taken).max(energy.kinetic - self.had);
         // Where the total is zero by chance, or external work, the motion is not.
-        self.most = self.most.max(energy.total.abs()).max(energy.external.abs()).max(energy.kinetic).max(sizes);
+        self.most = self.most.max(energy.total.abs()).max(energy.kinetic).max(sizes);
     }
 }
 
