@@ -518,15 +518,13 @@ fn an_older_study_is_cleared_away() {
         fs::create_dir_all(at(name).parent().unwrap()).unwrap();
         fs::write(at(name), "mine").unwrap();
     }
-    fs::create_dir(at("runs/rigid_2")).unwrap();
-    for name in ["rigidify.csv", "runs/rigid_2/result.json.tmp", "runs/rigid_2/run.log"] {
-        fs::write(at(name), "old").unwrap();
-    }
+    // Left by a run that was killed.
+    fs::write(at("runs/8/result.json.tmp"), "old").unwrap();
     steps("0.02,0.01");
     assert!(at("study.csv").exists() && at("runs/4/result.json").exists());
     assert!(own.iter().all(|name| fs::read_to_string(at(name)).unwrap() == "mine"));
     assert_eq!(fs::read_dir(at("runs/7")).unwrap().count(), 1);
-    for name in ["runs/5", "runs/8", "runs/rigid_2", "rigidify.csv"] {
+    for name in ["runs/5", "runs/8"] {
         assert!(!at(name).exists(), "{name}");
     }
     // The advisor's runs are others.
@@ -536,6 +534,49 @@ fn an_older_study_is_cleared_away() {
     for name in ["runs/1", "runs/2", "study.csv", "study.html", "study.svg"] {
         assert!(!at(name).exists(), "{name}");
     }
+}
+
+/// Names alone do not make a run or a table a study's: what is in the way is named, and all stays as it was.
+#[test]
+fn what_no_study_wrote_stays() {
+    let folder = folder(&format!("{OSCILLATOR}{KEYS}"));
+    exact(folder.path());
+    let rdsolve = |arguments: &[&str]| {
+        Command::cargo_bin("rdsolve").unwrap().current_dir(folder.path()).args(arguments).assert().code(0);
+    };
+    let at = |name: &str| folder.path().join(name);
+    rdsolve(&["run", "x.toml", "--quiet", "-o", "runs/2024"]);
+    let arguments = |list| ["--time-steps", list, "--repeats", "1", "--quiet", "--overwrite", "-o", "."];
+    let four = || study(folder.path(), &arguments("0.02,0.01"), 0);
+    let mine = |name: &str| assert_eq!(fs::read_to_string(at(name)).unwrap(), "mine");
+    let refused = |name: &str, arguments: &[&str]| {
+        let (_, said) = study(folder.path(), arguments, 6);
+        assert!(said.contains(&format!("`./{name}` was not written by a study there")), "{said}");
+    };
+    // A folder that never held a study.
+    for name in ["study.csv", "study.list"] {
+        fs::write(at(name), "mine").unwrap();
+        refused(name, &arguments("0.02,0.01"));
+        mine(name);
+        fs::remove_file(at(name)).unwrap();
+    }
+    fs::create_dir(at("runs/3")).unwrap();
+    fs::write(at("runs/3/nodes.csv"), "mine").unwrap();
+    refused("runs/3", &arguments("0.02,0.01"));
+    mine("runs/3/nodes.csv");
+    fs::rename(at("runs/3"), at("runs/7")).unwrap();
+    // Out of the way; and beside a study, which is cleared away.
+    four();
+    fs::write(at("rigidify.csv"), "mine").unwrap();
+    four();
+    assert!(at("runs/4/result.json").exists() && at("runs/2024/result.json").exists());
+    refused("runs/7", &arguments("0.02,0.01,0.005,0.0025"));
+    fs::write(at("x.toml"), STRIP).unwrap();
+    refused("rigidify.csv", &["--rigidify", "--repeats", "1", "--quiet", "--overwrite", "-o", "."]);
+    // Nothing of the study has gone either.
+    assert!(at("study.csv").exists() && at("runs/1/result.json").exists());
+    mine("runs/7/nodes.csv");
+    mine("rigidify.csv");
 }
 
 /// `a.v1.toml` and `a.v2.toml` are two decks.

@@ -21,7 +21,8 @@ the least counts. Error = rms over equidistant times / largest value, all quanti
 `[study]`, or else against what the finest runs tend to, with a bound of its own error. Options go before the keys of the \
 deck's `[study]`, which they are named after.
 
-Written: study.csv (a row for each run), study.svg, study.html; or rigidify.csv. Runs that failed are listed as failed.
+Written: study.csv (a row for each run), study.svg, study.html; or rigidify.csv; and study.list, what of the folder is the \
+study's. Runs that failed are listed as failed.
 
 Exit codes: 0 done, 2 usage, 3 deck invalid, 4 no run came to its end, 6 input/output, 75 stopped by a signal, with what there is."
 )]
@@ -79,7 +80,7 @@ pub(super) struct StudyArgs {
     /// Folder for the study [default: the deck's name with .study, in the current folder]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write into a folder that already holds files; an older study there goes
+    /// Write into a folder that already holds files; what study.list there names, of an older study, goes
     #[arg(long)]
     overwrite: bool,
     /// No progress bar, no warnings

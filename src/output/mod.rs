@@ -202,10 +202,26 @@ fn is_ours(name: &str) -> bool {
     OURS.contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu"))
 }
 
+/// A file that a run writes, whole or not.
+fn is_of_a_run(name: &str) -> bool {
+    name == log::NAME || is_ours(name.strip_suffix(PART).unwrap_or(name))
+}
+
 /// Takes away what an earlier run has left, and its folder unless something else is in it.
 pub(crate) fn remove_run(dir: &Path) -> io::Result<()> {
-    remove(dir, &|name| name == log::NAME || is_ours(name.strip_suffix(PART).unwrap_or(name)))?;
+    remove(dir, &is_of_a_run)?;
     remove_empty(dir)
+}
+
+/// True where a folder holds files of a run.
+pub(crate) fn run_files(dir: &Path) -> io::Result<bool> {
+    for entry in fs::read_dir(dir).map_err(|e| at(dir, e))? {
+        let entry = entry.map_err(|e| at(dir, e))?;
+        if entry.file_name().to_str().is_some_and(is_of_a_run) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Takes away a folder with nothing in it.

@@ -18,7 +18,11 @@ impl Stepper<'_> {
         scheme: &CentralDifference,
     ) -> Result<Taken, Failure> {
         let Some(mut explicit) = self.explicit.take() else { return Err(self.not_finite()) };
+        let counts = explicit.stable.counts();
         let result = self.leap(&mut explicit, state, to, &scheme.coefficients(to - state.time));
+        if result.is_err() {
+            explicit.stable.refused(counts);
+        }
         self.explicit = Some(explicit);
         result
     }

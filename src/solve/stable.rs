@@ -104,11 +104,20 @@ impl Stable {
         self.stiffens && accelerations > 4.0 * self.loudest
     }
 
-    /// A step with these accelerations, aᵀMa, was taken; what is refused leaves nothing behind.
+    /// A step with these accelerations, aᵀMa, was taken.
     pub fn took(&mut self, accelerations: f64) {
-        self.steps += 1;
-        self.calm += 1;
         self.loudest = self.loudest.max(accelerations);
+    }
+
+    /// What counts steps.
+    pub fn counts(&self) -> [usize; 2] {
+        [self.steps, self.calm]
+    }
+
+    /// A step was refused, and was none, but for the look that it may have taken.
+    pub fn refused(&mut self, [steps, calm]: [usize; 2]) {
+        self.steps = self.steps.min(steps);
+        self.calm = self.calm.min(calm);
     }
 
     /// ω² that the fastest mode is known to have at most: power iteration comes to it from below.
@@ -122,6 +131,8 @@ impl Stepper<'_> {
     /// # Errors
     /// [`Failure::Unstable`] where a step of `dt` is too long.
     pub(super) fn check_stable(&mut self, explicit: &mut Explicit, state: &State, dt: f64) -> Result<(), Failure> {
+        explicit.stable.steps += 1;
+        explicit.stable.calm += 1;
         if explicit.stable.longest.is_none() || explicit.stable.steps >= STEPS {
             self.look_at_limit(explicit, state, dt, false)?;
         }
@@ -317,5 +328,71 @@ impl Stepper<'_> {
     fn largest(&self, mode: &[Vec6]) -> f64 {
         let size = |&node: &usize| top(&mode[node]).amax().max(self.length * bottom(&mode[node]).amax());
         self.movers.iter().map(size).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Source;
+    use crate::model;
+    use crate::plan::Plan;
+    use crate::solve::{Failure, Run, Wanted};
+    use crate::system::System;
+    use std::sync::atomic::AtomicBool;
+
+    /// Steps that are refused, by the limit at the start and by a joint at the end, are not counted, and what they would have met is
+    /// not taken for what was met.
+    #[test]
+    fn refused_steps_are_not_counted() {
+        for (stiffness, speed, dt) in [(1e4, 0.0, 0.1), (1.0, 1e3, 0.01)] {
+            let text = format!(
+                r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = {dt}
+[integrator]
+scheme = "central-difference"
+[[bodies]]
+name = "bob"
+center = [1.0, 0.0, 0.0]
+mass = 1.0
+inertia = [0.1, 0.1, 0.1]
+velocity = [0.0, {speed}, 0.0]
+angular_velocity = [0.0, 0.0, {speed}]
+[[joints]]
+name = "pivot"
+kind = "ball"
+from = {{ body = "bob", point = [0.0, 0.0, 0.0] }}
+to = {{ ground = [0.0, 0.0, 0.0] }}
+[[links]]
+name = "spring"
+from = {{ ground = [1.0, 1.0, 0.0] }}
+to = {{ body = "bob" }}
+stiffness = {stiffness:?}
+[output]
+interval = 1.0
+"#
+            );
+            let source = Source::new("deck.toml", &text, &[]);
+            let (model, problems) = model::read(&source);
+            let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
+            let model = model.unwrap_or_else(|| panic!("{}", drawn.join("\n")));
+            let system = System::new(&model).unwrap();
+            let plan = Plan::new(&model, &system, 1);
+            let stop = AtomicBool::new(false);
+            let mut run = Run::new(&model, &system, &plan, Wanted::default(), &stop).unwrap();
+            let mut state = run.stepper.start().unwrap();
+            for _ in 0..2 {
+                let failure = run.stepper.step(&mut state, dt).unwrap_err();
+                println!("{failure}");
+                match stiffness > 10.0 {
+                    true => assert!(matches!(failure, Failure::Unstable { .. })),
+                    false => assert!(matches!(failure, Failure::Apart { .. })),
+                }
+            }
+            let stable = &run.stepper.explicit.as_ref().unwrap().stable;
+            assert_eq!((stable.steps, stable.calm, stable.loudest), (0, 0, state.work.accelerations));
+        }
     }
 }

@@ -8,6 +8,7 @@
 mod child;
 mod history;
 mod ladder;
+mod made;
 mod order;
 mod page;
 mod picture;
@@ -29,10 +30,15 @@ use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::model::study::Quantity;
-use std::fs;
+use made::Made;
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
+
+/// What a ladder writes besides its runs.
+const TABLE: &str = "study.csv";
+const PICTURE: &str = "study.svg";
+const PAGE: &str = "study.html";
 
 /// How a study is run.
 #[derive(Debug, Clone)]
@@ -97,9 +103,8 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
             return Err(Fault::Deck([given.err(), ladder.err()].into_iter().flatten().flatten().collect()));
         }
     };
-    fs::create_dir_all(&options.folder).map_err(|error| crate::output::at(&options.folder, error))?;
-    runs::clear(&options.folder)?;
-    let (mut runs, stopped) = runs::climb(&ladder, &quantities, options, stop)?;
+    let mut made = Made::begin(&options.folder, &[TABLE, PICTURE, PAGE], &runs::folders(&ladder))?;
+    let (mut runs, stopped) = runs::climb(&ladder, &quantities, options, &mut made, stop)?;
     let reference = match given {
         Some(given) => Ok(given.into()),
         None => reference::extrapolate(&ladder, &runs, &quantities),
@@ -113,11 +118,10 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     let title = if model.title.is_empty() { options.deck.display().to_string() } else { model.title.clone() };
     let deck = options.deck.display().to_string();
     let found = Found { title, deck, quantities, ladder, runs, reference, orders, cheapest, stopped };
-    rows::write(&found, &options.folder)?;
+    made.write(TABLE, rows::table(&found).as_bytes())?;
     let picture = picture::draw(&found);
-    crate::output::replace(&options.folder.join("study.svg"), picture.as_bytes())?;
-    let page = page::page(&found, &picture);
-    crate::output::replace(&options.folder.join("study.html"), page.as_bytes())?;
+    made.write(PICTURE, picture.as_bytes())?;
+    made.write(PAGE, page::page(&found, &picture).as_bytes())?;
     Ok(found)
 }
 

@@ -3,21 +3,24 @@
 
 use super::child::{Ended, Program};
 use super::ladder::{SAMPLES, output};
+use super::made::Made;
 use super::progress::Progress;
 use super::rows::{field, maybe};
-use super::runs::{AS_IT_IS, RIGID, RUNS, Run, Status, clear, program};
+use super::runs::{AS_IT_IS, RIGID, RUNS, Run, Status, program};
 use super::table::seconds;
 use super::{Fault, Options, columns, history};
 use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::model::study::{Quantity, obstacle};
-use crate::output::replace;
 use crate::output::rows::{Rows, fields, number, text};
 use std::collections::HashMap;
 use std::io;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+
+/// What the advisor writes besides its runs.
+const TABLE: &str = "rigidify.csv";
 
 /// A beam, bar or shell that deforms.
 #[derive(Debug, Clone)]
@@ -67,8 +70,10 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     if !problems.is_empty() {
         return Err(Fault::Deck(problems));
     }
-    std::fs::create_dir_all(&options.folder).map_err(|error| crate::output::at(&options.folder, error))?;
-    clear(&options.folder)?;
+    let folder =
+        |index: usize| if index == 0 { format!("{RUNS}/{AS_IT_IS}") } else { format!("{RUNS}/{RIGID}{index}") };
+    let folders: Vec<String> = (0..=candidates.len()).map(folder).collect();
+    let mut made = Made::begin(&options.folder, &[TABLE], &folders)?;
     let end = model.analysis.end_time;
     // Samples closer together than the deck's steps would shorten these.
     let steps = (end / model.analysis.time_step + 1e-9).floor().max(1.0);
@@ -91,8 +96,11 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
             if repeat > 0 && runs[index].as_ref().is_none_or(enough) {
                 continue;
             }
-            let folder = if index == 0 { format!("{RUNS}/{AS_IT_IS}") } else { format!("{RUNS}/{RIGID}{index}") };
+            let folder = folders[index].clone();
             let place = options.folder.join(&folder);
+            if repeat == 0 {
+                made.note(&folder)?;
+            }
             let sets: Vec<String> = options.sets.iter().chain(own).chain(&common).cloned().collect();
             let Some(ended) = run(&program, &sets, &place, stop)? else {
                 stopped = true;
@@ -151,7 +159,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     };
     let parts = candidates.into_iter().zip(runs).map(part).collect();
     let advice = Advice { quantities, samples, base, parts, stopped };
-    advice.write(&options.folder)?;
+    made.write(TABLE, advice.table().as_bytes())?;
     Ok(advice)
 }
 
@@ -260,8 +268,8 @@ impl Advice {
         format!("{}\nerror: against the deck as it is, {count} {what} at {samples} times\n", columns(&rows, 2))
     }
 
-    /// rigidify.csv.
-    fn write(&self, folder: &Path) -> io::Result<()> {
+    /// The text of rigidify.csv.
+    fn table(&self) -> String {
         let head = "kind,part,peak_share,mean_share,status,error,loop_s,process_s,repeats,unknowns,folder,reason";
         let mut out = head.to_owned();
         self.quantities
@@ -296,6 +304,6 @@ impl Advice {
             let shares = [part.peak_share, part.mean_share];
             row(part.kind, &part.name, shares, part.rigid.as_ref().map_err(String::as_str));
         }
-        replace(&folder.join("rigidify.csv"), out.as_bytes())
+        out
     }
 }

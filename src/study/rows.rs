@@ -3,9 +3,6 @@
 use super::ladder::float;
 use super::order::local;
 use super::{Found, Run};
-use crate::output::replace;
-use std::io;
-use std::path::Path;
 
 const COLUMNS: [&str; 22] = [
     "run",
@@ -42,7 +39,8 @@ pub fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-pub fn write(found: &Found, folder: &Path) -> io::Result<()> {
+/// The text of it.
+pub fn table(found: &Found) -> String {
     let mut header: Vec<String> = COLUMNS.map(String::from).to_vec();
     header.extend(found.quantities.iter().map(|quantity| field(&format!("error:{}", quantity.word()))));
     let mut text = header.join(",") + "\n";
@@ -81,5 +79,5 @@ pub fn write(found: &Found, folder: &Path) -> io::Result<()> {
         row.extend((0..found.quantities.len()).map(|i| maybe(run.errors.get(i).copied())));
         text += &(row.join(",") + "\n");
     }
-    replace(&folder.join("study.csv"), text.as_bytes())
+    text
 }

@@ -4,6 +4,7 @@
 use super::child::{Ended, Program, first_error};
 use super::history;
 use super::ladder::Ladder;
+use super::made::Made;
 use super::progress::Progress;
 use super::reference::Reference;
 use super::{Fault, Options};
@@ -20,8 +21,6 @@ pub const RUNS: &str = "runs";
 /// ... or the deck as it is, and with a part rigid, by number.
 pub const AS_IT_IS: &str = "as_it_is";
 pub const RIGID: &str = "rigid_";
-/// What a study writes besides.
-const FILES: [&str; 4] = ["study.csv", "study.svg", "study.html", "rigidify.csv"];
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,11 +96,23 @@ impl Run {
     }
 }
 
+/// The folder of a setting.
+fn folder(index: usize) -> String {
+    format!("{RUNS}/{}", index + 1)
+}
+
+/// Folders of all runs of a ladder.
+pub fn folders(ladder: &Ladder) -> Vec<String> {
+    let count = (0..ladder.lines.len()).map(|line| ladder.rungs(line).len()).sum();
+    (0..count).map(folder).collect()
+}
+
 /// Runs the ladder. The runs that came to be, and whether a signal ended it.
 pub fn climb(
     ladder: &Ladder,
     quantities: &[Quantity],
     options: &Options,
+    made: &mut Made,
     stop: &AtomicBool,
 ) -> Result<(Vec<Run>, bool), Fault> {
     let program = program(options)?;
@@ -122,13 +133,16 @@ pub fn climb(
         for (index, (line, rung, sets)) in jobs.iter().enumerate() {
             let label = format!("{}, {}", ladder.lines[*line].label, crate::names::short(*rung));
             progress.show(&label, repeat + 1, options.repeats);
-            let folder = format!("{RUNS}/{}", index + 1);
+            let folder = folder(index);
             let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
             if repeat > 0 && runs.get(index).is_none_or(enough) {
                 progress.did(work(*line, *rung));
                 continue;
             }
             let place = options.folder.join(&folder);
+            if repeat == 0 {
+                made.note(&folder)?;
+            }
             let Some(ended) = program.run(sets, &place, stop)? else {
                 stopped = true;
                 break;
@@ -149,27 +163,6 @@ pub fn climb(
     }
     progress.finish();
     Ok((runs, stopped))
-}
-
-/// Takes away what an older study has left in a folder that is given up, by the names that its files and runs have; what else
-/// is there stays.
-pub fn clear(folder: &Path) -> io::Result<()> {
-    let has = |number: &str| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
-    let is_run = |name: &str| has(name) || name == AS_IT_IS || name.strip_prefix(RIGID).is_some_and(has);
-    output::remove(folder, &|name| FILES.contains(&name))?;
-    let runs = folder.join(RUNS);
-    // A link was put there by somebody.
-    let is_folder = |path: &Path| fs::symlink_metadata(path).is_ok_and(|found| found.is_dir());
-    if !is_folder(&runs) {
-        return Ok(());
-    }
-    for entry in fs::read_dir(&runs).map_err(|error| output::at(&runs, error))? {
-        let entry = entry.map_err(|error| output::at(&runs, error))?;
-        if entry.file_name().to_str().is_some_and(is_run) && is_folder(&entry.path()) {
-            output::remove_run(&entry.path())?;
-        }
-    }
-    output::remove_empty(&runs)
 }
 
 /// This program itself, for the deck of a study.

@@ -1,0 +1,108 @@
+//! What a study has written into its folder, in a file of its own there: nothing else is taken away or written over.
+
+use super::runs::RUNS;
+use crate::output::{at, remove, remove_empty, remove_run, replace, run_files};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The list.
+pub const NAME: &str = "study.list";
+/// Its first line, by which it is known.
+const HEAD: &str = "# written by this study; --overwrite takes it away";
+
+/// Files and folders of runs that a study has written, by their names below its folder.
+pub struct Made {
+    folder: PathBuf,
+    names: Vec<String>,
+}
+
+impl Made {
+    /// Begins in a folder that is new, empty, or given up: what an older study has written there goes, and what it has not stays.
+    ///
+    /// # Errors
+    /// Something there that no study has written is in the way of these files and folders of runs; then nothing has gone.
+    pub fn begin(folder: &Path, files: &[&str], runs: &[String]) -> io::Result<Made> {
+        fs::create_dir_all(folder).map_err(|error| at(folder, error))?;
+        let list = folder.join(NAME);
+        let older: Vec<String> = match fs::read_to_string(&list) {
+            Ok(text) if text.lines().next() == Some(HEAD) => text.lines().skip(1).map(str::to_owned).collect(),
+            Ok(_) => return Err(foreign(&list)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(error) => return Err(at(&list, error)),
+        };
+        let is_known = |name: &str| older.iter().any(|older| older == name);
+        for name in files {
+            let path = folder.join(name);
+            if fs::symlink_metadata(&path).is_ok() && !is_known(name) {
+                return Err(foreign(&path));
+            }
+        }
+        let linked = is_link(&folder.join(RUNS));
+        for name in runs {
+            let path = folder.join(name);
+            let known = is_known(name) && !linked && !is_link(&path);
+            if !known && holds_results(&path)? {
+                return Err(foreign(&path));
+            }
+        }
+        let of_runs =
+            |name: &&String| name.strip_prefix(RUNS).and_then(|rest| rest.strip_prefix('/')).is_some_and(is_plain);
+        for name in older.iter().filter(of_runs) {
+            let path = folder.join(name);
+            // A link was put there by somebody.
+            if !linked && fs::symlink_metadata(&path).is_ok_and(|found| found.is_dir()) {
+                remove_run(&path)?;
+            }
+        }
+        let runs = folder.join(RUNS);
+        if !linked && runs.is_dir() {
+            remove_empty(&runs)?;
+        }
+        remove(folder, &|name| name == NAME || is_known(name))?;
+        Ok(Made { folder: folder.to_owned(), names: Vec::new() })
+    }
+
+    /// Notes what is about to be written, so that the list is whole however the study ends.
+    pub fn note(&mut self, name: &str) -> io::Result<()> {
+        self.names.push(name.to_owned());
+        let lines = std::iter::once(HEAD).chain(self.names.iter().map(String::as_str));
+        let text: String = lines.map(|line| format!("{line}\n")).collect();
+        replace(&self.folder.join(NAME), text.as_bytes())
+    }
+
+    /// Writes a small file.
+    pub fn write(&mut self, name: &str, text: &[u8]) -> io::Result<()> {
+        self.note(name)?;
+        replace(&self.folder.join(name), text)
+    }
+}
+
+/// A name that leads nowhere else.
+fn is_plain(name: &str) -> bool {
+    !name.is_empty() && name != "." && name != ".." && !name.contains(['/', '\\'])
+}
+
+fn is_link(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink())
+}
+
+/// True where a run would write over something.
+fn holds_results(path: &Path) -> io::Result<bool> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => run_files(path),
+        Ok(_) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(is_link(path)),
+        Err(error) => Err(at(path, error)),
+    }
+}
+
+fn foreign(path: &Path) -> io::Error {
+    let path = path.display();
+    io::Error::new(
+        io::ErrorKind::AlreadyExists,
+        format!(
+            "`{path}` was not written by a study there, so --overwrite leaves it: move it, or name another folder with -o"
+        ),
+    )
+}
