@@ -1399,3 +1399,28 @@ gravity = [0.0, 0.0, -9.81]
     // Order is lost at impacts, of which there are six: 2e-4; with what a refused step of the rest of the run moved by, 6e-4.
     assert!(off < 4e-4, "{off}");
 }
+
+/// A load that begins after a rest, written in every step: there is motion before there is work, and none of it by itself.
+#[test]
+fn a_load_after_rest_is_no_growth() {
+    let more = "[amplitudes.late]\nkind = \"step\"\nstart = 0.5\n";
+    let text = format!(
+        r#"
+integrator = {{ scheme = "central-difference" }}
+analysis = {{ kind = "dynamic", end_time = 1.0, time_step = 0.01 }}
+points = {{ p = [1.0, 0.0, 0.0] }}
+masses = [{{ at = "p", mass = 1.0 }}]
+links = [{{ name = "s", from = {{ ground = [0.0, 0.0, 0.0] }}, to = {{ node = "p" }}, stiffness = 100.0, direction = [1.0, 0.0, 0.0] }}]
+supports = [{{ at = "p", fix = ["uy", "uz"] }}]
+initial = [{{ at = "p", velocity = [1e-30, 0.0, 0.0] }}]
+loads = [{{ at = "p", force = [1.0, 0.0, 0.0], amplitude = "late" }}]
+output = {{ every = 1, energy = true }}
+{more}"#
+    );
+    // Rounding of a rest before: next to no energy, and next to none of that is made.
+    let done = run_to_the_end(&scene(&text, &[]), &mut |frame| vec![frame.state.nodes[0].x.x - 1.0]);
+    // 1 − cos ωt over k from the start of the load, within (ωΔt)²/24 of the phase.
+    let exact = (1.0 - 5.0f64.cos()) / 100.0;
+    let u = done.rows.last().unwrap()[0];
+    assert!((u - exact).abs() < 5e-3 * exact, "{u} {exact}");
+}

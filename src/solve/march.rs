@@ -87,6 +87,8 @@ pub struct Run<'a> {
     pub counts: Counts,
     /// Time spent in the observer.
     pub observing: Duration,
+    /// More energy was made than there was, when last looked at.
+    growing: bool,
     /// Of a motion in time: in statics the work of a step is that of its ends, whatever lies between.
     pub balance: Balance,
     /// Where a path ended that never came to its `stop`: the displacement asked for.
@@ -212,6 +214,7 @@ impl<'a> Run<'a> {
             stop,
             counts: Counts::default(),
             observing: Duration::ZERO,
+            growing: false,
             balance: Balance::default(),
             short_of_stop: None,
             crawling: [0; 2],
@@ -444,7 +447,10 @@ impl<'a> Run<'a> {
         let Balance { made, had, plastic, .. } = self.balance;
         // What plastic flow takes too much of does not move.
         let most = if last && made > plastic { had } else { FAR * had };
-        (is_watched(self.stepper.model) && had > 0.0 && made > most).then(|| Failure::Growing { made: made / had })
+        // A load that begins at rest moves things before it has done work: what grows does so in the next step too.
+        let grows = is_watched(self.stepper.model) && had > 0.0 && made > most;
+        let went_on = std::mem::replace(&mut self.growing, grows) || last;
+        (grows && went_on).then(|| Failure::Growing { made: made / had })
     }
 
     /// What is computed only to be shown.
