@@ -77,7 +77,10 @@ def main():
     p.add_argument("--cache", default=None, help="folder where digests of OLD are kept")
     p.add_argument("--jobs", type=int, default=2)
     p.add_argument("--work", default="/tmp/same_results")
+    p.add_argument("--root", default=None, help="the checkout whose decks are run; default: the one of this script")
     a = p.parse_args()
+    global ROOT
+    ROOT = pathlib.Path(a.root) if a.root else ROOT
     work = pathlib.Path(a.work)
     cache = pathlib.Path(a.cache) if a.cache else work / "cache"
     cache.mkdir(parents=True, exist_ok=True)
