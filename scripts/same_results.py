@@ -77,33 +77,38 @@ def main():
     p.add_argument("--cache", default=None, help="folder where digests of OLD are kept")
     p.add_argument("--jobs", type=int, default=2)
     p.add_argument("--work", default="/tmp/same_results")
-    p.add_argument("--root", default=None, help="the checkout whose decks are run; default: the one of this script")
+    p.add_argument("--root", default=None, help="the checkout whose decks NEW runs; default: that of this script")
+    p.add_argument("--old-root", default=None, help="the checkout whose decks OLD runs; default: the same; decks that it has not are left out")
     a = p.parse_args()
     global ROOT
     ROOT = pathlib.Path(a.root) if a.root else ROOT
     work = pathlib.Path(a.work)
     cache = pathlib.Path(a.cache) if a.cache else work / "cache"
     cache.mkdir(parents=True, exist_ok=True)
+    old_root = pathlib.Path(a.old_root) if a.old_root else ROOT
     version = hashlib.sha256(pathlib.Path(a.old).read_bytes()).hexdigest()[:12]
     cases = []
     for deck in sorted((ROOT / "decks").rglob("*.toml")):
         text = deck.read_text()
         if "[analysis]" not in text and "analysis" not in text:
             continue
+        before = old_root / deck.relative_to(ROOT)
+        if not before.exists():
+            continue
         for variant in VARIANTS:
             name = str(deck.relative_to(ROOT / "decks")).removesuffix(".toml").replace("/", "+") + ("@" + variant if variant else "")
             if (a.decks_only and variant) or a.filter not in name:
                 continue
-            cases.append((name, deck, variant))
+            cases.append((name, deck, before, variant))
 
     def one(case):
-        name, deck, variant = case
-        kept = cache / f"{version}-{name}-{hashlib.sha256(deck.read_bytes()).hexdigest()[:8]}.json"
+        name, deck, before, variant = case
+        kept = cache / f"{version}-{name}-{hashlib.sha256(before.read_bytes()).hexdigest()[:8]}.json"
         if kept.exists():
             old = json.loads(kept.read_text())
         else:
             out = work / "old" / name
-            code = run(a.old, deck, variant, out, a.seconds)
+            code = run(a.old, before, variant, out, a.seconds)
             old = {"exit": code, **(tables(out) if code in (0, 4, 5) else {})}
             kept.write_text(json.dumps(old))
             shutil.rmtree(out, ignore_errors=True)
