@@ -54,7 +54,7 @@ static ALLOCATOR: Counting = Counting;
 struct Counts(Vec<(usize, bool)>);
 
 impl Observer for Counts {
-    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         assert!(self.0.len() < self.0.capacity());
         self.0.push((ALLOCATIONS.get(), frame.cuts > 0));
         Ok(())

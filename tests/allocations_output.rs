@@ -44,9 +44,9 @@ fn nothing_is_allocated_per_row() {
     let mut round = |steps| {
         for step in steps {
             let frame = extras.frame(&model, &state, step);
-            files.see(&frame).unwrap();
-            expectations.see(&frame).unwrap();
-            progress.see(&frame).unwrap();
+            files.on_step(&frame).unwrap();
+            expectations.on_step(&frame).unwrap();
+            progress.on_step(&frame).unwrap();
         }
     };
     round(0..2);

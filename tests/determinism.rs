@@ -320,7 +320,7 @@ struct Step {
 struct Steps(Vec<Step>);
 
 impl Observer for Steps {
-    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         let mut sums: Vec<f64> = frame.energy.map_or(Vec::new(), |energy| energy_csv::values(energy).to_vec());
         let mut touching = Vec::new();
         for JointState { f, m } in frame.joints {

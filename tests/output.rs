@@ -15,7 +15,7 @@ fn show(observer: &mut dyn Observer, model: &Model, from: usize, to: usize) {
     for step in from..=to {
         let state = scene::state(model, step as f64 / 10.0);
         let extras = scene::Extras::at(state.time);
-        observer.see(&extras.frame(model, &state, step)).unwrap();
+        observer.on_step(&extras.frame(model, &state, step)).unwrap();
     }
 }
 

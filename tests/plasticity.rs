@@ -241,7 +241,7 @@ fn cut_steps_go_on() {
 
 struct Blind;
 impl Observer for Blind {
-    fn see(&mut self, _: &Frame) -> io::Result<()> {
+    fn on_step(&mut self, _: &Frame) -> io::Result<()> {
         Ok(())
     }
 }

@@ -310,10 +310,10 @@ struct Watchers {
 }
 
 impl Observer for Watchers {
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
-        self.expectations.see(frame)?;
-        self.progress.see(frame)?;
-        self.log.see(frame)?;
-        self.files.see(frame)
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.on_step(frame)?;
+        self.progress.on_step(frame)?;
+        self.log.on_step(frame)?;
+        self.files.on_step(frame)
     }
 }

@@ -83,7 +83,7 @@ impl Expectations {
 }
 
 impl Observer for Expectations {
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         let time = frame.state.time;
         for (index, watch) in self.watches.iter_mut().enumerate() {
             if matches!(watch.expect.when, When::Passing(_)) && !frame.passed.contains(&index) {

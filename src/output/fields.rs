@@ -183,7 +183,7 @@ impl Fields {
     }
 
     /// Every so many steps, and the first and the last.
-    pub fn see(&mut self, frame: &Frame) -> io::Result<()> {
+    pub fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if frame.step.is_multiple_of(self.every.max(1)) || frame.last { self.write(frame) } else { Ok(()) }
     }
 

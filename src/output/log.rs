@@ -35,7 +35,7 @@ impl Log {
 
 impl Observer for Log {
     /// Notes the steps that had to be cut, and what a path goes through.
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.see_path(frame)?;
         if frame.cuts == 0 {
             return Ok(());

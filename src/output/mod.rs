@@ -53,10 +53,10 @@ enum Format {
 }
 
 impl Format {
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         match self {
             Format::Steps(table) => steps_csv::write(table, frame),
-            Format::Fields(fields) => fields.see(frame),
+            Format::Fields(fields) => fields.on_step(frame),
             _ if !frame.due => Ok(()),
             Format::Nodes(table) => nodes_csv::write(table, frame),
             Format::Bodies(table) => bodies_csv::write(table, frame),
@@ -139,8 +139,8 @@ impl Files {
 }
 
 impl Observer for Files {
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
-        self.formats.iter_mut().try_for_each(|format| format.see(frame))?;
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        self.formats.iter_mut().try_for_each(|format| format.on_step(frame))?;
         // The clock is looked at where there is something to write.
         let writes = frame.due || frame.step.is_multiple_of(64);
         if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }

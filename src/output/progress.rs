@@ -35,7 +35,7 @@ impl Progress {
 }
 
 impl Observer for Progress {
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(bar) = &self.bar else { return Ok(()) };
         self.iterations += frame.iterations;
         if self.shown.elapsed() < PAUSE {

@@ -3,15 +3,16 @@
 use super::accelerate::Anderson;
 use super::explicit::Explicit;
 use super::failure::Failure;
+use super::frame::{Frame, Observer};
 use super::joints::{self, Closing};
 use super::motion::extent;
+use super::outputs::{Outputs, Request, Wanted};
 use super::own_length::{Free, OwnLength};
 use super::pace::Pace;
 use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken};
-use super::{ContactState, Frame, JointState, LinkState, Observer, SectionPoint, ShellState};
 use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::linear::TooLarge;
@@ -19,39 +20,10 @@ use crate::math::Vec3;
 use crate::model::{Cadence, Control, Kind, LinkKind, Method, Model, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
-use crate::system::energy::{Balance, Energy, PartEnergy};
+use crate::system::energy::Balance;
 use crate::system::{Drive, Forces, Loading, System};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// Which of the derived quantities the observer needs; what is not wanted is not computed.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Wanted {
-    /// Something is written of every step.
-    pub steps: bool,
-    pub energy: bool,
-    pub reactions: bool,
-    pub links: bool,
-    pub contacts: bool,
-    pub sections: bool,
-    pub parts: bool,
-    pub plastic_strains: bool,
-    pub shells: bool,
-}
-
-impl Wanted {
-    pub const ALL: Wanted = Wanted {
-        steps: true,
-        energy: true,
-        reactions: true,
-        links: true,
-        contacts: true,
-        sections: true,
-        parts: true,
-        plastic_strains: true,
-        shells: true,
-    };
-}
 
 /// How a run ended.
 #[derive(Debug)]
@@ -95,14 +67,7 @@ pub struct Run<'a> {
     pub short_of_stop: Option<f64>,
     /// Steps in a row cut into many pieces, and those pieces.
     crawling: [usize; 2],
-    energy: Option<Energy>,
-    links: Vec<LinkState>,
-    joints: Vec<JointState>,
-    contacts: Vec<ContactState>,
-    plastic_strains: Vec<f64>,
-    sections: Vec<SectionPoint>,
-    parts: Vec<PartEnergy>,
-    shells: Vec<ShellState>,
+    outputs: Outputs,
 }
 
 /// A step as it is shown.
@@ -218,14 +183,7 @@ impl<'a> Run<'a> {
             balance: Balance::default(),
             short_of_stop: None,
             crawling: [0; 2],
-            energy: None,
-            links: Vec::new(),
-            joints: Vec::new(),
-            contacts: Vec::with_capacity(model.contacts.len()),
-            plastic_strains: Vec::new(),
-            sections: Vec::new(),
-            parts: Vec::new(),
-            shells: Vec::new(),
+            outputs: Outputs::new(model),
         })
     }
 
@@ -397,7 +355,9 @@ impl<'a> Run<'a> {
         let drawn = model.output.fields.is_some_and(|every| self.counts.steps.is_multiple_of(every.max(1)) || last);
         // Two looks at the clock are a twentieth of a step of two bodies.
         let began = (due || drawn || self.wanted.steps).then(Instant::now);
-        self.derive(state, due, drawn, balance);
+        let (system, threads, watched) = (self.stepper.system, self.stepper.plan.threads, is_watched(model));
+        let request = Request { model, system, state, due, drawn, balance, watched, threads };
+        self.outputs.compute(&self.wanted, &request);
         let failure = self.watch(state, balance, last);
         let frame = Frame {
             model,
@@ -410,21 +370,21 @@ impl<'a> Run<'a> {
             cuts,
             due,
             last,
-            energy: self.energy.as_ref().filter(|_| self.wanted.energy),
+            energy: self.outputs.energy.as_ref().filter(|_| self.wanted.energy),
             reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
-            joints: &self.joints,
-            links: &self.links,
-            contacts: &self.contacts,
-            plastic_strains: &self.plastic_strains,
-            sections: &self.sections,
-            parts: &self.parts,
-            shells: &self.shells,
+            joints: &self.outputs.joints,
+            links: &self.outputs.links,
+            contacts: &self.outputs.contacts,
+            plastic_strains: &self.outputs.plastic_strains,
+            sections: &self.outputs.sections,
+            parts: &self.outputs.parts,
+            shells: &self.outputs.shells,
             passed,
             // Each multiplier brings one of its own.
             negative_pivots: (self.stepper.path.as_ref())
                 .map(|_| self.stepper.solver.negatives().saturating_sub(self.stepper.system.multipliers())),
         };
-        observer.see(&frame).map_err(Outcome::Io)?;
+        observer.on_step(&frame).map_err(Outcome::Io)?;
         if let Some(began) = began {
             self.observing += began.elapsed();
         }
@@ -443,7 +403,7 @@ impl<'a> Run<'a> {
         self.balance.work(state.work.external);
         let letting_go =
             || (is_watched(model) && may_let_go(model)).then(|| system.energy(state, balance, plan.threads));
-        self.balance.see(&self.energy.or_else(letting_go)?);
+        self.balance.see(&self.outputs.energy.or_else(letting_go)?);
         let Balance { made, had, plastic, .. } = self.balance;
         // What plastic flow takes too much of does not move.
         let most = if last && made > plastic { had } else { FAR * had };
@@ -451,46 +411,6 @@ impl<'a> Run<'a> {
         let grows = is_watched(self.stepper.model) && had > 0.0 && made > most;
         let went_on = std::mem::replace(&mut self.growing, grows) || last;
         (grows && went_on).then(|| Failure::Growing { made: made / had })
-    }
-
-    /// What is computed only to be shown.
-    fn derive(&mut self, state: &State, due: bool, drawn: bool, balance: Option<f64>) {
-        self.energy = None;
-        self.links.clear();
-        self.joints.clear();
-        self.contacts.clear();
-        self.plastic_strains.clear();
-        self.sections.clear();
-        self.parts.clear();
-        self.shells.clear();
-        let system = self.stepper.system;
-        if self.wanted.plastic_strains && (due || drawn) {
-            system.plastic_strains(&state.now(), &mut self.plastic_strains);
-        }
-        if self.wanted.shells && (due || drawn) {
-            system.shell_states(self.stepper.model, &state.now(), &mut self.shells);
-        }
-        if !due {
-            return;
-        }
-        if self.wanted.energy || is_watched(self.stepper.model) {
-            self.energy = Some(system.energy(state, balance, self.stepper.plan.threads));
-        }
-        if self.wanted.reactions {
-            system.joint_states(&state.nodes, &state.multipliers, &mut self.joints);
-        }
-        if self.wanted.links {
-            system.link_states(&state.nodes, &mut self.links);
-        }
-        if self.wanted.contacts {
-            system.contact_states(self.stepper.model, &state.now(), &mut self.contacts);
-        }
-        if self.wanted.sections {
-            system.section_points(self.stepper.model, &state.now(), &mut self.sections);
-        }
-        if self.wanted.parts {
-            system.part_energies(self.stepper.model, &state.now(), &mut self.parts);
-        }
     }
 }
 

@@ -252,7 +252,7 @@ struct Energies {
 }
 
 impl Observer for Energies {
-    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         let Some(energy) = frame.energy else { return Ok(()) };
         let values = energy_csv::values(energy);
         let at = |name: &str| values[energy_csv::COLUMNS.iter().position(|column| *column == name).unwrap()].abs();

@@ -213,7 +213,7 @@ fn an_edge_of_a_shell_on_a_body() {
     let stop = std::sync::atomic::AtomicBool::new(false);
     struct Last(Vec<Vec3>, Vec<f64>);
     impl rdsolve::solve::Observer for Last {
-        fn see(&mut self, frame: &rdsolve::solve::Frame) -> std::io::Result<()> {
+        fn on_step(&mut self, frame: &rdsolve::solve::Frame) -> std::io::Result<()> {
             self.0 = frame.state.nodes.iter().map(|node| node.x).collect();
             self.1 = frame.reactions.to_vec();
             Ok(())

@@ -37,7 +37,7 @@ struct Steps {
 }
 
 impl Observer for Steps {
-    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         self.times.push(frame.state.time);
         self.last = Some(frame.state.clone());
         Ok(())

@@ -367,7 +367,7 @@ impl Record {
 }
 
 impl Observer for Record {
-    fn see(&mut self, frame: &Frame) -> std::io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         if frame.due {
             self.states.push(frame.state.clone());
             self.energies.extend(frame.energy);

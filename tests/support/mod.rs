@@ -72,11 +72,11 @@ struct Watchers<'p> {
 }
 
 impl Observer for Watchers<'_> {
-    fn see(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if frame.due {
             self.rows.push((self.probe)(frame));
         }
-        self.expectations.see(frame)
+        self.expectations.on_step(frame)
     }
 }
 
