@@ -114,7 +114,7 @@ fn measure(name: &str, mut model: Model) {
     Drive::new(&model).loading(state.time, Side::Before, &mut loading);
     let mut forces = Forces::new(&system, model.nodes.len());
     let scheme = &model.scheme;
-    let (rate, acceleration) = scheme.coefficients(model.analysis.time_step).weights();
+    let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.now(), &loading, f)));

@@ -128,7 +128,7 @@ fn measure(name: &str, text: String, threads: usize) {
     Drive::new(&model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);
     let scheme = &model.scheme;
-    let (rate, acceleration) = scheme.coefficients(model.analysis.time_step).weights();
+    let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&now, &loading, f)));

@@ -11,7 +11,8 @@ use rand::rngs::StdRng;
 use rdsolve::diagnostic::Source;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    BaseAcceleration, Cadence, Held, History, Iteration, Kind, MassKind, Method, Model, Motion, NodalDamping, Update,
+    BaseAcceleration, Cadence, Held, History, Iteration, Kind, MassKind, Method, Model, Motion, NodalDamping,
+    StepLength, Update,
 };
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
@@ -93,9 +94,10 @@ fn no_step_after_the_first_allocates() {
             }
         }
     }
-    m.analysis.error_tolerance = Some(1e-4);
+    let fixed = m.analysis.step_length.clone();
+    m.analysis.step_length = StepLength::ErrorControlled { tolerance: 1e-4, first: m.analysis.nominal_step() };
     assert_none(&m, rdsolve::linear::Kind::Block);
-    m.analysis.error_tolerance = None;
+    m.analysis.step_length = fixed;
     soften(&mut m, 10.0);
     m.iteration.limit = 200;
     for method in [Method::TangentStiffness, Method::InitialLoad, Method::Auto] {
@@ -108,7 +110,8 @@ fn no_step_after_the_first_allocates() {
     for deck in [include_str!("../decks/lees_frame/deck.toml"), include_str!("../decks/hinged_roof/thin/deck.toml")] {
         let source = Source::new("deck.toml", deck, &["analysis.growth=1.0".to_string()]);
         let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
-        model.analysis.time_step *= 0.5;
+        let StepLength::ArcLength(path) = &mut model.analysis.step_length else { panic!("no path") };
+        path.first *= 0.5;
         for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
             assert_none(&model, kind);
         }
@@ -135,7 +138,7 @@ fn explicit_steps_allocate_nothing_either() {
             model.analysis.end_time = end;
             model.expects.clear();
             model.output.cadence = Cadence::Steps(1);
-            model.analysis.time_step = end / 500.0;
+            model.analysis.step_length = StepLength::Fixed { step: end / 500.0 };
             assert_none(&model, rdsolve::linear::Kind::Block);
         }
     }
@@ -143,7 +146,7 @@ fn explicit_steps_allocate_nothing_either() {
     let sets = ["integrator.scheme=\"central-difference\"", "beams.portal.elements=3", "beams.portal.order=1"];
     let source = Source::new("deck.toml", deck, &sets.map(str::to_string));
     let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
-    (model.analysis.end_time, model.analysis.time_step) = (0.02, 8e-6);
+    (model.analysis.end_time, model.analysis.step_length) = (0.02, StepLength::Fixed { step: 8e-6 });
     model.expects.clear();
     let state = assert_none(&model, rdsolve::linear::Kind::Block);
     assert!(state.work.material.plastic > 1.0, "{:?}", state.work);

@@ -6,8 +6,8 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    self, ArcLength, Cadence, Control, ExpectAt, History, LinkKind, MassKind, Method, Model, Passage, Shape, Tolerance,
-    When,
+    self, ArcLength, Cadence, ExpectAt, History, LinkKind, MassKind, Method, Model, Passage, Shape, StepLength,
+    Tolerance, When,
 };
 use rdsolve::sections::Fibre;
 
@@ -283,13 +283,13 @@ tolerance = 0.1
     // The words of the directions, with their quotes.
     let place = |word: &str| text.find(word).map(|start| [start, start + word.len()]).unwrap();
     let stop = Passage { node: 1, dof: 1, value: -0.8, pass: 2, place: place("\"uy\"") };
-    let control = ArcLength { stop: Some(stop), steps: Some(50), growth: 4.0 };
-    assert_eq!(model.analysis.control, Control::ArcLength(control));
+    let path = ArcLength { first: model.analysis.nominal_step(), stop: Some(stop), steps: Some(50), growth: 4.0 };
+    assert_eq!(model.analysis.step_length, StepLength::ArcLength(path));
     let expect = &model.expects[0];
     assert_eq!(expect.at, ExpectAt::Analysis);
     assert_eq!(expect.when, When::Passing(Passage { node: 1, dof: 0, value: -0.5, pass: 1, place: place("\"ux\"") }));
     assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
-    assert_eq!(everything().analysis.control, Control::Time);
+    assert!(matches!(everything().analysis.step_length, StepLength::Fixed { .. }));
 }
 
 #[test]

@@ -8,8 +8,7 @@ use std::time::Instant;
 
 use super::{Exit, Loaded, MOST_THREADS, RunArgs, complain, doubts, load, no_room, output_folder, planned, show};
 use crate::diagnostic::Diagnostic;
-use crate::integrators::Scheme;
-use crate::model::{ArcLength, Control, DIRECTIONS, Model};
+use crate::model::{ArcLength, DIRECTIONS, Model, StepLength};
 use crate::names::short;
 use crate::output::expect::{Expectations, Verdict};
 use crate::output::log::Log;
@@ -201,8 +200,8 @@ fn judge(outcome: Outcome, expectations: &[Verdict]) -> io::Result<(Status, Stri
 
 /// A path that ended before its `stop`, in a sentence.
 fn short_of_stop(model: &Model, run: &Run, end: &Option<State>) -> Option<String> {
-    let (Control::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
-        (&model.analysis.control, run.short_of_stop)
+    let (StepLength::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
+        (&model.analysis.step_length, run.short_of_stop)
     else {
         return None;
     };
@@ -276,10 +275,10 @@ fn imbalance(balance: &Balance, model: &Model) -> Option<String> {
     const MADE: f64 = 0.02; // of the most there was: schemes make next to nothing
     const TAKEN: f64 = 0.2; // they may damp what no step resolves
     let part = |energy: f64| format!("{:.0} % of the most energy there was", 100.0 * energy / balance.most);
-    let shorter = match (model.analysis.error_tolerance, &model.scheme) {
-        (None, _) => "shorter steps",
-        (Some(_), Scheme::CentralDifference(_)) => "a number as `time_step`, shorter than the steps of \"auto\"",
-        (Some(_), _) => "a smaller `error_tolerance`",
+    let shorter = match model.analysis.step_length {
+        StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
+        StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
+        StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
     };
     let longer = format!("look at `numerical` in energy.csv, and try {shorter}");
     if balance.made > MADE * balance.most {

@@ -1,7 +1,8 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
 use super::build::{Builder, Owner, span};
-use super::{Analysis, Control, Gyroscopic, Kind, MassKind, Method, Update};
+use super::step_length::{ERROR_TOLERANCE, FIRST_STEP, stable_fraction};
+use super::{Analysis, Gyroscopic, Kind, MassKind, Method, StepLength, Update};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, NumberOrAuto};
@@ -14,8 +15,6 @@ use crate::names::short;
 
 /// A step is halved at most so many times, unless the deck says otherwise.
 const HALVINGS: i32 = 20;
-/// Of the whole run: with an automatic step the first that is tried.
-const FIRST_STEP: f64 = 5e-3;
 /// More steps are a slip of the keyboard.
 const MOST_STEPS: f64 = 1e9;
 /// Steps of a run whose error is to be τ are about so many over τ^(1/p), p the order of the scheme.
@@ -35,11 +34,16 @@ impl<'d> Builder<'d> {
             self.scheme(integrator);
         }
         self.can_follow_error();
-        if let (Some(tolerance), Some(analysis)) = (self.model.analysis.error_tolerance, &self.deck.analysis)
+        if let (StepLength::ErrorControlled { tolerance, .. }, Some(analysis)) =
+            (&self.model.analysis.step_length, &self.deck.analysis)
             && let Some(at) = &analysis.value.error_tolerance
         {
-            let scheme = self.model.scheme.clone();
+            let (tolerance, scheme) = (*tolerance, self.model.scheme.clone());
             self.can_be_kept("error_tolerance", tolerance, &scheme, &at.span);
+        }
+        if self.model.analysis.step_length.is_automatic() && matches!(self.model.scheme, Scheme::CentralDifference(_)) {
+            let fraction = stable_fraction(&self.model);
+            self.model.analysis.step_length = StepLength::StabilityLimited { fraction };
         }
         if let Some(iteration) = &self.deck.iteration {
             self.iteration(iteration);
@@ -79,18 +83,21 @@ impl<'d> Builder<'d> {
             self.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
         }
         let end_time = end_time.unwrap_or(f64::MAX);
-        let (first, least) = match error_tolerance {
-            Some(_) => (FIRST_STEP * end_time, end_time / MOST_STEPS),
-            None => (1.0, time_step.unwrap_or(1.0) * 0.5_f64.powi(HALVINGS)),
+        let (step_length, least) = match error_tolerance {
+            Some(tolerance) => {
+                (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * end_time }, end_time / MOST_STEPS)
+            }
+            None => {
+                let step = time_step.unwrap_or(1.0);
+                (StepLength::Fixed { step }, step * 0.5_f64.powi(HALVINGS))
+            }
         };
         self.model.analysis = Analysis {
             kind,
             end_time,
-            time_step: time_step.unwrap_or(first),
-            error_tolerance,
+            step_length,
             least_step: least_step.unwrap_or(least),
             plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == deck::Plane::Auto),
-            control: Control::Time,
         };
     }
 
@@ -115,14 +122,14 @@ impl<'d> Builder<'d> {
                     let hint = "it is relative to the largest displacement";
                     self.error_with::<()>(&at.span, "`error_tolerance` must lie between 0 and 1", hint);
                 }
-                (None, Some(tolerance.as_ref().map_or(1e-3, |at| at.value)))
+                (None, Some(tolerance.as_ref().map_or(ERROR_TOLERANCE, |at| at.value)))
             }
         }
     }
 
     /// What an error is estimated by holds for schemes of second order.
     fn can_follow_error(&mut self) {
-        if self.model.analysis.error_tolerance.is_some()
+        if self.model.analysis.step_length.is_automatic()
             && let Scheme::Newmark(GeneralizedAlpha { gamma, .. }) = self.model.scheme
             && gamma != 0.5
             && let Some(at) = self.deck.analysis.as_ref().and_then(|analysis| analysis.value.time_step.as_ref())
@@ -256,6 +263,11 @@ impl<'d> Builder<'d> {
         let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
         if self.model.analysis.kind == Kind::Static || !self.model.scheme.is_explicit() {
             return;
+        }
+        if let StepLength::StabilityLimited { .. } = self.model.analysis.step_length {
+            // Now that links and contacts are known.
+            let fraction = stable_fraction(&self.model);
+            self.model.analysis.step_length = StepLength::StabilityLimited { fraction };
         }
         self.check_yielding(&at.span);
         let model = &self.model;

@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::meshes::{Input, Meshed};
 use super::places::Place;
 use super::rigid::RigidParts;
-use super::{Cadence, Control, Damping, Gyroscopic, Iteration, Kind, Method, Model, Node, Output, Update};
+use super::{Cadence, Damping, Gyroscopic, Iteration, Kind, Method, Model, Node, Output, StepLength, Update};
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
@@ -134,11 +134,9 @@ impl<'d> Builder<'d> {
             analysis: super::Analysis {
                 kind: Kind::Dynamic,
                 end_time: 0.0,
-                time_step: 0.0,
-                error_tolerance: None,
+                step_length: StepLength::Fixed { step: 0.0 },
                 least_step: 0.0,
                 plane: true,
-                control: Control::Time,
             },
             scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {

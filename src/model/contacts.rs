@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner, span, vec3};
 use super::places::Place;
-use super::{Contact, Held, Kind, Model, Shape as Drawn};
+use super::{Contact, Held, Kind, Model, Shape as Drawn, StepLength};
 use crate::deck::contacts as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
@@ -461,12 +461,14 @@ impl<'d> Builder<'d> {
                 let message = format!("{} needs `stiffness`", owner.what);
                 return self.error_with(owner.span, message, "nothing that touches has a mass to choose it by");
             }
-            None if self.model.analysis.error_tolerance.is_some() => {
-                let message = format!("{} needs `stiffness`", owner.what);
-                let hint = "with an automatic time step there is no length of step to choose it by";
-                return self.error_with(owner.span, message, hint);
+            None => {
+                let StepLength::Fixed { step } = self.model.analysis.step_length else {
+                    let message = format!("{} needs `stiffness`", owner.what);
+                    let hint = "with an automatic time step there is no length of step to choose it by";
+                    return self.error_with(owner.span, message, hint);
+                };
+                mean * (PI / (STEPS * step)).powi(2)
             }
-            None => mean * (PI / (STEPS * self.model.analysis.time_step)).powi(2),
         };
         let mass = if least.is_finite() { least } else { mean };
         let frequency = if mass > 0.0 { (stiffness / mass).sqrt() } else { f64::INFINITY };

@@ -22,6 +22,7 @@ mod rigid;
 mod sections;
 mod shells;
 mod slivers;
+mod step_length;
 pub mod study;
 mod supports;
 mod unused;
@@ -29,6 +30,7 @@ mod unused;
 pub use build::{build, read};
 pub use expects::{CONTACT, ENERGY};
 pub use meshes::Input;
+pub use step_length::{ArcLength, ERROR_TOLERANCE, StepLength, may_stiffen, stable_fraction};
 pub use study::Study;
 
 use crate::amplitude::Amplitude;
@@ -117,34 +119,23 @@ pub enum Kind {
 pub struct Analysis {
     pub kind: Kind,
     pub end_time: f64,
-    /// With an automatic step the first that is tried.
-    pub time_step: f64,
-    /// Of displacements at the end of the run, relative to the largest: steps follow their error. `None`: they are all the same.
-    pub error_tolerance: Option<f64>,
+    pub step_length: StepLength,
     /// A step is never cut below this.
     pub least_step: f64,
     /// Leave out-of-plane motion out of the unknowns where nothing can cause it.
     pub plane: bool,
-    pub control: Control,
 }
 
-/// What leads a static analysis on.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Control {
-    /// The time, in given steps.
-    Time,
-    /// The way along the path of equilibria; the time follows, and may fall.
-    ArcLength(ArcLength),
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct ArcLength {
-    /// Where the path ends, unless `end_time` is reached before.
-    pub stop: Option<Passage>,
-    /// The run ends after so many steps, wherever it is.
-    pub steps: Option<usize>,
-    /// Longest arc over that of the first step.
-    pub growth: f64,
+impl Analysis {
+    /// The length of step that samples and studies are planned with: that of fixed steps, or else about that of the first.
+    pub fn nominal_step(&self) -> f64 {
+        match &self.step_length {
+            StepLength::Fixed { step } => *step,
+            StepLength::ErrorControlled { first, .. } => *first,
+            StepLength::StabilityLimited { .. } => step_length::FIRST_STEP * self.end_time,
+            StepLength::ArcLength(arc) => arc.first,
+        }
+    }
 }
 
 /// A displacement on its way through a value.

@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner, span};
 use super::places::Place;
-use super::{ArcLength, Cadence, Control, Held, History, Kind, Method, Passage, Update};
+use super::{ArcLength, Cadence, Held, History, Kind, Method, Passage, StepLength, Update};
 use crate::deck::analysis as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
@@ -14,7 +14,7 @@ impl<'d> Builder<'d> {
         let Some(analysis) = &self.deck.analysis else { return };
         if self.is_spoiled(&analysis.span, "control") {
             // Whatever it was to be, it is not held against the words that go with it.
-            self.model.analysis.control = Control::ArcLength(ArcLength { stop: None, steps: None, growth: 1.0 });
+            self.set_arc_length(None, None, 1.0);
             return;
         }
         let Some(at) = analysis.control.as_ref().filter(|at| at.value == deck::Control::ArcLength) else {
@@ -33,7 +33,13 @@ impl<'d> Builder<'d> {
         if let Some(at) = analysis.growth.as_ref().filter(|at| at.value > 0.0 && at.value < 1.0) {
             self.error::<()>(&at.span, "`growth` must be at least 1: `time_step` sets the first step");
         }
-        self.model.analysis.control = Control::ArcLength(ArcLength { stop, steps, growth });
+        self.set_arc_length(stop, steps, growth);
+    }
+
+    /// The step of the deck becomes the first of the path.
+    fn set_arc_length(&mut self, stop: Option<Passage>, steps: Option<usize>, growth: f64) {
+        let first = self.model.analysis.nominal_step();
+        self.model.analysis.step_length = StepLength::ArcLength(ArcLength { first, stop, steps, growth });
     }
 
     /// Only the derivative at hand tells where the path goes.
@@ -98,7 +104,7 @@ impl<'d> Builder<'d> {
     }
 
     pub fn is_arc_length(&self) -> bool {
-        matches!(self.model.analysis.control, Control::ArcLength(_))
+        self.model.analysis.step_length.is_arc_length()
     }
 
     /// A displacement that some step is to land on; it must be one of the unknowns.

@@ -1,9 +1,9 @@
 //! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
 //! [`crate::study`] alone.
 
+use super::Method;
 use super::build::{Builder, Owner};
 use super::places::Place;
-use super::{Control, Method};
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
 use crate::deck::words::{Maybe, OneOrMany};
@@ -290,12 +290,8 @@ impl<'d> Builder<'d> {
 
 /// Why a model cannot be studied; `None`: it can.
 pub fn obstacle(model: &super::Model) -> Option<&'static str> {
-    match model.analysis.control {
-        Control::ArcLength(_) => {
-            Some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
-        }
-        Control::Time => None,
-    }
+    let along = model.analysis.step_length.is_arc_length();
+    along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
 }
 
 impl Method {

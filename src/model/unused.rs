@@ -1,7 +1,7 @@
 //! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
 
 use super::build::Builder;
-use super::{ArcLength, Control, ExpectAt, Model, When};
+use super::{ArcLength, ExpectAt, Model, StepLength, When};
 use crate::elements::pressure::Face;
 
 impl Builder<'_> {
@@ -51,7 +51,7 @@ fn each(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
             of(&mut passage.node);
         }
     }
-    if let Control::ArcLength(ArcLength { stop: Some(passage), .. }) = &mut model.analysis.control {
+    if let StepLength::ArcLength(ArcLength { stop: Some(passage), .. }) = &mut model.analysis.step_length {
         of(&mut passage.node);
     }
 }

@@ -1,13 +1,12 @@
 //! The plan in words, for `rdsolve check` and the log.
 
 use super::Plan;
-use super::explicit::part_of_limit;
 use crate::elements::beam::Rule;
 use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
 use crate::linear::Kind;
 use crate::model::{
-    Contact, Control, DIRECTIONS, Gyroscopic, Kind as Analysis, MassKind, MeshFile, Method, Model, Update,
+    Contact, DIRECTIONS, Gyroscopic, Kind as Analysis, MassKind, MeshFile, Method, Model, StepLength, Update,
 };
 use crate::names::{joined, short};
 use std::fmt::Write;
@@ -84,11 +83,10 @@ impl Plan {
             let _ = writeln!(text, "{label:<12}{what}");
         };
         let analysis = &model.analysis;
-        let steps = (analysis.end_time / analysis.time_step - 1e-9).ceil().max(1.0);
+        let steps = (analysis.end_time / analysis.nominal_step() - 1e-9).ceil().max(1.0);
         match analysis.kind {
-            Analysis::Static => match &analysis.control {
-                Control::Time => line("analysis", format!("static, {steps} load steps")),
-                Control::ArcLength(control) => {
+            Analysis::Static => match &analysis.step_length {
+                StepLength::ArcLength(control) => {
                     let end = match control.stop {
                         None => String::new(),
                         Some(stop) => {
@@ -97,16 +95,19 @@ impl Plan {
                         }
                     };
                     let to = format!("to t = {}{end}", analysis.end_time);
-                    line("analysis", format!("static, by arc length {to}, the first step {} of t", analysis.time_step));
+                    line("analysis", format!("static, by arc length {to}, the first step {} of t", control.first));
                 }
+                _ => line("analysis", format!("static, {steps} load steps")),
             },
             Analysis::Dynamic => {
-                let time = match analysis.error_tolerance {
-                    Some(_) if matches!(model.scheme, Scheme::CentralDifference(_)) => {
-                        format!("in steps of {} of the longest that is stable", part_of_limit(model))
+                let time = match &analysis.step_length {
+                    StepLength::StabilityLimited { fraction } => {
+                        format!("in steps of {fraction} of the longest that is stable")
                     }
-                    Some(tolerance) => format!("in steps that follow their error, {tolerance} in all"),
-                    None => format!("in {steps} steps of {}", analysis.time_step),
+                    StepLength::ErrorControlled { tolerance, .. } => {
+                        format!("in steps that follow their error, {tolerance} in all")
+                    }
+                    _ => format!("in {steps} steps of {}", analysis.nominal_step()),
                 };
                 line("analysis", format!("dynamic, to t = {} {time}, {}", analysis.end_time, words(&model.scheme)));
                 if let Some(note) = note(&model.scheme) {
@@ -188,7 +189,7 @@ impl Plan {
         for contact in &model.contacts {
             line("contact", contact_in_words(model, contact));
         }
-        let along = matches!(analysis.control, Control::ArcLength(_));
+        let along = analysis.step_length.is_arc_length();
         if system.yields() && !self.explicit {
             let method = match model.iteration.method {
                 _ if along => "tangent stiffness: along a path nothing else tells where it goes",

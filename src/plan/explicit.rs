@@ -3,33 +3,14 @@
 use super::Plan;
 use super::place::Why;
 use crate::diagnostic::Diagnostic;
-use crate::elements::link::Law;
 use crate::integrators::Scheme;
-use crate::model::{DIRECTIONS, Link, LinkKind, Model};
+use crate::model::{DIRECTIONS, Model};
 use crate::system::System;
 use crate::system::masses::Masses;
 use crate::system::ties::Ties;
 
 /// Named at most; more are counted.
 const MOST: usize = 5;
-
-/// Automatic steps of central differences, of the longest that is stable. Beam elements that bend far are lost at 0.9 already, at
-/// 0.86 not: what is stable as the scene lies may grow where its stiffness swings.
-const SAFE: f64 = 0.8;
-/// The same where links or contacts may stiffen: they cut steps, and a mode at a part p of the limit has up to 1/(1 − p²) of its
-/// energy at a step, which a shorter one takes for all there is.
-const SAFE_WHERE_STRUCK: f64 = 0.5;
-
-/// How long automatic steps of central differences are, of the longest that is stable.
-pub fn part_of_limit(model: &Model) -> f64 {
-    if may_stiffen(model) { SAFE_WHERE_STRUCK } else { SAFE }
-}
-
-/// True where something may resist more than it does as it lies, all at once.
-pub fn may_stiffen(model: &Model) -> bool {
-    let bends = |link: &Link| matches!(&link.kind, LinkKind::Line { law, .. } if !matches!(law, Law::Linear { .. }));
-    !model.contacts.is_empty() || model.links.iter().any(bends)
-}
 
 impl Plan {
     /// Where each moving node is a rigid body of its own.

@@ -3,13 +3,13 @@
 use super::Plan;
 use super::place::Why;
 use crate::diagnostic::Diagnostic;
-use crate::model::{ArcLength, Control, DIRECTIONS, Model, Passage, When};
+use crate::model::{ArcLength, DIRECTIONS, Model, Passage, StepLength, When};
 
 impl Plan {
     /// An error for each `stop` and each `when` of the model that no motion can come to, with its place in the deck.
     pub fn never_passed(&self, model: &Model) -> Vec<Diagnostic> {
-        let stop = match &model.analysis.control {
-            Control::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
+        let stop = match &model.analysis.step_length {
+            StepLength::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
             _ => None,
         };
         let expected = model.expects.iter().filter_map(|expect| match &expect.when {

@@ -11,7 +11,7 @@ use crate::elements::Moduli;
 use crate::integrators::Scheme;
 use crate::math::rotation::{exp, inverse_tangent, rates, renormalise};
 use crate::math::{Vec3, Vec6, bottom, join, top};
-use crate::model::Model;
+use crate::model::{Model, StepLength};
 use crate::plan::Plan;
 use crate::state::{Node, Now, State};
 use crate::system::System;
@@ -72,7 +72,11 @@ impl Explicit {
             driven: model.held.iter().any(|held| held.motion.is_some()),
             stable: Stable::new(model, plan),
             work: [0.0; 2],
-            control: model.analysis.error_tolerance.map(|tolerance| Control::new(tolerance, model)),
+            control: match model.analysis.step_length {
+                StepLength::ErrorControlled { tolerance, .. } => Some(Control::new(tolerance, model)),
+                StepLength::StabilityLimited { .. } => Some(Control::new(f64::INFINITY, model)),
+                StepLength::Fixed { .. } | StepLength::ArcLength(_) => None,
+            },
         }
     }
 

@@ -17,7 +17,7 @@ use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::linear::TooLarge;
 use crate::math::Vec3;
-use crate::model::{Cadence, Control, Kind, LinkKind, Method, Model, Update};
+use crate::model::{Cadence, Kind, LinkKind, Method, Model, StepLength, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Balance;
@@ -114,7 +114,7 @@ impl<'a> Run<'a> {
         let moves = |i: &usize| !rides[*i] && (driven[*i] || (0..6).any(|d| plan.is_unknown(*i, d)));
         let at_rest: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
         // Load steps are long and few, and there is no mass to steady an old matrix; along a path an old one leads astray.
-        let along = matches!(model.analysis.control, Control::ArcLength(_));
+        let along = model.analysis.step_length.is_arc_length();
         let method = if along { Method::TangentStiffness } else { model.iteration.method };
         let mixes = system.yields() && method != Method::TangentStiffness;
         let update = match (model.analysis.kind, model.iteration.update) {
@@ -224,18 +224,21 @@ impl<'a> Run<'a> {
         let balance = initial.map(|e| e.total);
         let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to: 0.0 };
         let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, last: false, passed: &[] };
-        if let Control::ArcLength(control) = &self.stepper.model.analysis.control {
+        if let StepLength::ArcLength(control) = &self.stepper.model.analysis.step_length {
             self.settle(state).map_err(|failure| Outcome::Failed { time: 0.0, failure })?;
             self.show(state, observer, balance, &first)?;
             return self.follow(state, observer, balance, control);
         }
         self.show(state, observer, balance, &first)?;
         let model = self.stepper.model;
-        let explicit = self.stepper.explicit.is_some();
-        let mut own: Option<Box<dyn OwnLength>> = model.analysis.error_tolerance.map(|tolerance| match explicit {
-            true => Box::new(Free) as Box<dyn OwnLength>,
-            false => Box::new(Pace::new(model, tolerance, self.stepper.length, state)),
-        });
+        let mut own: Option<Box<dyn OwnLength>> = match model.analysis.step_length {
+            StepLength::StabilityLimited { .. } => Some(Box::new(Free)),
+            StepLength::ErrorControlled { .. } if self.stepper.explicit.is_some() => Some(Box::new(Free)),
+            StepLength::ErrorControlled { tolerance, .. } => {
+                Some(Box::new(Pace::new(model, tolerance, self.stepper.length, state)))
+            }
+            StepLength::Fixed { .. } | StepLength::ArcLength(_) => None,
+        };
         for stretch in stretches(model) {
             if let Some(own) = &mut own {
                 self.follow_length(state, &stretch, own.as_mut(), observer, balance)?;

@@ -128,7 +128,7 @@ impl Pace {
         Pace {
             tolerance,
             constant: MEAN * error_constant(&model.scheme),
-            length: model.analysis.time_step,
+            length: model.analysis.nominal_step(),
             longest: model.analysis.end_time / FEWEST,
             intensity: None,
             usual: None,

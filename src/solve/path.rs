@@ -160,7 +160,7 @@ impl Run<'_> {
         control: &ArcLength,
     ) -> Result<(), Outcome> {
         let analysis = &self.stepper.model.analysis;
-        let least = analysis.least_step / analysis.time_step;
+        let least = analysis.least_step / control.first;
         // The first step is one of load, and there is none before.
         let begin = self.stepper.drive.begin();
         if begin >= analysis.end_time {
@@ -175,7 +175,7 @@ impl Run<'_> {
                 return Err(Outcome::Stopped { time: state.time });
             }
             let (to, condition) = match unit {
-                None => (begin + size * analysis.time_step, None),
+                None => (begin + size * control.first, None),
                 Some(unit) => (state.time, Some(Condition::Arc(size * unit))),
             };
             let found = self.stepper.find(state, to, condition, &stations);
@@ -209,7 +209,7 @@ impl Run<'_> {
             self.stepper.keep_motion(&motion);
             let dt = taken.to - state.time;
             // A first step may have been cut short where it passed something, even before loads begin.
-            let whole = analysis.time_step / (taken.to - begin).abs().max(least * analysis.time_step);
+            let whole = control.first / (taken.to - begin).abs().max(least * control.first);
             if (unit.is_some() || taken.to > begin) && *unit.get_or_insert(motion.length * whole) == 0.0 {
                 let failure = Failure::Idle { time: state.time };
                 return Err(Outcome::Failed { time: state.time, failure });

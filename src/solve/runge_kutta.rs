@@ -9,7 +9,7 @@ use crate::integrators::{RungeKutta, Scheme};
 use crate::materials::Spent;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, bottom, join, top};
-use crate::model::{Analysis, Model};
+use crate::model::Model;
 use crate::state::{Now, State};
 use crate::system::Side;
 
@@ -37,7 +37,7 @@ pub struct Control {
 
 impl Control {
     pub fn new(tolerance: f64, model: &Model) -> Self {
-        let Analysis { end_time, time_step, .. } = model.analysis;
+        let (end_time, time_step) = (model.analysis.end_time, model.analysis.nominal_step());
         let controls = matches!(model.scheme, Scheme::RungeKutta(_));
         let next = if controls { time_step } else { f64::INFINITY };
         Control { tolerance, end_time, next, motion: Size::default() }

@@ -8,9 +8,8 @@ use super::step::Stepper;
 use crate::integrators::central_difference::longest_step;
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, bottom, join, top};
-use crate::model::Model;
+use crate::model::{Model, StepLength, may_stiffen};
 use crate::plan::Plan;
-use crate::plan::explicit::{may_stiffen, part_of_limit};
 use crate::state::{Increment, Node, Now, State};
 
 /// Iterations at the start, and when the limit is looked at again: a residual each, two where there is damping.
@@ -79,7 +78,10 @@ impl Stable {
             steps: 0,
             calm: 0,
             patience: STEPS,
-            part: part_of_limit(model),
+            part: match model.analysis.step_length {
+                StepLength::StabilityLimited { fraction } => fraction,
+                _ => 1.0,
+            },
             stiffens: may_stiffen(model),
             loudest: 0.0,
             quickest: 0.0,

@@ -23,7 +23,7 @@ impl Stretch {
 
 /// Cuts [0, end] at output times, at the times of expectations and where loads jump, each stretch into steps no longer than the deck's.
 pub fn stretches(model: &Model) -> Vec<Stretch> {
-    let (end, dt) = (model.analysis.end_time, model.analysis.time_step);
+    let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
     let station = |to: f64, due: bool, jump: bool| Stretch { from: 0.0, to, steps: 0, due, jump };
     let mut out = vec![station(end, true, false)];
@@ -44,7 +44,7 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
     for amplitude in driving() {
         out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| station(jump.time, false, true)));
     }
-    if model.analysis.error_tolerance.is_some() {
+    if model.analysis.step_length.is_automatic() {
         // Nothing that begins and ends within a step may be missed, and errors are those of smooth motion.
         let motions = model.held.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {

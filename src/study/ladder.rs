@@ -6,7 +6,7 @@ use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::Diagnostic;
 use crate::integrators::Scheme;
 use crate::model::study::{Quantity, Study, obstacle};
-use crate::model::{Kind, Model};
+use crate::model::{ERROR_TOLERANCE, Kind, Model, StepLength};
 
 /// Intervals between samples where nothing says otherwise.
 pub const SAMPLES: usize = 200;
@@ -158,7 +158,7 @@ pub fn float(number: f64) -> String {
 
 fn time_steps(model: &Model, study: &Study, interval: f64) -> Vec<f64> {
     let halve = |longest: f64, times: usize| (0..=times).map(|k| longest * 0.5_f64.powi(k as i32)).collect();
-    let deck = model.analysis.time_step;
+    let deck = model.analysis.nominal_step();
     let from_deck = (LONGEST * deck).min(interval);
     match study.time_steps[..] {
         [] => halve(from_deck, if study.halvings > 0 { study.halvings } else { HALVINGS }),
@@ -168,7 +168,12 @@ fn time_steps(model: &Model, study: &Study, interval: f64) -> Vec<f64> {
 }
 
 fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
-    match model.analysis.error_tolerance {
+    let own = match model.analysis.step_length {
+        StepLength::ErrorControlled { tolerance, .. } => Some(tolerance),
+        StepLength::StabilityLimited { .. } => Some(ERROR_TOLERANCE),
+        StepLength::Fixed { .. } | StepLength::ArcLength(_) => None,
+    };
+    match own {
         _ if !study.error_tolerances.is_empty() => study.error_tolerances.clone(),
         Some(own) if study.time_steps.is_empty() && study.halvings == 0 => {
             [10.0, 1.0, 0.1, 0.01].map(|part| part * own).into_iter().filter(|tolerance| *tolerance < 1.0).collect()

@@ -76,7 +76,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     let mut made = Made::begin(&options.folder, &[TABLE], &folders)?;
     let end = model.analysis.end_time;
     // Samples closer together than the deck's steps would shorten these.
-    let steps = (end / model.analysis.time_step + 1e-9).floor().max(1.0);
+    let steps = (end / model.analysis.nominal_step() + 1e-9).floor().max(1.0);
     let samples = asked.samples.unwrap_or(SAMPLES.min(steps as usize));
     let program = program(options)?;
     let common = [output(&quantities, end / samples as f64, true), "expect=[]".to_owned()];
@@ -106,7 +106,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
                 stopped = true;
                 break 'all;
             };
-            let done = Run::new(0, model.analysis.time_step, folder, &ended, &place)?;
+            let done = Run::new(0, model.analysis.nominal_step(), folder, &ended, &place)?;
             if let Some(before) = &mut runs[index] {
                 if done.status == Status::Done {
                     before.again(done.loop_s, ended.process_s);

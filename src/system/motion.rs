@@ -3,7 +3,7 @@
 use super::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
-use crate::model::{Control, Held, History, Kind, Model, Motion};
+use crate::model::{Held, History, Kind, Model, Motion};
 
 /// Displacement, velocity and acceleration of a held direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -72,7 +72,7 @@ impl<'a> Drive<'a> {
         let jumps = model.amplitudes.iter().map(Amplitude::jumps).collect();
         let mut drive =
             Drive { model, jumps, slack: 1e-9 * model.analysis.end_time, loads: Vec::new(), motions: Vec::new() };
-        if matches!(model.analysis.control, Control::ArcLength(_)) {
+        if model.analysis.step_length.is_arc_length() {
             let end = model.analysis.end_time;
             let loads = model.amplitudes.iter();
             drive.loads = loads.map(|a| Beyond::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();

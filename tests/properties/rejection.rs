@@ -94,7 +94,7 @@ fn a_run_that_fails_ends_with_its_last_step() {
         let mut m = bent(kind, limit);
         // Short steps first, which succeed, until one is too long.
         m.expects = told(&[0.03, 0.06, 0.09, 0.12, 0.15, 0.18, 0.21, 0.24, 0.27, 0.3]);
-        m.analysis.least_step = m.analysis.time_step;
+        m.analysis.least_step = m.analysis.nominal_step();
         let (seen, end, _, outcome) = steps(&m);
         eprintln!("{kind:?}: {} {:?}", end.time, end.work);
         assert!(matches!(outcome, Outcome::Failed { time, .. } if time == end.time), "{outcome:?}");

@@ -49,11 +49,9 @@ pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
         analysis: Analysis {
             kind,
             end_time,
-            time_step,
-            error_tolerance: None,
+            step_length: StepLength::Fixed { step: time_step },
             least_step: time_step * 1e-3,
             plane: false,
-            control: Control::Time,
         },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration {

@@ -10,7 +10,7 @@ use rdsolve::integrators::{Coefficients, RotationUpdate, load_steps};
 use rdsolve::linear;
 use rdsolve::math::rotation::{exp, inverse_tangent};
 use rdsolve::math::{Vec3, Vec6, bottom, join};
-use rdsolve::model::{Kind, MassKind, Model, NodalDamping, Pressure};
+use rdsolve::model::{Kind, MassKind, Model, NodalDamping, Pressure, StepLength};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Increment, Node, Now};
 use rdsolve::system::assembly::Weights;
@@ -38,7 +38,7 @@ impl Instant {
         let plan = Plan::new(&m, &system, 1);
         let scheme = match (m.analysis.kind, &m.scheme) {
             (Kind::Static, _) => load_steps::coefficients(),
-            (Kind::Dynamic, scheme) => scheme.coefficients(m.analysis.time_step),
+            (Kind::Dynamic, scheme) => scheme.coefficients(m.analysis.nominal_step()),
         };
         let mut loading = Loading::default();
         Drive::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);
@@ -195,7 +195,7 @@ fn errors(scene: &Model, seed: u64, step: f64) -> Vec<f64> {
     let steps = [step, step / 2.0, step / 4.0];
     let error = |&dt: &f64| {
         let mut scene = scene.clone();
-        scene.analysis.time_step = dt;
+        scene.analysis.step_length = StepLength::Fixed { step: dt };
         let mut at = Instant::random(&scene, &mut StdRng::seed_from_u64(seed), 1.0, None);
         let exact = at.differences();
         difference(&at.tangent(linear::Kind::Block), &exact)

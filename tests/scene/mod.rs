@@ -49,11 +49,9 @@ pub fn model() -> Model {
         analysis: Analysis {
             kind: Kind::Dynamic,
             end_time: 1.0,
-            time_step: 0.1,
-            error_tolerance: None,
+            step_length: StepLength::Fixed { step: 0.1 },
             least_step: 1e-6,
             plane: false,
-            control: Control::Time,
         },
         scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration {
