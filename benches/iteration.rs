@@ -117,16 +117,16 @@ fn measure(name: &str, mut model: Model) {
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 
-    let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.now(), &loading, f)));
+    let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.configuration(), &loading, f)));
     let tangent = least(
         &mut (&mut assembly, &mut solver),
         |_| (),
-        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &mut forces, weights, solver),
+        |(assembly, solver)| assembly.tangent(&system, &state.configuration(), &loading, &mut forces, weights, solver),
     );
     // A factorisation overwrites the matrix.
     let factor = least(
         &mut (&mut assembly, &mut solver),
-        |(assembly, solver)| assembly.tangent(&system, &state.now(), &loading, &mut forces, weights, solver),
+        |(assembly, solver)| assembly.tangent(&system, &state.configuration(), &loading, &mut forces, weights, solver),
         |(_, solver)| solver.factor().expect("a regular matrix"),
     );
     let solve =

@@ -8,7 +8,7 @@ use rdsolve::diagnostic::Source;
 use rdsolve::elements::Moduli;
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
-use rdsolve::state::{Node, Now};
+use rdsolve::state::{Configuration, Node};
 use rdsolve::system::assembly::Weights;
 use rdsolve::system::{Drive, Forces, Loading, Side, System};
 use std::hint::black_box;
@@ -123,7 +123,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let (build_s, (mut solver, mut assembly)) = timed(|| plan.build(&system).unwrap());
     let nodes = moved(&model);
     let past = vec![0.0; system.history];
-    let now = Now { nodes: &nodes, past: &past, since: 1e-5 };
+    let now = Configuration { nodes: &nodes, history: &past, dt: 1e-5 };
     let mut loading = Loading::default();
     Drive::new(&model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);

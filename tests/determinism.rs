@@ -1,7 +1,7 @@
 //! The same deck gives the same bytes, whatever the number of threads, and every time.
 
 use rdsolve::diagnostic::Source;
-use rdsolve::materials::Spent;
+use rdsolve::materials::Dissipation;
 use rdsolve::model::{self, Model};
 use rdsolve::output::energy_csv;
 use rdsolve::plan::Plan;
@@ -293,7 +293,7 @@ fn a_path_of_a_roof() {
 fn bits(state: &State) -> Vec<u64> {
     let State { time, nodes, history, jerk, reactions, multipliers, followers, work } = state;
     let Work { external, damping, damping_power, material, swing, accelerations, step } = *work;
-    let Spent { plastic, viscous, stored, friction, impact } = material;
+    let Dissipation { plastic, viscous, stored, friction, impact } = material;
     let mut numbers = vec![*time, external, damping, damping_power, swing, accelerations, step];
     numbers.extend([plastic, viscous, stored, friction, impact]);
     for Node { x, low, q, v, omega, a, alpha } in nodes {

@@ -9,11 +9,11 @@ use rdsolve::elements::beam::{Beams, Description, Rule, Yielding};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Law, Link, Links};
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
-use rdsolve::elements::{Block, Force, Moduli};
-use rdsolve::materials::{Hardening, Law as Material, Overstress, Spent, Viscosity};
+use rdsolve::elements::{ElementBlock, Force, Moduli};
+use rdsolve::materials::{Dissipation, Hardening, Law as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::sections::{Fibre, Stiffness};
-use rdsolve::state::{Node, Now};
+use rdsolve::state::{Configuration, Node};
 
 fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
     Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
@@ -46,15 +46,15 @@ fn section() -> Stiffness {
 /// An element with the initial positions of its nodes, and what its material points remember.
 struct Kind {
     name: String,
-    block: Box<dyn Block>,
+    block: Box<dyn ElementBlock>,
     x: Vec<Vec3>,
     past: Vec<f64>,
 }
 
 impl Kind {
     /// Some time after the past.
-    fn now<'a>(&'a self, nodes: &'a [Node]) -> Now<'a> {
-        Now { nodes, past: &self.past, since: 0.4 }
+    fn now<'a>(&'a self, nodes: &'a [Node]) -> Configuration<'a> {
+        Configuration { nodes, history: &self.past, dt: 0.4 }
     }
 
     fn forces(&self, nodes: &[Node]) -> Vec<Force> {
@@ -69,9 +69,9 @@ impl Kind {
     }
 
     /// What is remembered of a motion.
-    fn remember(&self, nodes: &[Node]) -> (Vec<f64>, Spent) {
+    fn update_history(&self, nodes: &[Node]) -> (Vec<f64>, Dissipation) {
         let mut history = vec![f64::NAN; self.past.len()];
-        let spent = self.block.remember(&self.now(nodes), 1.0, &mut history);
+        let spent = self.block.update_history(&self.now(nodes), 1.0, &mut history);
         (history, spent)
     }
 }
@@ -89,14 +89,14 @@ fn strained(rng: &mut StdRng, firmness: f64) -> Vec<Kind> {
     let mut kinds = kinds(rng, firmness);
     for kind in &mut kinds {
         let nodes = moved(rng, &kind.x, 0.15);
-        kind.past = kind.remember(&nodes).0;
+        kind.past = kind.update_history(&nodes).0;
     }
     kinds
 }
 
 fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     let mut kinds = Vec::new();
-    let mut add = |name: &str, block: Box<dyn Block>, x: &[Vec3]| {
+    let mut add = |name: &str, block: Box<dyn ElementBlock>, x: &[Vec3]| {
         kinds.push(Kind { name: name.into(), block, x: x.to_vec(), past: vec![] });
     };
     let frame = rotation::matrix(&turn(rng));
@@ -131,7 +131,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
 }
 
 /// Warped and curved ones, with and without damping.
-fn shells() -> Vec<(&'static str, Box<dyn Block>, Vec<Vec3>)> {
+fn shells() -> Vec<(&'static str, Box<dyn ElementBlock>, Vec<Vec3>)> {
     let rng = &mut StdRng::seed_from_u64(11);
     let plate = Plate { thickness: 0.4, E: 60.0, nu: 0.3, drilling: 0.1 };
     let frame = rotation::matrix(&turn(rng));
@@ -153,7 +153,7 @@ fn nodes_of(n: usize, frame: &Mat3, start: Vec3) -> Vec<Vec3> {
     quadrature::lobatto(n).0.iter().map(|p| start + axis * (0.5 + 0.5 * p)).collect()
 }
 
-fn beam<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn Block> {
+fn beam<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn ElementBlock> {
     let nodes: Vec<usize> = (0..N).collect();
     let one = [Description { nodes: &nodes, frame, stiffness: &section() }];
     Box::new(Beams::<N>::new(one.into_iter(), &nodes_of(N, frame, start), damping))
@@ -233,7 +233,7 @@ fn moved(rng: &mut StdRng, x: &[Vec3], strain: f64) -> Vec<Node> {
         .collect()
 }
 
-fn forces(block: &dyn Block, now: &Now) -> Vec<Force> {
+fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
     let mut F = vec![[0.0; 6]; now.nodes.len()];
     block.subtract_forces(now, &mut F);
     F.iter().map(|f| f.map(|c| -c)).collect()
@@ -432,18 +432,18 @@ fn what_is_remembered_is_the_motion() {
             let name = &kind.name;
             let nodes = moved(&mut rng, &kind.x, 0.15);
             let F = kind.forces(&nodes);
-            let (history, spent) = kind.remember(&nodes);
+            let (history, spent) = kind.update_history(&nodes);
             assert!(history.iter().all(|h| h.is_finite()), "{name}");
             assert!(spent.plastic >= 0.0 && spent.viscous >= 0.0, "{name}: {spent:?}");
             lost += spent.plastic;
-            let again = Now { nodes: &nodes, past: &history, since: 0.0 };
+            let again = Configuration { nodes: &nodes, history: &history, dt: 0.0 };
             // The return ends 1e-14 from the yield surface; the tangent of a fibre is no larger than E, the sum not than F.
             let size = F.iter().flatten().fold(1.0f64, |m, c| m.max(c.abs()));
             for (a, b) in forces(&*kind.block, &again).iter().flatten().zip(F.iter().flatten()) {
                 assert!((a - b).abs() < 1e-11 * size, "{name}: {a} {b}");
             }
             let mut more = history.clone();
-            let spent = kind.block.remember(&again, 1.0, &mut more);
+            let spent = kind.block.update_history(&again, 1.0, &mut more);
             let amount = spent.plastic + spent.viscous + spent.stored.abs();
             assert!(amount < 1e-11 * size, "{name}: {spent:?}");
             let strain = |past: &[f64]| kind.block.plastic_strain(0, past);
@@ -526,7 +526,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let beam = Beams::<2>::new(one.into_iter(), &x, 0.0);
     let nodes = x.map(Node::at_rest);
     let mut K = [0.0; 144];
-    beam.tangent(0, &Now::of(&nodes), 0.0, Moduli::Algorithmic, &mut K);
+    beam.tangent(0, &Configuration::of(&nodes), 0.0, Moduli::Algorithmic, &mut K);
     // Free end under a unit wrench: strains ε(x) = C⁻¹ σ(x), tip motion by integrating them (three Gauss points: exact).
     let mut C6 = nalgebra::Matrix6::zeros();
     C6.fixed_view_mut::<3, 3>(0, 0).copy_from(&C.N);

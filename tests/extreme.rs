@@ -141,7 +141,7 @@ fn a_long_flight_leaves_strains_alone() {
     let shape = |model: &Model| {
         let rows = run_to_the_end(model, &mut |frame| {
             let first = &frame.state.nodes[0];
-            frame.state.nodes.iter().flat_map(|node| <[f64; 3]>::from(node.seen_from(first))).collect()
+            frame.state.nodes.iter().flat_map(|node| <[f64; 3]>::from(node.relative_position(first))).collect()
         });
         rows.rows
     };

@@ -1,7 +1,7 @@
 //! The material law against exact solutions, through its public face only.
 
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
-use rdsolve::materials::{Bar, Fibre, Hardening, Law, Overstress, PlaneStress, Spent, StressState, Viscosity};
+use rdsolve::materials::{Bar, Dissipation, Fibre, Hardening, Law, Overstress, PlaneStress, StressState, Viscosity};
 
 const E: f64 = 200e3;
 const NU: f64 = 0.3;
@@ -15,7 +15,7 @@ struct Point<'a, S> {
     law: &'a Law,
     state: S,
     history: Vec<f64>,
-    work: Spent,
+    work: Dissipation,
 }
 
 impl<'a, S: Copy> Point<'a, S> {
@@ -23,7 +23,7 @@ impl<'a, S: Copy> Point<'a, S> {
     where
         S: StressState<N>,
     {
-        Point { law, state, history: vec![0.0; law.history(state)], work: Spent::default() }
+        Point { law, state, history: vec![0.0; law.history(state)], work: Dissipation::default() }
     }
 
     fn to<const N: usize>(&mut self, strain: [f64; N], dt: f64) -> [f64; N]
@@ -171,7 +171,7 @@ fn radial<const N: usize, S: Mises<N>>(state: S) {
                 let unit = direction.map(|d| d / S::mises(&direction));
                 let (mut X, mut plastic, mut p, mut sign) = (0.0, 0.0, 0.0, 1.0);
                 let mut point = Point::new(&law, state);
-                let mut expected = Spent::default();
+                let mut expected = Dissipation::default();
                 for to in [0.0, 0.001, 0.0013, 0.015, 0.0151, 0.04, 0.09, 0.3] {
                     let (from, at) = (yield_stress(&hardening, p), yield_stress(&hardening, to));
                     let shifted = X + sign * share * (at - from);
@@ -487,7 +487,7 @@ fn relaxation_turns_elastic_energy_into_work() {
         close(before, 0.5 * E * strain[0] * strain[0], 1e-12 * before, "elastic energy");
         for _ in 0..7 {
             bar.to(strain, 5e-4);
-            let Spent { plastic, viscous, stored, .. } = bar.work;
+            let Dissipation { plastic, viscous, stored, .. } = bar.work;
             let after = law.elastic_energy(Bar, &strain, &bar.history);
             close(plastic + viscous + stored, before - after, 1e-12 * before, "work");
             assert!(plastic > 0.0 && viscous > 0.0 && stored > 0.0);

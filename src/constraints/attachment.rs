@@ -61,7 +61,7 @@ impl Attachment {
         }
         let mut placed = *master;
         placed.place(&self.start[1], &(low + turned), &u);
-        let u = placed.seen_from(start);
+        let u = placed.relative_position(start);
         // The rotation of a node with some directions of its own is put together from components of the step's rotation
         // vector, then advanced like any other.
         let turn = increments[self.turner];

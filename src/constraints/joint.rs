@@ -35,7 +35,7 @@ pub enum Row {
 impl Row {
     /// c, ċ and c̈.
     pub fn gap(&self, a: &Node, b: &Node) -> [f64; 3] {
-        let (d, v, w) = (a.seen_from(b), a.v - b.v, a.a - b.a);
+        let (d, v, w) = (a.relative_position(b), a.v - b.v, a.a - b.a);
         match self {
             Row::Global { axis, at } => [d[*axis] - at, v[*axis], w[*axis]],
             Row::Carried { e, at } => {
@@ -58,7 +58,7 @@ impl Row {
     /// ∂c/∂(x, θ) of the two nodes.
     pub fn gradient(&self, a: &Node, b: &Node) -> [Vec6; 2] {
         let zero = Vec3::zeros();
-        let d = a.seen_from(b);
+        let d = a.relative_position(b);
         match self {
             Row::Global { axis, .. } => {
                 let e = Vec3::ith(*axis, 1.0);
@@ -81,7 +81,7 @@ impl Row {
 
     /// Calls `add(row, column, k)` for the 3×3 blocks of ∂(Gᵀλ)/∂(x, θ); rows and columns count x_a, θ_a, x_b, θ_b.
     pub fn stiffness(&self, a: &Node, b: &Node, lambda: f64, mut add: impl FnMut(usize, usize, Mat3)) {
-        let d = a.seen_from(b);
+        let d = a.relative_position(b);
         match self {
             Row::Global { .. } => {}
             Row::Carried { e, .. } => {

@@ -1,10 +1,10 @@
 //! Bar or cable: a straight two-node element that only resists stretching, N = A σ(ε) with ε = (l − L)/L.
 
 use super::link::{Law as LinkLaw, Link, Links};
-use super::{Block, Force, Moduli, subtract};
-use crate::materials::{Bar, Law, Spent};
+use super::{ElementBlock, Force, Moduli, subtract};
+use crate::materials::{Bar, Dissipation, Law};
 use crate::math::{Mat3, Vec3};
-use crate::state::{Node, Now, elongation, stretch};
+use crate::state::{Configuration, Node, elongation, stretch};
 
 /// An elastic bar is a line spring of stiffness EA/L, L its length without force, `free` times that at t = 0; `damping` is the
 /// factor of stiffness-proportional damping (time).
@@ -88,7 +88,7 @@ impl YieldingBars {
     fn stretch(&self, e: usize, nodes: &[Node]) -> Stretch {
         let Element { nodes: ends, start, free } = &self.elements[e];
         let [a, b] = ends.map(|node| &nodes[node]);
-        let (dx, dv) = (b.seen_from(a), b.v - a.v);
+        let (dx, dv) = (b.relative_position(a), b.v - a.v);
         let (length, before) = (dx.norm(), start[1] - start[0]);
         let more = elongation(&before, before.norm(), &stretch(a, b, start), length);
         // Points that have met leave the direction open: no force until they part.
@@ -130,7 +130,7 @@ struct Tension {
     viscosity: f64,
 }
 
-impl Block for YieldingBars {
+impl ElementBlock for YieldingBars {
     fn len(&self) -> usize {
         self.elements.len()
     }
@@ -151,20 +151,20 @@ impl Block for YieldingBars {
         self.memory * self.elements.len()
     }
 
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for (e, Element { nodes: [a, b], .. }) in self.elements.iter().enumerate() {
             let at = self.stretch(e, now.nodes);
-            let tension = self.tension(&at, now.since, &now.past[self.share(e)], Moduli::Algorithmic);
+            let tension = self.tension(&at, now.dt, &now.history[self.share(e)], Moduli::Algorithmic);
             let f = (tension.material + tension.damping) * at.e;
             subtract(&mut F[*a], 0, &-f);
             subtract(&mut F[*b], 0, &f);
         }
     }
 
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let at = self.stretch(e, now.nodes);
         let free = self.elements[e].free;
-        let tension = self.tension(&at, now.since, &now.past[self.share(e)], moduli);
+        let tension = self.tension(&at, now.dt, &now.history[self.share(e)], moduli);
         let along = at.e * at.e.transpose();
         let mut k = self.area / free * (tension.modulus + rate_weight * tension.viscosity) * along;
         if at.length > 0.0 {
@@ -182,22 +182,22 @@ impl Block for YieldingBars {
         }
     }
 
-    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
-        let mut sum = Spent::default();
+    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+        let mut sum = Dissipation::default();
         for (e, new) in history.chunks_exact_mut(self.memory).enumerate() {
             let at = self.stretch(e, now.nodes);
-            let past = &now.past[self.share(e)];
+            let past = &now.history[self.share(e)];
             // A slack bar rests at its plastic strain.
             let strain = if self.is_slack(at.strain, past) { past[0] } else { at.strain };
-            let (_, spent) = self.law.advance(Bar, &[strain], (now.since, part), past, new);
+            let (_, spent) = self.law.advance(Bar, &[strain], (now.dt, part), past, new);
             sum += spent * (self.area * self.elements[e].free);
         }
         sum
     }
 
-    fn energy(&self, now: &Now) -> f64 {
+    fn energy(&self, now: &Configuration) -> f64 {
         let energy = |e: usize| {
-            let (at, past) = (self.stretch(e, now.nodes), &now.past[self.share(e)]);
+            let (at, past) = (self.stretch(e, now.nodes), &now.history[self.share(e)]);
             let slack = self.is_slack(at.strain, past);
             let density = if slack { 0.0 } else { self.law.elastic_energy(Bar, &[at.strain], past) };
             self.area * self.elements[e].free * density
@@ -205,11 +205,11 @@ impl Block for YieldingBars {
         (0..self.len()).map(energy).sum()
     }
 
-    fn damping_power(&self, now: &Now) -> f64 {
+    fn damping_power(&self, now: &Configuration) -> f64 {
         let power = |e: usize| {
             let at = self.stretch(e, now.nodes);
-            let past = &now.past[self.share(e)];
-            self.tension(&at, now.since, past, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].free
+            let past = &now.history[self.share(e)];
+            self.tension(&at, now.dt, past, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].free
         };
         if self.damping > 0.0 { (0..self.len()).map(power).sum() } else { 0.0 }
     }

@@ -3,9 +3,9 @@
 //! d = Bᵀ(x₂ − x₁) − d₀ and φ = log(Bᵀ R₂ A), with B = R₁ A the frame. Energy ½ d·k d + ½ φ·k_φ φ, so the force is
 //! B k d and the moment B T⁻ᵀ(φ) k_φ φ; dampers act on ḋ and on the relative angular velocity in the frame.
 
-use super::{Block, Force, Moduli, subtract};
+use super::{ElementBlock, Force, Moduli, subtract};
 use crate::math::{Mat3, Vec3, rotation, skew};
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 
 #[derive(Debug, Clone)]
 pub struct Bushing {
@@ -34,7 +34,7 @@ impl Bushing {
     fn motion(&self, nodes: &[Node]) -> Motion {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let B = a.R() * self.axes;
-        let r = b.seen_from(a);
+        let r = b.relative_position(a);
         let relative = a.q.conjugate() * b.q;
         Motion {
             B,
@@ -71,7 +71,7 @@ impl Bushing {
 
 pub struct Bushings(pub Vec<Bushing>);
 
-impl Block for Bushings {
+impl ElementBlock for Bushings {
     fn len(&self) -> usize {
         self.0.len()
     }
@@ -88,7 +88,7 @@ impl Block for Bushings {
         self.0.iter().any(|b| b.damping.iter().any(|&c| c > 0.0))
     }
 
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for bushing in &self.0 {
             let motion = bushing.motion(now.nodes);
             let (f, m) = bushing.forces(&motion);
@@ -100,7 +100,7 @@ impl Block for Bushings {
         }
     }
 
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, _: Moduli, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
         let bushing = &self.0[e];
         let motion = bushing.motion(now.nodes);
         let (F, M) = bushing.forces(&motion);
@@ -144,7 +144,7 @@ impl Block for Bushings {
         }
     }
 
-    fn energy(&self, now: &Now) -> f64 {
+    fn energy(&self, now: &Configuration) -> f64 {
         let energy = |b: &Bushing| {
             let motion = b.motion(now.nodes);
             let (k, k_phi) = Bushing::coefficients(&b.stiffness);
@@ -153,7 +153,7 @@ impl Block for Bushings {
         self.0.iter().map(energy).sum()
     }
 
-    fn damping_power(&self, now: &Now) -> f64 {
+    fn damping_power(&self, now: &Configuration) -> f64 {
         let power = |b: &Bushing| {
             let motion = b.motion(now.nodes);
             let (c, c_phi) = Bushing::coefficients(&b.damping);

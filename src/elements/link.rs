@@ -1,8 +1,8 @@
 //! Springs and dampers between two points: a force N(δ) + c δ̇ along the line of the points or along a fixed direction.
 
-use super::{Block, Force, Moduli, subtract};
+use super::{ElementBlock, Force, Moduli, subtract};
 use crate::math::Vec3;
-use crate::state::{Node, Now, elongation, stretch};
+use crate::state::{Configuration, Node, elongation, stretch};
 
 /// Force against elongation; positive is tension.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,7 +119,7 @@ impl Link {
     #[inline]
     fn line(&self, nodes: &[Node]) -> Line {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
-        let (dx, dv) = (b.seen_from(a), b.v - a.v);
+        let (dx, dv) = (b.relative_position(a), b.v - a.v);
         // Displacements have more digits than positions: what they add to the length at the start.
         let u = stretch(a, b, &self.start);
         let (e, length, more) = match self.direction {
@@ -149,7 +149,7 @@ impl Link {
 /// Links, and bars as links of stiffness EA/L.
 pub struct Links(pub Vec<Link>);
 
-impl Block for Links {
+impl ElementBlock for Links {
     fn len(&self) -> usize {
         self.0.len()
     }
@@ -174,7 +174,7 @@ impl Block for Links {
         self.0.iter().any(|l| l.damping > 0.0)
     }
 
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for link in &self.0 {
             let line = link.line(now.nodes);
             let f = link.law.damped_force(line.delta, line.rate, link.damping).force * line.e;
@@ -183,7 +183,7 @@ impl Block for Links {
         }
     }
 
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, _: Moduli, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
         let link = &self.0[e];
         let line = link.line(now.nodes);
         let r = link.law.damped_force(line.delta, line.rate, link.damping);
@@ -203,11 +203,11 @@ impl Block for Links {
         }
     }
 
-    fn energy(&self, now: &Now) -> f64 {
+    fn energy(&self, now: &Configuration) -> f64 {
         self.0.iter().map(|link| link.law.energy(link.line(now.nodes).delta)).sum()
     }
 
-    fn damping_power(&self, now: &Now) -> f64 {
+    fn damping_power(&self, now: &Configuration) -> f64 {
         let power = |link: &Link| {
             let line = link.line(now.nodes);
             let r = link.law.damped_force(line.delta, line.rate, link.damping);

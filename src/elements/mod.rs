@@ -9,9 +9,9 @@ pub mod link;
 pub mod pressure;
 pub mod shell;
 
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
-use crate::state::Now;
+use crate::state::Configuration;
 
 /// Generalised force on a node: force and moment, global components.
 pub type Force = [f64; 6];
@@ -25,8 +25,8 @@ pub enum Moduli {
     Elastic,
 }
 
-/// A group of like elements. Matrices are row-major over the element's nodes, [`Block::dofs`] directions each.
-pub trait Block: Send + Sync {
+/// A group of like elements. Matrices are row-major over the element's nodes, [`ElementBlock::dofs`] directions each.
+pub trait ElementBlock: Send + Sync {
     fn len(&self) -> usize;
     fn is_empty(&self) -> bool {
         self.len() == 0
@@ -40,31 +40,31 @@ pub trait Block: Send + Sync {
         0
     }
     /// Subtracts the internal forces of all elements from `F`, which is indexed by node.
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]);
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
     /// Writes what the material points will remember of `part` of the way from the last state to `now`, and returns what became
     /// of the work of plastic strains on it.
-    fn remember(&self, _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
-        Spent::default()
+    fn update_history(&self, _now: &Configuration, _part: f64, _history: &mut [f64]) -> Dissipation {
+        Dissipation::default()
     }
     /// Elastic energy stored.
-    fn energy(&self, now: &Now) -> f64;
+    fn energy(&self, now: &Configuration) -> f64;
     /// Power that the damping of the elements takes (≥ 0), where there is any.
-    fn damping_power(&self, _now: &Now) -> f64 {
+    fn damping_power(&self, _now: &Configuration) -> f64 {
         0.0
     }
-    /// Integration points of an element at which [`Block::point`] has an answer.
+    /// Integration points of an element at which [`ElementBlock::point`] has an answer.
     fn points(&self) -> usize {
         0
     }
     /// The state of an integration point, stress resultants in the axes of `frame` (columns, global at t = 0).
-    fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Now) -> Option<Point> {
+    fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Configuration) -> Option<Point> {
         None
     }
     /// Stress resultants of a shell element whose nodes lay at `start`; axis 1 is `axis` laid into the surface at t = 0, or where
     /// it stands on the surface the global axis the farthest from it.
-    fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Now) -> Option<Resultants> {
+    fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<Resultants> {
         None
     }
     /// Largest accumulated plastic strain in element `e`.
@@ -80,11 +80,11 @@ pub trait Block: Send + Sync {
         None
     }
     /// Whether element `e`, with six directions a node, acts on the rotations of its `node`-th.
-    fn turns(&self, _e: usize, _node: usize) -> bool {
+    fn is_rotational(&self, _e: usize, _node: usize) -> bool {
         true
     }
     /// True where element `e` does nothing at this motion, and has no tangent.
-    fn rests(&self, _e: usize, _now: &Now) -> bool {
+    fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
         false
     }
     /// The block as contacts, where it is one.

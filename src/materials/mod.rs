@@ -38,7 +38,7 @@ pub struct Law {
 
 /// What became of the plastic work, per volume or of a whole; and of work at contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Spent {
+pub struct Dissipation {
     /// Dissipated by yielding, ∫ i dε̄ᵖ: exact where hardening is linear over the step.
     pub plastic: f64,
     /// Dissipated by viscosity, ∫ i v dε̄ᵖ, to second order in the step.
@@ -51,8 +51,8 @@ pub struct Spent {
     pub impact: f64,
 }
 
-impl AddAssign for Spent {
-    fn add_assign(&mut self, more: Spent) {
+impl AddAssign for Dissipation {
+    fn add_assign(&mut self, more: Dissipation) {
         self.plastic += more.plastic;
         self.viscous += more.viscous;
         self.stored += more.stored;
@@ -61,11 +61,11 @@ impl AddAssign for Spent {
     }
 }
 
-impl Mul<f64> for Spent {
-    type Output = Spent;
+impl Mul<f64> for Dissipation {
+    type Output = Dissipation;
 
-    fn mul(self, by: f64) -> Spent {
-        Spent {
+    fn mul(self, by: f64) -> Dissipation {
+        Dissipation {
             plastic: self.plastic * by,
             viscous: self.viscous * by,
             stored: self.stored * by,
@@ -179,7 +179,7 @@ impl Law {
         (dt, part): (f64, f64),
         old: &[f64],
         new: &mut [f64],
-    ) -> ([f64; N], Spent) {
+    ) -> ([f64; N], Dissipation) {
         let answer = self.answer::<N, S>(strain, dt, old);
         let stress = S::modes(answer.stress());
         new.copy_from_slice(old);
@@ -189,16 +189,16 @@ impl Law {
             *v += part * (overstress - from);
             from
         });
-        let Some(y) = answer.yielding else { return (stress, Spent::default()) };
+        let Some(y) = answer.yielding else { return (stress, Dissipation::default()) };
         // Of the return that part, on a straight line.
         let (multiplier, to) = (part * y.multiplier, from + part * (overstress - from));
         let rise = self.hardening.rise(old[N] + multiplier).0;
         let back = self.kinematic_share * (rise - self.hardening.rise(old[N]).0);
         let radius = self.hardening.initial() + (1.0 - self.kinematic_share) * rise;
-        let mut spent = Spent {
+        let mut spent = Dissipation {
             plastic: 0.5 * (answer.radius + radius) * multiplier,
             viscous: 0.5 * (from * answer.radius + to * radius) * multiplier,
-            ..Spent::default()
+            ..Dissipation::default()
         };
         // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
         let direction: [f64; N] = std::array::from_fn(|i| answer.relative[i] / y.T(i));

@@ -2,7 +2,7 @@
 
 use super::Omission;
 use crate::constraints::joint::Row;
-use crate::elements::Block;
+use crate::elements::ElementBlock;
 use crate::math::Vec3;
 use crate::model::{Kind, Model};
 use crate::system::System;
@@ -94,7 +94,7 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         for e in 0..group.block.len() {
             let reach = reach(&*group.block, e);
             for (k, &node) in group.block.nodes(e).iter().enumerate() {
-                let to = if reach[3] && !group.block.turns(e, k) { 3 } else { 6 };
+                let to = if reach[3] && !group.block.is_rotational(e, k) { 3 } else { 6 };
                 for dof in 0..to {
                     acts[node][dof] |= reach[dof];
                 }
@@ -144,7 +144,7 @@ fn reach_of(row: &Row) -> [[bool; 6]; 2] {
 }
 
 /// Directions on which an element acts: those of its matrix, but for links along a fixed direction only that one.
-fn reach(block: &dyn Block, e: usize) -> [bool; 6] {
+fn reach(block: &dyn ElementBlock, e: usize) -> [bool; 6] {
     let mut reach = [false; 6];
     reach[..block.dofs()].fill(true);
     if let Some(direction) = block.fixed_direction(e) {

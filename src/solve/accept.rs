@@ -3,11 +3,11 @@
 use super::failure::Failure;
 use super::step::Stepper;
 use crate::integrators::Coefficients;
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 use crate::math::rotation::rates;
 use crate::math::{bottom, join, top};
 use crate::model::Kind;
-use crate::state::{Now, State};
+use crate::state::{Configuration, State};
 
 impl Stepper<'_> {
     /// State at the end of the step, written once.
@@ -16,7 +16,7 @@ impl Stepper<'_> {
     /// As for [`Stepper::close_joints`]; `state` is untouched.
     pub(super) fn accept(&mut self, state: &mut State, scheme: &Coefficients, to: f64) -> Result<(), Failure> {
         let dt = to - state.time;
-        let (mut damping_power, mut spent) = (0.0, Spent::default());
+        let (mut damping_power, mut spent) = (0.0, Dissipation::default());
         let remembers = self.system.history > 0;
         let dynamic = self.model.analysis.kind == Kind::Dynamic;
         if self.wants_forces || remembers {
@@ -24,7 +24,7 @@ impl Stepper<'_> {
         } else {
             self.differentiate(state, scheme);
         }
-        let now = Now { nodes: &self.trial, past: &state.history, since: scheme.instant * dt };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: scheme.instant * dt };
         if self.wants_forces {
             self.system.residual(&now, &self.given[2], &mut self.forces);
             if self.system.is_damped() && dynamic {
@@ -34,7 +34,7 @@ impl Stepper<'_> {
         if remembers {
             // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a
             // straight line: at the end itself stiff parts are not at rest, and would yield from step to step.
-            spent = self.system.remember(&now, 1.0 / scheme.instant, &mut self.history, self.plan.threads);
+            spent = self.system.update_history(&now, 1.0 / scheme.instant, &mut self.history, self.plan.threads);
         }
         for &node in &self.movers {
             let start = &state.nodes[node];
@@ -58,7 +58,7 @@ impl Stepper<'_> {
         state: &mut State,
         scheme: &Coefficients,
         to: f64,
-        spent: Spent,
+        spent: Dissipation,
         damping_power: Option<f64>,
     ) {
         let dt = to - state.time;

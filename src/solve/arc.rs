@@ -10,7 +10,7 @@ use super::step::Stepper;
 use crate::integrators::load_steps;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, bottom, join, top};
-use crate::state::{Now, State};
+use crate::state::{Configuration, State};
 use crate::system::assembly::NONE;
 use crate::system::{Forces, Loading, Scale};
 
@@ -129,7 +129,7 @@ impl Stepper<'_> {
             for side in [1.0, -1.0] {
                 self.give(state.time, to + side * h, 1.0);
                 self.move_trial(state, &load_steps::coefficients());
-                let now = Now { nodes: &self.trial, past: &state.history, since: 0.0 };
+                let now = Configuration { nodes: &self.trial, history: &state.history, dt: 0.0 };
                 self.system.residual(&now, &self.given[2], &mut path.forces);
                 for (rate, &(node, dof)) in path.rate.iter_mut().zip(&self.plan.directions) {
                     *rate += side * path.forces.on_nodes[node][dof] / (2.0 * h);

@@ -4,9 +4,9 @@ use super::explicit::Explicit;
 use super::failure::Failure;
 use super::step::{Stepper, Taken};
 use crate::integrators::{CentralDifference, Coefficients};
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 use crate::math::{Vec6, bottom, join, top};
-use crate::state::{Now, State, Work};
+use crate::state::{Configuration, State, Work};
 use crate::system::masses::{CORRECTIONS, Motion};
 
 impl Stepper<'_> {
@@ -74,14 +74,14 @@ impl Stepper<'_> {
         if self.wants_forces {
             self.settle_forces(explicit, state, dt);
             if self.system.is_damped() {
-                let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+                let now = Configuration { nodes: &self.trial, history: &state.history, dt: dt };
                 damping_power = self.system.damping_power(&now, self.plan.threads);
             }
         }
-        let mut spent = Spent::default();
+        let mut spent = Dissipation::default();
         if self.system.history > 0 {
-            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
-            spent = self.system.remember(&now, 1.0, &mut self.history, self.plan.threads);
+            let now = Configuration { nodes: &self.trial, history: &state.history, dt: dt };
+            spent = self.system.update_history(&now, 1.0, &mut self.history, self.plan.threads);
         }
         self.arrive(state, scheme);
         if explicit.closes() {
@@ -123,7 +123,7 @@ impl Stepper<'_> {
         // Where masses belong together: gyroscopic moments of bodies would feed the motion if they met the predicted velocities alone.
         let corrections = if explicit.closes() { CORRECTIONS } else { 0 };
         loop {
-            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+            let now = Configuration { nodes: &self.trial, history: &state.history, dt: dt };
             self.system.residual(&now, &self.given[2], &mut self.forces);
             evaluations += 1;
             self.answer(explicit, state, true)?;

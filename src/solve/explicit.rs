@@ -13,10 +13,10 @@ use crate::math::rotation::{exp, inverse_tangent, rates, renormalise};
 use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::{Model, StepLength};
 use crate::plan::Plan;
-use crate::state::{Node, Now, State};
+use crate::state::{Configuration, Node, State};
 use crate::system::System;
 use crate::system::assembly::{NONE, Weights};
-use crate::system::masses::{Block, Masses};
+use crate::system::masses::{MassBlock, Masses};
 use crate::system::ties::Ties;
 
 /// Allocated once.
@@ -125,7 +125,7 @@ impl Stepper<'_> {
     /// The same with the matrix of masses and joints.
     fn answer_together(&mut self, explicit: &mut Explicit, state: &State, joints: bool) -> Result<(), Failure> {
         let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
-        let now = Now { nodes: &self.trial, past: &state.history, since: 0.0 };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: 0.0 };
         self.assembly.tangent(self.system, &now, &self.given[2], &mut self.forces, weights, &mut self.solver);
         self.factorizations += 1;
         if let Err(singular) = self.solver.factor() {
@@ -216,7 +216,7 @@ impl Stepper<'_> {
             self.trial[node].alpha += bottom(&explicit.push[node]);
         }
         self.hand_on_accelerations();
-        let now = Now { nodes: &self.trial, past: &state.history, since };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: since };
         self.system.residual(&now, &self.given[2], &mut self.forces);
     }
 
@@ -314,7 +314,7 @@ impl Stepper<'_> {
             self.weigh_together(room, nodes, a);
             return self.times_weighed(|node| a(self, node));
         };
-        let weight = |block: &Block| {
+        let weight = |block: &MassBlock| {
             let a = kept(&self.plan.rows[block.node], &a(self, block.node));
             block.weigh(&nodes.unwrap_or(&self.trial)[block.node], &a, &a)
         };

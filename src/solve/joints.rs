@@ -13,7 +13,7 @@ use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, bottom};
 use crate::model::{Held, Model};
 use crate::plan::Plan;
-use crate::state::{Node, Now, State};
+use crate::state::{Configuration, Node, State};
 use crate::system::assembly::{Assembly, NONE, Weights};
 use crate::system::{Forces, Loading, System};
 
@@ -71,7 +71,7 @@ impl Closing {
     fn factor(&mut self, nodes: &[Node]) -> bool {
         let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
         let Closing { bare, solver, assembly, forces, loading, .. } = self;
-        assembly.tangent(bare, &Now::of(nodes), loading, forces, weights, solver);
+        assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
         let values = self.solver.values();
         let mut largest = [0.0f64; 2];
         for &(slot, turns) in &self.diagonal {

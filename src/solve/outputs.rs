@@ -76,10 +76,10 @@ impl Outputs {
         self.clear();
         let &Request { model, system, state, due, drawn, balance, watched, threads } = request;
         if wanted.plastic_strains && (due || drawn) {
-            system.plastic_strains(&state.now(), &mut self.plastic_strains);
+            system.plastic_strains(&state.configuration(), &mut self.plastic_strains);
         }
         if wanted.shells && (due || drawn) {
-            system.shell_states(model, &state.now(), &mut self.shells);
+            system.shell_states(model, &state.configuration(), &mut self.shells);
         }
         if !due {
             return;
@@ -94,13 +94,13 @@ impl Outputs {
             system.link_states(&state.nodes, &mut self.links);
         }
         if wanted.contacts {
-            system.contact_states(model, &state.now(), &mut self.contacts);
+            system.contact_states(model, &state.configuration(), &mut self.contacts);
         }
         if wanted.sections {
-            system.section_points(model, &state.now(), &mut self.sections);
+            system.section_points(model, &state.configuration(), &mut self.sections);
         }
         if wanted.parts {
-            system.part_energies(model, &state.now(), &mut self.parts);
+            system.part_energies(model, &state.configuration(), &mut self.parts);
         }
     }
 

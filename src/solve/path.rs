@@ -134,8 +134,11 @@ impl Station {
                 let from = start.moved(&stepper.model.nodes[node].x)[dof];
                 // What rides has no increment.
                 let moves = stepper.movers.binary_search(&node).is_ok();
-                let way =
-                    if moves { stepper.increments[node].q[dof] } else { stepper.trial[node].seen_from(start)[dof] };
+                let way = if moves {
+                    stepper.increments[node].q[dof]
+                } else {
+                    stepper.trial[node].relative_position(start)[dof]
+                };
                 (from, from + way)
             }
         }
@@ -146,7 +149,7 @@ impl Run<'_> {
     /// Loads that do not begin at zero act at once.
     pub(super) fn settle(&mut self, state: &mut State) -> Result<(), Failure> {
         let stepper = &mut self.stepper;
-        let scale = stepper.system.residual(&state.now(), &stepper.given[2], &mut stepper.forces);
+        let scale = stepper.system.residual(&state.configuration(), &stepper.given[2], &mut stepper.forces);
         let left = stepper.gather(&scale);
         if left > stepper.model.iteration.tolerance { stepper.step(state, 0.0).map(|_| ()) } else { Ok(()) }
     }

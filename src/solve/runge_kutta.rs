@@ -6,11 +6,11 @@ use super::failure::Failure;
 use super::step::{Stepper, Taken};
 use crate::integrators::runge_kutta::{Tableau, Weights};
 use crate::integrators::{RungeKutta, Scheme};
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, bottom, join, top};
 use crate::model::Model;
-use crate::state::{Now, State};
+use crate::state::{Configuration, State};
 use crate::system::Side;
 
 /// The square of the longest rotation vector: T⁻¹ is singular at a whole turn.
@@ -115,10 +115,10 @@ impl Stepper<'_> {
             let scheme = self.coefficients(dt);
             self.close_joints(state, &scheme, dt)?;
         }
-        let mut spent = Spent::default();
+        let mut spent = Dissipation::default();
         if self.system.history > 0 {
-            let now = Now { nodes: &self.trial, past: &state.history, since: dt };
-            spent = self.system.remember(&now, 1.0, &mut self.history, self.plan.threads);
+            let now = Configuration { nodes: &self.trial, history: &state.history, dt: dt };
+            spent = self.system.update_history(&now, 1.0, &mut self.history, self.plan.threads);
         }
         if self.system.has_contacts() {
             self.check_contacts(state, dt)?;
@@ -222,7 +222,7 @@ impl Stepper<'_> {
         if explicit.ties.is_some() {
             self.forces.multipliers.values.fill(0.0);
         }
-        let now = Now { nodes: &self.trial, past: &state.history, since };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: since };
         self.system.residual(&now, &self.given[2], &mut self.forces);
         self.answer(explicit, state, true)?;
         let movers = self.movers.len();
@@ -301,7 +301,7 @@ impl Stepper<'_> {
         system.external(&state.nodes, &self.given[0], &mut self.forces);
         explicit.work[0] += weight * (self.external_power(&state.nodes) + self.driving_power(&state.reactions, 0));
         if system.is_damped() {
-            explicit.work[1] += weight * system.damping_power(&state.now(), self.plan.threads);
+            explicit.work[1] += weight * system.damping_power(&state.configuration(), self.plan.threads);
         }
     }
 
@@ -317,7 +317,7 @@ impl Stepper<'_> {
             explicit.work[0] += weight * power;
         }
         if system.is_damped() {
-            let now = Now { nodes: &self.trial, past: &state.history, since };
+            let now = Configuration { nodes: &self.trial, history: &state.history, dt: since };
             explicit.work[1] += weight * system.damping_power(&now, self.plan.threads);
         }
         system.external(&self.trial, &self.given[2], &mut self.forces);

@@ -10,7 +10,7 @@ use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::{Model, StepLength, may_stiffen};
 use crate::plan::Plan;
-use crate::state::{Increment, Node, Now, State};
+use crate::state::{Configuration, Increment, Node, State};
 
 /// Iterations at the start, and when the limit is looked at again: a residual each, two where there is damping.
 const AT_FIRST: usize = 60;
@@ -294,7 +294,7 @@ impl Stepper<'_> {
             self.trial[node].advance(start, &self.increments[node], RotationUpdate::Exponential);
         }
         self.carry_riders(place);
-        let now = Now { nodes: &self.trial, past: &state.history, since: dt };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: dt };
         self.system.residual(&now, &self.given[2], &mut self.forces);
     }
 

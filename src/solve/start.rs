@@ -5,7 +5,7 @@ use super::step::Stepper;
 use crate::elements::Moduli;
 use crate::math::{Vec3, Vec6, rotation};
 use crate::model::Kind;
-use crate::state::{Increment, Node, Now, State, Work};
+use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::assembly::{NONE, Weights};
 
@@ -70,31 +70,31 @@ impl Stepper<'_> {
         self.ride(&mut state.nodes);
         if self.system.has_contacts() {
             // What touches at t = 0 rubs from then on.
-            self.system.remember(&state.now(), 1.0, &mut self.history, self.plan.threads);
+            self.system.update_history(&state.configuration(), 1.0, &mut self.history, self.plan.threads);
             std::mem::swap(&mut state.history, &mut self.history);
         }
-        self.system.residual(&state.now(), &self.given[2], &mut self.forces);
+        self.system.residual(&state.configuration(), &self.given[2], &mut self.forces);
         if dynamic {
-            let massless = self.factor_mass(&state.now())?;
+            let massless = self.factor_mass(&state.configuration())?;
             if !self.system.joints.is_empty() {
                 self.trial.clone_from(&state.nodes);
                 self.check_joints()?;
                 self.start_on_joints(&mut state.nodes);
-                self.system.residual(&state.now(), &self.given[2], &mut self.forces);
+                self.system.residual(&state.configuration(), &self.given[2], &mut self.forces);
             }
             self.accelerate(&mut state, &massless);
-            self.system.residual(&state.now(), &self.given[2], &mut self.forces);
+            self.system.residual(&state.configuration(), &self.given[2], &mut self.forces);
         }
         for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
             *reaction = -self.forces.on_nodes[held.node][held.dof];
         }
         if self.system.history > 0 {
             // What has yielded before the start is no one's work.
-            self.system.remember(&state.now(), 1.0, &mut self.history, self.plan.threads);
+            self.system.update_history(&state.configuration(), 1.0, &mut self.history, self.plan.threads);
             std::mem::swap(&mut state.history, &mut self.history);
         }
         state.work.damping_power =
-            if dynamic { self.system.damping_power(&state.now(), self.plan.threads) } else { 0.0 };
+            if dynamic { self.system.damping_power(&state.configuration(), self.plan.threads) } else { 0.0 };
         self.trial.clone_from(&state.nodes);
         self.start_swing(&mut state);
         Ok(state)
@@ -127,19 +127,19 @@ impl Stepper<'_> {
         self.forces.multipliers.values.copy_from_slice(&state.multipliers);
         let mut force = |side: Side| {
             self.drive.loading(state.time, side, &mut self.given[2]);
-            self.system.residual(&state.now(), &self.given[2], &mut self.forces);
+            self.system.residual(&state.configuration(), &self.given[2], &mut self.forces);
             self.forces.on_nodes.clone()
         };
         let (before, after) = (force(Side::Before), force(Side::After));
         for (after, (f, before)) in self.forces.on_nodes.iter_mut().zip(after.iter().zip(&before)) {
             *after = std::array::from_fn(|i| f[i] - before[i]);
         }
-        let massless = self.factor_mass(&state.now())?;
+        let massless = self.factor_mass(&state.configuration())?;
         self.accelerate(state, &massless);
         self.refresh.rejected();
         if self.wants_forces {
             // Reactions jump too, by what the new accelerations leave of the new loads.
-            self.system.residual(&state.now(), &self.given[2], &mut self.forces);
+            self.system.residual(&state.configuration(), &self.given[2], &mut self.forces);
             for (reaction, held) in state.reactions.iter_mut().zip(&self.model.held) {
                 *reaction -= self.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
             }
@@ -200,7 +200,7 @@ impl Stepper<'_> {
     ///
     /// # Errors
     /// [`Failure::Singular`] where a mass matrix cannot be inverted.
-    fn factor_mass(&mut self, now: &Now) -> Result<Vec<usize>, Failure> {
+    fn factor_mass(&mut self, now: &Configuration) -> Result<Vec<usize>, Failure> {
         const HELD: f64 = 1e20; // times the mass: what is left of its acceleration is below rounding
         // A direction without mass may lie aslant: a thin rod's axis, or that of an arm with a point mass at its end. It shows
         // as a pivot that vanishes.

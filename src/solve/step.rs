@@ -15,7 +15,7 @@ use crate::linear::Solver;
 use crate::math::{Vec3, Vec6};
 use crate::model::{Kind, Model};
 use crate::plan::Plan;
-use crate::state::{Increment, Node, Now, State};
+use crate::state::{Configuration, Increment, Node, State};
 use crate::system::assembly::{Assembly, Weights};
 use crate::system::{Drive, Forces, Loading, Prescribed, Scale, System};
 
@@ -148,7 +148,7 @@ impl<'a> Stepper<'a> {
             let dt = taken.to - state.time;
             let since = scheme.instant * dt;
             self.move_trial(state, scheme);
-            let now = Now { nodes: &self.trial, past: &state.history, since };
+            let now = Configuration { nodes: &self.trial, history: &state.history, dt: since };
             let scale = self.system.residual(&now, &self.given[2], &mut self.forces);
             taken.residual = self.gather(&scale);
             if !taken.residual.is_finite() {
@@ -256,7 +256,7 @@ impl<'a> Stepper<'a> {
     fn form_matrix(&mut self, state: &State, scheme: &Coefficients, since: f64) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
         self.mass_weight = acceleration;
-        let now = Now { nodes: &self.trial, past: &state.history, since };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: since };
         let mut moduli = self.refresh.moduli();
         loop {
             let weights = Weights { stiffness: true, rate, acceleration, moduli };
@@ -280,7 +280,7 @@ impl<'a> Stepper<'a> {
 
     /// Of the motion found, before it is taken: nothing has gone through a surface.
     pub(super) fn check_contacts(&self, state: &State, since: f64) -> Result<(), Failure> {
-        let now = Now { nodes: &self.trial, past: &state.history, since };
+        let now = Configuration { nodes: &self.trial, history: &state.history, dt: since };
         self.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(self.too_long(contact)))
     }
 

@@ -1,6 +1,6 @@
 //! What changes when a step is accepted, and nothing else: time, the motion of every node, work done so far.
 
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 use crate::math::rotation::{self, RotationUpdate};
 use crate::math::{Mat3, Vec3, Vec6, bottom, top};
 use nalgebra::Quaternion;
@@ -40,9 +40,9 @@ impl Node {
         (self.x - x) + self.low
     }
 
-    /// How far it is from another node.
+    /// The position of this node less that of another, global components.
     #[inline]
-    pub fn seen_from(&self, other: &Node) -> Vec3 {
+    pub fn relative_position(&self, other: &Node) -> Vec3 {
         (self.x - other.x) + (self.low - other.low)
     }
 
@@ -111,9 +111,9 @@ pub struct Increment {
 }
 
 impl State {
-    /// The state itself as elements see it.
-    pub fn now(&self) -> Now<'_> {
-        Now { nodes: &self.nodes, past: &self.history, since: 0.0 }
+    /// The configuration of the state itself.
+    pub fn configuration(&self) -> Configuration<'_> {
+        Configuration { nodes: &self.nodes, history: &self.history, dt: 0.0 }
     }
 }
 
@@ -138,20 +138,21 @@ impl Increment {
     };
 }
 
-/// The motion at an instant, as elements see it.
+/// The motion of all nodes at an instant, and the history from which materials reach it: what elements compute from.
 #[derive(Debug, Clone, Copy)]
-pub struct Now<'a> {
+pub struct Configuration<'a> {
+    /// Motion by node, in the order of the model.
     pub nodes: &'a [Node],
-    /// What the material points remember of the last accepted state; an element's share of [`State::history`].
-    pub past: &'a [f64],
-    /// Time since that state.
-    pub since: f64,
+    /// The history variables of the last accepted state: all of [`State::history`], or an element group's range of it.
+    pub history: &'a [f64],
+    /// Time from that state to this instant.
+    pub dt: f64,
 }
 
-impl<'a> Now<'a> {
-    /// Without a past: all materials are elastic.
+impl<'a> Configuration<'a> {
+    /// A configuration without history variables: all materials are elastic.
     pub fn of(nodes: &'a [Node]) -> Self {
-        Now { nodes, past: &[], since: 0.0 }
+        Configuration { nodes, history: &[], dt: 0.0 }
     }
 }
 
@@ -183,7 +184,7 @@ pub struct Work {
     /// Power of the damping at the end of the step.
     pub damping_power: f64,
     /// Of the material points.
-    pub material: Spent,
+    pub material: Dissipation,
     /// By how much energies at a step are more than what central differences keep, ⅛ Δt² aᵀMa, than they were at the start. Loads
     /// that jump change accelerations and put nothing in.
     pub swing: f64,

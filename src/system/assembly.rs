@@ -4,10 +4,10 @@
 use super::joints::{self, Diagonal};
 use super::tiles::Tiles;
 use super::{Forces, GroupKind, Loading, System, follower_stiffness};
-use crate::elements::{Block, Moduli};
+use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 use rayon::prelude::*;
 
 /// A direction of a node that is no unknown.
@@ -263,7 +263,7 @@ impl Assembly {
             .collect();
         let masses = system.consistent_masses().iter();
         let masses: Vec<Place> = masses.map(|m| carried(&mut scatter, &m.nodes, &|_, _| true)).collect();
-        let size = |block: &dyn Block| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
+        let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
         let local = system.groups.iter().map(|g| size(&*g.block)).max().unwrap_or(0);
         Assembly {
             groups,
@@ -291,7 +291,7 @@ impl Assembly {
     pub fn tangent(
         &mut self,
         system: &System,
-        now: &Now,
+        now: &Configuration,
         loading: &Loading,
         forces: &mut Forces,
         weights: Weights,
@@ -311,7 +311,13 @@ impl Assembly {
         self.add_joints(system, nodes, forces, weights, values);
     }
 
-    fn add_elements(&mut self, system: &System, now: &Now, Weights { rate, moduli, .. }: Weights, values: &mut [f64]) {
+    fn add_elements(
+        &mut self,
+        system: &System,
+        now: &Configuration,
+        Weights { rate, moduli, .. }: Weights,
+        values: &mut [f64],
+    ) {
         for (group, places) in system.groups.iter().zip(&self.groups) {
             let (block, d) = (&group.block, group.block.dofs());
             let now = &group.share(now);
@@ -321,7 +327,7 @@ impl Assembly {
                 let Scratch { local, carry: maps, carried, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
                 let sparse = group.kind == GroupKind::Contact;
-                let rests = |e: usize| sparse && block.rests(e, now);
+                let rests = |e: usize| sparse && block.is_inactive(e, now);
                 let fill = |(k, K): (usize, &mut [f64])| {
                     if !rests(first + k) {
                         block.tangent(first + k, now, rate, moduli, K);

@@ -5,7 +5,7 @@ use super::lanes::MOST_IN_GROUP;
 use super::results::Watched;
 use super::{Group, GroupKind, Inertia};
 use crate::constraints::joint::{Joint, Row};
-use crate::elements::Block;
+use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};
 use crate::elements::beam::{Beams, Description, Yielding};
 use crate::elements::bushing::{Bushing, Bushings};
@@ -86,7 +86,7 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, Vec<Watched>) {
     let beta = model.damping.stiffness_factor;
     let mut groups = Vec::new();
-    let mut add = |block: Box<dyn Block>, kind, part, first| {
+    let mut add = |block: Box<dyn ElementBlock>, kind, part, first| {
         if !block.is_empty() {
             groups.push(Group { block, kind, part, first, history: 0..0 });
         }
@@ -136,7 +136,7 @@ fn beams(
     x: &[Vec3],
     beta: f64,
     plane: Option<usize>,
-) -> Box<dyn Block> {
+) -> Box<dyn ElementBlock> {
     match part.order {
         1 => beams_of::<2>(part, piece, model, x, beta, plane),
         2 => beams_of::<3>(part, piece, model, x, beta, plane),
@@ -152,7 +152,7 @@ fn beams_of<const N: usize>(
     x: &[Vec3],
     beta: f64,
     plane: Option<usize>,
-) -> Box<dyn Block> {
+) -> Box<dyn ElementBlock> {
     let elements = part.elements[piece].iter().map(|e| Description {
         nodes: &e.nodes,
         frame: &e.frame,
@@ -177,7 +177,7 @@ pub fn in_plane(part: &model::Beam, plane: Option<usize>) -> Option<bool> {
     if across(1) { Some(true) } else { across(2).then_some(false) }
 }
 
-fn bars(part: &model::Bar, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+fn bars(part: &model::Bar, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn ElementBlock> {
     let elements = &part.elements[piece];
     match &part.yielding {
         None => Box::new(bar::links(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),
@@ -188,7 +188,7 @@ fn bars(part: &model::Bar, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dy
     }
 }
 
-fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn Block> {
+fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn ElementBlock> {
     let corners = part.corners;
     let elements = part.elements[piece]
         .iter()
@@ -201,7 +201,7 @@ fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Bo
     }
 }
 
-fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn Block>; 2], Vec<Watched>) {
+fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn ElementBlock>; 2], Vec<Watched>) {
     let mut lines = Vec::new();
     let mut bushings = Vec::new();
     let mut watched = Vec::new();

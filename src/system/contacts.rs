@@ -4,7 +4,7 @@ use super::{Group, GroupKind, System};
 use crate::elements::contact::{self, Contacts};
 use crate::math::Vec3;
 use crate::model::Model;
-use crate::state::{Node, Now, State};
+use crate::state::{Configuration, Node, State};
 
 /// A contact at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,12 +44,12 @@ impl System {
 
     /// The contact, by its place in the model's list, through whose surface a step from `start` to `now` would go, or into
     /// whose impact without resolving it.
-    pub fn missed_contact(&self, start: &[Node], now: &Now) -> Option<usize> {
+    pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
         self.contact_groups().find(|(group, block)| block.misses(start, &group.share(now))).map(|(group, _)| group.part)
     }
 
     /// States of all contacts in deck order.
-    pub fn contact_states(&self, model: &Model, now: &Now, out: &mut Vec<ContactState>) {
+    pub fn contact_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ContactState>) {
         out.clear();
         for (index, contact) in model.contacts.iter().enumerate() {
             let gap = contact::least_gap(&contact.surface, contact.node, &contact.points, now.nodes);

@@ -3,7 +3,7 @@
 use super::{GroupKind, System, lanes};
 use crate::math::Vec3;
 use crate::model::Model;
-use crate::state::{Now, State};
+use crate::state::{Configuration, State};
 
 /// The columns of energy.csv.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,7 +117,7 @@ fn name(model: &Model, kind: GroupKind, part: usize) -> &str {
 
 impl System {
     /// Elastic energy of each beam, bar and shell, in deck order; without what kinematic hardening keeps.
-    pub fn part_energies(&self, model: &Model, now: &Now, parts: &mut Vec<PartEnergy>) {
+    pub fn part_energies(&self, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
         for group in &self.groups {
             let (kind, part) = (group.kind, group.part);
             if matches!(kind, GroupKind::Link | GroupKind::Contact) {
@@ -136,7 +136,7 @@ impl System {
 
     /// `initial`: the total at t = 0, against which the balance is drawn.
     pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
-        let (nodes, now, work) = (&state.nodes, state.now(), state.work);
+        let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
         let stored = |of: &(dyn Fn(GroupKind) -> bool + Sync)| -> f64 {
             lanes::sum(&self.groups, self.splits(threads), &|group| match of(group.kind) {
                 true => group.block.energy(&group.share(&now)),

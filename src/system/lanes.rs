@@ -3,7 +3,7 @@
 
 use super::{Group, System};
 use crate::elements::Force;
-use crate::state::Now;
+use crate::state::Configuration;
 use rayon::prelude::*;
 use std::ops::{AddAssign, Range};
 
@@ -50,7 +50,13 @@ fn lane(all: &[Group], groups: Range<usize>) -> Lane {
 }
 
 /// Subtracts the internal forces of all elements from `F`.
-pub(super) fn subtract_forces(groups: &[Group], now: &Now, lanes: &mut [Lane], threads: bool, F: &mut [Force]) {
+pub(super) fn subtract_forces(
+    groups: &[Group],
+    now: &Configuration,
+    lanes: &mut [Lane],
+    threads: bool,
+    F: &mut [Force],
+) {
     if lanes.is_empty() {
         return groups.iter().for_each(|group| group.block.subtract_forces(&group.share(now), F));
     }

@@ -15,14 +15,14 @@ pub const CORRECTIONS: usize = 2;
 /// The masses of a scene, one for each node that has an unknown.
 #[derive(Debug, Clone)]
 pub struct Masses {
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<MassBlock>,
     /// By node: its place in `blocks`, or [`NONE`].
     place: Vec<u32>,
 }
 
 /// Mass and inertia that move with a node.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct MassBlock {
     pub node: usize,
     /// Directions that are unknowns.
     pub free: [bool; 6],
@@ -100,13 +100,13 @@ impl Masses {
             let trace = NOTHING * J.amax();
             J0.iter_mut().filter(|J| J.abs() < trace).for_each(|J| *J = 0.0);
             place[node] = blocks.len() as u32;
-            blocks.push(Block::new(node, free, mass, s0, J0));
+            blocks.push(MassBlock::new(node, free, mass, s0, J0));
         }
         Some(Masses { blocks, place })
     }
 
     /// That of a node, where it has unknowns.
-    pub fn of(&self, node: usize) -> Option<&Block> {
+    pub fn of(&self, node: usize) -> Option<&MassBlock> {
         self.blocks.get(self.place[node] as usize)
     }
 
@@ -118,8 +118,8 @@ impl Masses {
     }
 }
 
-impl Block {
-    fn new(node: usize, free: [bool; 6], mass: f64, s0: Vec3, J0: Mat3) -> Block {
+impl MassBlock {
+    fn new(node: usize, free: [bool; 6], mass: f64, s0: Vec3, J0: Mat3) -> MassBlock {
         let all = |free: &[bool]| !free.contains(&false);
         let turns = free[3..].contains(&true);
         // A node that is held turns a centre elsewhere about itself.
@@ -136,7 +136,7 @@ impl Block {
         let pivots = !free[..3].contains(&true);
         let (arm, turning) = if pivots { (Vec3::zeros(), J0 - mass * skew(&s0) * skew(&s0)) } else { (s0, J0) };
         let inverse = turning.try_inverse().unwrap_or_else(Mat3::zeros);
-        Block { node, free, mass, s0, J0, arm, turning, inverse, kind }
+        MassBlock { node, free, mass, s0, J0, arm, turning, inverse, kind }
     }
 
     /// The matrix of all six directions, about the node as it lies.

@@ -23,18 +23,18 @@ pub use results::{LinkState, SectionPoint, ShellState};
 
 use crate::constraints::attachment::{self, Attachment};
 use crate::constraints::joint::Joint;
-use crate::elements::{Block, Force};
-use crate::materials::Spent;
+use crate::elements::{ElementBlock, Force};
+use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3, larger, rotation, skew};
 use crate::model::{self, Model};
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 use inertia::ConsistentMass;
 use lanes::Lane;
 use std::ops::Range;
 
 /// A group of like elements, of one part: all of them, or some in a row where they are many.
 pub struct Group {
-    pub block: Box<dyn Block>,
+    pub block: Box<dyn ElementBlock>,
     pub kind: GroupKind,
     /// The part's place in the model's list.
     pub part: usize,
@@ -47,8 +47,8 @@ pub struct Group {
 impl Group {
     /// The motion with this group's past alone.
     #[inline]
-    pub fn share<'a>(&self, now: &Now<'a>) -> Now<'a> {
-        Now { past: &now.past[self.history.clone()], ..*now }
+    pub fn share<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
+        Configuration { history: &now.history[self.history.clone()], ..*now }
     }
 }
 
@@ -214,7 +214,7 @@ impl System {
 
     /// Sums f_ext − f_int − C v − M a per node and hands the forces on constrained directions to their masters (58).
     /// Returns the magnitude of what was summed.
-    pub fn residual(&self, now: &Now, loading: &Loading, forces: &mut Forces) -> Scale {
+    pub fn residual(&self, now: &Configuration, loading: &Loading, forces: &mut Forces) -> Scale {
         let nodes = now.nodes;
         let F = &mut forces.on_nodes[..];
         F.fill([0.0; 6]);
@@ -291,7 +291,7 @@ impl System {
     /// that faces sweep.
     pub fn external_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> f64 {
         let field = 0.5 * (from.1.field + to.1.field);
-        let moved = |node: usize| to.0[node].seen_from(&from.0[node]);
+        let moved = |node: usize| to.0[node].relative_position(&from.0[node]);
         let mut work = 0.0;
         if field != Vec3::zeros() {
             work += self.inertias.iter().map(|i| i.mass * field.dot(&moved(i.node))).sum::<f64>();
@@ -301,7 +301,7 @@ impl System {
         for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
             let (a, b) = (&from.0[load.node], &to.0[load.node]);
             let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
-            work += 0.5 * (f_a + f_b).dot(&b.seen_from(a));
+            work += 0.5 * (f_a + f_b).dot(&b.relative_position(a));
             if load.moment != Vec3::zeros() {
                 work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.q * a.q.conjugate())));
             }
@@ -314,12 +314,12 @@ impl System {
 
     /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
     /// became of the work of plastic strains on it.
-    pub fn remember(&self, now: &Now, part: f64, history: &mut [f64], threads: usize) -> Spent {
+    pub fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64], threads: usize) -> Dissipation {
         lanes::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
             if group.history.is_empty() {
-                return Spent::default();
+                return Dissipation::default();
             }
-            group.block.remember(&group.share(now), part, history)
+            group.block.update_history(&group.share(now), part, history)
         })
     }
 
@@ -329,7 +329,7 @@ impl System {
     }
 
     /// Power that dampers take.
-    pub fn damping_power(&self, now: &Now, threads: usize) -> f64 {
+    pub fn damping_power(&self, now: &Configuration, threads: usize) -> f64 {
         let nodes = now.nodes;
         let mut power: f64 =
             lanes::sum(&self.groups, self.splits(threads), &|group| group.block.damping_power(&group.share(now)));

@@ -6,7 +6,7 @@ use crate::elements::link::Link;
 use crate::elements::{Point, Resultants};
 use crate::math::{Mat3, Vec3};
 use crate::model::Model;
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 
 /// A link at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,16 +69,16 @@ impl System {
     }
 
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order.
-    pub fn plastic_strains(&self, now: &Now, out: &mut Vec<f64>) {
+    pub fn plastic_strains(&self, now: &Configuration, out: &mut Vec<f64>) {
         out.clear();
         for group in self.groups.iter().filter(|group| !matches!(group.kind, GroupKind::Link | GroupKind::Contact)) {
-            let past = group.share(now).past;
+            let past = group.share(now).history;
             out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
         }
     }
 
     /// Stress resultants of all elements of all shells in deck order.
-    pub fn shell_states(&self, model: &Model, now: &Now, out: &mut Vec<ShellState>) {
+    pub fn shell_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
         out.clear();
         for group in self.groups.iter().filter(|group| group.kind == GroupKind::Shell) {
             let (shell, part) = (group.part, &model.shells[group.part]);
@@ -97,7 +97,7 @@ impl System {
     }
 
     /// Stress resultants at all integration points of all beams in deck order.
-    pub fn section_points(&self, model: &Model, now: &Now, out: &mut Vec<SectionPoint>) {
+    pub fn section_points(&self, model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
         out.clear();
         let mut start = 0.0;
         for group in self.groups.iter().filter(|group| group.kind == GroupKind::Beam) {

@@ -4,10 +4,10 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::{Contacts, Law, MOST_NODES, Point, Shape, Surface};
-use rdsolve::elements::{Block, Moduli};
+use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::state::{Node, Now};
+use rdsolve::state::{Configuration, Node};
 
 const SHAPES: [Shape; 5] = [
     Shape::Plane,
@@ -72,7 +72,7 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
     let block = Contacts::new(law, surface, 0, vec![point]);
     let mut past = vec![0.0; block.history()];
     let nothing = past.clone();
-    block.remember(&Now { nodes: &nodes, past: &nothing, since: 0.0 }, 1.0, &mut past);
+    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0 }, 1.0, &mut past);
 
     // Now it has gone a bit on, with everything turned and moving.
     let turn = exp(&vector(rng, 0.1));
@@ -95,7 +95,7 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
 impl Touch {
     fn force(&self, nodes: &[Node]) -> Vec<f64> {
         let mut F = vec![[0.0; 6]; nodes.len()];
-        self.block.subtract_forces(&Now { nodes, past: &self.past, since: 0.0 }, &mut F);
+        self.block.subtract_forces(&Configuration { nodes, history: &self.past, dt: 0.0 }, &mut F);
         // In the order of the block: the carrier is its last node.
         F.rotate_left(1);
         F.into_iter().flatten().collect()
@@ -127,7 +127,7 @@ fn the_tangent_is_the_derivative() {
         }
         let (width, rate, h) = (6 * touch.nodes.len(), 3.0, 1e-7);
         let mut K = vec![f64::NAN; width * width];
-        let now = Now { nodes: &touch.nodes, past: &touch.past, since: 0.0 };
+        let now = Configuration { nodes: &touch.nodes, history: &touch.past, dt: 0.0 };
         touch.block.tangent(0, &now, rate, Moduli::Algorithmic, &mut K);
         let largest = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
         let moved = |column: usize, h: f64| {

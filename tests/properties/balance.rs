@@ -125,7 +125,7 @@ fn static_reactions_balance_the_loads() {
         let mut bare = System::new(&Model { riders: vec![], loads: vec![], ..m.clone() }).unwrap();
         bare.groups.clear();
         let mut weight = Forces::new(&bare, m.nodes.len());
-        bare.residual(&state.now(), &Loading { field: m.gravity, ..Loading::default() }, &mut weight);
+        bare.residual(&state.configuration(), &Loading { field: m.gravity, ..Loading::default() }, &mut weight);
         for (node, f) in state.nodes.iter().zip(weight.on_nodes) {
             add(&node.x, Vec3::new(f[0], f[1], f[2]), Vec3::new(f[3], f[4], f[5]));
         }

@@ -12,7 +12,7 @@ use rdsolve::math::rotation::{exp, inverse_tangent};
 use rdsolve::math::{Vec3, Vec6, bottom, join};
 use rdsolve::model::{Kind, MassKind, Model, NodalDamping, Pressure, StepLength};
 use rdsolve::plan::Plan;
-use rdsolve::state::{Increment, Node, Now};
+use rdsolve::state::{Configuration, Increment, Node};
 use rdsolve::system::assembly::Weights;
 use rdsolve::system::{Drive, Forces, Loading, System};
 
@@ -86,7 +86,7 @@ impl Instant {
     fn residual(&self, q: &[Vec6]) -> Vec<f64> {
         let nodes = self.nodes(q);
         let mut forces = Forces::new(&self.system, nodes.len());
-        self.system.residual(&Now::of(&nodes), &self.loading, &mut forces);
+        self.system.residual(&Configuration::of(&nodes), &self.loading, &mut forces);
         self.plan.directions.iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
     }
 
@@ -121,11 +121,11 @@ impl Instant {
         self.plan.kind = kind;
         let nodes = self.nodes(&self.q);
         let mut forces = Forces::new(&self.system, nodes.len());
-        self.system.residual(&Now::of(&nodes), &self.loading, &mut forces);
+        self.system.residual(&Configuration::of(&nodes), &self.loading, &mut forces);
         let (mut solver, mut assembly) = self.plan.build(&self.system).unwrap();
         let (rate, acceleration) = self.scheme.weights();
         let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
-        assembly.tangent(&self.system, &Now::of(&nodes), &self.loading, &mut forces, weights, &mut solver);
+        assembly.tangent(&self.system, &Configuration::of(&nodes), &self.loading, &mut forces, weights, &mut solver);
         let n = self.plan.unknowns;
         DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))
     }

@@ -6,10 +6,10 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{
     DRILLING, Description, Plate, Quadrilateral, Quadrilaterals, Triangle, Triangles, Yielding,
 };
-use rdsolve::elements::{Block, Force, Moduli};
+use rdsolve::elements::{ElementBlock, Force, Moduli};
 use rdsolve::materials::{Hardening, Law};
 use rdsolve::math::{Mat3, Vec3, rotation};
-use rdsolve::state::{Node, Now};
+use rdsolve::state::{Configuration, Node};
 use std::time::Instant;
 
 fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
@@ -31,7 +31,7 @@ struct Mesh {
 }
 
 impl Mesh {
-    fn block(&self, plate: &Plate) -> Box<dyn Block> {
+    fn block(&self, plate: &Plate) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
         let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| Description { nodes, normals });
@@ -41,7 +41,7 @@ impl Mesh {
         }
     }
 
-    fn layered(&self, plate: &Plate, yielding: &Yielding) -> Box<dyn Block> {
+    fn layered(&self, plate: &Plate, yielding: &Yielding) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
         let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| Description { nodes, normals });
@@ -82,7 +82,7 @@ impl Mesh {
     }
 }
 
-fn forces(block: &dyn Block, now: &Now) -> Vec<Force> {
+fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
     let mut F = vec![[0.0; 6]; now.nodes.len()];
     block.subtract_forces(now, &mut F);
     F.iter().map(|f| f.map(|c| -c)).collect()
@@ -94,13 +94,13 @@ fn nudge(node: &mut Node, dof: usize, h: f64) {
     if dof < 3 { node.x += d } else { node.q = rotation::exp(&d) * node.q }
 }
 
-fn stiffness(block: &dyn Block, nodes: &[Node]) -> DMatrix<f64> {
+fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
     let mut K = DMatrix::zeros(6 * nodes.len(), 6 * nodes.len());
     for e in 0..block.len() {
         let of = block.nodes(e);
         let n = 6 * of.len();
         let mut k = vec![0.0; n * n];
-        block.tangent(e, &Now::of(nodes), 0.0, Moduli::Algorithmic, &mut k);
+        block.tangent(e, &Configuration::of(nodes), 0.0, Moduli::Algorithmic, &mut k);
         for i in 0..n {
             for j in 0..n {
                 K[(6 * of[i / 6] + i % 6, 6 * of[j / 6] + j % 6)] += k[i * n + j];
@@ -154,12 +154,12 @@ fn corners_may_come_in_any_order() {
             .iter()
             .map(|x| Node { q: rotation::exp(&vector(&mut rng, 0.5)), ..Node::at_rest(x + vector(&mut rng, 0.2)) })
             .collect();
-        let F = forces(&*mesh.block(&PLATE), &Now::of(&nodes));
+        let F = forces(&*mesh.block(&PLATE), &Configuration::of(&nodes));
         let size = F.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
         for shift in 1..n {
             let elements = vec![(0..n).map(|k| (k + shift) % n).collect()];
             let other = Mesh { x: mesh.x.clone(), elements, normals: mesh.normals.clone() };
-            for (a, b) in F.iter().zip(forces(&*other.block(&PLATE), &Now::of(&nodes))) {
+            for (a, b) in F.iter().zip(forces(&*other.block(&PLATE), &Configuration::of(&nodes))) {
                 for i in 0..6 {
                     assert!((a[i] - b[i]).abs() < 1e-12 * size, "{a:?} {b:?}");
                 }
@@ -168,7 +168,7 @@ fn corners_may_come_in_any_order() {
         // Turned over: normals down, corners the other way round.
         let elements = vec![(0..n).rev().collect()];
         let over = Mesh { x: mesh.x.clone(), elements, normals: mesh.normals.iter().map(|n| -n).collect() };
-        for (a, b) in F.iter().zip(forces(&*over.block(&PLATE), &Now::of(&nodes))) {
+        for (a, b) in F.iter().zip(forces(&*over.block(&PLATE), &Configuration::of(&nodes))) {
             for i in 0..6 {
                 assert!((a[i] - b[i]).abs() < 1e-12 * size, "turned over: {a:?} {b:?}");
             }
@@ -196,11 +196,11 @@ fn layers_have_the_tangent_of_their_stress() {
             let (first, second) = (moved(0.02), moved(0.02));
             let mut history = vec![0.0; block.history()];
             let past = history.clone();
-            block.remember(&Now { nodes: &first, past: &past, since: 1.0 }, 1.0, &mut history);
+            block.update_history(&Configuration { nodes: &first, history: &past, dt: 1.0 }, 1.0, &mut history);
             assert!(block.plastic_strain(0, &history) > 0.0, "round {round} yields nowhere");
             let n = 6 * mesh.x.len();
             let mut K = vec![0.0; n * n];
-            let base = Now { nodes: &second, past: &history, since: 1.0 };
+            let base = Configuration { nodes: &second, history: &history, dt: 1.0 };
             block.tangent(0, &base, 0.0, Moduli::Algorithmic, &mut K);
             let scale = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
             let h = 1e-6; // truncation h² and 1e-16/h, and a layer at its yield limit is met with small chance
@@ -208,7 +208,7 @@ fn layers_have_the_tangent_of_their_stress() {
                 let at = |h: f64| {
                     let mut nodes = second.clone();
                     nudge(&mut nodes[column / 6], column % 6, h);
-                    forces(&*block, &Now { nodes: &nodes, ..base })
+                    forces(&*block, &Configuration { nodes: &nodes, ..base })
                 };
                 let (plus, minus) = (at(h), at(-h));
                 for row in 0..n {
@@ -237,7 +237,7 @@ fn layers_that_do_not_yield_are_elastic() {
             .map(|x| Node { q: rotation::exp(&vector(&mut rng, 1e-3)), ..Node::at_rest(x + vector(&mut rng, 1e-3)) })
             .collect();
         let history = vec![0.0; layered.history()];
-        let now = Now { nodes: &nodes, past: &history, since: 1.0 };
+        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };
         let (a, b) = (forces(&*layered, &now), forces(&*elastic, &now));
         let size = a.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
         assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12 * size));
@@ -322,7 +322,7 @@ fn speed() {
         let layered = mesh.layered(&PLATE, &Yielding { law: law(), layers: 5 });
         for (name, block) in [("elastic", elastic), ("layered, all of 5 layers yield", layered)] {
             let history = vec![0.0; block.history()];
-            let now = Now { nodes: &nodes, past: &history, since: 1.0 };
+            let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };
             let mut F = vec![[0.0; 6]; nodes.len()];
             let best = |of: &mut dyn FnMut()| {
                 let time = |_| {

@@ -6,7 +6,7 @@ use rdsolve::elements::Moduli;
 use rdsolve::math::Vec3;
 use rdsolve::model::Model;
 use rdsolve::plan::Plan;
-use rdsolve::state::{Node, Now};
+use rdsolve::state::{Configuration, Node};
 use rdsolve::system::assembly::Weights;
 use rdsolve::system::{Drive, Forces, Loading, Side, System};
 use std::f64::consts::TAU;
@@ -30,11 +30,11 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     let mut loading = Loading::default();
     Drive::new(model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len());
-    system.residual(&Now::of(&nodes), &loading, &mut forces);
+    system.residual(&Configuration::of(&nodes), &loading, &mut forces);
     let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let acceleration = if stiffness { 0.0 } else { 1.0 };
     let weights = Weights { stiffness, rate: 0.0, acceleration, moduli: Moduli::Algorithmic };
-    assembly.tangent(&system, &Now::of(&nodes), &loading, &mut forces, weights, &mut solver);
+    assembly.tangent(&system, &Configuration::of(&nodes), &loading, &mut forces, weights, &mut solver);
     let n = plan.unknowns;
     // A symmetric solver stores one triangle under either name.
     DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))

@@ -7,12 +7,12 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{
     DRILLING, Description, Plate, Quadrilateral, Quadrilaterals, Triangle, Triangles, Yielding,
 };
-use rdsolve::elements::{Block, Resultants};
+use rdsolve::elements::{ElementBlock, Resultants};
 use rdsolve::materials::{Hardening, Law};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::Model;
 use rdsolve::solve::ShellState;
-use rdsolve::state::{Node, Now};
+use rdsolve::state::{Configuration, Node};
 
 const E: f64 = 1e3;
 const NU: f64 = 0.3;
@@ -31,7 +31,7 @@ impl Patch {
         Patch { x, elements }
     }
 
-    fn block(&self, yielding: Option<&Yielding>) -> Box<dyn Block> {
+    fn block(&self, yielding: Option<&Yielding>) -> Box<dyn ElementBlock> {
         let plate = Plate { thickness: H, E, nu: NU, drilling: DRILLING };
         let normals = [Vec3::z(); 4];
         let all = self.elements.iter().map(|nodes| Description { nodes, normals: &normals[..nodes.len()] });
@@ -44,7 +44,7 @@ impl Patch {
     }
 
     /// What every element feels.
-    fn feels(&self, block: &dyn Block, axis: Vec3, now: &Now) -> Vec<Resultants> {
+    fn feels(&self, block: &dyn ElementBlock, axis: Vec3, now: &Configuration) -> Vec<Resultants> {
         let start = |e: &Vec<usize>| -> Vec<Vec3> { e.iter().map(|&n| self.x[n]).collect() };
         let of = |(e, nodes)| block.resultants(e, &axis, &start(nodes), now).unwrap();
         self.elements.iter().enumerate().map(of).collect()
@@ -88,7 +88,7 @@ fn even_strain() {
             let R = rotation::matrix(&q);
             let nodes: Vec<Node> = patch.x.iter().map(|x| Node { q, ..Node::at_rest(R * U * x + shift) }).collect();
             let past = vec![0.0; block.history()];
-            let now = Now { nodes: &nodes, past: &past, since: 0.0 };
+            let now = Configuration { nodes: &nodes, history: &past, dt: 0.0 };
             let green = 0.5 * (U * U - Mat3::identity());
             let green = [green[(0, 0)], green[(1, 1)], green[(0, 1)]];
             for angle in [0.0f64, 0.7, -2.5] {
@@ -129,7 +129,7 @@ fn even_curvature() {
         let nodes: Vec<Node> = patch.x.iter().map(node).collect();
         for angle in [0.0f64, 1.1] {
             let wanted = turned(elastic(k, H.powi(3) / 12.0), angle);
-            for at in patch.feels(&*block, Vec3::new(angle.cos(), angle.sin(), 0.0), &Now::of(&nodes)) {
+            for at in patch.feels(&*block, Vec3::new(angle.cos(), angle.sin(), 0.0), &Configuration::of(&nodes)) {
                 assert_near(&at.M, &wanted, 1e-6 * wanted[0].abs());
                 assert_near(&at.N, &[0.0; 3], 1e-5 * wanted[0].abs() / H);
                 assert_near(&at.Q, &[0.0; 2], 1e-6 * E * H * k[0]);
@@ -227,9 +227,9 @@ fn layers_yield_one_by_one() {
             };
             let nodes: Vec<Node> = patch.x.iter().map(node).collect();
             let mut history = past.clone();
-            let now = Now { nodes: &nodes, past: &past, since: 1.0 };
-            block.remember(&now, 1.0, &mut history);
-            let now = Now { nodes: &nodes, past: &history, since: 0.0 };
+            let now = Configuration { nodes: &nodes, history: &past, dt: 1.0 };
+            block.update_history(&now, 1.0, &mut history);
+            let now = Configuration { nodes: &nodes, history: &history, dt: 0.0 };
             let by_hand = |z: f64| {
                 let strain = (k * z).abs();
                 let elastic = E * strain / (1.0 - NU);

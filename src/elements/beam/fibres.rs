@@ -4,8 +4,8 @@
 //! elastic section (all of shear and torsion where these stay elastic) answers beside them as a spring.
 
 use super::section::{Elastic, Section};
-use super::{Moduli, Now};
-use crate::materials::{Law, Spent, StressState};
+use super::{Configuration, Moduli};
+use crate::materials::{Dissipation, Law, StressState};
 use crate::math::{Mat3, Mat6, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use std::array::from_fn;
@@ -55,11 +55,11 @@ impl<S: StressState<N>, const N: usize> Profile<S, N> {
     }
 
     #[inline]
-    fn stress(&self, gamma: &Vec3, kappa: &Vec3, now: &Now) -> (Vec3, Vec3) {
+    fn stress(&self, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3) {
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
-        for (fibre, past) in self.memories(now.past) {
+        for (fibre, past) in self.memories(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let stress = self.law.stress(self.state, &strain, now.since, past);
+            let stress = self.law.stress(self.state, &strain, now.dt, past);
             Self::add(fibre, &stress, &mut n, &mut m);
         }
         (n, m)
@@ -81,12 +81,12 @@ impl<S: StressState<N>, const N: usize> Profile<S, N> {
     }
 
     /// Stress and its algorithmic derivative, section axes: the elastic one, less what fibres lose that yield.
-    fn linearise(&self, (gamma, kappa): (&Vec3, &Vec3), now: &Now) -> (Vec3, Vec3, Elastic) {
+    fn linearise(&self, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> (Vec3, Vec3, Elastic) {
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
         let mut loss = Sum::default();
-        for (fibre, past) in self.memories(now.past) {
+        for (fibre, past) in self.memories(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let (stress, C) = self.law.linearise(self.state, &strain, now.since, past);
+            let (stress, C) = self.law.linearise(self.state, &strain, now.dt, past);
             Self::add(fibre, &stress, &mut n, &mut m);
             if let Some(C) = C {
                 loss.add::<N>(fibre, &from_fn(|i| from_fn(|j| self.stiffness[i][j] - C[i][j])));
@@ -165,8 +165,8 @@ impl<S: StressState<N>, const N: usize> Fibred<S, N> {
     }
 
     #[inline]
-    fn at<'a>(&self, g: usize, now: &Now<'a>) -> Now<'a> {
-        Now { past: &now.past[self.share(g)], ..*now }
+    fn at<'a>(&self, g: usize, now: &Configuration<'a>) -> Configuration<'a> {
+        Configuration { history: &now.history[self.share(g)], ..*now }
     }
 }
 
@@ -179,7 +179,7 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         &self.elastic
     }
 
-    fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Now) -> (Vec3, Vec3) {
+    fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3) {
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let (n, m) = self.profile.stress(&gamma, &kappa, &self.at(g, now));
         (self.frame * n, self.frame * m)
@@ -189,7 +189,7 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         &'a self,
         g: usize,
         (gamma, kappa): (&Vec3, &Vec3),
-        now: &Now,
+        now: &Configuration,
         moduli: Moduli,
         room: &'a mut Elastic,
     ) -> (Vec3, Vec3, &'a Elastic) {
@@ -203,25 +203,32 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         (self.frame * n, self.frame * m, room)
     }
 
-    fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Now) -> f64 {
+    fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64 {
         let Profile { law, state, rest, .. } = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let now = self.at(g, now);
         let of = |(fibre, past): (&Fibre, &[f64])| {
             fibre.area * law.elastic_energy(*state, &Profile::<S, N>::strain(fibre, &gamma, &kappa), past)
         };
-        rest.energy(&gamma, &kappa) + self.profile.memories(now.past).map(of).sum::<f64>()
+        rest.energy(&gamma, &kappa) + self.profile.memories(now.history).map(of).sum::<f64>()
     }
 
-    fn remember(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Now, part: f64, history: &mut [f64]) -> Spent {
+    fn update_history(
+        &self,
+        g: usize,
+        (gamma, kappa): (&Vec3, &Vec3),
+        now: &Configuration,
+        part: f64,
+        history: &mut [f64],
+    ) -> Dissipation {
         let Profile { law, state, memory, .. } = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let now = self.at(g, now);
-        let mut sum = Spent::default();
+        let mut sum = Dissipation::default();
         let history = history[self.share(g)].chunks_exact_mut(*memory);
-        for ((fibre, past), new) in self.profile.memories(now.past).zip(history) {
+        for ((fibre, past), new) in self.profile.memories(now.history).zip(history) {
             let strain = Profile::<S, N>::strain(fibre, &gamma, &kappa);
-            let spent = law.advance(*state, &strain, (now.since, part), past, new).1;
+            let spent = law.advance(*state, &strain, (now.dt, part), past, new).1;
             sum += spent * fibre.area;
         }
         sum

@@ -18,11 +18,11 @@ mod quaternion;
 mod section;
 mod tangent;
 
-use super::{Block, Force, Moduli, subtract};
-use crate::materials::{self, Bar, Law, Spent, StressState};
+use super::{ElementBlock, Force, Moduli, subtract};
+use crate::materials::{self, Bar, Dissipation, Law, StressState};
 use crate::math::{Mat3, Vec3, quadrature};
 use crate::sections::{Fibre, Stiffness};
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 use fibres::{Fibred, Profile};
 use quaternion::{Quat, dot, left, right, right_unit, rotation, times_conjugate};
 pub use section::Elastic;
@@ -154,7 +154,7 @@ impl Yielding {
         elements: impl Iterator<Item = Description<'a>>,
         x: &[Vec3],
         damping: f64,
-    ) -> Box<dyn Block> {
+    ) -> Box<dyn ElementBlock> {
         match self.shear {
             true => self.fibred::<N, _, 3>(materials::Fibre, elements, x, damping),
             false => self.fibred::<N, _, 1>(Bar, elements, x, damping),
@@ -167,7 +167,7 @@ impl Yielding {
         elements: impl Iterator<Item = Description<'a>>,
         x: &[Vec3],
         damping: f64,
-    ) -> Box<dyn Block> {
+    ) -> Box<dyn ElementBlock> {
         let (mut profile, mut first) = (None, 0);
         let section = |e: &Description, _| {
             let of = || Arc::new(Profile::new(&self.law, state, &self.fibres, e.stiffness));
@@ -313,7 +313,7 @@ fn strain_matrix<const N: usize, S>(element: &Beam<N, S>, point: &Point) -> Stra
     B
 }
 
-impl<const N: usize, S: Section> Block for Beams<N, S> {
+impl<const N: usize, S: Section> ElementBlock for Beams<N, S> {
     fn len(&self) -> usize {
         self.elements.len()
     }
@@ -334,7 +334,7 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         self.elements.iter().map(|e| e.section.history()).sum()
     }
 
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         let nodes = now.nodes;
         for element in &self.elements {
             let motion = self.gather(element, nodes);
@@ -375,7 +375,7 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         }
     }
 
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         if self.damping > 0.0 {
             self.tangent_of::<true>(e, now, rate_weight, moduli, K);
         } else {
@@ -383,20 +383,20 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         }
     }
 
-    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
-        let mut sum = Spent::default();
+    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+        let mut sum = Dissipation::default();
         for element in &self.elements {
             let motion = self.gather(element, now.nodes);
             for g in 0..self.points() {
                 let point = self.locate(element, g, &motion);
-                let spent = element.section.remember(g, (&point.gamma, &point.kappa), now, part, history);
+                let spent = element.section.update_history(g, (&point.gamma, &point.kappa), now, part, history);
                 sum += spent * (self.shape.weight[g] * element.jacobian);
             }
         }
         sum
     }
 
-    fn energy(&self, now: &Now) -> f64 {
+    fn energy(&self, now: &Configuration) -> f64 {
         let mut sum = 0.0;
         for element in &self.elements {
             let motion = self.gather(element, now.nodes);
@@ -414,7 +414,7 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         S::points(N, self.shape.xi.len())
     }
 
-    fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Now) -> Option<super::Point> {
+    fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Configuration) -> Option<super::Point> {
         let element = &self.elements[e];
         let point = self.locate(element, g, &self.gather(element, now.nodes));
         let (n, m) = element.section.stress(g, &point.gamma, &point.kappa, now);
@@ -422,7 +422,7 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         Some(super::Point {
             s: element.jacobian * (1.0 + self.shape.xi[g]),
             forces: [n.x, n.y, n.z, m.x, m.y, m.z],
-            plastic_strain: element.section.plastic_strain(g, now.past),
+            plastic_strain: element.section.plastic_strain(g, now.history),
         })
     }
 
@@ -430,7 +430,7 @@ impl<const N: usize, S: Section> Block for Beams<N, S> {
         (0..self.points()).map(|g| self.elements[e].section.plastic_strain(g, past)).fold(0.0, f64::max)
     }
 
-    fn damping_power(&self, now: &Now) -> f64 {
+    fn damping_power(&self, now: &Configuration) -> f64 {
         let nodes = now.nodes;
         if self.damping == 0.0 {
             return 0.0;

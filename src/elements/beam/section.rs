@@ -1,7 +1,7 @@
 //! How a section answers to strain: elastic here, by fibres in [`super::fibres`].
 
-use super::{Moduli, Now};
-use crate::materials::Spent;
+use super::{Configuration, Moduli};
+use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
 
@@ -13,21 +13,28 @@ pub trait Section: Send + Sync {
     /// The law of the section before it yields.
     fn elastic(&self) -> &Elastic;
     /// Stress at integration point `g`.
-    fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Now) -> (Vec3, Vec3);
+    fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3);
     /// Stress and its derivative, for which there is `room`.
     fn linearise<'a>(
         &'a self,
         g: usize,
         strain: (&Vec3, &Vec3),
-        now: &Now,
+        now: &Configuration,
         moduli: Moduli,
         room: &'a mut Elastic,
     ) -> (Vec3, Vec3, &'a Elastic);
     /// Elastic energy per length.
-    fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Now) -> f64;
+    fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64;
     /// Writes its share of the history; what was spent is per length.
-    fn remember(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
-        Spent::default()
+    fn update_history(
+        &self,
+        _g: usize,
+        _strain: (&Vec3, &Vec3),
+        _now: &Configuration,
+        _part: f64,
+        _history: &mut [f64],
+    ) -> Dissipation {
+        Dissipation::default()
     }
     /// Largest accumulated plastic strain.
     fn plastic_strain(&self, _g: usize, _past: &[f64]) -> f64 {
@@ -97,7 +104,7 @@ impl Section for Elastic {
     }
 
     #[inline(always)]
-    fn stress(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Now) -> (Vec3, Vec3) {
+    fn stress(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Configuration) -> (Vec3, Vec3) {
         Elastic::stress(self, gamma, kappa)
     }
 
@@ -106,7 +113,7 @@ impl Section for Elastic {
         &'a self,
         _: usize,
         (gamma, kappa): (&Vec3, &Vec3),
-        _: &Now,
+        _: &Configuration,
         _: Moduli,
         _: &'a mut Elastic,
     ) -> (Vec3, Vec3, &'a Elastic) {
@@ -114,7 +121,7 @@ impl Section for Elastic {
         (n, m, self)
     }
 
-    fn energy(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Now) -> f64 {
+    fn energy(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Configuration) -> f64 {
         Elastic::energy(self, gamma, kappa)
     }
 }

@@ -3,9 +3,9 @@
 
 use super::quaternion::{dot, left, multiply, right, right_unit, rotation_columns, times_conjugate};
 use super::{Beams, Elastic, Point, Rate, Section, StrainMatrix, strain_matrix};
-use crate::elements::{Block, Moduli};
+use crate::elements::{ElementBlock, Moduli};
 use crate::math::{Mat3, Vec3, fma, skew};
-use crate::state::Now;
+use crate::state::Configuration;
 
 /// A row over z: p in 0..4, p′ in 4..8, r′ in 8..11, one place unused.
 type Row = [f64; 12];
@@ -163,7 +163,7 @@ impl<const N: usize, S: Section> Beams<N, S> {
     pub(super) fn tangent_of<const DAMPED: bool>(
         &self,
         e: usize,
-        now: &Now,
+        now: &Configuration,
         rate_weight: f64,
         moduli: Moduli,
         K: &mut [f64],

@@ -4,7 +4,7 @@ use super::friction::{Drag, drag};
 use super::restitution::{Push, push};
 use super::{Contacts, Meeting, Point, past};
 use crate::math::Vec3;
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 
 /// What acts at a meeting, in the frame of the surface.
 pub(super) struct Action {
@@ -50,9 +50,9 @@ impl Contacts {
 
     /// The action on a point that touches and is not known to be far.
     #[inline]
-    pub(super) fn touch(&self, e: usize, now: &Now) -> Option<(Meeting, Action)> {
-        let past = self.share(e, now.past);
-        if now.since < past[past::SAFE] {
+    pub(super) fn touch(&self, e: usize, now: &Configuration) -> Option<(Meeting, Action)> {
+        let past = self.share(e, now.history);
+        if now.dt < past[past::SAFE] {
             return None;
         }
         let meeting = self.meet(&self.points[e], now.nodes);

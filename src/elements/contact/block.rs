@@ -2,13 +2,13 @@
 
 use super::action::Action;
 use super::{Contacts, Meeting};
-use crate::elements::{Block, Force, Moduli, subtract};
-use crate::materials::Spent;
+use crate::elements::{ElementBlock, Force, Moduli, subtract};
+use crate::materials::Dissipation;
 use crate::math::rotation::inverse_tangent_matrix;
 use crate::math::{Mat3, Vec3, skew};
-use crate::state::Now;
+use crate::state::Configuration;
 
-impl Block for Contacts {
+impl ElementBlock for Contacts {
     fn len(&self) -> usize {
         self.points.len()
     }
@@ -21,7 +21,7 @@ impl Block for Contacts {
         6
     }
 
-    fn turns(&self, e: usize, node: usize) -> bool {
+    fn is_rotational(&self, e: usize, node: usize) -> bool {
         node == self.count || self.law.friction > 0.0 && self.points[e].lever > 0.0
     }
 
@@ -29,8 +29,8 @@ impl Block for Contacts {
         self.stride() * self.points.len()
     }
 
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
-        if now.past.is_empty() {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        if now.history.is_empty() {
             return;
         }
         for (e, point) in self.points.iter().enumerate() {
@@ -48,14 +48,14 @@ impl Block for Contacts {
         }
     }
 
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, _: Moduli, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
         K.fill(0.0);
-        if now.past.is_empty() {
+        if now.history.is_empty() {
             return;
         }
         let Some((meeting, action)) = self.touch(e, now) else { return };
         let (point, count) = (&self.points[e], self.count);
-        let past = self.share(e, now.past);
+        let past = self.share(e, now.history);
         let Meeting { R, d, w, near, .. } = &meeting;
         let Action { push, drag, F, M } = &action;
         let (n, H) = (&near.n, &near.H);
@@ -119,17 +119,17 @@ impl Block for Contacts {
         put(6 * count + 3, &by_turn, &Mat3::zeros());
     }
 
-    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
-        let mut spent = Spent::default();
+    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+        let mut spent = Dissipation::default();
         let stride = self.stride();
         for (e, new) in history.chunks_exact_mut(stride).enumerate() {
-            spent += self.remember_point(&self.points[e], now, part, self.share(e, now.past), new);
+            spent += self.remember_point(&self.points[e], now, part, self.share(e, now.history), new);
         }
         spent
     }
 
-    fn energy(&self, now: &Now) -> f64 {
-        if now.past.is_empty() {
+    fn energy(&self, now: &Configuration) -> f64 {
+        if now.history.is_empty() {
             return 0.0;
         }
         let k = self.law.stiffness;
@@ -140,9 +140,9 @@ impl Block for Contacts {
         (0..self.points.len()).filter_map(|e| self.touch(e, now)).map(stored).sum()
     }
 
-    fn rests(&self, e: usize, now: &Now) -> bool {
-        let since = self.share(e, now.past).first().copied();
-        since.is_none_or(|safe| now.since < safe) || self.meet(&self.points[e], now.nodes).gap > 0.0
+    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
+        let since = self.share(e, now.history).first().copied();
+        since.is_none_or(|safe| now.dt < safe) || self.meet(&self.points[e], now.nodes).gap > 0.0
     }
 
     fn as_contacts(&self) -> Option<&Contacts> {

@@ -60,8 +60,8 @@ impl Point {
     }
 
     /// Where it lies as seen from a node.
-    fn seen_from(&self, carrier: &Node, nodes: &[Node]) -> Vec3 {
-        self.parts().map(|(node, w)| w * nodes[node].seen_from(carrier)).sum()
+    fn relative_position(&self, carrier: &Node, nodes: &[Node]) -> Vec3 {
+        self.parts().map(|(node, w)| w * nodes[node].relative_position(carrier)).sum()
     }
 }
 
@@ -137,7 +137,7 @@ impl Contacts {
         let carrier = &nodes[self.carrier];
         let (mut d, mut v) = (Vec3::zeros(), Vec3::zeros());
         for (node, weight) in point.parts() {
-            d += weight * nodes[node].seen_from(carrier);
+            d += weight * nodes[node].relative_position(carrier);
             v += weight * nodes[node].v;
         }
         (d, v - carrier.v - carrier.omega.cross(&d))

@@ -2,22 +2,29 @@
 
 use super::action::Action;
 use super::{Contacts, Meeting, Point, past};
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 use crate::math::Vec3;
 use crate::math::rotation::{self, renormalise};
-use crate::state::Now;
+use crate::state::Configuration;
 
 impl Contacts {
     /// `part` of the way from the last state to `now`.
-    pub(super) fn remember_point(&self, point: &Point, now: &Now, part: f64, old: &[f64], new: &mut [f64]) -> Spent {
-        let (law, mut spent) = (&self.law, Spent::default());
-        let dt = part * now.since;
+    pub(super) fn remember_point(
+        &self,
+        point: &Point,
+        now: &Configuration,
+        part: f64,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Dissipation {
+        let (law, mut spent) = (&self.law, Dissipation::default());
+        let dt = part * now.dt;
         let (d, w) = self.relative(point, now.nodes);
         let speed = w.norm();
         // How soon it could come here at twice its speed.
         let safe = |gap: f64| if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 };
         let far = safe(d.norm() - self.reach() - point.radius);
-        if far > 4.0 * now.since && now.since > 0.0 && old[past::SPEED] == 0.0 {
+        if far > 4.0 * now.dt && now.dt > 0.0 && old[past::SPEED] == 0.0 {
             new.fill(0.0);
             new[past::SAFE] = far;
             let pull = if law.friction > 0.0 { old[past::PULL] } else { 0.0 };
@@ -26,7 +33,7 @@ impl Contacts {
         }
         let known = old[past::KNOWN] > 0.0;
         // What is not known has no past to come from.
-        let beyond = (part - 1.0) * now.since;
+        let beyond = (part - 1.0) * now.dt;
         let part = if known { part } else { 1.0 };
         let toward = |old: f64, now: f64| old + part * (now - old);
         let meeting = self.meet(point, now.nodes);
@@ -76,7 +83,7 @@ impl Contacts {
         &self,
         point: &Point,
         (meeting, action): (&Meeting, Option<&Action>),
-        now: &Now,
+        now: &Configuration,
         part: f64,
         old: &[f64],
         new: &mut [f64],
@@ -89,7 +96,7 @@ impl Contacts {
         let (pull, held) = (old[past::PULL], past::anchor(old));
         // What slides at t = 0 has been sliding: its spring is stretched.
         let begun =
-            if known || now.since > 0.0 || force == 0.0 { Vec3::zeros() } else { self.sliding(point, meeting, now) };
+            if known || now.dt > 0.0 || force == 0.0 { Vec3::zeros() } else { self.sliding(point, meeting, now) };
         let stretch = law.friction * force;
         let (shift, spent) = match drag {
             Some(drag) => {
@@ -127,7 +134,7 @@ impl Contacts {
     }
 
     /// Unit vector along the slip, in the frame of the surface; zero for what does not slip faster than its weight makes it.
-    fn sliding(&self, point: &Point, meeting: &Meeting, now: &Now) -> Vec3 {
+    fn sliding(&self, point: &Point, meeting: &Meeting, now: &Configuration) -> Vec3 {
         let n = &meeting.near.n;
         let spin: Vec3 = point.parts().map(|(node, weight)| weight * now.nodes[node].omega).sum();
         let spin = meeting.R.tr_mul(&(spin - now.nodes[self.carrier].omega));

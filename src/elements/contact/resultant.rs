@@ -2,7 +2,7 @@
 
 use super::{Contacts, Point, Surface};
 use crate::math::Vec3;
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 
 /// The resultant of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +22,7 @@ impl Default for Resultant {
 
 impl Contacts {
     /// What the points at hand do to the surface.
-    pub fn resultant(&self, now: &Now) -> Resultant {
+    pub fn resultant(&self, now: &Configuration) -> Resultant {
         let mut sum = Resultant::default();
         for e in 0..self.points.len() {
             let Some((meeting, action)) = self.touch(e, now) else { continue };
@@ -39,6 +39,6 @@ impl Contacts {
 pub fn least_gap(surface: &Surface, carrier: usize, points: &[Point], nodes: &[Node]) -> f64 {
     let carrier = &nodes[carrier];
     let R = carrier.R();
-    let gap = |point: &Point| surface.distance(&R.tr_mul(&point.seen_from(carrier, nodes))) - point.radius;
+    let gap = |point: &Point| surface.distance(&R.tr_mul(&point.relative_position(carrier, nodes))) - point.radius;
     points.iter().map(gap).fold(f64::INFINITY, f64::min)
 }

@@ -2,7 +2,7 @@
 
 use super::{Contacts, past};
 use crate::math::{Mat3, Vec3};
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 
 /// Of the surface, at the start of a step and ahead.
 struct Frames {
@@ -14,7 +14,7 @@ struct Frames {
 
 impl Contacts {
     /// True where a step from `start` to `now` must be shorter: see [`Law::resolution`].
-    pub fn misses(&self, start: &[Node], now: &Now) -> bool {
+    pub fn misses(&self, start: &[Node], now: &Configuration) -> bool {
         let (a, b) = (&start[self.carrier], &now.nodes[self.carrier]);
         let turn = 2.0 * (b.q - a.q).norm().min((b.q + a.q).norm());
         let frames = Frames { start: a.R(), now: b.R(), turn };
@@ -33,9 +33,9 @@ impl Contacts {
 
     /// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not
     /// resolve.
-    fn is_missed(&self, e: usize, start: &[Node], now: &Now, frames: &Frames) -> bool {
-        let (point, past) = (&self.points[e], self.share(e, now.past));
-        let [from, to] = [start, now.nodes].map(|nodes| point.seen_from(&nodes[self.carrier], nodes));
+    fn is_missed(&self, e: usize, start: &[Node], now: &Configuration, frames: &Frames) -> bool {
+        let (point, past) = (&self.points[e], self.share(e, now.history));
+        let [from, to] = [start, now.nodes].map(|nodes| point.relative_position(&nodes[self.carrier], nodes));
         let far = from.norm();
         if far - self.reach() - point.radius > (to - from).norm() + frames.turn * far {
             return false;
@@ -46,7 +46,7 @@ impl Contacts {
         if first > length {
             return false;
         }
-        if last < 0.0 && now.since < past[past::SAFE] {
+        if last < 0.0 && now.dt < past[past::SAFE] {
             return true;
         }
         let normal = |p: &Vec3| self.surface.near(p).n;
@@ -74,7 +74,7 @@ impl Contacts {
             let fast = 3.0 * self.law.floor;
             let landing = first > 0.0
                 && (past[past::KNOWN] == 0.0 || past[past::RATE] > fast || -depth > fast * 2.0 * self.law.resolution);
-            return strayed(&normal(&p1), depth, length) || landing && now.since > self.law.resolution;
+            return strayed(&normal(&p1), depth, length) || landing && now.dt > self.law.resolution;
         }
         // In at one place and out at another; a shallow pass along one side is left alone.
         let Some(t1) = reached(&|t| p1 - t * way).map(|t| 1.0 - t) else { return false };

@@ -3,7 +3,7 @@
 use super::layers::{Layered, Yielding};
 use super::section::Plane;
 use super::{Description, Motion, Plate, SHEAR_FACTOR, Shell, Shells, Strains, UNEVEN};
-use crate::elements::Block;
+use crate::elements::ElementBlock;
 use crate::math::Vec3;
 use nalgebra::{Matrix3, SMatrix, Vector2, Vector3};
 use std::array::from_fn;
@@ -204,7 +204,7 @@ impl Yielding {
         x: &[Vec3],
         plate: &Plate,
         damping: f64,
-    ) -> Box<dyn Block>
+    ) -> Box<dyn ElementBlock>
     where
         K: Kind<N, V> + 'static,
     {

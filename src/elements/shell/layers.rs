@@ -2,9 +2,9 @@
 
 use super::geometry::Spread;
 use super::section::{Plane, Section};
-use super::{Moduli, Now};
+use super::{Configuration, Moduli};
 use crate::elements::Layer;
-use crate::materials::{Law, PlaneStress, Spent};
+use crate::materials::{Dissipation, Law, PlaneStress};
 use crate::math::quadrature;
 use nalgebra::SMatrix;
 use std::array::from_fn;
@@ -131,13 +131,13 @@ impl<const M: usize> Section<M> for Layered<M> {
         &self.elastic
     }
 
-    fn stress(&self, strain: &[[f64; M]; 2], now: &Now) -> [[f64; M]; 2] {
+    fn stress(&self, strain: &[[f64; M]; 2], now: &Configuration) -> [[f64; M]; 2] {
         let mut stress = [[0.0; M]; 2];
         let all = self.layers.at.len() * self.layers.memory;
-        for (point, past) in self.points.iter().zip(now.past[self.share()].chunks_exact(all)) {
+        for (point, past) in self.points.iter().zip(now.history[self.share()].chunks_exact(all)) {
             let mut section = [[0.0; 3]; 2];
             self.through(point, strain, past, |at, strain, past| {
-                pile(&mut section, at, &self.layers.law.stress(PlaneStress, strain, now.since, past));
+                pile(&mut section, at, &self.layers.law.stress(PlaneStress, strain, now.dt, past));
             });
             Self::add(point, &section, &mut stress);
         }
@@ -148,7 +148,7 @@ impl<const M: usize> Section<M> for Layered<M> {
     fn linearise<'a>(
         &'a self,
         strain: &[[f64; M]; 2],
-        now: &Now,
+        now: &Configuration,
         moduli: Moduli,
         room: &'a mut Plane<M>,
     ) -> ([[f64; M]; 2], &'a Plane<M>) {
@@ -158,13 +158,13 @@ impl<const M: usize> Section<M> for Layered<M> {
         let mut stress = [[0.0; M]; 2];
         let mut yields = false;
         let all = self.layers.at.len() * self.layers.memory;
-        for (point, past) in self.points.iter().zip(now.past[self.share()].chunks_exact(all)) {
+        for (point, past) in self.points.iter().zip(now.history[self.share()].chunks_exact(all)) {
             let mut section = [[0.0; 3]; 2];
             // By the power of z.
             let mut loss = [[[0.0; 3]; 3]; 3];
             let mut here = false;
             self.through(point, strain, past, |[z, w], strain, past| {
-                let (sigma, C) = self.layers.law.linearise(PlaneStress, strain, now.since, past);
+                let (sigma, C) = self.layers.law.linearise(PlaneStress, strain, now.dt, past);
                 pile(&mut section, [z, w], &sigma);
                 let Some(C) = C else { return };
                 here = true;
@@ -192,35 +192,41 @@ impl<const M: usize> Section<M> for Layered<M> {
         (stress, if yields { room } else { &self.elastic })
     }
 
-    fn energy(&self, strain: &[[f64; M]; 2], now: &Now) -> f64 {
+    fn energy(&self, strain: &[[f64; M]; 2], now: &Configuration) -> f64 {
         let mut sum = 0.0;
-        self.each(strain, now.past, |_, [_, w], strain, past| {
+        self.each(strain, now.history, |_, [_, w], strain, past| {
             sum += w * self.layers.law.elastic_energy(PlaneStress, strain, past);
         });
         sum
     }
 
-    fn remember(&self, strain: &[[f64; M]; 2], now: &Now, part: f64, history: &mut [f64]) -> Spent {
-        let mut spent = Spent::default();
+    fn update_history(
+        &self,
+        strain: &[[f64; M]; 2],
+        now: &Configuration,
+        part: f64,
+        history: &mut [f64],
+    ) -> Dissipation {
+        let mut spent = Dissipation::default();
         let mut new = history[self.share()].chunks_exact_mut(self.layers.memory);
-        self.each(strain, now.past, |_, [_, w], strain, past| {
+        self.each(strain, now.history, |_, [_, w], strain, past| {
             if let Some(new) = new.next() {
-                spent += self.layers.law.advance(PlaneStress, strain, (now.since, part), past, new).1 * w;
+                spent += self.layers.law.advance(PlaneStress, strain, (now.dt, part), past, new).1 * w;
             }
         });
         spent
     }
 
-    fn layers(&self, strain: &[[f64; M]; 2], now: &Now, layers: &mut [Layer]) -> usize {
+    fn layers(&self, strain: &[[f64; M]; 2], now: &Configuration, layers: &mut [Layer]) -> usize {
         let count = self.layers.at.len();
         let layers = &mut layers[..count];
         layers.fill(Layer::default());
         let whole: f64 = self.points.iter().map(|point| point.weight).sum();
         let mut next = 0;
-        self.each(strain, now.past, |point, [z, _], strain, past| {
+        self.each(strain, now.history, |point, [z, _], strain, past| {
             let layer = &mut layers[next % count];
             next += 1;
-            let sigma = self.layers.law.stress(PlaneStress, strain, now.since, past);
+            let sigma = self.layers.law.stress(PlaneStress, strain, now.dt, past);
             layer.z = z;
             (0..3).for_each(|i| layer.stress[i] += point.weight / whole * sigma[i]);
             layer.plastic_strain = layer.plastic_strain.max(self.layers.law.accumulated(PlaneStress, past));

@@ -29,10 +29,10 @@ mod results;
 mod section;
 mod tangent;
 
-use super::{Block, Force, Moduli, Resultants, subtract};
-use crate::materials::Spent;
+use super::{ElementBlock, Force, Moduli, Resultants, subtract};
+use crate::materials::Dissipation;
 use crate::math::Vec3;
-use crate::state::{Node, Now};
+use crate::state::{Configuration, Node};
 use arc::Arc;
 pub use geometry::{Kind, Quadrilateral, Triangle, faces, products, shares};
 pub use layers::{MOST_LAYERS, Yielding};
@@ -156,7 +156,7 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
         for a in 0..N {
             let node = &nodes[self.nodes[a]];
             let R = node.R();
-            motion.x[a] = node.seen_from(first);
+            motion.x[a] = node.relative_position(first);
             motion.turning[0][a] = R * self.D[a];
             motion.turning[1][a] = R * self.T[0];
             motion.turning[2][a] = R * self.T[1];
@@ -358,7 +358,7 @@ impl<const N: usize, const V: usize, const M: usize, S: Section<M>> Shell<N, V, 
     }
 }
 
-impl<K, const N: usize, const V: usize, const M: usize, S> Block for Shells<K, N, V, M, S>
+impl<K, const N: usize, const V: usize, const M: usize, S> ElementBlock for Shells<K, N, V, M, S>
 where
     K: Kind<N, V>,
     S: Section<M>,
@@ -383,7 +383,7 @@ where
         self.elements.iter().map(|e| e.section.history()).sum()
     }
 
-    fn subtract_forces(&self, now: &Now, F: &mut [Force]) {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for element in &self.elements {
             let motion = element.gather(now.nodes);
             let strains = element.strains::<K>(&motion);
@@ -407,7 +407,7 @@ where
         }
     }
 
-    fn tangent(&self, e: usize, now: &Now, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         if self.damping > 0.0 {
             self.tangent_of::<true>(e, now, rate_weight, moduli, K);
         } else {
@@ -415,16 +415,16 @@ where
         }
     }
 
-    fn remember(&self, now: &Now, part: f64, history: &mut [f64]) -> Spent {
-        let mut spent = Spent::default();
+    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+        let mut spent = Dissipation::default();
         for element in &self.elements {
             let strains = element.strains::<K>(&element.gather(now.nodes));
-            spent += element.section.remember(&strains.plane, now, part, history);
+            spent += element.section.update_history(&strains.plane, now, part, history);
         }
         spent
     }
 
-    fn energy(&self, now: &Now) -> f64 {
+    fn energy(&self, now: &Configuration) -> f64 {
         let mut sum = 0.0;
         for element in &self.elements {
             let strains = element.strains::<K>(&element.gather(now.nodes));
@@ -437,7 +437,7 @@ where
         sum
     }
 
-    fn damping_power(&self, now: &Now) -> f64 {
+    fn damping_power(&self, now: &Configuration) -> f64 {
         if self.damping == 0.0 {
             return 0.0;
         }
@@ -454,7 +454,7 @@ where
         self.damping * sum
     }
 
-    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Now) -> Option<Resultants> {
+    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Configuration) -> Option<Resultants> {
         self.resultants_of(e, axis, start, now)
     }
 

@@ -9,7 +9,7 @@ use super::{Kind, MOST_LAYERS, Motion, Shell, Shells, Strains};
 use crate::elements::pressure::Face;
 use crate::elements::{Layer, Resultants};
 use crate::math::{Mat3, Vec3};
-use crate::state::Now;
+use crate::state::Configuration;
 use std::array::from_fn;
 
 /// An axis nearer to the normal than this (its part in the plane, some 1°) has no direction there.
@@ -36,7 +36,7 @@ where
     S: Section<M>,
 {
     /// Of element `e`, whose nodes lay at `X`; axis 1 is `axis` laid into the surface at t = 0.
-    pub(super) fn resultants_of(&self, e: usize, axis: &Vec3, X: &[Vec3], now: &Now) -> Option<Resultants> {
+    pub(super) fn resultants_of(&self, e: usize, axis: &Vec3, X: &[Vec3], now: &Configuration) -> Option<Resultants> {
         let element: &Shell<N, V, M, S> = &self.elements[e];
         let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
         let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();

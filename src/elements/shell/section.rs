@@ -1,30 +1,36 @@
 //! How the plane of a shell answers to strain: elastic here, by layers in [`super::layers`].
 
-use super::{Moduli, Now};
+use super::{Configuration, Moduli};
 use crate::elements::Layer;
-use crate::materials::Spent;
+use crate::materials::Dissipation;
 
 /// The sections of one element. Strains and stresses are the M numbers of the membrane and the M of bending.
 pub trait Section<const M: usize>: Send + Sync {
     /// The law before anything yields.
     fn elastic(&self) -> &Plane<M>;
-    fn stress(&self, strain: &[[f64; M]; 2], now: &Now) -> [[f64; M]; 2];
+    fn stress(&self, strain: &[[f64; M]; 2], now: &Configuration) -> [[f64; M]; 2];
     /// Stress and its derivative, for which there is `room`.
     fn linearise<'a>(
         &'a self,
         strain: &[[f64; M]; 2],
-        now: &Now,
+        now: &Configuration,
         moduli: Moduli,
         room: &'a mut Plane<M>,
     ) -> ([[f64; M]; 2], &'a Plane<M>);
     /// Elastic energy.
-    fn energy(&self, strain: &[[f64; M]; 2], now: &Now) -> f64;
+    fn energy(&self, strain: &[[f64; M]; 2], now: &Configuration) -> f64;
     /// Writes its share of the history.
-    fn remember(&self, _strain: &[[f64; M]; 2], _now: &Now, _part: f64, _history: &mut [f64]) -> Spent {
-        Spent::default()
+    fn update_history(
+        &self,
+        _strain: &[[f64; M]; 2],
+        _now: &Configuration,
+        _part: f64,
+        _history: &mut [f64],
+    ) -> Dissipation {
+        Dissipation::default()
     }
     /// Writes each layer's mean stress and largest plastic strain, in axes of the element, and returns how many there are.
-    fn layers(&self, _strain: &[[f64; M]; 2], _now: &Now, _layers: &mut [Layer]) -> usize {
+    fn layers(&self, _strain: &[[f64; M]; 2], _now: &Configuration, _layers: &mut [Layer]) -> usize {
         0
     }
     /// Largest accumulated plastic strain.
@@ -86,7 +92,7 @@ impl<const M: usize> Section<M> for Plane<M> {
     }
 
     #[inline(always)]
-    fn stress(&self, strain: &[[f64; M]; 2], _: &Now) -> [[f64; M]; 2] {
+    fn stress(&self, strain: &[[f64; M]; 2], _: &Configuration) -> [[f64; M]; 2] {
         Plane::stress(self, strain)
     }
 
@@ -94,14 +100,14 @@ impl<const M: usize> Section<M> for Plane<M> {
     fn linearise<'a>(
         &'a self,
         strain: &[[f64; M]; 2],
-        _: &Now,
+        _: &Configuration,
         _: Moduli,
         _: &'a mut Plane<M>,
     ) -> ([[f64; M]; 2], &'a Plane<M>) {
         (Plane::stress(self, strain), self)
     }
 
-    fn energy(&self, strain: &[[f64; M]; 2], _: &Now) -> f64 {
+    fn energy(&self, strain: &[[f64; M]; 2], _: &Configuration) -> f64 {
         0.5 * product(strain, &Plane::stress(self, strain))
     }
 }

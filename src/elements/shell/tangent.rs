@@ -5,7 +5,7 @@ use super::section::{Plane, Section};
 use super::{Bending, Curvature, Kind, Motion, Shell, Shells, Strains, sum};
 use crate::elements::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
-use crate::state::Now;
+use crate::state::Configuration;
 use std::array::from_fn;
 
 /// A row of B over the nodes' positions and rotations.
@@ -138,7 +138,7 @@ where
     pub(super) fn tangent_of<const DAMPED: bool>(
         &self,
         e: usize,
-        now: &Now,
+        now: &Configuration,
         rate_weight: f64,
         moduli: Moduli,
         K: &mut [f64],
