@@ -4,7 +4,7 @@
 #[path = "../tests/structures/mod.rs"]
 mod structures;
 
-use rdsolve::linear::{Kind, Solver, Structure};
+use rdsolve::linear::{Factorization, Solver, Structure};
 use std::time::Instant;
 use structures::{Random, Values, chain, entries, fill, frame, quadratic_chain, sheet, slots};
 
@@ -20,7 +20,7 @@ fn least<T>(subject: &mut T, budget: f64, prepare: impl Fn(&mut T), call: impl F
     least
 }
 
-fn measure(name: &str, structure: &Structure, kind: Kind, values: Values, threads: usize) {
+fn measure(name: &str, structure: &Structure, kind: Factorization, values: Values, threads: usize) {
     let filters: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     if !filters.is_empty() && !filters.iter().any(|filter| name.starts_with(filter)) {
         return;
@@ -45,7 +45,7 @@ fn measure(name: &str, structure: &Structure, kind: Kind, values: Values, thread
         stats.flops,
         stats.nonzeros,
         stats.ordering,
-        Kind::choose(structure),
+        Factorization::choose(structure),
     );
 }
 
@@ -75,15 +75,15 @@ fn main() {
     ];
     for (name, structure) in &small {
         for values in [Values::Unsymmetric, Values::Definite] {
-            measure(name, structure, Kind::Block, values, 1);
+            measure(name, structure, Factorization::BlockLu, values, 1);
         }
         for values in [Values::Definite, Values::Indefinite] {
-            measure(name, structure, Kind::Cholesky, values, 1);
+            measure(name, structure, Factorization::Cholesky, values, 1);
         }
     }
     for (name, structure) in [("frame 15x15x15", frame(15, 15, 15, 6)), ("frame 20x22x23", frame(20, 22, 23, 6))] {
         for threads in [1, 2] {
-            measure(&format!("{name} /{threads}"), &structure, Kind::Cholesky, Values::Definite, threads);
+            measure(&format!("{name} /{threads}"), &structure, Factorization::Cholesky, Values::Definite, threads);
         }
     }
 }

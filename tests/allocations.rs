@@ -86,7 +86,7 @@ fn lively(rng: &mut StdRng) -> Model {
 fn no_step_after_the_first_allocates() {
     let mut m = lively(&mut StdRng::seed_from_u64(71));
     for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
-        for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+        for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
             for cadence in [Cadence::Steps(1), Cadence::Interval(0.012)] {
                 m.iteration.update = update;
                 m.output.cadence = cadence;
@@ -96,14 +96,14 @@ fn no_step_after_the_first_allocates() {
     }
     let fixed = m.analysis.step_length.clone();
     m.analysis.step_length = StepLength::ErrorControlled { tolerance: 1e-4, first: m.analysis.nominal_step() };
-    assert_none(&m, rdsolve::linear::Kind::Block);
+    assert_none(&m, rdsolve::linear::Factorization::BlockLu);
     m.analysis.step_length = fixed;
     soften(&mut m, 10.0);
     m.iteration.limit = 200;
     for method in [Method::TangentStiffness, Method::InitialLoad, Method::Auto] {
         for update in [Update::Step, Update::Auto] {
             (m.iteration.method, m.iteration.update) = (method, update);
-            let state = assert_none(&m, rdsolve::linear::Kind::Block);
+            let state = assert_none(&m, rdsolve::linear::Factorization::BlockLu);
             assert!(state.work.material.plastic > 0.1, "{:?}", state.work);
         }
     }
@@ -112,7 +112,7 @@ fn no_step_after_the_first_allocates() {
         let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
         let StepLength::ArcLength(path) = &mut model.analysis.step_length else { panic!("no path") };
         path.first *= 0.5;
-        for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+        for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
             assert_none(&model, kind);
         }
     }
@@ -139,7 +139,7 @@ fn explicit_steps_allocate_nothing_either() {
             model.expects.clear();
             model.output.cadence = Cadence::Steps(1);
             model.analysis.step_length = StepLength::Fixed { step: end / 500.0 };
-            assert_none(&model, rdsolve::linear::Kind::Block);
+            assert_none(&model, rdsolve::linear::Factorization::BlockLu);
         }
     }
     let deck = include_str!("../decks/portal_and_block/deck.toml");
@@ -148,7 +148,7 @@ fn explicit_steps_allocate_nothing_either() {
     let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
     (model.analysis.end_time, model.analysis.step_length) = (0.02, StepLength::Fixed { step: 8e-6 });
     model.expects.clear();
-    let state = assert_none(&model, rdsolve::linear::Kind::Block);
+    let state = assert_none(&model, rdsolve::linear::Factorization::BlockLu);
     assert!(state.work.material.plastic > 1.0, "{:?}", state.work);
 }
 
@@ -156,7 +156,7 @@ fn explicit_steps_allocate_nothing_either() {
 fn contacts_neither() {
     let deck = include_str!("contact/beam_and_ball.toml");
     let model = rdsolve::model::read(&Source::new("deck.toml", deck, &[])).0.expect("a sound deck");
-    for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+    for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
         let state = assert_none(&model, kind);
         assert!(state.work.material.friction > 0.0 && state.work.material.impact > 0.0, "{:?}", state.work);
     }
@@ -170,7 +170,7 @@ fn joints_neither() {
         let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
         model.analysis.end_time = 0.5;
         model.expects.clear();
-        for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+        for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
             let state = assert_none(&model, kind);
             assert!(state.multipliers.iter().any(|force| force.abs() > 1.0), "{scheme}: {:?}", state.multipliers);
         }
@@ -191,13 +191,13 @@ fn shells_neither() {
     let pulse = sine_squared(&mut m, 4.0);
     press(&mut m, 4.0, Some(pulse));
     m.damping.stiffness_factor = 1e-3;
-    for kind in [rdsolve::linear::Kind::Block, rdsolve::linear::Kind::Cholesky] {
+    for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
         assert_none(&m, kind);
     }
     soften(&mut m, 10.0);
     m.iteration.limit = 200;
     m.iteration.method = Method::Auto;
-    let state = assert_none(&m, rdsolve::linear::Kind::Block);
+    let state = assert_none(&m, rdsolve::linear::Factorization::BlockLu);
     assert!(state.work.material.plastic > 0.01, "{:?}", state.work);
 }
 
@@ -210,10 +210,10 @@ fn large_scenes_neither() {
     let pulse = sine_squared(&mut m, 0.07);
     press(&mut m, 0.1, Some(pulse));
     m.iteration.update = Update::Step;
-    assert_none(&m, rdsolve::linear::Kind::Cholesky);
+    assert_none(&m, rdsolve::linear::Factorization::Cholesky);
 }
 
-fn assert_none(m: &Model, kind: rdsolve::linear::Kind) -> State {
+fn assert_none(m: &Model, kind: rdsolve::linear::Factorization) -> State {
     let system = System::new(m).unwrap();
     let stop = AtomicBool::new(false);
     let wanted = Wanted::ALL;

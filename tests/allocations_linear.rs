@@ -2,7 +2,7 @@
 
 mod structures;
 
-use rdsolve::linear::{Kind, Solver};
+use rdsolve::linear::{Factorization, Solver};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use structures::{Random, Values, chain, entries, fill, frame, slots};
@@ -34,7 +34,7 @@ static ALLOCATOR: Counting = Counting;
 fn nothing_is_allocated_after_the_first_time() {
     let mut random = Random(5);
     for structure in [chain(20, 6), chain(20, 3), frame(4, 4, 4, 6)] {
-        for kind in [Kind::Block, Kind::Cholesky] {
+        for kind in [Factorization::BlockLu, Factorization::Cholesky] {
             let mut solver = Solver::new(&structure, kind, 1).unwrap();
             let matrices = [Values::Definite, Values::Indefinite]
                 .map(|values| slots(&solver, &entries(&structure, values, &mut random)));

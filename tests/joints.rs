@@ -4,7 +4,7 @@ mod support;
 
 use rdsolve::constraints::joint::{Row, rotations};
 use rdsolve::diagnostic::Source;
-use rdsolve::linear::Kind;
+use rdsolve::linear::Factorization;
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
@@ -572,7 +572,7 @@ force = [0.0, 0.0, 200.0]
     let [one, other] = ["", "method = \"multipliers\""].map(|method| {
         let model = from_text(&text(method));
         let system = System::new(&model).expect("a system");
-        assert_eq!(Plan::new(&model, &system, 1).kind, Kind::Cholesky);
+        assert_eq!(Plan::new(&model, &system, 1).kind, Factorization::Cholesky);
         let corner = node(&model, "e");
         let done = run_to_the_end(&model, &mut |frame| position(&frame.state.nodes[corner]).to_vec());
         println!("{} iterations", done.counts.iterations);

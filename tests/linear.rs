@@ -3,7 +3,7 @@
 mod structures;
 
 use nalgebra::{DMatrix, DVector};
-use rdsolve::linear::{Kind, Solver, Structure};
+use rdsolve::linear::{Factorization, Solver, Structure};
 use structures::{Random, Values, chain, cliques, entries, fill, frame, quadratic_chain, sheet, slots, tree};
 
 fn shapes(random: &mut Random) -> Vec<Structure> {
@@ -64,9 +64,9 @@ fn check(solver: &mut Solver, structure: &Structure, values: Values, random: &mu
 fn both_agree_with_a_dense_factorisation() {
     let mut random = Random(1);
     for structure in shapes(&mut random) {
-        let mut block = Solver::new(&structure, Kind::Block, 1).unwrap();
-        let mut cholesky = Solver::new(&structure, Kind::Cholesky, 1).unwrap();
-        assert!(!block.symmetric() && cholesky.symmetric());
+        let mut block = Solver::new(&structure, Factorization::BlockLu, 1).unwrap();
+        let mut cholesky = Solver::new(&structure, Factorization::Cholesky, 1).unwrap();
+        assert!(!block.is_symmetric() && cholesky.is_symmetric());
         for _ in 0..3 {
             for values in [Values::Unsymmetric, Values::Definite, Values::Indefinite] {
                 check(&mut block, &structure, values, &mut random);
@@ -84,7 +84,7 @@ fn slots_are_symmetric_unique_and_inside_the_structure() {
     for structure in shapes(&mut random) {
         let n = unknowns(&structure);
         let group: Vec<usize> = structure.sizes.iter().enumerate().flat_map(|(g, &s)| vec![g; s]).collect();
-        for kind in [Kind::Block, Kind::Cholesky] {
+        for kind in [Factorization::BlockLu, Factorization::Cholesky] {
             let mut solver = Solver::new(&structure, kind, 1).unwrap();
             let mut taken = vec![false; solver.values().len()];
             taken[solver.spare()] = true;
@@ -94,10 +94,10 @@ fn slots_are_symmetric_unique_and_inside_the_structure() {
                     let (g, h) = (group[i], group[j]);
                     let coupled = g == h || structure.cliques.iter().any(|c| c.contains(&g) && c.contains(&h));
                     assert_eq!(slot.is_some(), coupled, "{kind:?} ({i}, {j})");
-                    if let (Some(slot), true) = (slot, !solver.symmetric() || i >= j) {
+                    if let (Some(slot), true) = (slot, !solver.is_symmetric() || i >= j) {
                         assert!(!std::mem::replace(&mut taken[slot], true), "{kind:?} ({i}, {j})");
                     }
-                    if solver.symmetric() {
+                    if solver.is_symmetric() {
                         assert_eq!(slot, solver.slot(j, i));
                     }
                 }
@@ -114,7 +114,7 @@ fn the_row_of_a_vanishing_pivot_is_named_and_the_solver_lives_on() {
         let good = entries(&structure, Values::Definite, &mut random);
         let first: Vec<usize> =
             structure.sizes.iter().scan(0, |sum, s| Some(std::mem::replace(sum, *sum + s))).collect();
-        for kind in [Kind::Block, Kind::Cholesky] {
+        for kind in [Factorization::BlockLu, Factorization::Cholesky] {
             let mut solver = Solver::new(&structure, kind, 1).unwrap();
             let all = slots(&solver, &good);
 
@@ -152,7 +152,7 @@ fn the_row_of_a_vanishing_pivot_is_named_and_the_solver_lives_on() {
 fn a_floating_chain_of_springs_is_singular() {
     for n in [2, 10, 300] {
         let structure = chain(n, 1);
-        for kind in [Kind::Block, Kind::Cholesky] {
+        for kind in [Factorization::BlockLu, Factorization::Cholesky] {
             let mut solver = Solver::new(&structure, kind, 1).unwrap();
             let mut random = Random(n as u64);
             let springs = (1..n).flat_map(|i| {
@@ -190,7 +190,7 @@ fn stiff_directions_do_not_spoil_the_soft_ones() {
     entries.extend((0..9).map(|e| (e / 3, e % 3, element[(3 + e / 3, 3 + e % 3)])));
     let matrix = dense(3 * n, &entries);
     let b = DVector::from_fn(3 * n, |i, _| if i == 3 * n - 2 { 1.0 } else { 0.0 });
-    for kind in [Kind::Block, Kind::Cholesky] {
+    for kind in [Factorization::BlockLu, Factorization::Cholesky] {
         let mut solver = Solver::new(&structure, kind, 1).unwrap();
         let slots = slots(&solver, &entries);
         fill(&mut solver, &slots);
@@ -209,7 +209,7 @@ fn stiff_directions_do_not_spoil_the_soft_ones() {
 #[test]
 fn rows_are_exchanged_within_a_block() {
     let structure = Structure { sizes: vec![6, 6], cliques: vec![vec![0, 1]], multipliers: 0 };
-    let mut solver = Solver::new(&structure, Kind::Block, 1).unwrap();
+    let mut solver = Solver::new(&structure, Factorization::BlockLu, 1).unwrap();
     let matrix = DMatrix::from_fn(12, 12, |i, j| match ((i + 1) % 6 == j % 6, i / 6 == j / 6) {
         (true, true) => 2.0 + i as f64,
         (true, false) => 0.3,
@@ -227,10 +227,13 @@ fn rows_are_exchanged_within_a_block() {
 
 #[test]
 fn chains_go_to_blocks_and_large_frames_to_cholesky() {
-    assert_eq!(Kind::choose(&chain(2, 6)), Kind::Block);
-    assert_eq!(Kind::choose(&chain(2000, 6)), Kind::Block);
-    assert_eq!(Kind::choose(&frame(10, 6, 6, 6)), Kind::Cholesky);
-    assert_eq!(Kind::choose(&Structure { sizes: vec![], cliques: vec![], multipliers: 0 }), Kind::Block);
+    assert_eq!(Factorization::choose(&chain(2, 6)), Factorization::BlockLu);
+    assert_eq!(Factorization::choose(&chain(2000, 6)), Factorization::BlockLu);
+    assert_eq!(Factorization::choose(&frame(10, 6, 6, 6)), Factorization::Cholesky);
+    assert_eq!(
+        Factorization::choose(&Structure { sizes: vec![], cliques: vec![], multipliers: 0 }),
+        Factorization::BlockLu
+    );
 }
 
 #[test]
@@ -239,7 +242,7 @@ fn threads_do_not_change_a_bit() {
     for values in [Values::Definite, Values::Indefinite] {
         let entries = entries(&structure, values, &mut Random(4));
         let solutions = [1, 2, 3].map(|threads| {
-            let mut solver = Solver::new(&structure, Kind::Cholesky, threads).unwrap();
+            let mut solver = Solver::new(&structure, Factorization::Cholesky, threads).unwrap();
             assert!(solver.stats().flops > 5e8, "too small for threads: {}", solver.describe());
             let slots = slots(&solver, &entries);
             fill(&mut solver, &slots);
@@ -261,14 +264,14 @@ fn large_sheets_and_frames_leave_no_residual() {
         let n = unknowns(&structure);
         let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         for threads in [1, 3] {
-            let mut solver = Solver::new(&structure, Kind::Cholesky, threads).unwrap();
+            let mut solver = Solver::new(&structure, Factorization::Cholesky, threads).unwrap();
             assert!(solver.stats().flops > 1e8, "too small to be cut: {}", solver.describe());
             let slots = slots(&solver, &entries);
             // Twice: what is left of a factorisation does not enter the next.
             for _ in 0..2 {
                 fill(&mut solver, &slots);
                 solver.factor().unwrap();
-                assert_eq!(solver.negatives(), 0);
+                assert_eq!(solver.negative_eigenvalues(), 0);
             }
             let mut x = b.clone();
             solver.solve(&mut x);
@@ -291,7 +294,7 @@ fn blocks_lie_where_their_entries_do() {
         cliques: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]],
         multipliers: 0,
     };
-    let solver = Solver::new(&structure, Kind::Cholesky, 1).unwrap();
+    let solver = Solver::new(&structure, Factorization::Cholesky, 1).unwrap();
     let first = [0, 6, 12, 17, 23, 29];
     let rows = |g: usize| std::array::from_fn(|i| (first[g] + i) as u32);
     let (mut there, mut missing) = (0, 0);
@@ -314,7 +317,7 @@ fn blocks_lie_where_their_entries_do() {
     }
     // Four groups of six by themselves and three couplings of them, both ways.
     assert_eq!((there, missing), (4 + 6, 36 - 10));
-    assert!(Solver::new(&structure, Kind::Block, 1).unwrap().tile(&rows(0), &rows(1)).is_none());
+    assert!(Solver::new(&structure, Factorization::BlockLu, 1).unwrap().tile(&rows(0), &rows(1)).is_none());
 }
 
 /// Diagonals outweigh their rows, so by Gershgorin's circles the negative ones tell the negative eigenvalues.
@@ -326,12 +329,12 @@ fn negative_eigenvalues_are_counted() {
     {
         for (values, negative) in [(Values::Definite, false), (Values::Indefinite, true)] {
             let expected: usize = structure.sizes.iter().skip(1).step_by(3).sum();
-            for kind in [Kind::Block, Kind::Cholesky] {
+            for kind in [Factorization::BlockLu, Factorization::Cholesky] {
                 let mut solver = Solver::new(&structure, kind, 1).unwrap();
                 let slots = slots(&solver, &entries(&structure, values, &mut random));
                 fill(&mut solver, &slots);
                 solver.factor().unwrap();
-                assert_eq!(solver.negatives(), if negative { expected } else { 0 }, "{kind:?} {values:?}");
+                assert_eq!(solver.negative_eigenvalues(), if negative { expected } else { 0 }, "{kind:?} {values:?}");
             }
         }
     }
@@ -341,10 +344,10 @@ fn negative_eigenvalues_are_counted() {
 #[test]
 fn negative_eigenvalues_off_the_diagonal_are_counted() {
     let structure = chain(5, 2);
-    let mut solver = Solver::new(&structure, Kind::Block, 1).unwrap();
+    let mut solver = Solver::new(&structure, Factorization::BlockLu, 1).unwrap();
     let entries: Vec<_> = (0..5).flat_map(|g| [(2 * g, 2 * g + 1, 1.0), (2 * g + 1, 2 * g, 1.0)]).collect();
     let slots = slots(&solver, &entries);
     fill(&mut solver, &slots);
     solver.factor().unwrap();
-    assert_eq!(solver.negatives(), 5);
+    assert_eq!(solver.negative_eigenvalues(), 5);
 }

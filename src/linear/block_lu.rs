@@ -1,30 +1,32 @@
-//! LU factorisation on dense B×B blocks, one per group: pattern symmetric, values not.
+//! LU factorisation on dense B×B blocks, one per group: the pattern is symmetric, the values need not be.
 //!
 //! Blocks are eliminated in a fixed order without exchange between them; within a diagonal block rows are exchanged, so
 //! that indefinite tangents pass. A = L U with L_ik = A_ik D_k⁻¹ and U_ki = A_ki, where D_k is the diagonal block when
-//! its turn comes and its inverse is what is kept: to multiply by it is shorter than a substitution, whose operations wait
-//! for each other. A group of fewer than B unknowns is padded with rows of the identity.
+//! its turn comes. Its inverse is kept: to multiply by it is faster than a substitution, whose operations wait for each
+//! other. A group of fewer than B unknowns is padded with rows of the identity.
 
 use super::elimination::Elimination;
 use super::graph::Graph;
-use super::kernel::{Block, Column, invert, negatives, product, row_scale, subtract_product, subtract_times, times};
-use super::{Singular, Stats};
+use super::kernel::{Column, DenseBlock, gemm, gemv, invert, multiply, negative_eigenvalues, product, row_scale};
+use super::pivot::Singular;
+use super::stats::Stats;
 
+/// A matrix of B×B blocks and its LU factorisation.
 pub struct BlockLu<const B: usize> {
     graph: Graph,
     elimination: Elimination,
-    /// First block of each position k in `blocks`: D_k, then L_ik and then U_ki for each i of `below(k)`. One more at
-    /// the end, which is the spare block.
+    /// The first block of each position k in `blocks`: D_k, then L_ik and then U_ki for each i of `below(k)`. The last entry
+    /// is that of the spare block.
     start: Vec<usize>,
-    /// For each k and each pair i < j of `below(k)`: the place of j in `below(i)`.
+    /// The place of j in `below(i)`, for each k and each pair i < j of `below(k)`.
     places: Vec<u32>,
-    /// Diagonal entries of unknowns that are not there, in `values`.
+    /// The places in `values` of the diagonal entries that pad groups of fewer than B unknowns.
     padding: Vec<usize>,
     /// Written by assembly, overwritten by `factor`.
-    blocks: Vec<Block<B>>,
-    /// Largest entry of each row of the diagonal blocks as assembled, by position. Written by `factor`.
+    blocks: Vec<DenseBlock<B>>,
+    /// The largest magnitude in each row of the diagonal blocks as assembled, by position. Written by `factor`.
     scales: Vec<Column<B>>,
-    /// Right-hand side and solution by position; zero where an unknown is not there. Written by `solve`.
+    /// Right-hand side and solution by position; zero in padded rows. Written by `solve`.
     x: Vec<Column<B>>,
 }
 
@@ -37,7 +39,7 @@ impl<const B: usize> BlockLu<B> {
         for k in 0..n {
             let below = elimination.below(k);
             for (t, &i) in below.iter().enumerate() {
-                // Fill: whatever couples with k couples with i, so the search always finds.
+                // By fill, all groups that couple with k couple with i, so the search always finds one.
                 let row = elimination.below(i as usize);
                 places.extend(below[t + 1..].iter().map(|j| row.partition_point(|other| other < j) as u32));
             }
@@ -75,7 +77,7 @@ impl<const B: usize> BlockLu<B> {
         (self.blocks.len() - 1) * B * B
     }
 
-    /// Right-looking: each D_k in turn, then what it changes in all blocks below and right of it.
+    /// Right-looking elimination: inverts each D_k in turn and updates all blocks below and right of it.
     pub(super) fn factor(&mut self) -> Result<(), Singular> {
         let values = self.blocks.as_flattened_mut().as_flattened_mut();
         for &slot in &self.padding {
@@ -100,11 +102,11 @@ impl<const B: usize> BlockLu<B> {
             for (t, &i) in below.iter().enumerate() {
                 let i = i as usize;
                 let (at, m) = (self.start[i] - self.start[k + 1], self.elimination.below(i).len());
-                subtract_product(&mut rest[at], &L[t], &U[t]);
+                gemm(&mut rest[at], &L[t], &U[t]);
                 for (s, &place) in (t + 1..below.len()).zip(&mut places) {
                     let lower = at + 1 + place as usize;
-                    subtract_product(&mut rest[lower], &L[s], &U[t]);
-                    subtract_product(&mut rest[lower + m], &L[t], &U[s]);
+                    gemm(&mut rest[lower], &L[s], &U[t]);
+                    gemm(&mut rest[lower + m], &L[t], &U[s]);
                 }
             }
         }
@@ -118,20 +120,21 @@ impl<const B: usize> BlockLu<B> {
             let x = self.x[k];
             let below = self.elimination.below(k);
             for (L, &i) in self.blocks[self.start[k] + 1..].iter().zip(below) {
-                subtract_times(&mut self.x[i as usize], L, &x);
+                gemv(&mut self.x[i as usize], L, &x);
             }
         }
         for k in (0..n).rev() {
             let mut x = self.x[k];
             let below = self.elimination.below(k);
             for (U, &i) in self.blocks[self.start[k] + 1 + below.len()..].iter().zip(below) {
-                subtract_times(&mut x, U, &self.x[i as usize]);
+                gemv(&mut x, U, &self.x[i as usize]);
             }
-            self.x[k] = times(&self.blocks[self.start[k]], &x);
+            self.x[k] = multiply(&self.blocks[self.start[k]], &x);
         }
         self.scatter(b);
     }
 
+    /// Copies `b`, by external rows, to `x`, by position.
     fn gather(&mut self, b: &[f64]) {
         for (x, &g) in self.x.iter_mut().zip(&self.elimination.order) {
             let b = &b[self.graph.first[g]..self.graph.first[g + 1]];
@@ -142,6 +145,7 @@ impl<const B: usize> BlockLu<B> {
         }
     }
 
+    /// Copies `x`, by position, to `b`, by external rows.
     fn scatter(&self, b: &mut [f64]) {
         for (x, &g) in self.x.iter().zip(&self.elimination.order) {
             let b = &mut b[self.graph.first[g]..self.graph.first[g + 1]];
@@ -152,9 +156,9 @@ impl<const B: usize> BlockLu<B> {
         }
     }
 
-    /// Those of the diagonal blocks D_k, which A = L D Lᵀ leaves; a block and its inverse have as many.
-    pub(super) fn negatives(&self) -> usize {
-        (0..self.elimination.groups()).map(|k| negatives(&self.blocks[self.start[k]])).sum()
+    /// The negative eigenvalues of the diagonal blocks D_k, as A = L D Lᵀ; a block and its inverse have equally many.
+    pub(super) fn negative_eigenvalues(&self) -> usize {
+        (0..self.elimination.groups()).map(|k| negative_eigenvalues(&self.blocks[self.start[k]])).sum()
     }
 
     pub(super) fn stats(&self) -> Stats {

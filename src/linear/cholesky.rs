@@ -1,52 +1,59 @@
-//! Supernodal Cholesky factorisation K = L Lᵀ by fronts, or by faer L D Lᵀ where K is not positive definite.
+//! Supernodal Cholesky factorisation: multifrontal K = L Lᵀ, or faer's L D Lᵀ where K is not positive definite.
 //!
-//! Assembly writes straight into the lower triangle in the order of elimination, the one form faer takes without
-//! permuting the matrix at each factorisation. L has the form that faer gives it, whose substitutions serve both. L D Lᵀ goes without pivoting: beyond a buckling load it holds as well as
-//! the leading minors stay away from zero, and the residual of the caller tells.
+//! Assembly writes straight into the lower triangle in the order of elimination, the one form that faer takes without
+//! permuting the matrix at each factorisation. L is stored as faer stores it. L D Lᵀ is formed without pivoting: beyond a
+//! buckling load it is as accurate as the leading minors are away from zero, and the caller's residual shows whether it was.
 
 use super::elimination::Elimination;
 use super::fronts::Fronts;
 use super::graph::Graph;
-use super::memory::{TooLarge, room};
-use super::{Singular, Stats, Tile, VANISHED};
+use super::memory::{self, TooLarge};
+use super::pivot::{PIVOT_TOLERANCE, Singular};
+use super::stats::Stats;
+use super::tile::Tile;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
-/// Below this many operations the threads of the dense kernels cost more than they bring.
+/// Factorisations of fewer operations run on one thread: there threads cost more time than they save.
 const WORTH_THREADS: f64 = 5e8;
 
+/// A symmetric matrix and its Cholesky factorisation.
 pub struct Cholesky {
     graph: Graph,
     ordering: &'static str,
     flops: f64,
-    /// Position in the order of elimination of each external row, and the other way round.
+    /// The position in the order of elimination of each external row.
     position: Vec<usize>,
+    /// The external row at each position.
     external: Vec<usize>,
-    /// Pattern of the lower triangle in the order of elimination; each column begins with its diagonal.
+    /// The pattern of the lower triangle in the order of elimination; each column begins with its diagonal entry.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: supernodal::SymbolicSupernodalCholesky<usize>,
     fronts: Fronts,
     par: Par,
-    /// Lower triangle, and the spare place. Written by assembly.
+    /// The lower triangle, and the spare place at the end. Written by assembly.
     values: Vec<f64>,
-    /// The factor, its diagonal at `diagonal`. Written by `factor`.
+    /// The factor, L or L with D on its diagonal. Written by `factor`.
     L: Vec<f64>,
+    /// The place in `L` of each diagonal entry.
     diagonal: Vec<usize>,
+    /// The matrix factored last is positive definite, and `L` is that of L Lᵀ. Written by `factor`.
     definite: bool,
     /// Right-hand side and solution in the order of elimination. Written by `solve`.
     x: Vec<f64>,
+    /// The workspace of faer for L D Lᵀ, empty until a matrix needs it.
     buffer: MemBuffer,
-    /// Whether `buffer` is large enough for L D Lᵀ: only matrices that need it pay for it.
+    /// `buffer` is large enough.
     ready_for_indefinite: bool,
 }
 
 impl Cholesky {
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph);
-        room(graph.unknowns(), elimination.nonzeros)?;
+        memory::require(graph.unknowns(), elimination.nonzeros)?;
         let external: Vec<usize> = elimination.order.iter().flat_map(|&g| graph.first[g]..graph.first[g + 1]).collect();
         let mut position = vec![0; external.len()];
         for (p, &row) in external.iter().enumerate() {
@@ -56,8 +63,8 @@ impl Cholesky {
         let symbolic = symbolic(triangle(&graph, &elimination, &position, |p, q| q <= p).as_ref());
         let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
         let symbolic = symbolic.map_err(|_| TooLarge { unknowns: graph.unknowns(), needed: bytes })?;
-        // Once more: the patterns have taken their part.
-        room(graph.unknowns(), symbolic.len_val())?;
+        // The patterns have taken their part of the memory, so it is asked once more.
+        memory::require(graph.unknowns(), symbolic.len_val())?;
         let par = match elimination.flops > WORTH_THREADS && threads > 1 {
             true => Par::rayon(threads),
             false => Par::Seq,
@@ -118,8 +125,8 @@ impl Cholesky {
         self.values.len() - 1
     }
 
-    /// L Lᵀ first, always, but with multipliers: an answer that depended on the matrices before could not be resumed bit for bit.
-    /// Allocates only on several threads, whose pool does.
+    /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
+    /// the same bits. Only the pool of several threads allocates.
     pub(super) fn factor(&mut self) -> Result<(), Singular> {
         self.definite = self.graph.multipliers == 0 && self.fronts.factor(&self.values, &mut self.L);
         if !self.definite {
@@ -128,13 +135,14 @@ impl Cholesky {
 
         for (p, &at) in self.diagonal.iter().enumerate() {
             let pivot = if self.definite { self.L[at] * self.L[at] } else { self.L[at] };
-            if pivot.abs() <= VANISHED * self.values[self.pattern.col_ptr()[p]].abs() {
+            if pivot.abs() <= PIVOT_TOLERANCE * self.values[self.pattern.col_ptr()[p]].abs() {
                 return Err(Singular { row: self.external[p], pivot });
             }
         }
         Ok(())
     }
 
+    /// Takes the memory of L D Lᵀ.
     pub(super) fn prepare_indefinite(&mut self) {
         if !self.ready_for_indefinite {
             let indefinite = supernodal::factorize_supernodal_numeric_ldlt_scratch::<usize, f64>(
@@ -147,11 +155,12 @@ impl Cholesky {
         }
     }
 
-    /// Those of D: none where K = L Lᵀ.
-    pub(super) fn negatives(&self) -> usize {
+    /// The number of negative entries of D: none where K = L Lᵀ.
+    pub(super) fn negative_eigenvalues(&self) -> usize {
         if self.definite { 0 } else { self.diagonal.iter().filter(|&&at| self.L[at] < 0.0).count() }
     }
 
+    /// L D Lᵀ by faer.
     fn factor_indefinite(&mut self) -> Result<(), Singular> {
         self.prepare_indefinite();
         let nonzeros = self.values.len() - 1;
@@ -179,7 +188,7 @@ impl Cholesky {
         if self.definite {
             self.fronts.solve(&self.L, &mut self.x);
         } else {
-            // On one thread: faer's solution depends in its last bits on their number.
+            // The solution of faer depends in its last bits on the number of threads, so it uses one.
             let n = self.x.len();
             let x = MatMut::from_column_major_slice_mut(&mut self.x, n, 1);
             let stack = MemStack::new(&mut self.buffer);
@@ -196,7 +205,7 @@ impl Cholesky {
     }
 }
 
-/// The entries (q, p) of the matrix in the order of elimination that `wanted(p, q)` keeps, by ascending columns p and
+/// The pattern of the entries (q, p) in the order of elimination that `wanted(p, q)` keeps, by ascending columns p and
 /// rows q.
 fn triangle(
     graph: &Graph,
@@ -235,11 +244,12 @@ fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> Result<supernodal::Symboli
     )
 }
 
+/// The workspace of a substitution with one right-hand side.
 fn solve_scratch(symbolic: &supernodal::SymbolicSupernodalCholesky<usize>) -> StackReq {
     symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)
 }
 
-/// Where the diagonal of each column stands in the factor.
+/// The place of each diagonal entry in the factor.
 fn diagonal(symbolic: &supernodal::SymbolicSupernodalCholesky<usize>) -> Vec<usize> {
     let mut diagonal = Vec::with_capacity(symbolic.nrows());
     for s in 0..symbolic.n_supernodes() {

@@ -1,8 +1,8 @@
-//! Who couples with whom: groups of unknowns as the vertices of an undirected graph, and their numbers.
+//! The coupling of unknowns as an undirected graph whose vertices are the groups, and the numbering of the unknowns.
 
-use super::Structure;
+use super::structure::Structure;
 
-/// The coupling of groups, with the numbering of their unknowns.
+/// Groups, the groups they couple with, and the rows of their unknowns.
 #[derive(Debug, Clone)]
 pub(super) struct Graph {
     /// Unknowns per group.
@@ -11,7 +11,7 @@ pub(super) struct Graph {
     pub first: Vec<usize>,
     /// Group of each external row.
     pub group: Vec<u32>,
-    /// The last groups, so many, wait for their neighbours.
+    /// So many groups at the end hold Lagrange multipliers: they are eliminated after their neighbours.
     pub multipliers: usize,
     start: Vec<usize>,
     neighbours: Vec<u32>,
@@ -59,11 +59,12 @@ impl Graph {
         &self.neighbours[self.start[g]..self.start[g + 1]]
     }
 
-    /// Start of each group's neighbours, and the neighbours: a compressed pattern with both triangles.
+    /// The adjacency in compressed form: the start of each group's neighbours, and the neighbours; both triangles are there.
     pub fn compressed(&self) -> (&[usize], &[u32]) {
         (&self.start, &self.neighbours)
     }
 
+    /// True where the matrix has a block for the groups `g` and `h`.
     pub fn coupled(&self, g: usize, h: usize) -> bool {
         g == h || self.neighbours(g).binary_search(&(h as u32)).is_ok()
     }

@@ -1,16 +1,16 @@
-//! Dense blocks of fixed size, column by column, written so that the compiler keeps them in vector registers.
+//! Operations on dense blocks of fixed size, column by column, written so that the compiler keeps them in vector registers.
 
+use super::pivot::PIVOT_TOLERANCE;
 use crate::math::fma;
 
-use super::VANISHED;
-
-/// `block[col][row]`.
-pub(super) type Block<const B: usize> = [[f64; B]; B];
+/// A square matrix: `block[column][row]`.
+pub(super) type DenseBlock<const B: usize> = [[f64; B]; B];
+/// A vector of the same height.
 pub(super) type Column<const B: usize> = [f64; B];
 
-/// y −= A x
+/// y ← y − A x.
 #[inline(always)]
-pub(super) fn subtract_times<const B: usize>(y: &mut Column<B>, A: &Block<B>, x: &Column<B>) {
+pub(super) fn gemv<const B: usize>(y: &mut Column<B>, A: &DenseBlock<B>, x: &Column<B>) {
     for k in 0..B {
         for i in 0..B {
             y[i] = fma(A[k][i], -x[k], y[i]);
@@ -18,9 +18,9 @@ pub(super) fn subtract_times<const B: usize>(y: &mut Column<B>, A: &Block<B>, x:
     }
 }
 
-/// A x
+/// A x.
 #[inline(always)]
-pub(super) fn times<const B: usize>(A: &Block<B>, x: &Column<B>) -> Column<B> {
+pub(super) fn multiply<const B: usize>(A: &DenseBlock<B>, x: &Column<B>) -> Column<B> {
     let mut y = [0.0; B];
     for k in 0..B {
         for i in 0..B {
@@ -30,9 +30,9 @@ pub(super) fn times<const B: usize>(A: &Block<B>, x: &Column<B>) -> Column<B> {
     y
 }
 
-/// A X
+/// A X.
 #[inline(always)]
-pub(super) fn product<const B: usize>(A: &Block<B>, X: &Block<B>) -> Block<B> {
+pub(super) fn product<const B: usize>(A: &DenseBlock<B>, X: &DenseBlock<B>) -> DenseBlock<B> {
     let mut Y = [[0.0; B]; B];
     for k in 0..B {
         for j in 0..B {
@@ -44,9 +44,9 @@ pub(super) fn product<const B: usize>(A: &Block<B>, X: &Block<B>) -> Block<B> {
     Y
 }
 
-/// Y −= A X. On its own the loop is vectorised well; inlined beside others it is not.
+/// Y ← Y − A X. It is not inlined: alone the loop is vectorised well, beside others it is not.
 #[inline(never)]
-pub(super) fn subtract_product<const B: usize>(Y: &mut Block<B>, A: &Block<B>, X: &Block<B>) {
+pub(super) fn gemm<const B: usize>(Y: &mut DenseBlock<B>, A: &DenseBlock<B>, X: &DenseBlock<B>) {
     let AX = product(A, X);
     for j in 0..B {
         for i in 0..B {
@@ -55,9 +55,9 @@ pub(super) fn subtract_product<const B: usize>(Y: &mut Block<B>, A: &Block<B>, X
     }
 }
 
-/// Largest magnitude of each row: what a pivot of the row is measured against.
+/// The largest magnitude in each row, which pivots of the row are compared with.
 #[inline(always)]
-pub(super) fn row_scale<const B: usize>(A: &Block<B>) -> Column<B> {
+pub(super) fn row_scale<const B: usize>(A: &DenseBlock<B>) -> Column<B> {
     let mut scale = [0.0_f64; B];
     for column in A {
         for i in 0..B {
@@ -67,44 +67,47 @@ pub(super) fn row_scale<const B: usize>(A: &Block<B>) -> Column<B> {
     scale
 }
 
-/// A row is fetched from below only if the pivot at hand is ten times smaller: the search then stays off the chain of
-/// dependent operations, and a positive definite block mostly keeps its diagonal.
-const ACCEPTED: f64 = 0.1;
+/// Rows are exchanged only where the pivot is smaller than this part of the largest entry below it: the search then stays
+/// off the chain of dependent operations, and a positive definite block mostly keeps its diagonal.
+const PIVOT_THRESHOLD: f64 = 0.1;
 
-/// Rows of the working copy of a block: whole vector registers, whatever B.
+/// Rows of the working copy of a block: it fills whole vector registers, whatever B.
 const LANES: usize = 8;
 
-/// A ← A⁻¹ by Gauss–Jordan with row pivoting. `scale` is that of the rows before any elimination.
-/// Fails with the row (before exchange) and value of the pivot that vanished.
+/// A ← A⁻¹ by Gauss–Jordan elimination with row pivoting. `scale` holds the largest magnitudes of the rows before any
+/// elimination.
+///
+/// # Errors
+/// A pivot is zero or not finite: its row before exchanges, and its value.
 #[inline(always)]
-pub(super) fn invert<const B: usize>(A: &mut Block<B>, scale: &Column<B>) -> Result<(), (usize, f64)> {
+pub(super) fn invert<const B: usize>(A: &mut DenseBlock<B>, scale: &Column<B>) -> Result<(), (usize, f64)> {
     let mut M = [[0.0; LANES]; B];
-    let mut row = [0; B]; // the original row that now stands at each place
+    let mut row = [0; B]; // the original row at each place
     for k in 0..B {
         M[k][..B].copy_from_slice(&A[k]);
         row[k] = k;
     }
     for k in 0..B {
         let largest = M[k][k + 1..B].iter().fold(0.0, |largest, a| if a.abs() > largest { a.abs() } else { largest });
-        if M[k][k].abs() < ACCEPTED * largest {
+        if M[k][k].abs() < PIVOT_THRESHOLD * largest {
             exchange(&mut M, &mut row, k);
         }
         let pivot = M[k][k];
-        let vanished = (VANISHED * scale[row[k]]).max(f64::MIN_POSITIVE);
-        if !(pivot.abs() > vanished && pivot.is_finite()) {
+        let tolerance = (PIVOT_TOLERANCE * scale[row[k]]).max(f64::MIN_POSITIVE);
+        if !(pivot.abs() > tolerance && pivot.is_finite()) {
             return Err((row[k], pivot));
         }
         eliminate(&mut M, k, 1.0 / pivot);
     }
     for k in 0..B {
-        // What was done to the rows of the matrix is undone on the columns of the inverse.
+        // Exchanged rows of the matrix are exchanged columns of its inverse.
         A[row[k]].copy_from_slice(&M[k][..B]);
     }
     Ok(())
 }
 
-/// One step of Gauss–Jordan. The row of the pivot is written like the others, its old values masked out, so that no
-/// lane is treated alone; not inlined, or the compiler unrolls the step into single numbers and takes twice as long.
+/// One step of Gauss–Jordan elimination. The row of the pivot is written like the others, its old values masked out, so
+/// that no lane is treated alone. It is not inlined, or the compiler unrolls it into scalars and it takes twice as long.
 #[inline(never)]
 fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) {
     let others: [f64; LANES] = std::array::from_fn(|i| if i == k { 0.0 } else { 1.0 });
@@ -121,7 +124,7 @@ fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) 
     M[k] = factor.map(|a| a * inverse);
 }
 
-/// Brings the largest entry of column `k` at or below the diagonal to the diagonal.
+/// Exchanges rows so that the largest entry of column `k` at or below the diagonal comes to the diagonal.
 #[cold]
 #[inline(never)]
 fn exchange<const B: usize>(M: &mut [[f64; LANES]; B], row: &mut [usize; B], k: usize) {
@@ -132,38 +135,38 @@ fn exchange<const B: usize>(M: &mut [[f64; LANES]; B], row: &mut [usize; B], k: 
     }
 }
 
-/// Negative eigenvalues of the symmetric part of A: the signs of the pivots of elimination with diagonal pivoting. Where no
-/// diagonal entry will do, a pair of rows is eliminated at once, of which one eigenvalue is negative.
+/// The number of negative eigenvalues of the symmetric part of A, by the signs of the pivots of an elimination with diagonal
+/// pivoting. Where no diagonal entry is large enough, two rows are eliminated at once: one of their eigenvalues is negative.
 /// J. R. Bunch & B. N. Parlett, SIAM J. Numer. Anal. 8 (1971).
-pub(super) fn negatives<const B: usize>(A: &Block<B>) -> usize {
-    // Above this part of the largest entry a diagonal entry is a pivot: least growth.
+pub(super) fn negative_eigenvalues<const B: usize>(A: &DenseBlock<B>) -> usize {
+    // A diagonal entry above this part of the largest off-diagonal one is a pivot: this bounds the growth of entries best.
     const SINGLE: f64 = 0.64;
-    let mut M: Block<B> = std::array::from_fn(|j| std::array::from_fn(|i| 0.5 * (A[j][i] + A[i][j])));
-    let mut left = [true; B];
+    let mut M: DenseBlock<B> = std::array::from_fn(|j| std::array::from_fn(|i| 0.5 * (A[j][i] + A[i][j])));
+    let mut remaining = [true; B];
     let mut count = 0;
     loop {
         let (mut diagonal, mut pair) = ((0.0, 0), (0.0, 0, 0));
-        for i in (0..B).filter(|&i| left[i]) {
+        for i in (0..B).filter(|&i| remaining[i]) {
             if M[i][i].abs() >= diagonal.0 {
                 diagonal = (M[i][i].abs(), i);
             }
-            for j in (0..i).filter(|&j| left[j]) {
+            for j in (0..i).filter(|&j| remaining[j]) {
                 if M[j][i].abs() > pair.0 {
                     pair = (M[j][i].abs(), i, j);
                 }
             }
         }
-        if !left.contains(&true) {
+        if !remaining.contains(&true) {
             return count;
         }
         if diagonal.0 >= SINGLE * pair.0 {
             let k = diagonal.1;
-            left[k] = false;
+            remaining[k] = false;
             count += usize::from(M[k][k] < 0.0);
             if M[k][k] != 0.0 {
                 let column = M[k];
-                for j in (0..B).filter(|&j| left[j]) {
-                    for i in (0..B).filter(|&i| left[i]) {
+                for j in (0..B).filter(|&j| remaining[j]) {
+                    for i in (0..B).filter(|&i| remaining[i]) {
                         M[j][i] -= column[i] * column[j] / column[k];
                     }
                 }
@@ -171,12 +174,12 @@ pub(super) fn negatives<const B: usize>(A: &Block<B>) -> usize {
             continue;
         }
         let (_, k, l) = pair;
-        (left[k], left[l]) = (false, false);
+        (remaining[k], remaining[l]) = (false, false);
         count += 1;
         let (K, L) = (M[k], M[l]);
         let det = K[k] * L[l] - K[l] * K[l];
-        for j in (0..B).filter(|&j| left[j]) {
-            for i in (0..B).filter(|&i| left[i]) {
+        for j in (0..B).filter(|&j| remaining[j]) {
+            for i in (0..B).filter(|&i| remaining[i]) {
                 let (x, y) = (L[l] * K[j] - K[l] * L[j], K[k] * L[j] - K[l] * K[j]);
                 M[j][i] -= (K[i] * x + L[i] * y) / det;
             }

@@ -1,17 +1,18 @@
-//! Whether there is memory for a factor, asked before it is taken: where a system promises more than it has, it ends programs
-//! that come to use it, without a word.
+//! Whether the memory holds a factor, asked before it is taken: a system that promises more memory than it has ends the
+//! programs that come to use it, without a message.
 
 use std::fmt;
 
-/// Bytes of a factor, its matrix and the updates of its fronts over those of the factor alone. Shells of 250,000 unknowns: 2.05,
-/// from 1250 MB of the process without 4 kB an element, over 529 MB.
-const LEAST: f64 = 2.0;
+/// Memory of a factor, its matrix and the update matrices of its fronts, over that of the factor alone. Shells of 250,000
+/// unknowns measure 2.05: the process takes 1250 MB, less 4 kB for each element, and the factor 529 MB.
+const MEMORY_FACTOR: f64 = 2.0;
 
-/// A factor that does not fit into memory.
+/// The memory does not hold the factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TooLarge {
+    /// Rows of the matrix.
     pub unknowns: usize,
-    /// Bytes, at least.
+    /// Bytes needed at least.
     pub needed: f64,
 }
 
@@ -27,17 +28,19 @@ impl fmt::Display for TooLarge {
 
 impl std::error::Error for TooLarge {}
 
+/// Makes sure that the memory holds a factor of `nonzeros` numbers, its matrix and its update matrices.
+///
 /// # Errors
-/// There is no memory for a factor of so many numbers.
-pub(super) fn room(unknowns: usize, nonzeros: usize) -> Result<(), TooLarge> {
-    let needed = LEAST * size_of::<f64>() as f64 * nonzeros as f64;
+/// It does not, or a limit of this process forbids it.
+pub(super) fn require(unknowns: usize, nonzeros: usize) -> Result<(), TooLarge> {
+    let needed = MEMORY_FACTOR * size_of::<f64>() as f64 * nonzeros as f64;
     let fits = available().is_none_or(|available| needed <= available);
-    // What a limit of this process refuses, which the system does not know of; given back at once, untouched.
+    // A limit of this process does not show in what the system has available. The memory is given back at once, untouched.
     let granted = Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok();
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed }) }
 }
 
-/// Bytes that programs may still take; Linux tells it.
+/// Bytes that programs may still take, as Linux says; none on other systems.
 fn available() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let kilobytes = |key: &str| -> Option<f64> {
@@ -53,13 +56,13 @@ mod tests {
 
     #[test]
     fn a_factor_beyond_all_memory_is_refused_in_words() {
-        assert_eq!(room(12, 100), Ok(()));
-        // 16 TB; and more than addresses reach.
+        assert_eq!(require(12, 100), Ok(()));
+        // 16 TB, and more than addresses reach.
         for nonzeros in [1_000_000_000_000, usize::MAX / 16] {
-            let error = room(9_000_000, nonzeros).unwrap_err();
+            let error = require(9_000_000, nonzeros).unwrap_err();
             assert_eq!(error.needed, 16.0 * nonzeros as f64);
         }
-        let said = room(9_000_000, 1_000_000_000_000).unwrap_err().to_string();
+        let said = require(9_000_000, 1_000_000_000_000).unwrap_err().to_string();
         assert_eq!(
             said,
             "the matrix of 9000000 unknowns needs at least 16000.0 GB when factorised: more memory than there is"

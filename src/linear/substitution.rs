@@ -1,27 +1,30 @@
-//! L y = b and Lᵀ x = y front by front, on the cut of [`super::fronts`]: subtrees side by side going up, what stands above
-//! them on one thread, and down again. Both pass once over L and are bound by memory.
+//! Forward and backward substitution, L y = b and Lᵀ x = y, front by front: up the assembly tree with the subtrees of
+//! [`super::fronts`] side by side and the supernodes above them on one thread, and down again. Each reads L once and is bound
+//! by the speed of memory.
 
-use super::fronts::{Fronts, Room, Tree, both};
+use super::dense::join;
+use super::fronts::{Fronts, Tree, Workspace};
 use crate::math::fma;
 use std::ops::Range;
 
-/// Columns taken together: the rest of a front is then read and written once for all of them.
+/// Columns eliminated together: the rows below are then read and written once for all of them.
 const COLUMNS: usize = 4;
+/// Width of the partial sums of a scalar product.
 const LANES: usize = 8;
 
 impl Fronts {
     /// x ← K⁻¹ x, in the order of elimination.
     pub fn solve(&mut self, L: &[f64], x: &mut [f64]) {
-        let Fronts { tree, subtrees, above: (above, room), threads, done } = self;
+        let Fronts { tree, subtrees, above: (above, workspace), threads, done } = self;
         tree.forward_all(subtrees, L, x, 0, *threads);
         for &s in above.iter() {
             let columns = tree.columns(s);
-            tree.forward(s, L, &mut x[columns], room, subtrees);
+            tree.forward(s, L, &mut x[columns], workspace, subtrees);
         }
         for &s in above.iter().rev() {
-            tree.gather(s, x, 0, &[], &mut room.front);
-            tree.backward(s, L, &mut room.front);
-            x[tree.columns(s)].copy_from_slice(&room.front[..tree.fronts[s].columns]);
+            tree.gather(s, x, 0, &[], &mut workspace.front);
+            tree.backward(s, L, &mut workspace.front);
+            x[tree.columns(s)].copy_from_slice(&workspace.front[..tree.fronts[s].columns]);
         }
         done.copy_from_slice(x);
         tree.backward_all(subtrees, L, (x, 0), done, *threads);
@@ -29,25 +32,26 @@ impl Fronts {
 }
 
 impl Tree {
+    /// The columns of supernode `s`, by position.
     fn columns(&self, s: usize) -> Range<usize> {
         self.fronts[s].begin..self.fronts[s + 1].begin
     }
 
-    /// `x` begins at `base` of the whole.
-    fn forward_all(&self, of: &mut [(Range<usize>, Room)], L: &[f64], x: &mut [f64], base: usize, threads: bool) {
+    /// Forward substitution in subtrees; `x` begins at `base` of the whole vector.
+    fn forward_all(&self, of: &mut [(Range<usize>, Workspace)], L: &[f64], x: &mut [f64], base: usize, threads: bool) {
         match of {
             [] => {}
-            [(supernodes, room)] => {
+            [(supernodes, workspace)] => {
                 for s in supernodes.clone() {
                     let columns = self.columns(s);
-                    self.forward(s, L, &mut x[columns.start - base..columns.end - base], room, &[]);
+                    self.forward(s, L, &mut x[columns.start - base..columns.end - base], workspace, &[]);
                 }
             }
             _ => {
                 let (left, right) = of.split_at_mut(of.len() / 2);
                 let middle = self.fronts[right[0].0.start].begin;
                 let (head, tail) = x.split_at_mut(middle - base);
-                both(
+                join(
                     threads,
                     || self.forward_all(left, L, head, base, threads),
                     || self.forward_all(right, L, tail, middle, threads),
@@ -56,17 +60,25 @@ impl Tree {
         }
     }
 
-    /// Rows of supernode `s` in `x`; what it takes from the rows below goes onto the stack in place of its children's.
-    fn forward(&self, s: usize, L: &[f64], x: &mut [f64], room: &mut Room, subtrees: &[(Range<usize>, Room)]) {
+    /// Forward substitution in supernode `s`, whose columns `x` holds. Its update vector, which changes the rows below, comes
+    /// onto the stack in place of those of its children.
+    fn forward(
+        &self,
+        s: usize,
+        L: &[f64],
+        x: &mut [f64],
+        workspace: &mut Workspace,
+        subtrees: &[(Range<usize>, Workspace)],
+    ) {
         let front = &self.fronts[s];
         let height = front.columns + front.rows;
-        let f = &mut room.front[..height];
+        let f = &mut workspace.front[..height];
         f[..front.columns].copy_from_slice(x);
         f[front.columns..].fill(0.0);
         for child in self.children(s).map(|child| &self.fronts[child]) {
             let stack = match child.subtree {
                 Some(t) if child.subtree != front.subtree => &subtrees[t].1.vectors,
-                _ => &room.vectors,
+                _ => &workspace.vectors,
             };
             let places = &self.places[child.place..child.place + child.rows];
             places.iter().zip(&stack[child.vector..]).for_each(|(&place, u)| f[place as usize] += u);
@@ -98,13 +110,14 @@ impl Tree {
             j += block;
         }
         x.copy_from_slice(&f[..front.columns]);
-        room.vectors[front.vector..front.vector + front.rows].copy_from_slice(&f[front.columns..]);
+        workspace.vectors[front.vector..front.vector + front.rows].copy_from_slice(&f[front.columns..]);
     }
 
-    /// `x` begins at `base` of the whole; of rows outside the subtree, `done` has the solution.
+    /// Backward substitution in subtrees; `x` begins at `base` of the whole vector, and `done` holds the solution in rows outside
+    /// the subtree.
     fn backward_all(
         &self,
-        of: &mut [(Range<usize>, Room)],
+        of: &mut [(Range<usize>, Workspace)],
         L: &[f64],
         (x, base): (&mut [f64], usize),
         done: &[f64],
@@ -112,19 +125,19 @@ impl Tree {
     ) {
         match of {
             [] => {}
-            [(supernodes, room)] => {
+            [(supernodes, workspace)] => {
                 for s in supernodes.clone().rev() {
-                    self.gather(s, x, base, done, &mut room.front);
-                    self.backward(s, L, &mut room.front);
+                    self.gather(s, x, base, done, &mut workspace.front);
+                    self.backward(s, L, &mut workspace.front);
                     let columns = self.columns(s);
-                    x[columns.start - base..columns.end - base].copy_from_slice(&room.front[..columns.len()]);
+                    x[columns.start - base..columns.end - base].copy_from_slice(&workspace.front[..columns.len()]);
                 }
             }
             _ => {
                 let (left, right) = of.split_at_mut(of.len() / 2);
                 let middle = self.fronts[right[0].0.start].begin;
                 let (head, tail) = x.split_at_mut(middle - base);
-                both(
+                join(
                     threads,
                     || self.backward_all(left, L, (head, base), done, threads),
                     || self.backward_all(right, L, (tail, middle), done, threads),
@@ -133,7 +146,7 @@ impl Tree {
         }
     }
 
-    /// The rows of a front, from `x`, which begins at `base`, or from `done` where they lie behind it.
+    /// Copies the rows of a front to `f`: from `x`, which begins at `base`, or from `done` where they lie behind it.
     fn gather(&self, s: usize, x: &[f64], base: usize, done: &[f64], f: &mut [f64]) {
         let (front, columns) = (&self.fronts[s], self.columns(s));
         f[..front.columns].copy_from_slice(&x[columns.start - base..columns.end - base]);
@@ -146,6 +159,7 @@ impl Tree {
         }
     }
 
+    /// Backward substitution in supernode `s`: `f` holds its columns, which are solved for, and the solution in the rows below.
     fn backward(&self, s: usize, L: &[f64], f: &mut [f64]) {
         let front = &self.fronts[s];
         let height = front.columns + front.rows;
@@ -173,7 +187,7 @@ impl Tree {
     }
 }
 
-/// Scalar products of columns with `x`, in lanes of fixed width.
+/// Scalar products of columns with `x`, each summed in lanes of fixed width.
 #[inline(always)]
 fn products<const C: usize>(columns: [&[f64]; C], x: &[f64]) -> [f64; C] {
     let mut sums = [[0.0; LANES]; C];

@@ -4,7 +4,7 @@ use super::Plan;
 use crate::elements::beam::Rule;
 use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
-use crate::linear::Kind;
+use crate::linear::Factorization;
 use crate::model::{
     Contact, DIRECTIONS, Gyroscopic, Kind as Analysis, MassKind, MeshFile, Method, Model, StepLength, Update,
 };
@@ -206,14 +206,14 @@ impl Plan {
             return text;
         }
         let matrix = match self.kind {
-            Kind::Block if model.iteration.gyroscopic == Gyroscopic::Right => {
+            Factorization::BlockLu if model.iteration.gyroscopic == Gyroscopic::Right => {
                 "gyroscopic term on the right, sparse LU by blocks of nodes; the residual stays exact"
             }
-            Kind::Block => "exact unsymmetric tangent, sparse LU by blocks of nodes",
-            Kind::Cholesky if system.multipliers() > 0 => {
+            Factorization::BlockLu => "exact unsymmetric tangent, sparse LU by blocks of nodes",
+            Factorization::Cholesky if system.multipliers() > 0 => {
                 "symmetric part of the tangent, sparse L D Lᵀ for the multipliers; the residual stays exact"
             }
-            Kind::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
+            Factorization::Cholesky => "symmetric part of the tangent, sparse Cholesky; the residual stays exact",
         };
         line("matrix", matrix.to_string());
         let mixes = system.yields() && model.iteration.method != Method::TangentStiffness;

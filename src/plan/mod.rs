@@ -23,7 +23,7 @@ pub struct Plan {
     /// (node, direction) of each row; the rows of multipliers come after them.
     pub directions: Vec<(usize, usize)>,
     pub structure: Structure,
-    pub kind: linear::Kind,
+    pub kind: linear::Factorization,
     pub omissions: Vec<Omission>,
     /// Steps solve for accelerations with the masses alone: the matrix is that of masses and joints.
     pub explicit: bool,
@@ -102,7 +102,7 @@ impl Plan {
     /// As for [`Plan::build`].
     pub fn build_bare(&self, bare: &System) -> Result<(Solver, Assembly), TooLarge> {
         let structure = structure(bare, &self.rows);
-        let solver = Solver::new(&structure, linear::Kind::choose(&structure), 1)?;
+        let solver = Solver::new(&structure, linear::Factorization::choose(&structure), 1)?;
         let assembly = Assembly::new(bare, &self.rows, &solver, 1);
         Ok((solver, assembly))
     }

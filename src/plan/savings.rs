@@ -2,7 +2,7 @@
 
 use super::place::Why;
 use super::{Plan, grouped, structure};
-use crate::linear::{Kind, Structure, operations};
+use crate::linear::{Factorization, Structure, operations};
 use crate::model::{Kind as Analysis, Model};
 use crate::system::System;
 use crate::system::assembly::{NONE, loose_cliques};
@@ -38,7 +38,7 @@ impl Plan {
         if !system.attachments.is_empty() {
             compare("multipliers of attached nodes", &self.with_multipliers(system));
         }
-        if self.kind == Kind::Cholesky && !self.linear {
+        if self.kind == Factorization::Cholesky && !self.linear {
             out.push(
                 "the unsymmetric part of the tangent: with it 2 times the operations of a factorisation".to_string(),
             );

@@ -385,7 +385,7 @@ impl<'a> Run<'a> {
             passed,
             // Each multiplier brings one of its own.
             negative_pivots: (self.stepper.path.as_ref())
-                .map(|_| self.stepper.solver.negatives().saturating_sub(self.stepper.system.multipliers())),
+                .map(|_| self.stepper.solver.negative_eigenvalues().saturating_sub(self.stepper.system.multipliers())),
         };
         observer.on_step(&frame).map_err(Outcome::Io)?;
         if let Some(began) = began {

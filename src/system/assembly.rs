@@ -68,7 +68,7 @@ impl Scatter {
         let mut add = |half: bool| {
             for k in 0..length {
                 let (i, j) = entry(k);
-                if i == NONE || j == NONE || (solver.symmetric() && i != j) != half {
+                if i == NONE || j == NONE || (solver.is_symmetric() && i != j) != half {
                     continue;
                 }
                 if let Some(slot) = solver.slot(i as usize, j as usize) {
@@ -275,7 +275,7 @@ impl Assembly {
             scatter,
             tiles,
             threads: system.splits(threads),
-            gyroscopic: system.gyroscopic && !solver.symmetric(),
+            gyroscopic: system.gyroscopic && !solver.is_symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
                 own: vec![Mat6::zeros(); nodes],

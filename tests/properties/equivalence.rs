@@ -192,11 +192,11 @@ fn updates_and_factorisations_do_not_show() {
     m.iteration.tolerance = tolerance;
     m.iteration.limit = 60;
     m.iteration.update = Update::Iteration;
-    let first = run_with(&m, Some(linear::Kind::Block));
+    let first = run_with(&m, Some(linear::Factorization::BlockLu));
     let travel = m.nodes.iter().zip(&first.last().nodes).map(|(a, b): (_, &Node)| (a.x - b.x).norm());
     assert!(travel.fold(0.0, f64::max) > 0.3, "the scene moves");
     for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
-        for kind in [linear::Kind::Block, linear::Kind::Cholesky] {
+        for kind in [linear::Factorization::BlockLu, linear::Factorization::Cholesky] {
             m.iteration.update = update;
             let other = run_with(&m, Some(kind));
             let e = first.states.iter().zip(&other.states).map(|(a, b)| apart(a, b)).fold(0.0, f64::max);

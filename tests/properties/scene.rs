@@ -379,7 +379,7 @@ pub fn run(m: &Model) -> Record {
     run_with(m, None)
 }
 
-pub fn run_with(m: &Model, solver: Option<linear::Kind>) -> Record {
+pub fn run_with(m: &Model, solver: Option<linear::Factorization>) -> Record {
     let mut m = m.clone();
     m.held.sort_by_key(|h| (h.node, h.dof));
     let system = System::new(&m).unwrap();

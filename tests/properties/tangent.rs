@@ -117,7 +117,7 @@ impl Instant {
         K
     }
 
-    fn tangent(&mut self, kind: linear::Kind) -> DMatrix<f64> {
+    fn tangent(&mut self, kind: linear::Factorization) -> DMatrix<f64> {
         self.plan.kind = kind;
         let nodes = self.nodes(&self.q);
         let mut forces = Forces::new(&self.system, nodes.len());
@@ -146,12 +146,12 @@ fn of_a_static_scene_is_exact() {
         press(&mut scene);
         let mut at = Instant::random(&scene, &mut rng, 0.0, Some(0.3));
         let exact = at.differences();
-        let K = at.tangent(linear::Kind::Block);
+        let K = at.tangent(linear::Factorization::BlockLu);
         let error = difference(&K, &exact);
         assert!(error < 1e-7, "round {round}: {error:e}");
         assert!(difference(&K.transpose(), &K) > 1e-3, "arms and followers make it unsymmetric");
         let half = (&exact + exact.transpose()) * 0.5;
-        let error = difference(&at.tangent(linear::Kind::Cholesky), &half);
+        let error = difference(&at.tangent(linear::Factorization::Cholesky), &half);
         assert!(error < 1e-7, "round {round}, symmetric part: {error:e}");
     }
 }
@@ -172,7 +172,7 @@ fn at_rest_holds_mass_and_damping_exactly() {
         damp(&mut scene);
         let mut at = Instant::random(&scene, &mut rng, 0.0, Some(0.0));
         let exact = at.differences();
-        let error = difference(&at.tangent(linear::Kind::Block), &exact);
+        let error = difference(&at.tangent(linear::Factorization::BlockLu), &exact);
         assert!(error < 1e-7, "round {round}: {error:e}"); // as above
     }
 }
@@ -198,7 +198,7 @@ fn errors(scene: &Model, seed: u64, step: f64) -> Vec<f64> {
         scene.analysis.step_length = StepLength::Fixed { step: dt };
         let mut at = Instant::random(&scene, &mut StdRng::seed_from_u64(seed), 1.0, None);
         let exact = at.differences();
-        difference(&at.tangent(linear::Kind::Block), &exact)
+        difference(&at.tangent(linear::Factorization::BlockLu), &exact)
     };
     steps.iter().map(error).collect()
 }

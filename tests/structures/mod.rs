@@ -117,7 +117,7 @@ pub fn entries(structure: &Structure, values: Values, random: &mut Random) -> Ve
 
 /// The slot and value of each entry that the solver stores.
 pub fn slots(solver: &Solver, entries: &[(usize, usize, f64)]) -> Vec<(usize, f64)> {
-    let stored = entries.iter().filter(|(i, j, _)| !solver.symmetric() || i >= j);
+    let stored = entries.iter().filter(|(i, j, _)| !solver.is_symmetric() || i >= j);
     stored.map(|&(i, j, value)| (solver.slot(i, j).expect("inside the structure"), value)).collect()
 }
 

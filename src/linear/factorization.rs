@@ -1,28 +1,30 @@
 //! Which factorisation suits a structure.
 
-use super::Structure;
 use super::elimination::Elimination;
 use super::graph::Graph;
+use super::structure::Structure;
 
+/// The factorisations there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// LU on small dense blocks: symmetric or not, definite or not.
-    Block,
-    /// Cholesky on supernodes: symmetric only.
+pub enum Factorization {
+    /// LU on small dense blocks, one per node: for symmetric and unsymmetric values, definite or not.
+    BlockLu,
+    /// Supernodal Cholesky: for symmetric values only.
     Cholesky,
 }
 
-/// Operations per second of the block LU, on blocks of 3 and of 6.
+/// Operations per second of the block LU, on 3×3 and on 6×6 blocks.
 const BLOCK_RATE: [f64; 2] = [8e9, 15e9];
 
-/// A Cholesky factorisation with two substitutions: operations per second of its dense kernels, and the seconds it
-/// spends beside them.
+/// Operations per second of the dense kernels of a Cholesky factorisation with two substitutions.
 const CHOLESKY_RATE: f64 = 30e9;
+/// Seconds that it spends beside them for each number of the factor.
 const CHOLESKY_PER_NONZERO: f64 = 5e-9;
+/// Seconds that it spends beside them for each unknown.
 const CHOLESKY_PER_UNKNOWN: f64 = 100e-9;
 
-impl Kind {
-    /// The faster one for symmetric values.
+impl Factorization {
+    /// The faster one where values are symmetric.
     ///
     /// LU does twice the work of Cholesky, but at a rate that does not fall on small blocks, and substitutes twice as
     /// fast. Chains of any length stay with it; sheets and space frames change over near 5·10⁶ operations of the
@@ -37,6 +39,6 @@ impl Kind {
         let cholesky = elimination.flops / CHOLESKY_RATE
             + elimination.nonzeros as f64 * CHOLESKY_PER_NONZERO
             + unknowns as f64 * CHOLESKY_PER_UNKNOWN;
-        if block <= cholesky { Kind::Block } else { Kind::Cholesky }
+        if block <= cholesky { Factorization::BlockLu } else { Factorization::Cholesky }
     }
 }

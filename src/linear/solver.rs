@@ -1,0 +1,123 @@
+//! The factorisations behind one interface.
+
+use super::block_lu::BlockLu;
+use super::cholesky::Cholesky;
+use super::factorization::Factorization;
+use super::graph::Graph;
+use super::memory::TooLarge;
+use super::pivot::Singular;
+use super::stats::Stats;
+use super::structure::Structure;
+use super::tile::Tile;
+
+/// A matrix and its factorisation, the memory of both included.
+pub enum Solver {
+    /// LU on 3×3 blocks: plane problems, or nodes without rotations.
+    Block3(Box<BlockLu<3>>),
+    /// LU on 6×6 blocks.
+    Block6(Box<BlockLu<6>>),
+    /// Supernodal Cholesky factorisation, L D Lᵀ where the matrix is indefinite.
+    Cholesky(Box<Cholesky>),
+}
+
+/// Makes one call on whichever factorisation the solver holds.
+macro_rules! each {
+    ($solver:expr, $inner:ident => $call:expr) => {
+        match $solver {
+            Solver::Block3($inner) => $call,
+            Solver::Block6($inner) => $call,
+            Solver::Cholesky($inner) => $call,
+        }
+    };
+}
+
+impl Solver {
+    /// Plans the factorisation and takes all memory that it needs. `threads` matters to the time of a large
+    /// [`Factorization::Cholesky`] only, and never to the bits of a result.
+    ///
+    /// # Errors
+    /// The memory does not hold the factor.
+    pub fn new(structure: &Structure, factorization: Factorization, threads: usize) -> Result<Self, TooLarge> {
+        debug_assert!(structure.sizes.iter().all(|&size| size <= 6), "a group has at most 6 unknowns");
+        let graph = Graph::new(structure);
+        Ok(match factorization {
+            Factorization::Cholesky => Solver::Cholesky(Box::new(Cholesky::new(graph, threads)?)),
+            Factorization::BlockLu if structure.sizes.iter().all(|&size| size <= 3) => {
+                Solver::Block3(Box::new(BlockLu::new(graph)))
+            }
+            Factorization::BlockLu => Solver::Block6(Box::new(BlockLu::new(graph))),
+        })
+    }
+
+    /// True where one triangle is stored: the caller then adds each pair of rows once, with its symmetric value.
+    pub fn is_symmetric(&self) -> bool {
+        matches!(self, Solver::Cholesky(_))
+    }
+
+    /// The place in [`Solver::values`] of the entry in a row and a column (external numbers); none outside the structure.
+    /// It is searched for, so assembly keeps the places that it needs.
+    pub fn slot(&self, row: usize, col: usize) -> Option<usize> {
+        each!(self, inner => inner.slot(row, col))
+    }
+
+    /// The block that couples two groups of six unknowns, given by their rows (external numbers), and whether it is stored
+    /// transposed, as that of `cols` and `rows`. None where the matrix is not symmetric, or a group is smaller.
+    pub fn tile(&self, rows: &[u32; 6], cols: &[u32; 6]) -> Option<(Tile, bool)> {
+        match self {
+            Solver::Cholesky(inner) => inner.tile(rows, cols),
+            _ => None,
+        }
+    }
+
+    /// The entries of the matrix: assembly sets them to zero and adds to them before each [`Solver::factor`], which may
+    /// overwrite them.
+    pub fn values(&mut self) -> &mut [f64] {
+        each!(self, inner => inner.values())
+    }
+
+    /// A place in [`Solver::values`] that belongs to no entry: assembly adds there what is to be dropped.
+    pub fn spare(&self) -> usize {
+        each!(self, inner => inner.spare())
+    }
+
+    /// Factors the matrix in [`Solver::values`].
+    ///
+    /// # Errors
+    /// A pivot is zero or not finite. [`Solver::solve`] then gives nothing of use until values are filled and factored again.
+    pub fn factor(&mut self) -> Result<(), Singular> {
+        each!(self, inner => inner.factor())
+    }
+
+    /// Replaces the right-hand side `b`, by external rows, by the solution for the matrix factored last.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        each!(self, inner => inner.solve(b))
+    }
+
+    /// Takes the memory that indefinite matrices need, so that a run which is known to meet them does not allocate.
+    pub fn expect_indefinite(&mut self) {
+        if let Solver::Cholesky(inner) = self {
+            inner.prepare_indefinite();
+        }
+    }
+
+    /// The number of negative eigenvalues of the matrix factored last, where it is symmetric (Sylvester's law of inertia).
+    pub fn negative_eigenvalues(&self) -> usize {
+        each!(self, inner => inner.negative_eigenvalues())
+    }
+
+    /// Size and operations of the factorisation.
+    pub fn stats(&self) -> Stats {
+        each!(self, inner => inner.stats())
+    }
+
+    /// The factorisation and its size in one line for people.
+    pub fn describe(&self) -> String {
+        let name = match self {
+            Solver::Block3(_) => "LU on 3×3 blocks",
+            Solver::Block6(_) => "LU on 6×6 blocks",
+            Solver::Cholesky(_) => "supernodal Cholesky",
+        };
+        let Stats { unknowns, nonzeros, flops, ordering } = self.stats();
+        format!("{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {flops:.3e} flops, {ordering} order")
+    }
+}

@@ -1,0 +1,14 @@
+//! What a factorisation costs.
+
+/// Size and operations of a factorisation, known from the structure alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stats {
+    /// Rows of the matrix.
+    pub unknowns: usize,
+    /// Numbers stored in the factor.
+    pub nonzeros: usize,
+    /// Additions and multiplications of one factorisation.
+    pub flops: f64,
+    /// Name of the elimination order.
+    pub ordering: &'static str,
+}
