@@ -11,7 +11,7 @@ use rand::rngs::StdRng;
 use rdsolve::diagnostic::Source;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    BaseAcceleration, Cadence, Held, History, Iteration, Kind, MassKind, Method, Model, Motion, NodalDamping,
+    AnalysisKind, BaseAcceleration, Cadence, Held, History, Iteration, MassKind, Method, Model, Motion, NodalDamping,
     StepLength, Update,
 };
 use rdsolve::plan::Plan;
@@ -63,7 +63,7 @@ impl Observer for Counts {
 }
 
 fn lively(rng: &mut StdRng) -> Model {
-    let mut m = zoo(rng, Kind::Dynamic, 0.005);
+    let mut m = zoo(rng, AnalysisKind::Dynamic, 0.005);
     m.analysis.end_time = 0.3;
     m.iteration.tolerance = 1e-8;
     let pulse = sine_squared(&mut m, 4.0);
@@ -179,7 +179,7 @@ fn joints_neither() {
 
 /// Shells of both kinds and masses, elastic and yielding, on a body, under pressure that follows.
 fn shells_neither() {
-    let mut m = empty(Kind::Dynamic, 0.3, 0.005);
+    let mut m = empty(AnalysisKind::Dynamic, 0.3, 0.005);
     m.iteration.tolerance = 1e-8;
     let [o, x, y] = [Vec3::zeros(), Vec3::x(), Vec3::y()];
     let first = shell(&mut m, [o, 2.0 * x, y], [3, 2], 4, MassKind::Consistent);
@@ -203,7 +203,7 @@ fn shells_neither() {
 
 /// Shells enough for lanes of forces and for fronts above subtrees, on one thread.
 fn large_scenes_neither() {
-    let mut m = empty(Kind::Dynamic, 0.07, 0.001);
+    let mut m = empty(AnalysisKind::Dynamic, 0.07, 0.001);
     m.iteration.tolerance = 1e-8;
     let nodes = shell(&mut m, [Vec3::zeros(), 2.0 * Vec3::x(), Vec3::y()], [36, 30], 4, MassKind::Lumped);
     (0..31).for_each(|row| fix(&mut m, nodes[37 * row], 0..6));

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, Quaternion, Unit, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
-use rdsolve::elements::beam::{Beams, Description, Rule, Yielding};
+use rdsolve::elements::beam::{Beams, Description, IntegrationRule, Yielding};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Law, Link, Links};
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
@@ -198,7 +198,7 @@ fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, 
     let spots = [-0.35, 0.4].into_iter().flat_map(|y| [-0.4, 0.05, 0.45].map(|z| (y, z)));
     let fibre = |(y, z)| Fibre { area: 0.15, y, z, shear: [[0.9, 0.0, -z], [0.1, 0.9, y]] };
     let fibres: Vec<Fibre> = spots.map(fibre).collect();
-    let rules = [(Rule::Gauss, N - 1), (Rule::Gauss, 5), (Rule::Lobatto, N.max(3))];
+    let rules = [(IntegrationRule::Gauss, N - 1), (IntegrationRule::Gauss, 5), (IntegrationRule::Lobatto, N.max(3))];
     for shear in [true, false] {
         for (rule, points) in rules {
             let yielding = Yielding { law: law.clone(), fibres: fibres.clone(), shear, rule, points };

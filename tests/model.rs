@@ -1,7 +1,7 @@
 //! What decks mean: the numbers of the model.
 
 use rdsolve::diagnostic::Source;
-use rdsolve::elements::beam::Rule;
+use rdsolve::elements::beam::IntegrationRule;
 use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
@@ -81,7 +81,7 @@ fn materials_that_yield_reach_their_parts() {
     let model = everything();
     assert!(model.beams[..3].iter().all(|beam| beam.yielding.is_none()));
     let brace = model.beams[3].yielding.as_ref().unwrap();
-    assert_eq!((brace.rule, brace.points, brace.shear), (Rule::Lobatto, 4, false));
+    assert_eq!((brace.rule, brace.points, brace.shear), (IntegrationRule::Lobatto, 4, false));
     let hardening = Hardening::Linear { yield_stress: 235e6, modulus: 1e9 };
     assert_eq!(brace.law, Law::new(210e9, 0.3, hardening, 0.5, None));
     // Whatever the fibres are, they are the section.

@@ -11,7 +11,7 @@ use crate::diagnostic::At;
 #[serde(deny_unknown_fields)]
 pub struct Amplitude {
     #[schemars(required)]
-    pub kind: Maybe<Kind>,
+    pub kind: Maybe<AmplitudeKind>,
     /// [[time, value], ...], times increasing: table.
     pub points: Maybe<Vec<At<Numbers<2>>>>,
     /// Cycles per time: sine, sine-squared.
@@ -28,7 +28,7 @@ pub struct Amplitude {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum AmplitudeKind {
     /// Straight lines through points.
     Table,
     /// sin(w (t - start) + phase).

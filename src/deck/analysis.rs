@@ -4,13 +4,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Maybe, NumberOrAuto, Table};
+use crate::math::rotation::RotationUpdate;
 
 /// What is computed and over what time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Analysis {
     #[schemars(required)]
-    pub kind: Maybe<Kind>,
+    pub kind: Maybe<AnalysisKind>,
     /// What leads a static analysis on. Default: "time".
     pub control: Maybe<Control>,
     /// The run goes from t = 0 to this time; with arc-length, until the load first comes to it.
@@ -69,10 +70,11 @@ pub enum Displacement {
     Uz,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum AnalysisKind {
     /// Motion in time.
+    #[default]
     Dynamic,
     /// Load stepping without inertia; loads without an amplitude grow linearly from 0 to 1 at the end time.
     Static,
@@ -127,14 +129,6 @@ pub enum Scheme {
     RungeKutta,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RotationUpdate {
-    Exponential,
-    FirstOrder,
-    SecondOrder,
-}
-
 /// How the equations of a step are solved.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -151,21 +145,36 @@ pub struct Iteration {
     pub limit: Maybe<u64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+/// Which moduli the stiffness matrix is formed with where material yields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Newton's method with the derivative of the stress.
+    /// Newton's method with the algorithmic (consistent) tangent.
     TangentStiffness,
     /// The elastic matrix is kept; plastic stresses go to the right-hand side.
     InitialLoad,
-    /// Whichever costs less.
+    /// The cheaper of the two, by counts of operations and the contraction observed.
+    #[default]
     Auto,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+impl Method {
+    /// As the deck writes it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Method::TangentStiffness => "tangent-stiffness",
+            Method::InitialLoad => "initial-load",
+            Method::Auto => "auto",
+        }
+    }
+}
+
+/// Where the gyroscopic term of bodies stands; its derivative is not symmetric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Gyroscopic {
     /// In the matrix if that is unsymmetric anyway.
+    #[default]
     Auto,
     /// In the matrix, which is then unsymmetric: fewer iterations.
     Left,
@@ -173,14 +182,16 @@ pub enum Gyroscopic {
     Right,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+/// When the matrix is formed and factorised anew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Update {
     /// In every iteration.
     Iteration,
     /// Once in every step.
     Step,
-    /// When it costs less than the iterations it saves.
+    /// When convergence has slowed so far that a factorisation costs less than the iterations it saves.
+    #[default]
     Auto,
     /// Once in the run.
     Never,

@@ -19,12 +19,12 @@ pub struct Attachment {
     /// Which motions are taken from the body or beam. Default: "all".
     pub dofs: Maybe<Directions>,
     /// Default: "auto".
-    pub method: Maybe<Method>,
+    pub method: Maybe<AttachmentMethod>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum AttachmentMethod {
     /// Elimination, and multipliers only where a node is attached a second time.
     Auto,
     /// The attached motions leave the unknowns.

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Maybe, Names, OneOrMany, Vector};
+use crate::elements::beam::IntegrationRule;
 
 /// A shear-flexible beam along straight segments between points, or along those of a group of the mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -28,13 +29,13 @@ pub struct Beam {
     /// Degree of an element's interpolation, 1 to 4; an element has order - 1 inner nodes.
     pub order: Maybe<u64>,
     /// Default: "lumped".
-    pub mass: Maybe<Mass>,
+    pub mass: Maybe<MassKind>,
     /// The part is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
     /// Rule along an element. Default: "gauss". Beams whose material yields.
-    pub integration: Maybe<Rule>,
+    pub integration: Maybe<IntegrationRule>,
     /// Points of the rule, order to 5. Default: order, which lets the moment be straight along an element. Beams whose material
     /// yields.
     pub points: Maybe<u64>,
@@ -71,25 +72,19 @@ pub struct Bar {
     /// Of the whole path, without force: shorter than it lies pulls from the start, longer hangs. Default: as it lies at t = 0.
     pub free_length: Maybe<f64>,
     /// Default: "lumped".
-    pub mass: Maybe<Mass>,
+    pub mass: Maybe<MassKind>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+/// Where the mass of a part goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Rule {
-    Gauss,
-    /// With points at the ends of the element.
-    Lobatto,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mass {
-    /// At the nodes.
+pub enum MassKind {
+    /// At the nodes, by the element's Lobatto rule: a diagonal (lumped) mass matrix.
+    #[default]
     Lumped,
-    /// Spread as the displacements are.
+    /// Translations by the element's shape functions, with off-diagonal terms; rotary inertia at the nodes.
     Consistent,
-    /// At the nodes, but not at those that are attached to a body.
+    /// Lumped, but without the mass at nodes that are rigidly attached to a body.
     FreeNodes,
     /// The part has no mass.
     None,

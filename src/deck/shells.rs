@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::beams::Mass;
+use super::beams::MassKind;
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
 
 /// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1` to `name.edge4` for those of an edge: edge1
@@ -26,7 +26,7 @@ pub struct Shell {
     #[schemars(required)]
     pub material: Maybe<String>,
     /// Default: "quadrilateral"; a patch of three corners has triangles.
-    pub kind: Maybe<Kind>,
+    pub kind: Maybe<ElementKind>,
     /// Points through the thickness, 2 to 10. Default: 5. Shells whose material yields.
     pub layers: Maybe<u64>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
@@ -35,14 +35,14 @@ pub struct Shell {
     /// from it is. Default: global x, and y where x stands on the surface.
     pub axis: Maybe<Vector>,
     /// Default: "lumped".
-    pub mass: Maybe<Mass>,
+    pub mass: Maybe<MassKind>,
     /// The part is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum ElementKind {
     Quadrilateral,
     Triangle,
 }

@@ -43,10 +43,15 @@ pub struct Motion {
     pub history: Maybe<History>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+/// The quantity that the amplitude of a prescribed motion gives over time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum History {
+    /// The displacement or, about an axis, the rotation.
+    #[default]
     Displacement,
+    /// The velocity, which is integrated from zero displacement on.
     Velocity,
+    /// The acceleration, which is integrated twice.
     Acceleration,
 }

@@ -5,11 +5,15 @@
 
 use super::{Mat3, Vec3, fma};
 use nalgebra::Quaternion;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// How a node's rotation follows from the rotation vector of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum RotationUpdate {
-    /// R ← exp(Θ~) R.
+    /// R ← exp(Θ~) R, which is exact.
+    #[default]
     Exponential,
     /// R ← (I + Θ~) R, made orthogonal again (61).
     FirstOrder,
@@ -18,6 +22,15 @@ pub enum RotationUpdate {
 }
 
 impl RotationUpdate {
+    /// As the deck writes it.
+    pub fn word(self) -> &'static str {
+        match self {
+            RotationUpdate::Exponential => "exponential",
+            RotationUpdate::FirstOrder => "first-order",
+            RotationUpdate::SecondOrder => "second-order",
+        }
+    }
+
     /// The unit quaternion of the step and how far the unprojected matrix was from orthogonal (its stretch minus one).
     /// The truncated maps leave the axis alone and turn by the angle of their 2×2 block, which projection keeps.
     #[inline]

@@ -1,15 +1,15 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
-use super::build::{Builder, Owner, span};
+use super::build::{Builder, Owner, chosen, span};
 use super::step_length::{ERROR_TOLERANCE, FIRST_STEP, stable_fraction};
-use super::{Analysis, Gyroscopic, Kind, MassKind, Method, StepLength, Update};
+use super::{Analysis, AnalysisKind, MassKind, Method, StepLength};
 use crate::deck::analysis as deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, NumberOrAuto};
 use crate::diagnostic::{At, Diagnostic, Span};
 use crate::integrators::wilson_theta::STABLE_THETA;
 use crate::integrators::{
-    Bathe, CentralDifference, GeneralizedAlpha, RotationUpdate, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
+    Bathe, CentralDifference, GeneralizedAlpha, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
 };
 use crate::names::short;
 
@@ -52,10 +52,7 @@ impl<'d> Builder<'d> {
 
     fn times(&mut self, analysis: &'d deck::Analysis, span: &'d std::ops::Range<usize>) {
         let owner = Owner { what: "`[analysis]`".to_owned(), span };
-        let kind = match self.need(&owner, "kind", &analysis.kind).map(|kind| kind.value) {
-            Some(deck::Kind::Static) => Kind::Static,
-            Some(deck::Kind::Dynamic) | None => Kind::Dynamic,
-        };
+        let kind = self.need(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
         let end_time = self.need_positive(&owner, "end_time", &analysis.end_time);
         let (time_step, error_tolerance) = self.time_step(&owner, analysis, kind);
         let least_step = self.positive("least_step", &analysis.least_step);
@@ -102,7 +99,12 @@ impl<'d> Builder<'d> {
     }
 
     /// The length of the steps, or the error that it follows.
-    fn time_step(&mut self, owner: &Owner, analysis: &'d deck::Analysis, kind: Kind) -> (Option<f64>, Option<f64>) {
+    fn time_step(
+        &mut self,
+        owner: &Owner,
+        analysis: &'d deck::Analysis,
+        kind: AnalysisKind,
+    ) -> (Option<f64>, Option<f64>) {
         let Some(at) = self.need(owner, "time_step", &analysis.time_step) else { return (None, None) };
         let tolerance = &analysis.error_tolerance;
         match at.value {
@@ -110,7 +112,7 @@ impl<'d> Builder<'d> {
                 self.stray("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
                 (self.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
             }
-            NumberOrAuto::Auto if kind == Kind::Static => {
+            NumberOrAuto::Auto if kind == AnalysisKind::Static => {
                 let hint = "load steps have no error in time: give a number";
                 self.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
                 (None, None)
@@ -152,11 +154,7 @@ impl<'d> Builder<'d> {
     }
 
     pub(super) fn scheme(&mut self, integrator: &'d deck::Integrator) {
-        let rotation = match integrator.rotation_update.as_ref().map(|update| update.value) {
-            Some(deck::RotationUpdate::FirstOrder) => RotationUpdate::FirstOrder,
-            Some(deck::RotationUpdate::SecondOrder) => RotationUpdate::SecondOrder,
-            Some(deck::RotationUpdate::Exponential) | None => RotationUpdate::Exponential,
-        };
+        let rotation = chosen(&integrator.rotation_update);
         let word = integrator.scheme.as_ref().map_or(deck::Scheme::WilsonTheta, |scheme| scheme.value);
         let keys = [
             ("theta", &integrator.theta, deck::Scheme::WilsonTheta),
@@ -261,7 +259,7 @@ impl<'d> Builder<'d> {
     pub(super) fn check_explicit(&mut self) {
         let deck = self.deck;
         let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
-        if self.model.analysis.kind == Kind::Static || !self.model.scheme.is_explicit() {
+        if self.model.analysis.kind == AnalysisKind::Static || !self.model.scheme.is_explicit() {
             return;
         }
         if let StepLength::StabilityLimited { .. } = self.model.analysis.step_length {
@@ -307,11 +305,7 @@ impl<'d> Builder<'d> {
         {
             self.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
         }
-        let method = match iteration.method.as_ref().map(|method| method.value) {
-            Some(deck::Method::InitialLoad) => Method::InitialLoad,
-            Some(deck::Method::TangentStiffness) => Method::TangentStiffness,
-            Some(deck::Method::Auto) | None => Method::Auto,
-        };
+        let method: Method = chosen(&iteration.method);
         // An elastic matrix converges slowly while material yields, at little cost per iteration.
         let default = if method == Method::InitialLoad { 10 } else { 1 } * self.model.iteration.limit;
         let limit = self.count("limit", &iteration.limit, default);
@@ -319,16 +313,7 @@ impl<'d> Builder<'d> {
         own.method = method;
         own.limit = limit;
         own.tolerance = iteration.tolerance.as_ref().map_or(own.tolerance, |at| at.value);
-        own.gyroscopic = match iteration.gyroscopic.as_ref().map(|side| side.value) {
-            Some(deck::Gyroscopic::Left) => Gyroscopic::Left,
-            Some(deck::Gyroscopic::Right) => Gyroscopic::Right,
-            Some(deck::Gyroscopic::Auto) | None => Gyroscopic::Auto,
-        };
-        own.update = match iteration.update.as_ref().map(|update| update.value) {
-            Some(deck::Update::Iteration) => Update::Iteration,
-            Some(deck::Update::Step) => Update::Step,
-            Some(deck::Update::Never) => Update::Never,
-            Some(deck::Update::Auto) | None => Update::Auto,
-        };
+        own.gyroscopic = chosen(&iteration.gyroscopic);
+        own.update = chosen(&iteration.update);
     }
 }

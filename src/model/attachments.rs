@@ -3,7 +3,7 @@
 use super::build::{Builder, Owner};
 use super::places::{Place, Reach, Spot};
 use super::{DIRECTIONS, Rider};
-use crate::deck::attachments::Method;
+use crate::deck::attachments::AttachmentMethod;
 use crate::deck::beams::Beam;
 use crate::diagnostic::{At, Diagnostic};
 use crate::math::Vec3;
@@ -57,11 +57,13 @@ impl<'d> Builder<'d> {
     }
 
     /// By elimination what rides on nothing yet, by multipliers the rest, unless the deck says which.
-    fn attach(&mut self, spot: &Spot, master: usize, to: &str, dofs: [bool; 6], method: Option<Method>) {
+    fn attach(&mut self, spot: &Spot, master: usize, to: &str, dofs: [bool; 6], method: Option<AttachmentMethod>) {
         let first = self.rides.get(&spot.node).map(|(rider, _)| self.model.riders[*rider].master);
         if first == Some(master) {
             self.error_with::<()>(spot.span, format!("`{}` is attached to `{to}` twice", spot.name), "once is enough");
-        } else if method == Some(Method::Multipliers) || first.is_some() && method != Some(Method::Elimination) {
+        } else if method == Some(AttachmentMethod::Multipliers)
+            || first.is_some() && method != Some(AttachmentMethod::Elimination)
+        {
             self.join(spot, master, to, dofs);
         } else if let Some(first) = first {
             let first = &self.model.nodes[first].label;
@@ -96,7 +98,14 @@ impl<'d> Builder<'d> {
     }
 
     /// Each node onto the nearest node of a beam; the beam's own stay.
-    fn tie(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>], dofs: [bool; 6], method: Option<Method>) {
+    fn tie(
+        &mut self,
+        name: &At<String>,
+        beam: usize,
+        spots: &[Spot<'d>],
+        dofs: [bool; 6],
+        method: Option<AttachmentMethod>,
+    ) {
         let own: HashSet<usize> = self.beam_nodes[beam].iter().copied().collect();
         // Along the axis in which the beam is longest, so that a search may stop where nothing nearer can come.
         let (low, high) = own.iter().fold((Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN)), |(low, high), &node| {

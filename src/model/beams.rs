@@ -1,11 +1,11 @@
 //! `[[beams]]` and `[[bars]]`: paths → nodes and elements.
 
-use super::build::{Builder, Owner, span, vec3};
-use super::{Bar, Beam, BeamElement, Kind, MassKind};
+use super::build::{Builder, Owner, chosen, span, vec3};
+use super::{AnalysisKind, Bar, Beam, BeamElement, MassKind};
 use crate::deck::beams as deck;
 use crate::deck::words::{Maybe, OneOrMany, Vector};
 use crate::diagnostic::At;
-use crate::elements::beam::{DEFAULT_ORDER, MOST_POINTS, Rule, Yielding};
+use crate::elements::beam::{DEFAULT_ORDER, IntegrationRule, MOST_POINTS, Yielding};
 use crate::math::quadrature::lobatto;
 use crate::math::{Mat3, Vec3};
 
@@ -38,7 +38,7 @@ impl<'d> Builder<'d> {
         {
             self.error::<()>(&at.span, "`order` can be 1, 2, 3 or 4");
         }
-        let mass = mass_kind(&beam.mass);
+        let mass = chosen(&beam.mass);
         let section = self.beam_section(owner, beam, mass);
         let yielding = self.yielding(owner, beam, order, section.is_some());
         let orientation = self.need(owner, "orientation", &beam.orientation);
@@ -152,12 +152,11 @@ impl<'d> Builder<'d> {
             return self.error(&at.span, message);
         }
         let rule = match &beam.integration {
-            Some(at) if at.value == deck::Rule::Lobatto && points < 3 => {
+            Some(at) if at.value == IntegrationRule::Lobatto && points < 3 => {
                 let message = "a Lobatto rule needs three points";
                 return self.error_with(&at.span, message, "take elements of order 3 or 4");
             }
-            Some(at) if at.value == deck::Rule::Lobatto => Rule::Lobatto,
-            Some(_) | None => Rule::Gauss,
+            rule => chosen(rule),
         };
         let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
         // Where the section is wrong, that has been said.
@@ -249,7 +248,7 @@ impl<'d> Builder<'d> {
     }
 
     fn bar(&mut self, index: usize, name: String, owner: &Owner<'d>, bar: &'d deck::Bar) -> Option<()> {
-        let mass = mass_kind(&bar.mass);
+        let mass = chosen(&bar.mass);
         let stiffness = self.bar_stiffness(owner, bar, mass);
         let path = self.path(owner, &bar.path, false)?;
         let lengths = self.segments(owner, &bar.path.as_ref()?.values, &path);
@@ -325,7 +324,7 @@ impl<'d> Builder<'d> {
             .environment
             .as_ref()
             .is_some_and(|environment| environment.gravity.is_some() || !environment.base_acceleration.is_empty());
-        mass != MassKind::None && (self.model.analysis.kind == Kind::Dynamic || pulled)
+        mass != MassKind::None && (self.model.analysis.kind == AnalysisKind::Dynamic || pulled)
     }
 }
 
@@ -334,13 +333,4 @@ fn frame(along: &Vec3, toward: &Vec3) -> Option<Mat3> {
     let x = along.try_normalize(0.0)?;
     let z = x.cross(toward).try_normalize(PARALLEL)?;
     Some(Mat3::from_columns(&[x, z.cross(&x), z]))
-}
-
-pub(super) fn mass_kind(mass: &Maybe<deck::Mass>) -> MassKind {
-    match mass.as_ref().map(|mass| mass.value) {
-        Some(deck::Mass::Consistent) => MassKind::Consistent,
-        Some(deck::Mass::FreeNodes) => MassKind::FreeNodes,
-        Some(deck::Mass::None) => MassKind::None,
-        Some(deck::Mass::Lumped) | None => MassKind::Lumped,
-    }
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::meshes::{Input, Meshed};
 use super::places::Place;
 use super::rigid::RigidParts;
-use super::{Cadence, Damping, Gyroscopic, Iteration, Kind, Method, Model, Node, Output, StepLength, Update};
+use super::{AnalysisKind, Cadence, Damping, Gyroscopic, Iteration, Method, Model, Node, Output, StepLength, Update};
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
 use crate::deck::words::{Maybe, Named, Vector};
@@ -132,7 +132,7 @@ impl<'d> Builder<'d> {
             title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
             units: deck.units.as_ref().map(|units| units.label().to_owned()),
             analysis: super::Analysis {
-                kind: Kind::Dynamic,
+                kind: AnalysisKind::Dynamic,
                 end_time: 0.0,
                 step_length: StepLength::Fixed { step: 0.0 },
                 least_step: 0.0,
@@ -391,6 +391,11 @@ pub(super) fn vec3(value: &Vector) -> Vec3 {
 
 pub(super) fn vec3_or_zero(value: &Maybe<Vector>) -> Vec3 {
     value.as_ref().map_or_else(Vec3::zeros, |value| vec3(value))
+}
+
+/// The word of a key that takes one of a few, or its default.
+pub(super) fn chosen<T: Copy + Default>(value: &Maybe<T>) -> T {
+    value.as_ref().map_or_else(T::default, |value| value.value)
 }
 
 pub(super) fn span<T>(value: &Maybe<T>) -> Option<&Span> {

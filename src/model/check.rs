@@ -46,7 +46,7 @@ impl<'d> Builder<'d> {
         }
         self.check_mesh();
         self.check_slivers();
-        if self.model.analysis.kind == super::Kind::Static {
+        if self.model.analysis.kind == super::AnalysisKind::Static {
             self.check_static();
         }
         self.check_explicit();

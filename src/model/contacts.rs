@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner, span, vec3};
 use super::places::Place;
-use super::{Contact, Held, Kind, Model, Shape as Drawn, StepLength};
+use super::{AnalysisKind, Contact, Held, Model, Shape as Drawn, StepLength};
 use crate::deck::contacts as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
@@ -426,7 +426,7 @@ impl<'d> Builder<'d> {
         if self.is_spoiled(owner.span, "stiffness") {
             return None;
         }
-        let dynamic = self.model.analysis.kind == Kind::Dynamic;
+        let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         // Riders made since then weigh what they ride on weighs.
         let mass = |node: usize| {
             let root = self.root(node);

@@ -3,7 +3,7 @@
 use super::attachments::directions;
 use super::build::{Builder, Owner, span};
 use super::places::Spot;
-use super::{Held, History, Joint, Kind};
+use super::{AnalysisKind, Held, History, Joint};
 use crate::constraints::joint::{Row, rotations, translations};
 use crate::deck::joints::{Joint as Deck, Kind as Word};
 use crate::diagnostic::Span;
@@ -157,7 +157,7 @@ impl<'d> Builder<'d> {
         let mut new = [false; 6];
         for (dof, motion, place) in dofs {
             if let Some(motion) = motion
-                && self.model.analysis.kind == Kind::Dynamic
+                && self.model.analysis.kind == AnalysisKind::Dynamic
                 && motion.history == History::Displacement
                 && motion.scale * self.model.amplitudes[motion.amplitude].value(0.0) != 0.0
             {

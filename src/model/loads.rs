@@ -39,32 +39,32 @@ impl<'d> Builder<'d> {
             self.error::<()>(&at.span, format!("`end` must come after `start`, which is {start}"));
         }
         match kind {
-            deck::Kind::Table => {
+            deck::AmplitudeKind::Table => {
                 self.stray("a table", &[&waves[..], &phase, &window].concat());
                 let points = self.need(&owner, "points", &a.points)?;
                 self.rising("time", points).map(|points| Amplitude::Table { points })
             }
-            deck::Kind::Sine => {
+            deck::AmplitudeKind::Sine => {
                 self.stray("a sine", &points);
                 let angular_frequency = self.angular_frequency(&owner, a)?;
                 let phase = a.phase.as_ref().map_or(0.0, |phase| phase.value);
                 Some(Amplitude::Sine { angular_frequency, phase, start, end })
             }
-            deck::Kind::SineSquared => {
+            deck::AmplitudeKind::SineSquared => {
                 self.stray("a sine squared", &[points, phase].concat());
                 let angular_frequency = self.angular_frequency(&owner, a)?;
                 Some(Amplitude::SineSquared { angular_frequency, start, end })
             }
-            deck::Kind::Ramp => {
+            deck::AmplitudeKind::Ramp => {
                 self.stray("a ramp", &[&points[..], &waves, &phase].concat());
                 self.need(&owner, "end", &a.end)?;
                 Some(Amplitude::Ramp { start, end })
             }
-            deck::Kind::Step => {
+            deck::AmplitudeKind::Step => {
                 self.stray("a step", &[&points[..], &waves, &phase].concat());
                 Some(Amplitude::Step { start, end })
             }
-            deck::Kind::Constant => {
+            deck::AmplitudeKind::Constant => {
                 self.stray("a constant", &[&points[..], &waves, &phase, &window].concat());
                 Some(Amplitude::Constant)
             }

@@ -27,6 +27,9 @@ pub mod study;
 mod supports;
 mod unused;
 
+pub use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
+pub use crate::deck::beams::MassKind;
+pub use crate::deck::supports::History;
 pub use build::{build, read};
 pub use expects::{CONTACT, ENERGY};
 pub use meshes::Input;
@@ -108,16 +111,9 @@ pub struct MeshFile {
     pub used: usize,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Dynamic,
-    /// Load stepping: no inertia; a load without an amplitude grows linearly from 0 at t = 0 to 1 at the end time.
-    Static,
-}
-
 #[derive(Debug, Clone)]
 pub struct Analysis {
-    pub kind: Kind,
+    pub kind: AnalysisKind,
     pub end_time: f64,
     pub step_length: StepLength,
     /// A step is never cut below this.
@@ -160,36 +156,6 @@ pub struct Iteration {
     pub tolerance: f64,
     /// Iterations in a step before it is cut.
     pub limit: usize,
-}
-
-/// Which moduli the matrix is formed with where material yields (8)-(12).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    TangentStiffness,
-    InitialLoad,
-    /// Whichever costs less, by counts and contraction.
-    Auto,
-}
-
-/// Where the gyroscopic term C(r) (37) stands, which is not symmetric.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Gyroscopic {
-    /// In the matrix where that costs less.
-    Auto,
-    /// In the matrix.
-    Left,
-    /// In the residual alone.
-    Right,
-}
-
-/// When the matrix is formed and factorised anew.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Update {
-    Iteration,
-    Step,
-    /// When convergence has slowed so far that a factorisation costs less than the iterations it saves.
-    Auto,
-    Never,
 }
 
 /// A point that moves. Its rotation is measured from the undeformed state, so it starts at the identity.
@@ -250,18 +216,6 @@ pub struct Mass {
     pub node: usize,
     pub mass: f64,
     pub inertia: Mat3,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MassKind {
-    /// At the nodes, by the element's Lobatto rule.
-    Lumped,
-    /// Translations by the element's shape functions; rotary inertia at the nodes.
-    Consistent,
-    /// Lumped, but not at nodes that ride on a body: the paper's simplification (3).
-    FreeNodes,
-    /// The deformable part has no mass: (4).
-    None,
 }
 
 #[derive(Debug, Clone)]
@@ -410,14 +364,6 @@ pub struct Motion {
     pub amplitude: usize,
     pub scale: f64,
     pub history: History,
-}
-
-/// What the amplitude of a prescribed motion describes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum History {
-    Displacement,
-    Velocity,
-    Acceleration,
 }
 
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner, span};
 use super::places::Place;
-use super::{ArcLength, Cadence, Held, History, Kind, Method, Passage, StepLength, Update};
+use super::{AnalysisKind, ArcLength, Cadence, Held, History, Method, Passage, StepLength, Update};
 use crate::deck::analysis as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
@@ -21,7 +21,7 @@ impl<'d> Builder<'d> {
             let keys = [("stop", span(&analysis.stop)), ("steps", span(&analysis.steps))];
             return self.stray("`control = \"time\"`", &[&keys[..], &[("growth", span(&analysis.growth))]].concat());
         };
-        if self.model.analysis.kind != Kind::Static {
+        if self.model.analysis.kind != AnalysisKind::Static {
             self.error::<()>(&at.span, "`arc-length` leads a static analysis, and this one is dynamic");
             return;
         }
@@ -46,10 +46,10 @@ impl<'d> Builder<'d> {
     fn check_iteration(&mut self) {
         let Some(iteration) = &self.deck.iteration else { return };
         let reason = "arc-length takes the derivative at every iteration";
-        if let Some(at) = iteration.method.as_ref().filter(|at| at.value == deck::Method::InitialLoad) {
+        if let Some(at) = iteration.method.as_ref().filter(|at| at.value == Method::InitialLoad) {
             self.error_with::<()>(&at.span, "`initial-load` cannot follow a path by arc length", reason);
         }
-        let kept = |at: &&At<deck::Update>| matches!(at.value, deck::Update::Step | deck::Update::Never);
+        let kept = |at: &&At<Update>| matches!(at.value, Update::Step | Update::Never);
         if let Some(at) = iteration.update.as_ref().filter(kept) {
             self.error_with::<()>(&at.span, "`update` must be \"auto\" or \"iteration\" with arc-length", reason);
         }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::build::{Builder, Owner, vec3_or_zero};
 use super::places::Place;
-use super::{Body, Kind, MassKind, Rider, Rigid, Shape};
+use super::{AnalysisKind, Body, MassKind, Rider, Rigid, Shape};
 use crate::deck::bodies as deck;
 use crate::diagnostic::{At, Span};
 use crate::elements::shell;
@@ -198,7 +198,7 @@ impl<'d> Builder<'d> {
             cells.extend(self.take_out(part, origin, &mut sums));
         }
         let (center, inertia) = (sums.center(), sums.inertia());
-        if self.model.analysis.kind == Kind::Dynamic {
+        if self.model.analysis.kind == AnalysisKind::Dynamic {
             if sums.mass <= 0.0 {
                 let message = format!("the parts of {} have no mass", owner.what);
                 return self.error_with(

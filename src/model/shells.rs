@@ -1,7 +1,6 @@
 //! `[[shells]]`: patches → nodes, normals and elements.
 
-use super::beams::mass_kind;
-use super::build::{Builder, Owner, span, vec3_or_zero};
+use super::build::{Builder, Owner, chosen, span, vec3_or_zero};
 use super::places::Place;
 use super::{MassKind, Shell, ShellElement};
 use crate::deck::shells as deck;
@@ -141,7 +140,7 @@ impl<'d> Builder<'d> {
 
     /// Goes as far as it can, so that all errors of the shell are found; `None` means there were some.
     fn shell(&mut self, index: usize, name: String, owner: &Owner<'d>, shell: &'d deck::Shell) -> Option<()> {
-        let mass = mass_kind(&shell.mass);
+        let mass = chosen(&shell.mass);
         let plate = self.plate(owner, shell, mass);
         if let Some(group) = &shell.group {
             let strays = [
@@ -171,10 +170,10 @@ impl<'d> Builder<'d> {
         let counts = self.need(owner, "elements", &shell.elements).and_then(|counts| self.shell_counts(counts));
         let corners = corners?;
         let triangles = match &shell.kind {
-            Some(at) if at.value == deck::Kind::Quadrilateral && corners.len() == 3 => {
+            Some(at) if at.value == deck::ElementKind::Quadrilateral && corners.len() == 3 => {
                 return self.error(&at.span, "a patch of three corners is made of triangles");
             }
-            Some(at) => at.value == deck::Kind::Triangle,
+            Some(at) => at.value == deck::ElementKind::Triangle,
             None => corners.len() == 3,
         };
         let map = self.map(owner, shell, &corners)?;

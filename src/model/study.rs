@@ -248,7 +248,7 @@ impl<'d> Builder<'d> {
             self.problems.extend(said.into_iter().filter(Diagnostic::is_error));
             let word = self.model.scheme.word();
             let mut entries = entries(integrator);
-            let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| rotation_word(update.value));
+            let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| update.value.word());
             if word == deck_scheme.word()
                 && entries.is_empty()
                 && let Some(own) = own
@@ -271,14 +271,10 @@ impl<'d> Builder<'d> {
         choices
     }
 
-    fn methods(&mut self, list: &'d [At<deck::Method>]) -> Vec<Method> {
+    fn methods(&mut self, list: &'d [At<Method>]) -> Vec<Method> {
         let mut methods = Vec::new();
         for at in list {
-            let method = match at.value {
-                deck::Method::TangentStiffness => Method::TangentStiffness,
-                deck::Method::InitialLoad => Method::InitialLoad,
-                deck::Method::Auto => Method::Auto,
-            };
+            let method = at.value;
             if methods.contains(&method) {
                 self.error::<()>(&at.span, format!("`{}` is listed twice", method.word()));
             }
@@ -292,17 +288,6 @@ impl<'d> Builder<'d> {
 pub fn obstacle(model: &super::Model) -> Option<&'static str> {
     let along = model.analysis.step_length.is_arc_length();
     along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
-}
-
-impl Method {
-    /// As the deck writes it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Method::TangentStiffness => "tangent-stiffness",
-            Method::InitialLoad => "initial-load",
-            Method::Auto => "auto",
-        }
-    }
 }
 
 /// What an integrator says besides its scheme, as TOML.
@@ -324,17 +309,9 @@ fn entries(integrator: &deck::Integrator) -> Vec<(&'static str, String)> {
         entries.push(("order", order.value.to_string()));
     }
     if let Some(update) = rotation_update {
-        entries.push(("rotation_update", format!("\"{}\"", rotation_word(update.value))));
+        entries.push(("rotation_update", format!("\"{}\"", update.value.word())));
     }
     entries
-}
-
-fn rotation_word(update: deck::RotationUpdate) -> &'static str {
-    match update {
-        deck::RotationUpdate::Exponential => "exponential",
-        deck::RotationUpdate::FirstOrder => "first-order",
-        deck::RotationUpdate::SecondOrder => "second-order",
-    }
 }
 
 fn choice(scheme: &Scheme, entries: &[(&'static str, String)]) -> Choice {

@@ -1,8 +1,8 @@
 //! `[[supports]]`: directions whose motion is given.
 
-use super::build::{Builder, Owner};
+use super::build::{Builder, Owner, chosen};
 use super::places::{Reach, Spot};
-use super::{DIRECTIONS, Held, History, Kind, Motion};
+use super::{AnalysisKind, DIRECTIONS, Held, History, Motion};
 use crate::deck::supports as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
@@ -59,13 +59,9 @@ impl<'d> Builder<'d> {
             let Some(motion) = motion else { continue };
             let owner = Owner { what: format!("the motion in {}", DIRECTIONS[dof]), span: &motion.span };
             let amplitude = self.need(&owner, "amplitude", &motion.amplitude).and_then(|name| self.amplitude(name));
-            let history = match motion.history.as_ref().map(|history| history.value) {
-                Some(deck::History::Velocity) => History::Velocity,
-                Some(deck::History::Acceleration) => History::Acceleration,
-                Some(deck::History::Displacement) | None => History::Displacement,
-            };
+            let history: History = chosen(&motion.history);
             if let Some(at) = &motion.history
-                && self.model.analysis.kind == Kind::Static
+                && self.model.analysis.kind == AnalysisKind::Static
                 && history != History::Displacement
             {
                 self.error::<()>(&at.span, "a static analysis knows displacements only");

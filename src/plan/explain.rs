@@ -1,12 +1,12 @@
 //! The plan in words, for `rdsolve check` and the log.
 
 use super::Plan;
-use crate::elements::beam::Rule;
+use crate::elements::beam::IntegrationRule;
 use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
 use crate::linear::Factorization;
 use crate::model::{
-    Contact, DIRECTIONS, Gyroscopic, Kind as Analysis, MassKind, MeshFile, Method, Model, StepLength, Update,
+    AnalysisKind, Contact, DIRECTIONS, Gyroscopic, MassKind, MeshFile, Method, Model, StepLength, Update,
 };
 use crate::names::{joined, short};
 use std::fmt::Write;
@@ -85,7 +85,7 @@ impl Plan {
         let analysis = &model.analysis;
         let steps = (analysis.end_time / analysis.nominal_step() - 1e-9).ceil().max(1.0);
         match analysis.kind {
-            Analysis::Static => match &analysis.step_length {
+            AnalysisKind::Static => match &analysis.step_length {
                 StepLength::ArcLength(control) => {
                     let end = match control.stop {
                         None => String::new(),
@@ -99,7 +99,7 @@ impl Plan {
                 }
                 _ => line("analysis", format!("static, {steps} load steps")),
             },
-            Analysis::Dynamic => {
+            AnalysisKind::Dynamic => {
                 let time = match &analysis.step_length {
                     StepLength::StabilityLimited { fraction } => {
                         format!("in steps of {fraction} of the longest that is stable")
@@ -166,7 +166,7 @@ impl Plan {
         for beam in &model.beams {
             let Some(yielding) = &beam.yielding else { continue };
             let (fibres, points) = (yielding.fibres.len(), yielding.points);
-            let rule = if yielding.rule == Rule::Gauss { "Gauss" } else { "Lobatto" };
+            let rule = if yielding.rule == IntegrationRule::Gauss { "Gauss" } else { "Lobatto" };
             let shear =
                 if yielding.shear { "yield under normal and shear stress" } else { "yield under normal stress alone" };
             line(
@@ -221,7 +221,7 @@ impl Plan {
             _ if along => "in every iteration: a step needs the path's direction at hand",
             (true, _) => "once per length of step: the scene is linear",
             (_, Update::Iteration) => "in every iteration",
-            (_, Update::Auto) if analysis.kind == Analysis::Static && !mixes => {
+            (_, Update::Auto) if analysis.kind == AnalysisKind::Static && !mixes => {
                 "in every iteration: load steps are long and few"
             }
             (_, Update::Step) => "once a step",
@@ -258,7 +258,7 @@ impl Plan {
             beams.chain(model.bars.iter().map(|part| part.mass)).chain(model.shells.iter().map(|part| part.mass))
         };
         let deformable = kinds().next().is_some();
-        let static_analysis = model.analysis.kind == Analysis::Static;
+        let static_analysis = model.analysis.kind == AnalysisKind::Static;
         let turning = system.inertias.iter().any(|i| {
             i.rotary && (3..6).any(|dof| self.is_unknown(i.node, dof) || model.riders.iter().any(|r| r.node == i.node))
         });

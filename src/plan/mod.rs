@@ -10,7 +10,7 @@ mod repeated;
 mod savings;
 
 use crate::linear::{self, Solver, Structure, TooLarge};
-use crate::model::{Kind, Model};
+use crate::model::{AnalysisKind, Model};
 use crate::system::System;
 use crate::system::assembly::{self, Assembly, NONE};
 
@@ -64,7 +64,7 @@ impl Plan {
             rows.push(own);
             unknowns += joint.rows.len();
         }
-        let explicit = model.analysis.kind == Kind::Dynamic && model.scheme.is_explicit();
+        let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.scheme.is_explicit();
         let structure = if explicit { structure(&system.bare(), &rows) } else { structure(system, &rows) };
         let kind = choose::kind(&structure, model.iteration.gyroscopic);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.

@@ -4,7 +4,7 @@ use super::Omission;
 use crate::constraints::joint::Row;
 use crate::elements::ElementBlock;
 use crate::math::Vec3;
-use crate::model::{Kind, Model};
+use crate::model::{AnalysisKind, Model};
 use crate::system::System;
 
 /// Why a direction is what it is.
@@ -157,7 +157,7 @@ fn reach(block: &dyn ElementBlock, e: usize) -> [bool; 6] {
 
 /// Directions of masses that something can set moving.
 fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 6]> {
-    let dynamic = model.analysis.kind == Kind::Dynamic;
+    let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let mut moved = resisted.to_vec();
     for load in &model.loads {
         for i in 0..3 {

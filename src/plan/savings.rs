@@ -3,7 +3,7 @@
 use super::place::Why;
 use super::{Plan, grouped, structure};
 use crate::linear::{Factorization, Structure, operations};
-use crate::model::{Kind as Analysis, Model};
+use crate::model::{AnalysisKind, Model};
 use crate::system::System;
 use crate::system::assembly::{NONE, loose_cliques};
 
@@ -43,7 +43,7 @@ impl Plan {
                 "the unsymmetric part of the tangent: with it 2 times the operations of a factorisation".to_string(),
             );
         }
-        if self.linear && model.analysis.kind == Analysis::Dynamic {
+        if self.linear && model.analysis.kind == AnalysisKind::Dynamic {
             out.push("iterations: the scene is linear, one solve a step is exact".to_string());
         }
         out

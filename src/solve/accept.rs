@@ -6,7 +6,7 @@ use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
 use crate::math::rotation::rates;
 use crate::math::{bottom, join, top};
-use crate::model::Kind;
+use crate::model::AnalysisKind;
 use crate::state::{Configuration, State};
 
 impl Stepper<'_> {
@@ -18,7 +18,7 @@ impl Stepper<'_> {
         let dt = to - state.time;
         let (mut damping_power, mut spent) = (0.0, Dissipation::default());
         let remembers = self.system.history > 0;
-        let dynamic = self.model.analysis.kind == Kind::Dynamic;
+        let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         if self.wants_forces || remembers {
             self.move_trial(state, scheme);
         } else {
@@ -62,7 +62,7 @@ impl Stepper<'_> {
         damping_power: Option<f64>,
     ) {
         let dt = to - state.time;
-        let dynamic = self.model.analysis.kind == Kind::Dynamic;
+        let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         if dynamic {
             for &node in &self.movers {
                 let (start, end) = (&state.nodes[node], &self.trial[node]);

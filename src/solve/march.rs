@@ -17,7 +17,7 @@ use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::linear::TooLarge;
 use crate::math::Vec3;
-use crate::model::{Cadence, Kind, LinkKind, Method, Model, StepLength, Update};
+use crate::model::{AnalysisKind, Cadence, LinkKind, Method, Model, StepLength, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Balance;
@@ -119,7 +119,7 @@ impl<'a> Run<'a> {
         let mixes = system.yields() && method != Method::TangentStiffness;
         let update = match (model.analysis.kind, model.iteration.update) {
             _ if along => Update::Iteration,
-            (Kind::Static, Update::Auto) if !mixes => Update::Iteration,
+            (AnalysisKind::Static, Update::Auto) if !mixes => Update::Iteration,
             (_, update) => update,
         };
         let length = extent(&at_rest);
@@ -141,10 +141,10 @@ impl<'a> Run<'a> {
             search: (system.history > 0 && !along).then(|| Search::new(plan.directions.len(), n, system.multipliers())),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             path: None,
-            follower: if model.analysis.kind == Kind::Dynamic { model.scheme.follower() } else { None },
+            follower: if model.analysis.kind == AnalysisKind::Dynamic { model.scheme.follower() } else { None },
             bases: None,
             composite: None,
-            closing: (model.analysis.kind == Kind::Dynamic && !system.joints.is_empty() && closes)
+            closing: (model.analysis.kind == AnalysisKind::Dynamic && !system.joints.is_empty() && closes)
                 .then(|| Closing::new(plan, system, n))
                 .transpose()?,
             length,
@@ -311,7 +311,7 @@ impl<'a> Run<'a> {
                     let half = 0.5 * dt;
                     // A structure that nothing holds is not helped by smaller loads; one that yields may be.
                     let analysis = &self.stepper.model.analysis;
-                    let unheld = analysis.kind == Kind::Static
+                    let unheld = analysis.kind == AnalysisKind::Static
                         && self.stepper.system.history == 0
                         && state.time == 0.0
                         && matches!(failure, Failure::Singular { .. });
@@ -400,7 +400,7 @@ impl<'a> Run<'a> {
     fn watch(&mut self, state: &State, balance: Option<f64>, last: bool) -> Option<Failure> {
         const FAR: f64 = 100.0;
         let Stepper { model, system, plan, .. } = &self.stepper;
-        if model.analysis.kind != Kind::Dynamic {
+        if model.analysis.kind != AnalysisKind::Dynamic {
             return None;
         }
         self.balance.work(state.work.external);
@@ -419,7 +419,7 @@ impl<'a> Run<'a> {
 
 /// Energies are summed whoever wants them: nothing else tells of motion that grows though the scene as it lies is stable.
 fn is_watched(model: &Model) -> bool {
-    matches!(model.scheme, Scheme::CentralDifference(_)) && model.analysis.kind == Kind::Dynamic
+    matches!(model.scheme, Scheme::CentralDifference(_)) && model.analysis.kind == AnalysisKind::Dynamic
 }
 
 /// Some links store less than nothing where they give way.

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::step::Stepper;
 use crate::elements::Moduli;
 use crate::math::{Vec3, Vec6, rotation};
-use crate::model::Kind;
+use crate::model::AnalysisKind;
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::assembly::{NONE, Weights};
@@ -13,7 +13,7 @@ impl Stepper<'_> {
     /// # Errors
     /// [`Failure::Singular`] where a mass matrix cannot be inverted.
     pub fn start(&mut self) -> Result<State, Failure> {
-        let dynamic = self.model.analysis.kind == Kind::Dynamic;
+        let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         let nodes: Vec<Node> = self
             .model
             .nodes
@@ -121,7 +121,7 @@ impl Stepper<'_> {
     /// # Errors
     /// As for [`Stepper::start`].
     pub fn jump(&mut self, state: &mut State) -> Result<(), Failure> {
-        if self.model.analysis.kind == Kind::Static {
+        if self.model.analysis.kind == AnalysisKind::Static {
             return Ok(());
         }
         self.forces.multipliers.values.copy_from_slice(&state.multipliers);

@@ -13,7 +13,7 @@ use crate::elements::Moduli;
 use crate::integrators::{Coefficients, Scheme, load_steps};
 use crate::linear::Solver;
 use crate::math::{Vec3, Vec6};
-use crate::model::{Kind, Model};
+use crate::model::{AnalysisKind, Model};
 use crate::plan::Plan;
 use crate::state::{Configuration, Increment, Node, State};
 use crate::system::assembly::{Assembly, Weights};
@@ -92,8 +92,8 @@ pub struct Taken {
 impl<'a> Stepper<'a> {
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         match (self.model.analysis.kind, &self.model.scheme) {
-            (Kind::Static, _) => load_steps::coefficients(),
-            (Kind::Dynamic, scheme) => scheme.coefficients(dt),
+            (AnalysisKind::Static, _) => load_steps::coefficients(),
+            (AnalysisKind::Dynamic, scheme) => scheme.coefficients(dt),
         }
     }
 
@@ -103,9 +103,11 @@ impl<'a> Stepper<'a> {
     /// See [`Failure`].
     pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
         match (self.model.analysis.kind, &self.model.scheme) {
-            (Kind::Dynamic, Scheme::Bathe(bathe)) => return self.composite(state, to, bathe),
-            (Kind::Dynamic, Scheme::CentralDifference(scheme)) => return self.central_difference(state, to, scheme),
-            (Kind::Dynamic, Scheme::RungeKutta(scheme)) => return self.runge_kutta(state, to, scheme),
+            (AnalysisKind::Dynamic, Scheme::Bathe(bathe)) => return self.composite(state, to, bathe),
+            (AnalysisKind::Dynamic, Scheme::CentralDifference(scheme)) => {
+                return self.central_difference(state, to, scheme);
+            }
+            (AnalysisKind::Dynamic, Scheme::RungeKutta(scheme)) => return self.runge_kutta(state, to, scheme),
             _ => {}
         }
         let scheme = self.coefficients(to - state.time);

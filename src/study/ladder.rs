@@ -6,7 +6,7 @@ use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::Diagnostic;
 use crate::integrators::Scheme;
 use crate::model::study::{Quantity, Study, obstacle};
-use crate::model::{ERROR_TOLERANCE, Kind, Model, StepLength};
+use crate::model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
 
 /// Intervals between samples where nothing says otherwise.
 pub const SAMPLES: usize = 200;
@@ -68,10 +68,10 @@ impl Ladder {
             let hint = "name a point or a body, or list `quantities` in `[study]`";
             problems.push(Diagnostic::error("there is nothing to measure errors on").hint(hint));
         }
-        if model.analysis.kind == Kind::Static && !study.schemes.is_empty() {
+        if model.analysis.kind == AnalysisKind::Static && !study.schemes.is_empty() {
             problems.push(Diagnostic::error("schemes integrate in time, and a static analysis has none"));
         }
-        if model.analysis.kind == Kind::Static && !study.error_tolerances.is_empty() {
+        if model.analysis.kind == AnalysisKind::Static && !study.error_tolerances.is_empty() {
             let message = "error tolerances are about steps in time, and a static analysis has none";
             problems.push(Diagnostic::error(message).hint("load steps have no error in time: give time steps"));
         }
@@ -184,7 +184,7 @@ fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
 
 /// What `[analysis]` says besides its step: a tolerance of the deck means nothing for a given step, and cannot be unset.
 fn analysis(model: &Model, deck: &Deck) -> String {
-    let kind = if model.analysis.kind == Kind::Static { "static" } else { "dynamic" };
+    let kind = if model.analysis.kind == AnalysisKind::Static { "static" } else { "dynamic" };
     let mut text = format!("kind = \"{kind}\", end_time = {}", float(model.analysis.end_time));
     let Some(at) = &deck.analysis else { return text };
     // Named one by one, so that none is forgotten.
@@ -216,7 +216,7 @@ fn fitting(interval: f64, step: f64) -> f64 {
 
 fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<Line> {
     let word = model.scheme.word().to_owned();
-    let is_static = model.analysis.kind == Kind::Static;
+    let is_static = model.analysis.kind == AnalysisKind::Static;
     let scheme = |label: &str, scheme: &Scheme, set: Option<String>| (label.to_owned(), scheme.clone(), set);
     let schemes: Vec<_> = match study.schemes[..] {
         [] if is_static => vec![scheme("static", &model.scheme, None)],

@@ -187,7 +187,7 @@ impl System {
             pressures: model.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: model.damping.mass_factor,
-            dynamic: model.analysis.kind == model::Kind::Dynamic,
+            dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,
         })
     }
 

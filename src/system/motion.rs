@@ -3,7 +3,7 @@
 use super::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
-use crate::model::{Held, History, Kind, Model, Motion};
+use crate::model::{AnalysisKind, Held, History, Model, Motion};
 
 /// Displacement, velocity and acceleration of a held direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -105,8 +105,8 @@ impl<'a> Drive<'a> {
     /// A load without an amplitude: constant in dynamics, growing linearly over a static analysis.
     fn plain_factor(&self, t: f64) -> f64 {
         match self.model.analysis.kind {
-            Kind::Dynamic => 1.0,
-            Kind::Static => t / self.model.analysis.end_time,
+            AnalysisKind::Dynamic => 1.0,
+            AnalysisKind::Static => t / self.model.analysis.end_time,
         }
     }
 
@@ -147,8 +147,8 @@ impl<'a> Drive<'a> {
     /// Rates of the loads at time t, into `loading`: to the right of a kink.
     pub fn rates(&self, t: f64, loading: &mut Loading) {
         let plain = match self.model.analysis.kind {
-            Kind::Dynamic => 0.0,
-            Kind::Static => 1.0 / self.model.analysis.end_time,
+            AnalysisKind::Dynamic => 0.0,
+            AnalysisKind::Static => 1.0 / self.model.analysis.end_time,
         };
         let beyond = |i: usize| self.loads.get(i).and_then(|beyond| beyond.at(t));
         let rate = |i: usize| beyond(i).map_or_else(|| self.model.amplitudes[i].rate(t), |(_, slope)| slope);
@@ -166,7 +166,7 @@ impl<'a> Drive<'a> {
     /// Motion of the held directions at time t, in the model's order. A static analysis has places but no rates, or
     /// dampers would act in it.
     pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {
-        let dynamic = self.model.analysis.kind == Kind::Dynamic;
+        let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();
         out.extend(self.model.held.iter().enumerate().map(|(i, held)| match &held.motion {
             None => Prescribed::default(),

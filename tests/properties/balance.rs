@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Kind, Link, LinkKind, MassKind, Model, Update};
+use rdsolve::model::{AnalysisKind, Link, LinkKind, MassKind, Model, Update};
 use rdsolve::system::energy::Energy;
 use rdsolve::system::{Forces, Loading, System};
 
@@ -13,7 +13,7 @@ use rdsolve::system::{Forces, Loading, System};
 /// masses of beam and arms ride on the bodies; without, arms and beam have none.
 fn flyer(riding: bool, time_step: f64) -> Model {
     let mut rng = StdRng::seed_from_u64(31);
-    let mut m = empty(Kind::Dynamic, 2.0, time_step);
+    let mut m = empty(AnalysisKind::Dynamic, 2.0, time_step);
     section(&mut m);
     let a = body(&mut m, Vec3::new(0.0, 0.0, 0.0), 2.0, inertia(&mut rng, 1.0));
     let b = body(&mut m, Vec3::new(3.0, 1.0, 0.5), 1.0, inertia(&mut rng, 0.5));
@@ -96,7 +96,7 @@ fn free_flight_with_riding_masses_keeps_momentum_to_second_order() {
 fn static_reactions_balance_the_loads() {
     let mut rng = StdRng::seed_from_u64(32);
     for _ in 0..3 {
-        let mut m = zoo(&mut rng, Kind::Static, 0.05);
+        let mut m = zoo(&mut rng, AnalysisKind::Static, 0.05);
         // Links along a fixed direction pass on moments that nobody takes; only supports may.
         m.links.retain(|l| !matches!(l.kind, LinkKind::Line { direction: Some(_), .. }));
         // Far from buckling.
@@ -137,7 +137,7 @@ fn static_reactions_balance_the_loads() {
 /// A body on a rail is pushed sideways and along from one instant on: from then on the rail carries the whole push.
 #[test]
 fn reactions_jump_with_the_loads() {
-    let mut m = empty(Kind::Dynamic, 0.5, 0.05);
+    let mut m = empty(AnalysisKind::Dynamic, 0.5, 0.05);
     let block = body(&mut m, Vec3::zeros(), 2.0, Mat3::identity());
     fix(&mut m, block, [0, 1]);
     m.amplitudes.push(Amplitude::Step { start: 0.2, end: f64::INFINITY });
@@ -152,7 +152,7 @@ fn reactions_jump_with_the_loads() {
 /// What links.csv says a bushing does to its first end is what the ground there must bear, also across a distance.
 #[test]
 fn bushings_tell_the_moment_at_their_first_end() {
-    let mut m = empty(Kind::Static, 1.0, 0.5);
+    let mut m = empty(AnalysisKind::Static, 1.0, 0.5);
     let ground = node(&mut m, Vec3::zeros());
     let block = body(&mut m, Vec3::new(1.0, 0.5, 0.0), 1.0, Mat3::identity());
     fix(&mut m, ground, 0..6);

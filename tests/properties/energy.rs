@@ -5,13 +5,13 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::link::Law;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Held, History, Kind, MassKind, Model, Motion, NodalDamping};
+use rdsolve::model::{AnalysisKind, Held, History, MassKind, Model, Motion, NodalDamping};
 
 /// A crane of a slanted column, a jib and a heavy block on a spring, one foot pushed about. Its beams are soft enough for
 /// the steps to follow every motion that takes part.
 fn crane(time_step: f64, damped: bool) -> Model {
     let mut rng = StdRng::seed_from_u64(41);
-    let mut m = empty(Kind::Dynamic, 2.0, time_step);
+    let mut m = empty(AnalysisKind::Dynamic, 2.0, time_step);
     section(&mut m);
     let p = [[0.0, 0.0, 0.0], [0.3, 0.2, 2.0], [1.8, 0.0, 2.5]].map(|x| node(&mut m, Vec3::from(x)));
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::x(), MassKind::Lumped);
@@ -67,7 +67,7 @@ fn a_damper_takes_what_the_oscillator_loses() {
     let errors: Vec<f64> = [0.01, 0.005]
         .iter()
         .map(|&dt| {
-            let mut m = empty(Kind::Dynamic, end, dt);
+            let mut m = empty(AnalysisKind::Dynamic, end, dt);
             let (a, b) = (node(&mut m, Vec3::zeros()), node(&mut m, Vec3::x()));
             fix(&mut m, a, 0..6);
             fix(&mut m, b, 1..3);

@@ -5,14 +5,14 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::linear;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Kind, MassKind, Model, Update};
+use rdsolve::model::{AnalysisKind, MassKind, Model, Update};
 use rdsolve::plan::Plan;
 use rdsolve::state::Node;
 use rdsolve::system::System;
 
 /// An arm of two beams with something at its end, to be put there; gravity and a pulse act. The end comes back.
 fn arm(time_step: f64) -> (Model, usize) {
-    let mut m = empty(Kind::Dynamic, 1.0, time_step);
+    let mut m = empty(AnalysisKind::Dynamic, 1.0, time_step);
     section(&mut m);
     let p = [[0.0, 0.0, 0.0], [1.0, 0.2, 0.1], [1.8, -0.3, 0.5]].map(|x| node(&mut m, Vec3::from(x)));
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::z(), MassKind::Lumped);
@@ -118,7 +118,7 @@ fn masses_on_arms_are_the_body_they_make() {
 #[test]
 fn a_plane_scene_is_the_same_in_space() {
     let in_plane = |plane: bool| {
-        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
         m.analysis.plane = plane;
         m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
         let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
@@ -144,7 +144,7 @@ fn a_plane_scene_is_the_same_in_space() {
 #[test]
 fn a_plane_scene_that_yields_is_the_same_in_space_and_in_any_plane() {
     let scene = |plane: bool, side: Vec3| {
-        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
         m.analysis.plane = plane;
         m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
         let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
@@ -187,7 +187,7 @@ fn a_plane_scene_that_yields_is_the_same_in_space_and_in_any_plane() {
 fn updates_and_factorisations_do_not_show() {
     let tolerance = 1e-9;
     let mut rng = StdRng::seed_from_u64(64);
-    let mut m = zoo(&mut rng, Kind::Dynamic, 0.005);
+    let mut m = zoo(&mut rng, AnalysisKind::Dynamic, 0.005);
     m.analysis.end_time = 0.5;
     m.iteration.tolerance = tolerance;
     m.iteration.limit = 60;

@@ -5,12 +5,12 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3, rotation};
-use rdsolve::model::{BaseAcceleration, Held, History, Kind, MassKind, Model, Motion};
+use rdsolve::model::{AnalysisKind, BaseAcceleration, Held, History, MassKind, Model, Motion};
 
 /// A bent beam with a body at its end, its foot held in all directions.
 fn mast(time_step: f64) -> (Model, usize) {
     let mut rng = StdRng::seed_from_u64(51);
-    let mut m = empty(Kind::Dynamic, 1.5, time_step);
+    let mut m = empty(AnalysisKind::Dynamic, 1.5, time_step);
     section(&mut m);
     let p = [[0.0, 0.0, 0.0], [0.2, 0.1, 1.5], [1.2, 0.3, 2.0]].map(|x| node(&mut m, Vec3::from(x)));
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::x(), MassKind::Lumped);
@@ -96,7 +96,7 @@ fn a_driven_hub_carries_its_arm() {
     let errors: Vec<f64> = [0.01, 0.005]
         .iter()
         .map(|&dt| {
-            let mut m = empty(Kind::Dynamic, 2.0, dt);
+            let mut m = empty(AnalysisKind::Dynamic, 2.0, dt);
             let centre = Vec3::new(1.0, 2.0, 3.0);
             let hub = body(&mut m, centre, 1.0, Mat3::identity() * J);
             let far = node(&mut m, centre + arm);
@@ -132,7 +132,7 @@ fn a_driven_hub_carries_its_arm() {
 /// A support moves one end of a chain of two equal springs, one with a damper: the point between goes half the way.
 #[test]
 fn dampers_do_not_act_in_statics() {
-    let mut m = empty(Kind::Static, 1.0, 0.25);
+    let mut m = empty(AnalysisKind::Static, 1.0, 0.25);
     let [a, b, c] = [0.0, 1.0, 2.0].map(|x| node(&mut m, Vec3::x() * x));
     spring(&mut m, [a, b], 100.0, 0.0);
     spring(&mut m, [b, c], 100.0, 50.0);
@@ -149,7 +149,7 @@ fn dampers_do_not_act_in_statics() {
 /// A hub that is turned from the start on turns what rides on it in that direction, whether the rest rides or not.
 #[test]
 fn riders_start_turned_with_their_masters() {
-    let mut m = empty(Kind::Dynamic, 0.02, 0.01);
+    let mut m = empty(AnalysisKind::Dynamic, 0.02, 0.01);
     let hub = body(&mut m, Vec3::zeros(), 1.0, Mat3::identity());
     fix(&mut m, hub, [0, 1, 2, 3, 5]);
     drive(&mut m, hub, 4, Amplitude::Constant, 0.5, History::Displacement);

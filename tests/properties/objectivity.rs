@@ -4,12 +4,12 @@ use crate::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Vec3, rotation};
-use rdsolve::model::{History, Kind, MassKind, Model, Motion, NodalDamping};
+use rdsolve::model::{AnalysisKind, History, MassKind, Model, Motion, NodalDamping};
 use rdsolve::sections::Stiffness;
 
 /// 150 steps in which the ends move by a third of the structure and turn by a radian.
 fn lively(rng: &mut StdRng) -> Model {
-    let mut m = zoo(rng, Kind::Dynamic, 0.01);
+    let mut m = zoo(rng, AnalysisKind::Dynamic, 0.01);
     m.analysis.end_time = 1.5;
     let pulse = sine_squared(&mut m, 4.0);
     for load in &mut m.loads {
@@ -96,7 +96,7 @@ fn answers_shift_with_the_scene() {
 /// cut: a steel beam under a newton, and the same in coordinates of a map.
 #[test]
 fn small_loads_far_away_meet_rounding_and_go_on() {
-    for (kind, load) in [(Kind::Static, 1.0), (Kind::Static, 1e-6), (Kind::Dynamic, 1e-6)] {
+    for (kind, load) in [(AnalysisKind::Static, 1.0), (AnalysisKind::Static, 1e-6), (AnalysisKind::Dynamic, 1e-6)] {
         let tip = |x: f64| {
             let mut m = empty(kind, 1.0, 0.1);
             m.iteration.tolerance = 1e-8;
@@ -112,12 +112,12 @@ fn small_loads_far_away_meet_rounding_and_go_on() {
         };
         let near = tip(0.0);
         // Masses far out would be shaken by the rounding alone.
-        for &x in if kind == Kind::Static { &[1e4, 1e6][..] } else { &[1e4] } {
+        for &x in if kind == AnalysisKind::Static { &[1e4, 1e6][..] } else { &[1e4] } {
             // Positions are rounded to 2e-12 and 2e-10; slenderness squared, EA L²/EI = 1e4, is what bending makes of it.
             // Masses do as the rounded forces tell them, which is more than the load.
             let off = (tip(x) - near).norm();
             assert!(
-                kind == Kind::Dynamic || off < 1e4 * f64::EPSILON * x,
+                kind == AnalysisKind::Dynamic || off < 1e4 * f64::EPSILON * x,
                 "{kind:?}, load {load}, at {x}: {off:e} of {:e}",
                 near.norm()
             );

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Held, History, Kind, Model, Motion};
+use rdsolve::model::{AnalysisKind, Held, History, Model, Motion};
 
 fn drive(m: &mut Model, node: usize, dof: usize, amplitude: Amplitude, scale: f64) {
     m.amplitudes.push(amplitude);
@@ -21,7 +21,7 @@ fn a_load_on_a_bare_rider_moves_the_body() {
     for links in [1, 2] {
         let scene = |direct: bool| {
             let mut rng = StdRng::seed_from_u64(71);
-            let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+            let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
             let block = body(&mut m, Vec3::zeros(), 2.0, inertia(&mut rng, 1.0));
             let (mut tip, arm) = (block, Vec3::new(0.5, 0.2, -0.1));
             for _ in 0..links {
@@ -55,7 +55,7 @@ fn a_load_on_a_bare_rider_moves_the_body() {
 fn a_driven_rotation_turns_the_body_about_its_other_axes() {
     let scene = |moment: f64| {
         let mut rng = StdRng::seed_from_u64(72);
-        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
         let block = body(&mut m, Vec3::zeros(), 1.0, inertia(&mut rng, 1.0));
         fix(&mut m, block, 0..3);
         drive(&mut m, block, 3, SWING, 1.0);
@@ -71,7 +71,7 @@ fn a_driven_rotation_turns_the_body_about_its_other_axes() {
 /// second follows about its own axis by its gyroscopic moment.
 #[test]
 fn a_body_on_a_hinge_turns_by_inertia() {
-    let mut m = empty(Kind::Dynamic, 1.0, 0.005);
+    let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.005);
     let first = body(&mut m, Vec3::zeros(), 1.0, Mat3::identity() * 2.0);
     let second = body(&mut m, Vec3::z() * 0.1, 1.0, Mat3::from_diagonal(&Vec3::new(1.0, 3.0, 3.0)));
     ride(&mut m, second, first, [true, true, true, true, true, false]);
@@ -86,7 +86,7 @@ fn a_body_on_a_hinge_turns_by_inertia() {
 /// In a static analysis velocities mean nothing and inertia couples nothing.
 #[test]
 fn spin_is_no_cause_in_statics() {
-    let mut m = empty(Kind::Static, 1.0, 0.5);
+    let mut m = empty(AnalysisKind::Static, 1.0, 0.5);
     let block = body(&mut m, Vec3::zeros(), 1.0, Mat3::identity());
     let ground = node(&mut m, Vec3::z());
     fix(&mut m, ground, 0..6);
@@ -108,7 +108,7 @@ fn spin_is_no_cause_in_statics() {
 fn a_driven_body_with_one_free_rotation_is_iterated() {
     let scene = |moment: f64| {
         let mut rng = StdRng::seed_from_u64(73);
-        let mut m = empty(Kind::Dynamic, 1.0, 0.01);
+        let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
         let block = body(&mut m, Vec3::zeros(), 1.0, inertia(&mut rng, 1.0));
         fix(&mut m, block, [0, 1, 2, 5]);
         drive(&mut m, block, 3, SWING, 2.0);

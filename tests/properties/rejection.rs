@@ -2,7 +2,7 @@
 
 use crate::scene::*;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Expect, ExpectAt, Kind, MassKind, Model, Tolerance, Update, When};
+use rdsolve::model::{AnalysisKind, Expect, ExpectAt, MassKind, Model, Tolerance, Update, When};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::state::State;
@@ -10,10 +10,10 @@ use rdsolve::system::System;
 use std::sync::atomic::AtomicBool;
 
 /// Iterations that some steps need more of.
-const LIMITS: [(Kind, usize); 2] = [(Kind::Static, 5), (Kind::Dynamic, 4)];
+const LIMITS: [(AnalysisKind, usize); 2] = [(AnalysisKind::Static, 5), (AnalysisKind::Dynamic, 4)];
 
 /// A cantilever of two beams, bent far over, back, and over again, in steps too long for `limit` iterations.
-fn bent(kind: Kind, limit: usize) -> Model {
+fn bent(kind: AnalysisKind, limit: usize) -> Model {
     let mut m = empty(kind, 2.0, 0.125);
     m.analysis.least_step = 1e-6;
     section(&mut m);

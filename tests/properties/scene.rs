@@ -3,7 +3,7 @@
 use rand::rngs::StdRng;
 use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
-use rdsolve::elements::beam::{Rule, Yielding};
+use rdsolve::elements::beam::{IntegrationRule, Yielding};
 use rdsolve::elements::link::Law;
 use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
@@ -42,7 +42,7 @@ pub fn inertia(rng: &mut impl Rng, size: f64) -> Mat3 {
 }
 
 /// Nothing in it. The iteration tolerance lies so low that iteration is not what tests see.
-pub fn empty(kind: Kind, end_time: f64, time_step: f64) -> Model {
+pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
     Model {
         title: String::new(),
         units: None,
@@ -234,7 +234,7 @@ pub fn sine_squared(m: &mut Model, angular_frequency: f64) -> usize {
 
 /// A structure of one of each: beams of all orders and masses, a bar, links, a bushing; a body with riders of all six
 /// directions, of translations only, and on a rider; an offset node on a free node; loads that follow.
-pub fn zoo(rng: &mut StdRng, kind: Kind, time_step: f64) -> Model {
+pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
     let mut m = empty(kind, 1.0, time_step);
     section(&mut m);
     let spots = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.5, 2.5, 0.5], [1.0, 3.0, 1.0], [0.0, 2.0, 2.0]];
@@ -299,7 +299,8 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
     let fibre = |(y, z): (f64, f64)| Fibre { area: 0.0156, y, z, shear: [[0.9, 0.0, -z], [0.0, 0.9, y]] };
     let fibres: Vec<Fibre> = fibres.map(fibre).collect();
     for (i, beam) in m.beams.iter_mut().enumerate() {
-        let (rule, points) = if i % 3 == 1 { (Rule::Lobatto, 5) } else { (Rule::Gauss, beam.order + i % 2) };
+        let (rule, points) =
+            if i % 3 == 1 { (IntegrationRule::Lobatto, 5) } else { (IntegrationRule::Gauss, beam.order + i % 2) };
         let law = laws[i % 2].clone();
         beam.yielding = Some(Yielding { law, fibres: fibres.clone(), shear: i % 4 < 2, rule, points: points.min(5) });
     }

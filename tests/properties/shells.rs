@@ -4,12 +4,12 @@ use crate::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Kind, MassKind, Model};
+use rdsolve::model::{AnalysisKind, MassKind, Model};
 use rdsolve::system::energy::Energy;
 
 /// A sheet of quadrilaterals whose edge rides on a block, triangles on its other side; soft enough for the steps to follow.
 fn flier(time_step: f64, mass: MassKind) -> Model {
-    let mut m = empty(Kind::Dynamic, 1.0, time_step);
+    let mut m = empty(AnalysisKind::Dynamic, 1.0, time_step);
     let (x, y) = (Vec3::x(), Vec3::y());
     let sheet = shell(&mut m, [0.3 * x, 1.3 * x, 0.3 * x + y], [3, 2], 4, mass);
     let flap = shell(&mut m, [-1.3 * x, -0.3 * x, -1.3 * x + y], [2, 2], 3, mass);

@@ -5,12 +5,12 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Held, History, Kind, Model, Motion, Update};
+use rdsolve::model::{AnalysisKind, Held, History, Model, Motion, Update};
 
 /// A body far from the origin with an arm on it and an arm on the arm, massive at its end.
 fn wheel(time_step: f64, end_time: f64) -> (Model, [usize; 3]) {
     let mut rng = StdRng::seed_from_u64(21);
-    let mut m = empty(Kind::Dynamic, end_time, time_step);
+    let mut m = empty(AnalysisKind::Dynamic, end_time, time_step);
     m.iteration.tolerance = 1e-8;
     let hub = body(&mut m, Vec3::new(3.0, -2.0, 1.0), 2.0, inertia(&mut rng, 1.0));
     let near = node(&mut m, Vec3::new(3.7, -2.4, 1.3));

@@ -10,7 +10,7 @@ use rdsolve::integrators::{Coefficients, RotationUpdate, load_steps};
 use rdsolve::linear;
 use rdsolve::math::rotation::{exp, inverse_tangent};
 use rdsolve::math::{Vec3, Vec6, bottom, join};
-use rdsolve::model::{Kind, MassKind, Model, NodalDamping, Pressure, StepLength};
+use rdsolve::model::{AnalysisKind, MassKind, Model, NodalDamping, Pressure, StepLength};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
 use rdsolve::system::assembly::Weights;
@@ -37,8 +37,8 @@ impl Instant {
         let system = System::new(&m).unwrap();
         let plan = Plan::new(&m, &system, 1);
         let scheme = match (m.analysis.kind, &m.scheme) {
-            (Kind::Static, _) => load_steps::coefficients(),
-            (Kind::Dynamic, scheme) => scheme.coefficients(m.analysis.nominal_step()),
+            (AnalysisKind::Static, _) => load_steps::coefficients(),
+            (AnalysisKind::Dynamic, scheme) => scheme.coefficients(m.analysis.nominal_step()),
         };
         let mut loading = Loading::default();
         Drive::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);
@@ -142,7 +142,7 @@ fn difference(A: &DMatrix<f64>, B: &DMatrix<f64>) -> f64 {
 fn of_a_static_scene_is_exact() {
     let mut rng = StdRng::seed_from_u64(1);
     for round in 0..6 {
-        let mut scene = zoo(&mut rng, Kind::Static, 1.0);
+        let mut scene = zoo(&mut rng, AnalysisKind::Static, 1.0);
         press(&mut scene);
         let mut at = Instant::random(&scene, &mut rng, 0.0, Some(0.3));
         let exact = at.differences();
@@ -168,7 +168,7 @@ fn press(m: &mut Model) {
 fn at_rest_holds_mass_and_damping_exactly() {
     let mut rng = StdRng::seed_from_u64(2);
     for round in 0..3 {
-        let mut scene = zoo(&mut rng, Kind::Dynamic, 0.1);
+        let mut scene = zoo(&mut rng, AnalysisKind::Dynamic, 0.1);
         damp(&mut scene);
         let mut at = Instant::random(&scene, &mut rng, 0.0, Some(0.0));
         let exact = at.differences();
@@ -208,7 +208,7 @@ fn errors(scene: &Model, seed: u64, step: f64) -> Vec<f64> {
 #[test]
 fn in_motion_errs_by_second_order_of_the_step() {
     let mut rng = StdRng::seed_from_u64(3);
-    let mut scene = zoo(&mut rng, Kind::Dynamic, 0.1);
+    let mut scene = zoo(&mut rng, AnalysisKind::Dynamic, 0.1);
     // Nothing massive on a rider: the beams between riders without mass.
     for beam in &mut scene.beams {
         beam.mass = MassKind::None;
@@ -230,7 +230,7 @@ fn in_motion_errs_by_second_order_of_the_step() {
 #[test]
 fn in_motion_with_massive_riders_errs_by_first_order_of_the_step() {
     let mut rng = StdRng::seed_from_u64(5);
-    let mut scene = zoo(&mut rng, Kind::Dynamic, 0.1);
+    let mut scene = zoo(&mut rng, AnalysisKind::Dynamic, 0.1);
     damp(&mut scene);
     let e = errors(&scene, 6, 0.004);
     eprintln!("errors {e:?}");

@@ -47,7 +47,7 @@ pub fn model() -> Model {
         title: "one of each".into(),
         units: None,
         analysis: Analysis {
-            kind: Kind::Dynamic,
+            kind: AnalysisKind::Dynamic,
             end_time: 1.0,
             step_length: StepLength::Fixed { step: 0.1 },
             least_step: 1e-6,

@@ -25,8 +25,10 @@ use crate::sections::{Fibre, Stiffness};
 use crate::state::{Configuration, Node};
 use fibres::{Fibred, Profile};
 use quaternion::{Quat, dot, left, right, right_unit, rotation, times_conjugate};
+use schemars::JsonSchema;
 pub use section::Elastic;
 use section::Section;
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// Degree of the elements where the deck does not say. `scripts/speed.py --orders` measures it: orders 3 and 4 reach a given
@@ -36,19 +38,22 @@ pub const DEFAULT_ORDER: usize = 3;
 /// Integration points of an element at most.
 pub const MOST_POINTS: usize = 5;
 
-/// Where an element is integrated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rule {
+/// The rule by which an element is integrated along its length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntegrationRule {
+    /// The most accurate for its number of points, which lie inside.
+    #[default]
     Gauss,
-    /// With points at the ends, where clamped beams yield first.
+    /// With points at the ends of the element, where clamped beams yield first.
     Lobatto,
 }
 
-impl Rule {
+impl IntegrationRule {
     fn points(self, n: usize) -> (&'static [f64], &'static [f64]) {
         match self {
-            Rule::Gauss => quadrature::gauss(n),
-            Rule::Lobatto => quadrature::lobatto(n),
+            IntegrationRule::Gauss => quadrature::gauss(n),
+            IntegrationRule::Lobatto => quadrature::lobatto(n),
         }
     }
 }
@@ -130,7 +135,7 @@ impl<const N: usize> Beams<N> {
             2 => Elastic::new(&with_bending_flexibility(e.stiffness, length), e.frame),
             _ => Elastic::new(e.stiffness, e.frame),
         };
-        Beams::build(elements, x, damping, Rule::Gauss.points(N - 1), section)
+        Beams::build(elements, x, damping, IntegrationRule::Gauss.points(N - 1), section)
     }
 }
 
@@ -141,7 +146,7 @@ pub struct Yielding {
     pub fibres: Vec<Fibre>,
     /// Shear stress counts in the yield condition; otherwise shear and torsion stay elastic.
     pub shear: bool,
-    pub rule: Rule,
+    pub rule: IntegrationRule,
     /// Integration points of an element, as many as its order at least.
     pub points: usize,
 }
