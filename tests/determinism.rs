@@ -2,7 +2,7 @@
 
 use rdsolve::diagnostic::Source;
 use rdsolve::materials::Dissipation;
-use rdsolve::model::{self, Model};
+use rdsolve::model::{self, Model, Part};
 use rdsolve::output::energy_csv;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{ContactState, Frame, JointState, Observer, Outcome, Run, Wanted};
@@ -359,9 +359,7 @@ fn assert_same_bits(text: &str) -> (Vec<Step>, State) {
     let (model, problems) = model::read(&source);
     let said = || problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n");
     let model = model.unwrap_or_else(|| panic!("{}", said()));
-    let parts = model.beams.iter().map(|beam| beam.elements.len());
-    let parts = parts.chain(model.shells.iter().map(|shell| shell.elements.len()));
-    let elements: usize = parts.chain(model.contacts.iter().map(|contact| contact.points.len())).sum();
+    let elements: usize = model.parts.iter().map(Part::elements).sum();
     assert!(elements > 1024, "too small for threads: {elements} elements");
     let one = steps(&model, 1);
     for threads in [2, 5] {

@@ -6,8 +6,8 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    self, ArcLength, Cadence, ExpectAt, History, LinkKind, MassKind, Method, Model, Passage, Shape, StepLength,
-    Tolerance, When,
+    self, ArcLength, Bar, Beam, Cadence, ExpectAt, History, Link, LinkKind, MassKind, Method, Model, Passage, Shape,
+    Shell, StepLength, Tolerance, When,
 };
 use rdsolve::sections::Fibre;
 
@@ -39,7 +39,8 @@ fn nodes_come_in_the_order_points_bodies_the_rest() {
 #[test]
 fn beams_follow_their_path() {
     let model = everything();
-    let beam = &model.beams[0];
+    let beams: Vec<&Beam> = model.each().collect();
+    let beam = beams[0];
     assert_eq!((beam.order, beam.elements.len()), (2, 3));
     let [a, b, c] = ["a", "b", "c"].map(|name| node(&model, name));
     let start = node(&model, "frame.start");
@@ -60,7 +61,8 @@ fn beams_follow_their_path() {
 #[test]
 fn beams_of_one_section_and_material_share_a_stiffness() {
     let model = everything();
-    let index = |beam: usize| model.beams[beam].elements[0].section;
+    let beams: Vec<&Beam> = model.each().collect();
+    let index = |beam: usize| beams[beam].elements[0].section;
     assert_eq!(index(0), index(1));
     assert_ne!(index(0), index(2));
     let given = &model.stiffnesses[index(2)];
@@ -70,7 +72,8 @@ fn beams_of_one_section_and_material_share_a_stiffness() {
 #[test]
 fn bars_have_stiffness_and_mass() {
     let model = everything();
-    let [stay, rope] = [&model.bars[0], &model.bars[1]];
+    let bars: Vec<&Bar> = model.each().collect();
+    let [stay, rope] = [bars[0], bars[1]];
     assert_eq!((stay.axial_stiffness, stay.mass_per_length), (210e9 * 1e-4, 7850.0 * 1e-4));
     assert_eq!((rope.axial_stiffness, rope.mass_per_length, rope.tension_only), (1e6, 0.5, true));
     assert_eq!(rope.elements.len(), 2);
@@ -79,8 +82,9 @@ fn bars_have_stiffness_and_mass() {
 #[test]
 fn materials_that_yield_reach_their_parts() {
     let model = everything();
-    assert!(model.beams[..3].iter().all(|beam| beam.yielding.is_none()));
-    let brace = model.beams[3].yielding.as_ref().unwrap();
+    let beams: Vec<&Beam> = model.each().collect();
+    assert!(beams[..3].iter().all(|beam| beam.yielding.is_none()));
+    let brace = beams[3].yielding.as_ref().unwrap();
     assert_eq!((brace.rule, brace.points, brace.shear), (IntegrationRule::Lobatto, 4, false));
     let hardening = Hardening::Linear { yield_stress: 235e6, modulus: 1e9 };
     assert_eq!(brace.law, Law::new(210e9, 0.3, hardening, 0.5, None));
@@ -91,8 +95,9 @@ fn materials_that_yield_reach_their_parts() {
     for of in [|f: &Fibre| f.y * f.y, |f: &Fibre| f.z * f.z] {
         assert!((sum(of) - moment).abs() < 1e-13 * moment);
     }
-    assert!(model.bars[..2].iter().all(|bar| bar.yielding.is_none()));
-    let cable = &model.bars[2];
+    let bars: Vec<&Bar> = model.each().collect();
+    assert!(bars[..2].iter().all(|bar| bar.yielding.is_none()));
+    let cable = bars[2];
     let hardening = Hardening::table(vec![[0.0, 235e6], [0.02, 240e6], [0.2, 360e6]]).unwrap();
     let viscosity = Viscosity { fluidity: 40.4, overstress: Overstress::Power { exponent: 5.0 } };
     assert_eq!(cable.yielding, Some(Law::new(210e9, 0.3, hardening, 0.0, Some(viscosity))));
@@ -103,8 +108,7 @@ fn materials_that_yield_reach_their_parts() {
 #[test]
 fn shells_are_patches() {
     let model = everything();
-    let at = |name: &str| model.shells.iter().position(|shell| shell.name == name).unwrap();
-    let [wall, roof] = [&model.shells[at("wall")], &model.shells[at("roof")]];
+    let [wall, roof] = ["wall", "roof"].map(|name| model.each::<Shell>().find(|shell| shell.name == name).unwrap());
     assert_eq!((wall.corners, wall.elements.len(), roof.corners, roof.elements.len()), (3, 12, 3, 4));
     assert_eq!((wall.yielding.as_ref().unwrap().layers, roof.yielding.is_none()), (3, true));
     assert_eq!(
@@ -118,7 +122,8 @@ fn shells_are_patches() {
     let [follower] = &model.pressures[..] else { panic!("one of them follows") };
     assert_eq!((follower.pressure, follower.amplitude, follower.faces.len()), (-3.0, Some(0), 16));
     assert_eq!(follower.faces[0], Face::of(&roof.elements[0].nodes[..3]).unwrap());
-    assert_eq!(model.expects[4].at, ExpectAt::Shells(at("roof"), at("roof") + 1));
+    let at = model.parts.iter().position(|part| part.name() == "roof").unwrap();
+    assert_eq!(model.expects[4].at, ExpectAt::Shells(at, at + 1));
     assert!(model.output.sections && model.output.layers);
 }
 
@@ -154,7 +159,8 @@ fn supports_are_sorted_and_say_what_they_do() {
 #[test]
 fn links_measure_from_where_they_are() {
     let model = everything();
-    let free = |index: usize| match &model.links[index].kind {
+    let links: Vec<&Link> = model.each().collect();
+    let free = |index: usize| match &links[index].kind {
         LinkKind::Line { free_length, direction, .. } => (*free_length, *direction),
         LinkKind::Bushing { .. } => panic!("a bushing"),
     };
@@ -162,10 +168,10 @@ fn links_measure_from_where_they_are() {
     assert_eq!(free(1), (0.25, Some(-Vec3::x())));
     assert_eq!(free(2), (2.0, None));
     // At its centre a link acts on the body itself, elsewhere on a new node that rides on it.
-    assert_eq!(model.links[2].ends[0], model.bodies[0].node);
-    let rider = model.riders.iter().find(|rider| rider.node == model.links[0].ends[0]).unwrap();
+    assert_eq!(links[2].ends[0], model.bodies[0].node);
+    let rider = model.riders.iter().find(|rider| rider.node == links[0].ends[0]).unwrap();
     assert_eq!((rider.master, rider.dofs), (model.bodies[0].node, [true; 6]));
-    let LinkKind::Bushing { stiffness, axes, .. } = &model.links[3].kind else { panic!("no bushing") };
+    let LinkKind::Bushing { stiffness, axes, .. } = &links[3].kind else { panic!("no bushing") };
     assert_eq!((stiffness[5], axes.column(0).into_owned()), (6.0, Vec3::y()));
     assert_eq!(axes.column(2).into_owned(), -Vec3::z());
 }
@@ -173,7 +179,7 @@ fn links_measure_from_where_they_are() {
 #[test]
 fn parts_of_a_mesh_are_rigid_or_not() {
     let model = everything();
-    let lid: Vec<_> = model.shells.iter().filter(|shell| shell.name == "lid").collect();
+    let lid: Vec<_> = model.each::<Shell>().filter(|shell| shell.name == "lid").collect();
     assert_eq!(lid.iter().map(|part| (part.corners, part.elements.len())).collect::<Vec<_>>(), [(4, 1), (3, 2)]);
     assert_eq!(model.nodes[lid[0].elements[0].nodes[2]].x, Vec3::new(6.0, 1.0, 0.5));
     let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
@@ -207,7 +213,7 @@ fn one_word_makes_a_beam_rigid_that_nodes_are_attached_to() {
 fn initial_motion_is_that_of_a_rigid_body_where_it_should_be() {
     let model = everything();
     let omega = Vec3::new(0.0, 0.0, 2.0);
-    for element in &model.beams[1].elements {
+    for element in &model.each::<Beam>().nth(1).unwrap().elements {
         let inner = &model.nodes[element.nodes[1]];
         assert_eq!(inner.v, Vec3::new(1.0, 0.0, 0.0) + omega.cross(&(inner.x - Vec3::new(0.0, 0.0, 2.0))));
         assert_eq!(inner.omega, omega);

@@ -246,10 +246,7 @@ impl<'d> Builder<'d> {
     /// Whether the scheme at hand, named there, goes with the materials.
     pub(super) fn check_yielding(&mut self, scheme: &Span) {
         let model = &self.model;
-        let yields = model.beams.iter().any(|part| part.yielding.is_some())
-            || model.bars.iter().any(|part| part.yielding.is_some())
-            || model.shells.iter().any(|part| part.yielding.is_some());
-        if yields && matches!(model.scheme, Scheme::RungeKutta(_)) {
+        if model.yields() && matches!(model.scheme, Scheme::RungeKutta(_)) {
             let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
             self.error_with::<()>(scheme, "\"runge-kutta\" does not go with material that yields", hint);
         }
@@ -269,9 +266,7 @@ impl<'d> Builder<'d> {
         }
         self.check_yielding(&at.span);
         let model = &self.model;
-        let consistent = model.beams.iter().map(|part| part.mass).chain(model.bars.iter().map(|part| part.mass));
-        let mut consistent = consistent.chain(model.shells.iter().map(|part| part.mass));
-        if consistent.any(|mass| mass == MassKind::Consistent) {
+        if model.parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
             let hint = "mass = \"lumped\" needs no matrix at all";
             self.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
         }

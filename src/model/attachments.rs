@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner};
 use super::places::{Place, Reach, Spot};
-use super::{DIRECTIONS, Rider};
+use super::{DIRECTIONS, PartType, Rider};
 use crate::deck::attachments::AttachmentMethod;
 use crate::deck::beams::Beam;
 use crate::diagnostic::{At, Diagnostic};
@@ -116,7 +116,7 @@ impl<'d> Builder<'d> {
         line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         // Direction and length of an element at each node.
         let mut spans: HashMap<usize, Vec3> = HashMap::new();
-        for part in &self.model.beams[self.beam_parts[beam].clone()] {
+        for part in self.model.parts[self.beam_parts[beam].clone()].iter().filter_map(super::Beam::of) {
             for e in &part.elements {
                 let span = self.x(e.nodes[part.order]) - self.x(e.nodes[0]);
                 e.nodes[..=part.order].iter().for_each(|&node| {

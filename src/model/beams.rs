@@ -24,9 +24,9 @@ impl<'d> Builder<'d> {
                 self.need(&owner, "name", &beam.name);
             }
             self.beam_nodes.push(Vec::new());
-            let before = self.model.beams.len();
+            let before = self.model.parts.len();
             self.beam(index, name, &owner, beam);
-            self.beam_parts.push(before..self.model.beams.len());
+            self.beam_parts.push(before..self.model.parts.len());
         }
     }
 
@@ -63,7 +63,7 @@ impl<'d> Builder<'d> {
                 return None;
             }
             elements.iter_mut().for_each(|element| element.section = section);
-            self.model.beams.push(Beam { name, order, mass, rotary_inertia, yielding, elements });
+            self.model.add(Beam { name, order, mass, rotary_inertia, yielding, elements });
             return Some(());
         }
         if self.is_spoiled(owner.span, "group") {
@@ -116,7 +116,7 @@ impl<'d> Builder<'d> {
             }
         }
         self.beam_nodes[index] = nodes;
-        self.model.beams.push(Beam { name, order, mass, rotary_inertia, yielding, elements: made });
+        self.model.add(Beam { name, order, mass, rotary_inertia, yielding, elements: made });
         Some(())
     }
 
@@ -241,9 +241,9 @@ impl<'d> Builder<'d> {
             let owner = Owner { what: format!("bar `{name}`"), span: &bar.span };
             self.need(&owner, "name", &bar.name);
             self.bar_nodes.push(Vec::new());
-            let before = self.model.bars.len();
+            let before = self.model.parts.len();
             self.bar(index, name, &owner, bar);
-            self.bar_parts.push(before..self.model.bars.len());
+            self.bar_parts.push(before..self.model.parts.len());
         }
     }
 
@@ -276,16 +276,7 @@ impl<'d> Builder<'d> {
         self.bar_nodes[index] = nodes;
         let tension_only = bar.tension_only.as_ref().is_some_and(|only| only.value);
         let yielding = self.yielding_of(&bar.material)?;
-        self.model.bars.push(Bar {
-            name,
-            axial_stiffness,
-            mass_per_length,
-            mass,
-            tension_only,
-            free,
-            yielding,
-            elements,
-        });
+        self.model.add(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, free, yielding, elements });
         Some(())
     }
 

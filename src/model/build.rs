@@ -82,7 +82,7 @@ pub(super) struct Builder<'d> {
     pub meshed: Meshed<'d>,
     /// Parts that are rigid.
     pub rigid: RigidParts<'d>,
-    /// Of each beam, bar and shell of the deck: its entries in the model, none where it has errors.
+    /// The places in `model.parts` of each beam, bar and shell of the deck, none where it has errors.
     pub beam_parts: Vec<Range<usize>>,
     pub bar_parts: Vec<Range<usize>>,
     pub shell_parts: Vec<Range<usize>>,
@@ -150,11 +150,7 @@ impl<'d> Builder<'d> {
             bodies: Vec::new(),
             masses: Vec::new(),
             stiffnesses: Vec::new(),
-            beams: Vec::new(),
-            bars: Vec::new(),
-            shells: Vec::new(),
-            links: Vec::new(),
-            contacts: Vec::new(),
+            parts: Vec::new(),
             riders: Vec::new(),
             joints: Vec::new(),
             held: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner, span, vec3};
 use super::places::Place;
-use super::{AnalysisKind, Contact, Held, Model, Shape as Drawn, StepLength};
+use super::{AnalysisKind, Bar, Beam, Contact, Held, Model, PartType, Shape as Drawn, Shell, StepLength};
 use crate::deck::contacts as deck;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
@@ -61,7 +61,7 @@ impl<'d> Builder<'d> {
             if law.is_some() {
                 self.check_start(&owner, node, &surface, &points);
             }
-            self.model.contacts.push(Contact { name, node, surface, points, law, chosen });
+            self.model.add(Contact { name, node, surface, points, law, chosen });
         }
     }
 
@@ -290,7 +290,7 @@ impl<'d> Builder<'d> {
             Place::Beam(beam) => {
                 let radius = self.half_depth(beam);
                 found.extend(self.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
-                for part in &self.model.beams[self.beam_parts[beam].clone()] {
+                for part in self.model.parts[self.beam_parts[beam].clone()].iter().filter_map(Beam::of) {
                     let (ends, _) = quadrature::lobatto(part.order + 1);
                     for element in &part.elements {
                         let nodes = &element.nodes[..=part.order];
@@ -304,7 +304,7 @@ impl<'d> Builder<'d> {
             }
             Place::Bar(bar) => {
                 found.extend(self.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0)));
-                for part in &self.model.bars[self.bar_parts[bar].clone()] {
+                for part in self.model.parts[self.bar_parts[bar].clone()].iter().filter_map(Bar::of) {
                     for [a, b] in &part.elements {
                         found.extend((1..=between).map(|k| {
                             let s = k as f64 / (between + 1) as f64;
@@ -314,10 +314,9 @@ impl<'d> Builder<'d> {
                 }
             }
             Place::Shell(shell) => {
-                let parts = &self.model.shells[self.shell_parts[shell].clone()];
-                let radius = parts.first().map_or(0.0, |part| 0.5 * part.plate.thickness);
+                let radius = 0.5 * self.thickness(shell);
                 found.extend(self.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
-                for part in parts {
+                for part in self.model.parts[self.shell_parts[shell].clone()].iter().filter_map(Shell::of) {
                     let mut edges = HashSet::new();
                     for element in &part.elements {
                         within(&element.nodes[..part.corners], between, radius, &mut edges, found);
@@ -325,12 +324,17 @@ impl<'d> Builder<'d> {
                 }
             }
             Place::Edge(shell, _) => {
-                let parts = &self.model.shells[self.shell_parts[shell].clone()];
-                let radius = parts.first().map_or(0.0, |part| 0.5 * part.plate.thickness);
+                let radius = 0.5 * self.thickness(shell);
                 found.extend(self.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
             }
             _ => found.extend(self.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0))),
         }
+    }
+
+    /// Thickness of a shell of the deck; 0 where it has errors.
+    fn thickness(&self, shell: usize) -> f64 {
+        let mut parts = self.model.parts[self.shell_parts[shell].clone()].iter().filter_map(Shell::of);
+        parts.next().map_or(0.0, |part| part.plate.thickness)
     }
 
     /// Half the smaller side of a beam's section; 0 where the section does not say.
@@ -515,25 +519,15 @@ impl<'d> Builder<'d> {
 
     /// What rests at each node, and at what it rides on.
     fn masses_at_nodes(&self) -> Vec<f64> {
-        let Model { nodes, bodies, masses, beams, bars, shells, stiffnesses, .. } = &self.model;
+        let Model { nodes, bodies, masses, parts, stiffnesses, .. } = &self.model;
         let mut at = vec![0.0; nodes.len()];
-        let length = |a: usize, b: usize| (nodes[a].x - nodes[b].x).norm();
         bodies.iter().for_each(|body| at[body.node] += body.mass);
         masses.iter().for_each(|mass| at[mass.node] += mass.mass);
-        for (beam, element) in beams.iter().flat_map(|beam| beam.elements.iter().map(move |e| (beam, e))) {
-            let of = &element.nodes[..=beam.order];
-            let mass = stiffnesses[element.section].mass_per_length * length(of[0], of[beam.order]);
-            of.iter().for_each(|&node| at[node] += mass / of.len() as f64);
-        }
-        for (bar, [a, b]) in bars.iter().flat_map(|bar| bar.elements.iter().map(move |e| (bar, e))) {
-            let mass = bar.mass_per_length * length(*a, *b);
-            [a, b].iter().for_each(|&&node| at[node] += 0.5 * mass);
-        }
-        for (shell, element) in shells.iter().flat_map(|shell| shell.elements.iter().map(move |e| (shell, e))) {
-            let of = &element.nodes[..shell.corners];
-            let x: Vec<Vec3> = of.iter().map(|&node| nodes[node].x).collect();
-            let area = 0.5 * (1..of.len() - 1).map(|k| (x[k] - x[0]).cross(&(x[k + 1] - x[0])).norm()).sum::<f64>();
-            of.iter().for_each(|&node| at[node] += shell.density * shell.plate.thickness * area / of.len() as f64);
+        for part in parts.iter().filter(|part| part.kind().is_deformable()) {
+            for element in 0..part.elements() {
+                let (of, mass) = (part.nodes(element), part.element_mass(element, nodes, stiffnesses));
+                of.iter().for_each(|&node| at[node] += mass / of.len() as f64);
+            }
         }
         for node in 0..at.len() {
             let root = self.root(node);

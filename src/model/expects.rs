@@ -2,7 +2,7 @@
 
 use super::build::{Builder, Owner, span};
 use super::places::{Place, Reach};
-use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Tolerance, When};
+use super::{Cadence, DIRECTIONS, Expect, ExpectAt, Output, Part, Tolerance, When};
 use crate::deck::expect as deck;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;
@@ -108,11 +108,11 @@ impl<'d> Builder<'d> {
             // Where a shell has errors, these have been said.
             Some(Place::Shell(shell)) if !self.shell_parts[shell].is_empty() => {
                 let Range { start, end } = self.shell_parts[shell];
-                if self.model.shells[start..end].iter().all(|part| part.elements.is_empty()) {
+                if self.model.parts[start..end].iter().all(|part| part.elements() == 0) {
                     let message = format!("`{}` is rigid, so it has no stress and no plastic strain", name.value);
                     return self.error(&name.span, message);
                 }
-                let yields = self.model.shells[start].yielding.is_some();
+                let yields = self.model.parts[start].yields();
                 let columns = if yields { vec!["von_mises", "plastic_strain"] } else { vec!["von_mises"] };
                 Some((ExpectAt::Shells(start, end), columns))
             }
@@ -135,28 +135,24 @@ impl<'d> Builder<'d> {
 
     /// A part that yields; counted as [`ExpectAt::Elements`] counts.
     fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
-        let beams = self.model.beams.iter().map(|beam| (beam.elements.len(), beam.yielding.is_some()));
-        let bars = self.model.bars.iter().map(|bar| (bar.elements.len(), bar.yielding.is_some()));
         // Where a part has errors, these have been said, and the count is off.
         if [&self.beam_parts, &self.bar_parts].iter().any(|p| p.iter().any(Range::is_empty)) {
             return None;
         }
-        let parts: Vec<(usize, bool)> = beams.chain(bars).collect();
-        let (before, range) = match place {
-            Place::Bar(bar) => (self.model.beams.len(), &self.bar_parts[bar]),
-            Place::Beam(beam) => (0, &self.beam_parts[beam]),
+        let Range { start, end } = match place {
+            Place::Bar(bar) => self.bar_parts[bar].clone(),
+            Place::Beam(beam) => self.beam_parts[beam].clone(),
             _ => return None,
         };
-        let (index, next) = (before + range.start, before + range.end);
-        let count: usize = parts[index..next].iter().map(|(count, _)| count).sum();
+        let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
+        let (from, count) = (elements(&self.model.parts[..start]), elements(&self.model.parts[start..end]));
         if count == 0 {
             return self.error(&name.span, format!("`{}` is rigid, so it has no plastic strain", name.value));
         }
-        if !parts[index].1 {
+        if !self.model.parts[start].yields() {
             let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
             return self.error(&name.span, message);
         }
-        let from = parts[..index].iter().map(|(count, _)| count).sum();
         Some((ExpectAt::Elements(from, from + count), vec!["plastic_strain"]))
     }
 

@@ -1,5 +1,6 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
+use super::Shell;
 use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
 use super::places::{Reach, Spot};
 use crate::amplitude::Amplitude;
@@ -120,7 +121,7 @@ impl<'d> Builder<'d> {
     /// By node, zero where there is no shell: an error for those of the deck's list.
     fn normals(&mut self, spots: &[Spot<'d>]) -> Vec<Vec3> {
         let mut normals = vec![Vec3::zeros(); self.model.nodes.len()];
-        for shell in &self.model.shells {
+        for shell in self.model.each::<Shell>() {
             for element in &shell.elements {
                 for (&node, normal) in element.nodes[..shell.corners].iter().zip(&element.normals) {
                     normals[node] += normal;

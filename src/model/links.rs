@@ -28,7 +28,7 @@ impl<'d> Builder<'d> {
                 );
             }
             if let (Some(ends), Some(kind)) = (ends, kind) {
-                self.model.links.push(Link { name, ends, kind });
+                self.model.add(Link { name, ends, kind });
             }
         }
     }

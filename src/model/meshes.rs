@@ -246,7 +246,7 @@ impl<'d> Builder<'d> {
             let message = format!("the elements of {} are not oriented alike: at {against} edges", owner.what);
             self.warn(&name.span, message, "pressure acts against the normal of each element");
         }
-        let begin = self.model.shells.len();
+        let begin = self.model.parts.len();
         for corners in [4, 3] {
             let of = |(number, (face, normals)): (usize, (&&mesh::Element, &[Vec3; 4]))| {
                 let at = |k: usize| k.min(corners - 1);
@@ -260,10 +260,10 @@ impl<'d> Builder<'d> {
             let (numbers, elements): (Vec<u32>, Vec<ShellElement>) = of.unzip();
             if !elements.is_empty() {
                 let numbers = if elements.len() < faces.len() { numbers } else { Vec::new() };
-                self.model.shells.push(Shell { corners, elements, numbers, ..shell.clone() });
+                self.model.add(Shell { corners, elements, numbers, ..shell.clone() });
             }
         }
-        self.shell_parts[index] = begin..self.model.shells.len();
+        self.shell_parts[index] = begin..self.model.parts.len();
         Some(())
     }
 

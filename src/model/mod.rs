@@ -16,6 +16,7 @@ mod links;
 mod loads;
 mod materials;
 mod meshes;
+mod part;
 mod path;
 mod places;
 mod rigid;
@@ -33,16 +34,15 @@ pub use crate::deck::supports::History;
 pub use build::{build, read};
 pub use expects::{CONTACT, ENERGY};
 pub use meshes::Input;
+pub use part::{
+    Bar, Beam, BeamElement, Contact, Drawing, Link, LinkKind, Part, PartKind, PartType, Shell, ShellElement,
+};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, StepLength, may_stiffen, stable_fraction};
 pub use study::Study;
 
 use crate::amplitude::Amplitude;
 use crate::constraints::joint::Row;
-use crate::elements::beam::Yielding;
-use crate::elements::contact;
-use crate::elements::link::Law;
 use crate::elements::pressure::Face;
-use crate::elements::shell::{self, Plate};
 use crate::integrators::Scheme;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
@@ -61,11 +61,8 @@ pub struct Model {
     pub masses: Vec<Mass>,
     /// Section stiffnesses and inertias, shared by the elements that name them.
     pub stiffnesses: Vec<Stiffness>,
-    pub beams: Vec<Beam>,
-    pub bars: Vec<Bar>,
-    pub shells: Vec<Shell>,
-    pub links: Vec<Link>,
-    pub contacts: Vec<Contact>,
+    /// Beams, then bars, shells, links and contacts, each kind in deck order: the order of numbering, assembly and rows.
+    pub parts: Vec<Part>,
     /// Nodes tied to other nodes, each at most once, in no particular order.
     pub riders: Vec<Rider>,
     pub joints: Vec<Joint>,
@@ -218,115 +215,6 @@ pub struct Mass {
     pub inertia: Mat3,
 }
 
-#[derive(Debug, Clone)]
-pub struct Beam {
-    pub name: String,
-    /// Degree of the interpolation: an element has `order + 1` nodes.
-    pub order: usize,
-    pub mass: MassKind,
-    /// Keep the rotary inertia of the section.
-    pub rotary_inertia: bool,
-    /// `None`: the material is elastic.
-    pub yielding: Option<Yielding>,
-    pub elements: Vec<BeamElement>,
-}
-
-#[derive(Debug, Clone)]
-pub struct BeamElement {
-    /// From one end to the other; the first `order + 1` are used. Inner nodes lie at the Lobatto points of a straight line.
-    pub nodes: [usize; 5],
-    /// Columns: section axes x (along the beam), y, z in global components at t = 0.
-    pub frame: Mat3,
-    /// Index into [`Model::stiffnesses`].
-    pub section: usize,
-}
-
-#[derive(Debug, Clone)]
-pub struct Bar {
-    pub name: String,
-    /// E A, force per unit strain.
-    pub axial_stiffness: f64,
-    pub mass_per_length: f64,
-    pub mass: MassKind,
-    pub tension_only: bool,
-    /// Length without force over that at t = 0.
-    pub free: f64,
-    /// `None`: the material is elastic.
-    pub yielding: Option<crate::materials::Law>,
-    pub elements: Vec<[usize; 2]>,
-}
-
-#[derive(Debug, Clone)]
-pub struct Shell {
-    pub name: String,
-    pub plate: Plate,
-    pub density: f64,
-    pub mass: MassKind,
-    /// `None`: the material is elastic.
-    pub yielding: Option<shell::Yielding>,
-    /// Axis 1 of results: laid into the surface, element by element.
-    pub axis: Vec3,
-    /// Of each element: 3 or 4.
-    pub corners: usize,
-    pub elements: Vec<ShellElement>,
-    /// Of each element: its number in the deck's part, which is this shell and its neighbour of the same name. Empty where the
-    /// shell is the whole part: they count from 0.
-    pub numbers: Vec<u32>,
-}
-
-impl Shell {
-    /// An element's number in the deck's part.
-    pub fn number(&self, element: usize) -> usize {
-        self.numbers.get(element).map_or(element, |&number| number as usize)
-    }
-}
-
-#[derive(Debug, Clone)]
-pub struct ShellElement {
-    /// Counter-clockwise about the normals; of a triangle the first three are used.
-    pub nodes: [usize; 4],
-    /// Unit normals of the surface at the nodes, at t = 0.
-    pub normals: [Vec3; 4],
-}
-
-#[derive(Debug, Clone)]
-pub struct Link {
-    pub name: String,
-    /// Nodes at `from` and `to`: riders on a node or body, the node itself, or a held node for the ground.
-    pub ends: [usize; 2],
-    pub kind: LinkKind,
-}
-
-#[derive(Debug, Clone)]
-pub enum LinkKind {
-    /// Force along the line of the ends, or along a fixed global unit vector.
-    Line {
-        law: Law,
-        damping: f64,
-        direction: Option<Vec3>,
-        /// Length (along the line) at which the law's elongation is zero; along `direction`: the initial projection
-        /// counts as zero elongation unless a free length is given.
-        free_length: f64,
-    },
-    /// Six components in the frame of the first end; `axes` (columns, global at t = 0).
-    Bushing { stiffness: [f64; 6], damping: [f64; 6], axes: Mat3 },
-}
-
-/// Points against a surface.
-#[derive(Debug, Clone)]
-pub struct Contact {
-    pub name: String,
-    /// That carries the surface: a body's, or a held one for the ground.
-    pub node: usize,
-    /// In the frame of that node.
-    pub surface: contact::Surface,
-    pub points: Vec<contact::Point>,
-    /// `None`: a zone, only the gap is watched.
-    pub law: Option<contact::Law>,
-    /// The deck left the stiffness open.
-    pub chosen: bool,
-}
-
 /// A node constrained to another in some of its directions (45)-(48).
 #[derive(Debug, Clone)]
 pub struct Rider {
@@ -427,13 +315,13 @@ pub enum ExpectAt {
     Node(usize),
     /// Columns of energy.csv.
     Energy,
-    /// Columns of links.csv.
+    /// Columns of links.csv, by place among the links.
     Link(usize),
     /// Force and moment on the first end of a joint.
     Joint(usize),
-    /// Columns of contacts.csv, and the size of the force.
+    /// Columns of contacts.csv, and the size of the force, by place among the contacts.
     Contact(usize),
-    /// Largest values over a shell: of von Mises stress and plastic strain.
+    /// Largest values over the shells from one place in [`Model::parts`] to before another: of von Mises stress and plastic strain.
     Shells(usize, usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::build::{Builder, Owner, vec3_or_zero};
 use super::places::Place;
-use super::{AnalysisKind, Body, MassKind, Rider, Rigid, Shape};
+use super::{AnalysisKind, Bar, Beam, Body, MassKind, PartType, Rider, Rigid, Shape, Shell};
 use crate::deck::bodies as deck;
 use crate::diagnostic::{At, Span};
 use crate::elements::shell;
@@ -237,7 +237,7 @@ impl<'d> Builder<'d> {
         let mut cells = Vec::new();
         match part {
             Place::Beam(i) => {
-                for beam in &mut model.beams[self.beam_parts[i].clone()] {
+                for beam in model.parts[self.beam_parts[i].clone()].iter_mut().filter_map(Beam::of_mut) {
                     for e in std::mem::take(&mut beam.elements) {
                         let ends = [e.nodes[0], e.nodes[beam.order]];
                         let x = ends.map(|node| model.nodes[node].x - origin);
@@ -252,7 +252,7 @@ impl<'d> Builder<'d> {
                 }
             }
             Place::Bar(i) => {
-                for bar in &mut model.bars[self.bar_parts[i].clone()] {
+                for bar in model.parts[self.bar_parts[i].clone()].iter_mut().filter_map(Bar::of_mut) {
                     for ends in std::mem::take(&mut bar.elements) {
                         let x = ends.map(|node| model.nodes[node].x - origin);
                         let density = if bar.mass == MassKind::None { 0.0 } else { bar.mass_per_length };
@@ -262,7 +262,7 @@ impl<'d> Builder<'d> {
                 }
             }
             Place::Shell(i) => {
-                for shell in &mut model.shells[self.shell_parts[i].clone()] {
+                for shell in model.parts[self.shell_parts[i].clone()].iter_mut().filter_map(Shell::of_mut) {
                     let h = shell.plate.thickness;
                     let density = if shell.mass == MassKind::None { 0.0 } else { shell.density };
                     for e in std::mem::take(&mut shell.elements) {

@@ -218,9 +218,9 @@ impl<'d> Builder<'d> {
             let message = format!("{} folds back on itself", owner.what);
             return self.error_with(owner.span, message, "corners go round the patch, each at its own place");
         }
-        self.shell_parts[index] = self.model.shells.len()..self.model.shells.len() + 1;
         let numbers = Vec::new();
-        self.model.shells.push(Shell { name, plate, density, mass, yielding, axis, corners, elements, numbers });
+        let place = self.model.add(Shell { name, plate, density, mass, yielding, axis, corners, elements, numbers });
+        self.shell_parts[index] = place..place + 1;
         Some(())
     }
 
@@ -255,8 +255,8 @@ impl<'d> Builder<'d> {
         if let Some(faces) = self.rigid.faces.get(&shell) {
             return faces.clone();
         }
-        let parts = &self.model.shells[self.shell_parts[shell].clone()];
-        parts.iter().flat_map(|part| part.elements.iter().map(|e| e.nodes[..part.corners].to_vec())).collect()
+        let parts = &self.model.parts[self.shell_parts[shell].clone()];
+        parts.iter().flat_map(|part| (0..part.elements()).map(|e| part.nodes(e).to_vec())).collect()
     }
 
     /// Pairs of nodes along which a load per length acts: the segments of a group, or edges of shells between nodes of a set,

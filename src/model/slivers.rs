@@ -1,6 +1,7 @@
 //! Shell elements that no one would draw. They pass the patch test, so they are taken, but what they leave of the digits is little.
 
 use super::build::Builder;
+use super::{PartType, Shell};
 use crate::math::Vec3;
 use crate::names::short;
 
@@ -36,8 +37,8 @@ impl Builder<'_> {
     pub fn check_slivers(&mut self) {
         for (shell, parts) in self.deck.shells.iter().zip(self.shell_parts.clone()) {
             let (mut long, mut flat) = (Worst::default(), Worst::default());
-            let parts = self.model.shells.get(parts).unwrap_or_default();
-            for (part, element) in parts.iter().flat_map(|part| part.elements.iter().map(move |e| (part, e))) {
+            let parts = self.model.parts.get(parts).unwrap_or_default().iter().filter_map(Shell::of);
+            for (part, element) in parts.flat_map(|part| part.elements.iter().map(move |e| (part, e))) {
                 let n = part.corners;
                 let x: [Vec3; 4] = std::array::from_fn(|k| self.x(element.nodes[k % n]));
                 let centre = x[..n].iter().sum::<Vec3>() / n as f64;

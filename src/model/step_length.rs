@@ -1,7 +1,6 @@
 //! How the steps of a run get their lengths: all alike, by their error, by what is stable, or along a path of equilibria.
 
-use super::{Link, LinkKind, Model, Passage};
-use crate::elements::link::Law;
+use super::{Model, Part, Passage};
 
 /// The relative error that automatic steps allow the displacements of a run unless the deck says otherwise.
 pub const ERROR_TOLERANCE: f64 = 1e-3;
@@ -59,6 +58,5 @@ pub fn stable_fraction(model: &Model) -> f64 {
 
 /// True where something may resist more than it does as it lies, all at once.
 pub fn may_stiffen(model: &Model) -> bool {
-    let bends = |link: &Link| matches!(&link.kind, LinkKind::Line { law, .. } if !matches!(law, Law::Linear { .. }));
-    !model.contacts.is_empty() || model.links.iter().any(bends)
+    model.parts.iter().any(Part::may_stiffen)
 }

@@ -25,19 +25,8 @@ impl Builder<'_> {
 fn each(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.bodies.iter_mut().for_each(|body| of(&mut body.node));
     model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
-    for beam in &mut model.beams {
-        beam.elements.iter_mut().flat_map(|e| &mut e.nodes[..=beam.order]).for_each(&mut *of);
-    }
-    model.bars.iter_mut().flat_map(|bar| &mut bar.elements).flatten().for_each(&mut *of);
-    for shell in &mut model.shells {
-        shell.elements.iter_mut().flat_map(|e| &mut e.nodes).for_each(&mut *of);
-    }
-    model.links.iter_mut().flat_map(|link| &mut link.ends).for_each(&mut *of);
+    model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
     model.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
-    for contact in &mut model.contacts {
-        of(&mut contact.node);
-        contact.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(&mut *of);
-    }
     model.held.iter_mut().for_each(|held| of(&mut held.node));
     model.loads.iter_mut().for_each(|load| of(&mut load.node));
     model.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);

@@ -2,6 +2,7 @@
 
 use super::table::Table;
 pub use crate::model::CONTACT as QUANTITIES;
+use crate::model::Contact;
 use crate::solve::{ContactState, Frame};
 use std::io;
 
@@ -19,7 +20,7 @@ pub(super) fn header() -> String {
 }
 
 pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
-    frame.model.contacts.iter().zip(frame.contacts).try_for_each(|(contact, state)| {
+    frame.model.each::<Contact>().zip(frame.contacts).try_for_each(|(contact, state)| {
         let row = table.row(frame.step, frame.state.time).text(&contact.name).count(state.touching);
         row.numbers(&values(state)[1..COLUMNS]).end()
     })

@@ -125,7 +125,7 @@ fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
         ExpectAt::Contact(i) => frame.contacts.get(i).map(|contact| contacts_csv::values(contact)[column]),
         ExpectAt::Shells(from, to) => {
             let of = [shells_csv::von_mises, shells_csv::plastic_strain][column];
-            frame.shells.iter().filter(|state| (from..to).contains(&state.shell)).map(of).reduce(f64::max)
+            frame.shells.iter().filter(|state| (from..to).contains(&state.part)).map(of).reduce(f64::max)
         }
         ExpectAt::Elements(from, to) => frame.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
     }

@@ -11,7 +11,7 @@ use super::shape::Surface;
 use super::vtu::{self, Cell};
 use super::{at, replace, shells_csv};
 use crate::math::{Mat3, Vec3, rotation};
-use crate::model::{Model, Shell};
+use crate::model::{Drawing, Model, Part, PartKind};
 use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -52,50 +52,48 @@ impl Grid {
         self.cell(kind, part, [first, last].into_iter().chain(first + 1..last));
     }
 
+    /// Cells of a part, or of one of two shells that make it up.
+    fn part(&mut self, part: usize, of: &Part) {
+        let first = self.places.len();
+        // Points of a surface's own, one for each of its nodes.
+        let mut place = HashMap::new();
+        for element in 0..of.elements() {
+            match of.drawing(element) {
+                Some(Drawing::Curve { nodes, axes }) => {
+                    let kind = match nodes.len() {
+                        2 => Cell::Line,
+                        3 => Cell::QuadraticEdge,
+                        _ => Cell::LagrangeCurve,
+                    };
+                    self.curve(kind, part, nodes, axes);
+                }
+                Some(Drawing::Face { corners }) => {
+                    let kind = if corners.len() == 3 { Cell::Triangle } else { Cell::Quad };
+                    let points: Vec<usize> = corners
+                        .iter()
+                        .map(|&node| {
+                            let next = first + place.len();
+                            *place.entry(node).or_insert_with(|| {
+                                self.places.push(Place { node, arm: Vec3::zeros(), axes: Mat3::identity() });
+                                next
+                            })
+                        })
+                        .collect();
+                    self.cell(kind, part, points.into_iter());
+                }
+                None => {}
+            }
+        }
+    }
+
     /// Beams, bars, shells, links, bodies, each in deck order.
     fn of(model: &Model) -> Grid {
         let mut grid = Grid::default();
         let mut part = 0..;
         let mut next = || part.next().unwrap_or_default();
-        for beam in &model.beams {
-            let kind = match beam.order {
-                1 => Cell::Line,
-                2 => Cell::QuadraticEdge,
-                _ => Cell::LagrangeCurve,
-            };
+        for of in model.parts.chunk_by(Part::is_one_with).filter(|of| is_drawn(&of[0])) {
             let part = next();
-            for element in &beam.elements {
-                grid.curve(kind, part, &element.nodes[..=beam.order], element.frame);
-            }
-        }
-        for bar in &model.bars {
-            let part = next();
-            for nodes in &bar.elements {
-                grid.curve(Cell::Line, part, nodes, Mat3::identity());
-            }
-        }
-        for (part, shell) in model.shells.chunk_by(same).flat_map(|of| {
-            let part = next();
-            of.iter().map(move |shell| (part, shell))
-        }) {
-            let first = grid.places.len();
-            let kind = if shell.corners == 3 { Cell::Triangle } else { Cell::Quad };
-            // Points of the part's own, one for each of its nodes.
-            let mut place = HashMap::new();
-            for element in &shell.elements {
-                let points = [0, 1, 2, 3].map(|k| {
-                    let next = first + place.len();
-                    *place.entry(element.nodes[k]).or_insert_with(|| {
-                        let axes = Mat3::identity();
-                        grid.places.push(Place { node: element.nodes[k], arm: Vec3::zeros(), axes });
-                        next
-                    })
-                });
-                grid.cell(kind, part, points.into_iter().take(shell.corners));
-            }
-        }
-        for link in &model.links {
-            grid.curve(Cell::Line, next(), &link.ends, Mat3::identity());
+            of.iter().for_each(|piece| grid.part(part, piece));
         }
         for body in &model.bodies {
             let (part, first) = (next(), grid.places.len());
@@ -110,21 +108,19 @@ impl Grid {
     }
 }
 
-/// Triangles and quadrilaterals of one part of the deck.
-fn same(a: &Shell, b: &Shell) -> bool {
-    a.name == b.name
+/// Contacts are not: what carries them is.
+fn is_drawn(part: &Part) -> bool {
+    part.kind() != PartKind::Contact
 }
 
 /// fields.csv, in the order of [`Grid::of`].
 fn names(model: &Model) -> csv::Result<Vec<u8>> {
-    let beams = model.beams.iter().map(|part| ("beam", &part.name));
-    let bars = model.bars.iter().map(|part| ("bar", &part.name));
-    let shells = model.shells.chunk_by(same).map(|part| ("shell", &part[0].name));
-    let links = model.links.iter().map(|part| ("link", &part.name));
-    let bodies = model.bodies.iter().map(|part| ("body", &part.name));
+    let parts = model.parts.chunk_by(Part::is_one_with).map(|of| &of[0]).filter(|part| is_drawn(part));
+    let parts = parts.map(|part| (part.kind().word(), part.name()));
+    let bodies = model.bodies.iter().map(|part| ("body", part.name.as_str()));
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(["part", "kind", "name"])?;
-    for (part, (kind, name)) in beams.chain(bars).chain(shells).chain(links).chain(bodies).enumerate() {
+    for (part, (kind, name)) in parts.chain(bodies).enumerate() {
         table.write_record([&part.to_string(), kind, name])?;
     }
     table.into_inner().map_err(|e| e.into_error().into())
@@ -172,9 +168,9 @@ impl Fields {
             parts: part_array,
             cells,
             count: offsets.len(),
-            before: (!model.shells.is_empty()).then(|| {
-                let beams: usize = model.beams.iter().map(|part| part.elements.len()).sum();
-                beams + model.bars.iter().map(|part| part.elements.len()).sum::<usize>()
+            before: model.has(PartKind::Shell).then(|| {
+                let others = model.parts.iter().take_while(|part| part.kind() != PartKind::Shell);
+                others.map(Part::elements).sum()
             }),
             listed,
             text: String::new(),

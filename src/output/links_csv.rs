@@ -1,6 +1,7 @@
 //! links.csv: elongations and forces of the links.
 
 use super::table::Table;
+use crate::model::Link;
 use crate::solve::{Frame, LinkState};
 use std::io;
 
@@ -18,7 +19,7 @@ pub(super) fn header() -> String {
 }
 
 pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
-    frame.model.links.iter().zip(frame.links).try_for_each(|(link, state)| {
+    frame.model.each::<Link>().zip(frame.links).try_for_each(|(link, state)| {
         table.row(frame.step, frame.state.time).text(&link.name).numbers(&values(state)).end()
     })
 }

@@ -24,7 +24,7 @@ mod steps_csv;
 mod table;
 mod vtu;
 
-use crate::model::{ExpectAt, Model};
+use crate::model::{ExpectAt, Model, PartKind};
 use crate::solve::{Frame, Observer, Wanted};
 use fields::Fields;
 use std::fs;
@@ -113,13 +113,13 @@ impl Files {
         table(!asked.nodes.is_empty(), &Format::Nodes, "nodes.csv", nodes_csv::header())?;
         table(!model.bodies.is_empty(), &Format::Bodies, "bodies.csv", bodies_csv::header())?;
         table(asked.energy, &Format::Energy, "energy.csv", energy_csv::header())?;
-        table(asked.links && !model.links.is_empty(), &Format::Links, "links.csv", links_csv::header())?;
-        let contacts = asked.contacts && !model.contacts.is_empty();
+        table(asked.links && model.has(PartKind::Link), &Format::Links, "links.csv", links_csv::header())?;
+        let contacts = asked.contacts && model.has(PartKind::Contact);
         table(contacts, &Format::Contacts, "contacts.csv", contacts_csv::header())?;
         table(asked.reactions, &Format::Reactions, "reactions.csv", reactions_csv::header())?;
-        table(asked.sections && !model.beams.is_empty(), &Format::Sections, "sections.csv", sections_csv::header())?;
+        table(asked.sections && model.has(PartKind::Beam), &Format::Sections, "sections.csv", sections_csv::header())?;
         table(asked.parts, &Format::Parts, "parts.csv", parts_csv::header())?;
-        let shells = !model.shells.is_empty();
+        let shells = model.has(PartKind::Shell);
         let of_shells = |table| Format::Shells(table, shells_csv::Order::of(model));
         let of_layers = |table| Format::Layers(table, shells_csv::Order::of(model));
         table(asked.sections && shells, &of_shells, "shells.csv", shells_csv::header())?;
@@ -158,21 +158,14 @@ pub fn wanted(model: &Model) -> Wanted {
         contacts: model.output.contacts || expects(|at| matches!(at, ExpectAt::Contact(_))),
         sections: model.output.sections,
         parts: model.output.parts,
-        shells: !model.shells.is_empty()
+        shells: model.has(PartKind::Shell)
             && (model.output.sections
                 || model.output.layers
                 || model.output.fields.is_some()
                 || expects(|at| matches!(at, ExpectAt::Shells(..)))),
-        plastic_strains: yields(model)
+        plastic_strains: model.yields()
             && (model.output.fields.is_some() || expects(|at| matches!(at, ExpectAt::Elements(..)))),
     }
-}
-
-/// Whether the material of any part yields.
-fn yields(model: &Model) -> bool {
-    model.beams.iter().any(|beam| beam.yielding.is_some())
-        || model.bars.iter().any(|bar| bar.yielding.is_some())
-        || model.shells.iter().any(|shell| shell.yielding.is_some())
 }
 
 /// Files that a run writes, besides those of fields and its log.

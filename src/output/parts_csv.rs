@@ -2,7 +2,6 @@
 
 use super::table::Table;
 use crate::solve::Frame;
-use crate::system::GroupKind;
 use std::io;
 
 pub(super) fn header() -> String {
@@ -11,13 +10,7 @@ pub(super) fn header() -> String {
 
 pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
     frame.parts.iter().try_for_each(|part| {
-        let kind = match part.kind {
-            GroupKind::Beam => "beam",
-            GroupKind::Bar => "bar",
-            GroupKind::Shell => "shell",
-            GroupKind::Link => "link",
-            GroupKind::Contact => "contact",
-        };
-        table.row(frame.step, frame.state.time).text(kind).text(part.name(frame.model)).number(part.strain).end()
+        let of = part.of(frame.model);
+        table.row(frame.step, frame.state.time).text(of.kind().word()).text(of.name()).number(part.strain).end()
     })
 }

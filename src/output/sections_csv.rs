@@ -11,7 +11,7 @@ pub(super) fn header() -> String {
 pub(super) fn write(table: &mut Table, frame: &Frame) -> io::Result<()> {
     frame.sections.iter().try_for_each(|point| {
         let at = &point.at;
-        table.row(frame.step, frame.state.time).text(&frame.model.beams[point.beam].name);
+        table.row(frame.step, frame.state.time).text(frame.model.parts[point.part].name());
         table.count(point.element).count(point.point).number(at.s).numbers(&at.forces).number(at.plastic_strain).end()
     })
 }

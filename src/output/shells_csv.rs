@@ -1,7 +1,7 @@
 //! shells.csv: stress resultants of the shells' elements; layers.csv: stress through their thickness.
 
 use super::table::Table;
-use crate::model::Model;
+use crate::model::{Model, Part, PartType, Shell};
 use crate::solve::{Frame, ShellState};
 use std::io;
 
@@ -12,13 +12,14 @@ pub(super) struct Order(Vec<u32>);
 impl Order {
     /// Empty where the two are the same.
     pub fn of(model: &Model) -> Order {
-        if model.shells.iter().all(|shell| shell.numbers.is_empty()) {
+        if model.each::<Shell>().all(|shell| shell.numbers.is_empty()) {
             return Order(Vec::new());
         }
         let mut order = Vec::new();
-        for part in model.shells.chunk_by(|a, b| a.name == b.name) {
+        for part in model.parts.chunk_by(Part::is_one_with) {
             let first = order.len() as u32;
-            let numbers = part.iter().flat_map(|shell| (0..shell.elements.len()).map(|e| shell.number(e)));
+            let numbers =
+                part.iter().filter_map(Shell::of).flat_map(|shell| (0..shell.elements.len()).map(|e| shell.number(e)));
             let mut of: Vec<(usize, u32)> = numbers.zip(first..).collect();
             of.sort_unstable();
             order.extend(of.into_iter().map(|(_, place)| place));
@@ -38,7 +39,7 @@ pub(super) fn header() -> String {
 pub(super) fn write(table: &mut Table, order: &Order, frame: &Frame) -> io::Result<()> {
     order.states(frame).try_for_each(|state| {
         let at = &state.at;
-        table.row(frame.step, frame.state.time).text(&frame.model.shells[state.shell].name).count(state.element);
+        table.row(frame.step, frame.state.time).text(frame.model.parts[state.part].name()).count(state.element);
         table.numbers(&at.N).numbers(&at.M).numbers(&at.Q).numbers(&outer(state)).number(plastic_strain(state)).end()
     })
 }
@@ -50,7 +51,7 @@ pub(super) fn header_of_layers() -> String {
 pub(super) fn write_layers(table: &mut Table, order: &Order, frame: &Frame) -> io::Result<()> {
     let layers = order.states(frame).flat_map(|state| state.at.layers().iter().enumerate().map(move |at| (state, at)));
     layers.into_iter().try_for_each(|(state, (number, layer))| {
-        table.row(frame.step, frame.state.time).text(&frame.model.shells[state.shell].name).count(state.element);
+        table.row(frame.step, frame.state.time).text(frame.model.parts[state.part].name()).count(state.element);
         table.count(number).number(layer.z).numbers(&layer.stress).number(layer.von_mises());
         table.number(layer.plastic_strain).end()
     })

@@ -6,7 +6,8 @@ use crate::elements::contact::Shape;
 use crate::integrators::Scheme;
 use crate::linear::Factorization;
 use crate::model::{
-    AnalysisKind, Contact, DIRECTIONS, Gyroscopic, MassKind, MeshFile, Method, Model, StepLength, Update,
+    AnalysisKind, Bar, Beam, Contact, DIRECTIONS, Gyroscopic, MassKind, MeshFile, Method, Model, Part, PartKind,
+    PartType, Shell, StepLength, Update,
 };
 use crate::names::{joined, short};
 use std::fmt::Write;
@@ -115,22 +116,16 @@ impl Plan {
                 }
             }
         }
-        let beams: usize = model.beams.iter().map(|b| b.elements.len()).sum();
-        let bars: usize = model.bars.iter().map(|b| b.elements.len()).sum();
-        let shells: usize = model.shells.iter().map(|s| s.elements.len()).sum();
-        let parts = [
-            (model.nodes.len(), ["node", "nodes"]),
-            (model.bodies.len(), ["body", "bodies"]),
-            (beams, ["beam element", "beam elements"]),
-            (bars, ["bar element", "bar elements"]),
-            (shells, ["shell element", "shell elements"]),
-            (model.links.len(), ["link", "links"]),
-            (model.contacts.len(), ["contact", "contacts"]),
-            (model.riders.len(), ["attached node", "attached nodes"]),
-            (model.joints.len(), ["joint", "joints"]),
-        ];
-        let parts: Vec<String> = parts
-            .iter()
+        let parts = PartKind::ALL.map(|kind| {
+            let of_kind = model.parts.iter().filter(|part| part.kind() == kind);
+            (of_kind.map(Part::counted).sum(), kind.counted_as())
+        });
+        let before = [(model.nodes.len(), ["node", "nodes"]), (model.bodies.len(), ["body", "bodies"])];
+        let after =
+            [(model.riders.len(), ["attached node", "attached nodes"]), (model.joints.len(), ["joint", "joints"])];
+        let parts: Vec<String> = [&before[..], &parts, &after]
+            .into_iter()
+            .flatten()
             .filter(|(count, _)| *count > 0)
             .map(|(count, [one, more])| format!("{count} {}", if *count == 1 { one } else { more }))
             .collect();
@@ -163,7 +158,7 @@ impl Plan {
                 line("  repeated", text);
             }
         }
-        for beam in &model.beams {
+        for beam in model.each::<Beam>() {
             let Some(yielding) = &beam.yielding else { continue };
             let (fibres, points) = (yielding.fibres.len(), yielding.points);
             let rule = if yielding.rule == IntegrationRule::Gauss { "Gauss" } else { "Lobatto" };
@@ -177,16 +172,16 @@ impl Plan {
                 line("  left out", "fibres beside one another: the motion is plane, they strain alike".to_string());
             }
         }
-        for bar in model.bars.iter().filter(|bar| bar.yielding.is_some()) {
+        for bar in model.each::<Bar>().filter(|bar| bar.yielding.is_some()) {
             line("yields", format!("bar `{}`", bar.name));
         }
-        for part in model.shells.chunk_by(|a, b| a.name == b.name) {
-            let shell = &part[0];
+        for part in model.parts.chunk_by(Part::is_one_with) {
+            let Some(shell) = Shell::of(&part[0]) else { continue };
             let Some(yielding) = &shell.yielding else { continue };
             let what = format!("{} layers, yield under membrane stress; transverse shear elastic", yielding.layers);
             line("yields", format!("shell `{}`: {what}", shell.name));
         }
-        for contact in &model.contacts {
+        for contact in model.each::<Contact>() {
             line("contact", contact_in_words(model, contact));
         }
         let along = analysis.step_length.is_arc_length();
@@ -253,10 +248,7 @@ impl Plan {
 
     /// Terms of the equation of motion that this scene does without.
     fn unneeded(&self, model: &Model, system: &crate::system::System) -> Vec<&'static str> {
-        let kinds = || {
-            let beams = model.beams.iter().map(|part| part.mass);
-            beams.chain(model.bars.iter().map(|part| part.mass)).chain(model.shells.iter().map(|part| part.mass))
-        };
+        let kinds = || model.parts.iter().filter_map(Part::mass_kind);
         let deformable = kinds().next().is_some();
         let static_analysis = model.analysis.kind == AnalysisKind::Static;
         let turning = system.inertias.iter().any(|i| {

@@ -30,9 +30,9 @@ pub struct Frame<'a> {
     pub reactions: &'a [f64],
     /// In the order of [`Model::joints`]. Empty unless `due` and wanted.
     pub joints: &'a [JointState],
-    /// In the order of [`Model::links`]. Empty unless `due` and wanted.
+    /// In the order of the links in [`Model::parts`]. Empty unless `due` and wanted.
     pub links: &'a [LinkState],
-    /// In the order of [`Model::contacts`]. Empty unless `due` and wanted.
+    /// In the order of the contacts in [`Model::parts`]. Empty unless `due` and wanted.
     pub contacts: &'a [ContactState],
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Empty
     /// unless `due` or drawn, and wanted.

@@ -13,11 +13,10 @@ use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken};
-use crate::elements::link::Law;
 use crate::integrators::Scheme;
 use crate::linear::TooLarge;
 use crate::math::Vec3;
-use crate::model::{AnalysisKind, Cadence, LinkKind, Method, Model, StepLength, Update};
+use crate::model::{AnalysisKind, Cadence, Method, Model, Part, StepLength, Update};
 use crate::plan::Plan;
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Balance;
@@ -424,6 +423,5 @@ fn is_watched(model: &Model) -> bool {
 
 /// Some links store less than nothing where they give way.
 fn may_let_go(model: &Model) -> bool {
-    let law = |law: &Law| matches!(law, Law::Table { .. }) || law.force(0.0).0 != 0.0;
-    model.links.iter().any(|link| matches!(&link.kind, LinkKind::Line { law: of, .. } if law(of)))
+    model.parts.iter().any(Part::may_release)
 }

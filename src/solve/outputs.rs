@@ -1,7 +1,7 @@
 //! Quantities that are computed only to be shown: energies, forces of links, joints and contacts, stress resultants, strains.
 //! A step itself needs none of them.
 
-use crate::model::Model;
+use crate::model::{Model, PartKind};
 use crate::state::State;
 use crate::system::energy::{Energy, PartEnergy};
 use crate::system::results::{LinkState, SectionPoint, ShellState};
@@ -68,7 +68,7 @@ pub struct Request<'a> {
 
 impl Outputs {
     pub fn new(model: &Model) -> Self {
-        Outputs { contacts: Vec::with_capacity(model.contacts.len()), ..Outputs::default() }
+        Outputs { contacts: Vec::with_capacity(model.count(PartKind::Contact)), ..Outputs::default() }
     }
 
     /// Computes what is wanted of this step and empties the rest.

@@ -287,7 +287,7 @@ impl<'a> Stepper<'a> {
     }
 
     fn too_long(&self, contact: usize) -> Failure {
-        Failure::Contact { name: self.model.contacts[contact].name.clone() }
+        Failure::Contact { name: self.model.parts[contact].name().to_owned() }
     }
 
     fn not_converged(&mut self, taken: &Taken) -> Failure {

@@ -3,10 +3,11 @@
 
 use super::joints::{self, Diagonal};
 use super::tiles::Tiles;
-use super::{Forces, GroupKind, Loading, System, follower_stiffness};
+use super::{Forces, Loading, System, follower_stiffness};
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
+use crate::model::PartKind;
 use crate::state::{Configuration, Node};
 use rayon::prelude::*;
 
@@ -326,7 +327,7 @@ impl Assembly {
                 let last = (first + CHUNK).min(block.len());
                 let Scratch { local, carry: maps, carried, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
-                let sparse = group.kind == GroupKind::Contact;
+                let sparse = group.kind == PartKind::Contact;
                 let rests = |e: usize| sparse && block.is_inactive(e, now);
                 let fill = |(k, K): (usize, &mut [f64])| {
                     if !rests(first + k) {

@@ -3,7 +3,7 @@
 use super::inertia::{ConsistentMass, Lumped};
 use super::lanes::MOST_IN_GROUP;
 use super::results::Watched;
-use super::{Group, GroupKind, Inertia};
+use super::{Group, Inertia};
 use crate::constraints::joint::{Joint, Row};
 use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};
@@ -13,105 +13,135 @@ use crate::elements::contact::{Contacts, MOST_NODES, Point};
 use crate::elements::link::{Link, Links};
 use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Triangles};
 use crate::math::{Mat3, Vec3, quadrature};
-use crate::model::{self, MassKind, Model};
-use crate::sections;
+use crate::model::{self, MassKind, Model, Part};
+use crate::sections::{self, Stiffness};
 use std::ops::Range;
 
 /// Inertia of bodies, point masses and elements, at their nodes or spread over them.
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
-    let mut lumped = Lumped::new(x.len());
-    let mut consistent = Vec::new();
     let mut tied = vec![false; x.len()];
     for body in &model.bodies {
         model.riders.iter().filter(|rider| rider.master == body.node).for_each(|rider| tied[rider.node] = true);
     }
-    // Of a deformable part, at a node: whether its mass lies there, and whether it has inertia there.
-    let lies = |kind: MassKind, node: usize| match kind {
-        MassKind::Lumped => true,
-        MassKind::FreeNodes => !tied[node],
-        MassKind::Consistent | MassKind::None => false,
-    };
-    let turns = |kind: MassKind, node: usize| kind == MassKind::Consistent || lies(kind, node);
-    model.bodies.iter().for_each(|body| lumped.add(body.node, body.mass, &body.inertia));
-    model.masses.iter().for_each(|mass| lumped.add(mass.node, mass.mass, &mass.inertia));
-    for beam in &model.beams {
+    let mut masses = Masses { x, tied, lumped: Lumped::new(x.len()), consistent: Vec::new() };
+    model.bodies.iter().for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));
+    model.masses.iter().for_each(|mass| masses.lumped.add(mass.node, mass.mass, &mass.inertia));
+    for part in &model.parts {
+        match part {
+            Part::Beam(beam) => masses.add_beam(beam, &model.stiffnesses),
+            Part::Bar(bar) => masses.add_bar(bar),
+            Part::Shell(shell) => masses.add_shell(shell),
+            Part::Link(_) | Part::Contact(_) => {}
+        }
+    }
+    (masses.lumped.finish(), masses.consistent)
+}
+
+/// Masses of a scene while they are gathered.
+struct Masses<'s> {
+    x: &'s [Vec3],
+    /// By node: it depends on a body.
+    tied: Vec<bool>,
+    lumped: Lumped,
+    consistent: Vec<ConsistentMass>,
+}
+
+impl Masses<'_> {
+    /// True where a deformable part leaves mass at a node of its own.
+    fn lies(&self, kind: MassKind, node: usize) -> bool {
+        match kind {
+            MassKind::Lumped => true,
+            MassKind::FreeNodes => !self.tied[node],
+            MassKind::Consistent | MassKind::None => false,
+        }
+    }
+
+    /// True where a deformable part leaves rotary inertia at a node of its own.
+    fn turns(&self, kind: MassKind, node: usize) -> bool {
+        kind == MassKind::Consistent || self.lies(kind, node)
+    }
+
+    fn add_beam(&mut self, beam: &model::Beam, stiffnesses: &[Stiffness]) {
         let (_, weights) = quadrature::lobatto(beam.order + 1);
         for element in &beam.elements {
             let nodes = &element.nodes[..=beam.order];
-            let section = &model.stiffnesses[element.section];
-            let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
+            let section = &stiffnesses[element.section];
+            let length = (self.x[nodes[beam.order]] - self.x[nodes[0]]).norm();
             let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
             for (&node, w) in nodes.iter().zip(weights) {
                 let share = 0.5 * w * length;
-                let mass = if lies(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
-                let keep = beam.rotary_inertia && turns(beam.mass, node);
-                lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
+                let mass = if self.lies(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
+                let keep = beam.rotary_inertia && self.turns(beam.mass, node);
+                self.lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
             }
             if beam.mass == MassKind::Consistent {
-                consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
+                self.consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
             }
         }
     }
-    for part in &model.bars {
-        for nodes in &part.elements {
-            let mass = part.mass_per_length * part.free * (x[nodes[1]] - x[nodes[0]]).norm();
-            for &node in nodes.iter().filter(|&&node| lies(part.mass, node)) {
-                lumped.add(node, 0.5 * mass, &Mat3::zeros());
+
+    fn add_bar(&mut self, bar: &model::Bar) {
+        for nodes in &bar.elements {
+            let mass = bar.mass_per_length * bar.free * (self.x[nodes[1]] - self.x[nodes[0]]).norm();
+            for &node in nodes {
+                if self.lies(bar.mass, node) {
+                    self.lumped.add(node, 0.5 * mass, &Mat3::zeros());
+                }
             }
-            if part.mass == MassKind::Consistent {
-                consistent.push(ConsistentMass::new(nodes, mass));
+            if bar.mass == MassKind::Consistent {
+                self.consistent.push(ConsistentMass::new(nodes, mass));
             }
         }
     }
-    for part in &model.shells {
-        let h = part.plate.thickness;
-        for element in &part.elements {
-            let nodes = &element.nodes[..part.corners];
-            let corners: Vec<Vec3> = nodes.iter().map(|&n| x[n]).collect();
+
+    fn add_shell(&mut self, shell: &model::Shell) {
+        let h = shell.plate.thickness;
+        for element in &shell.elements {
+            let nodes = &element.nodes[..shell.corners];
+            let corners: Vec<Vec3> = nodes.iter().map(|&n| self.x[n]).collect();
             for (&node, area) in nodes.iter().zip(shell::shares(&corners)) {
-                let mass = if lies(part.mass, node) { part.density * h * area } else { 0.0 };
+                let mass = if self.lies(shell.mass, node) { shell.density * h * area } else { 0.0 };
                 // The same about the normal, where a director has none: no direction is left without inertia.
-                let rotary = if turns(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
-                lumped.add(node, mass, &(rotary * Mat3::identity()));
+                let rotary = if self.turns(shell.mass, node) { shell.density * h.powi(3) / 12.0 * area } else { 0.0 };
+                self.lumped.add(node, mass, &(rotary * Mat3::identity()));
             }
-            if part.mass == MassKind::Consistent {
-                consistent.push(ConsistentMass::of_shell(nodes, &corners, part.density * h));
+            if shell.mass == MassKind::Consistent {
+                self.consistent.push(ConsistentMass::of_shell(nodes, &corners, shell.density * h));
             }
         }
     }
-    (lumped.finish(), consistent)
 }
 
-/// Elements by part, beams first and contacts last, and the links as the deck lists them. `plane`: the normal of a plane motion.
+/// Blocks of like elements in the order of the parts; links share one block for lines and one for bushings. `plane`: the normal
+/// of a plane motion.
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, Vec<Watched>) {
     let beta = model.damping.stiffness_factor;
     let mut groups = Vec::new();
-    let mut add = |block: Box<dyn ElementBlock>, kind, part, first| {
+    let mut add = |block: Box<dyn ElementBlock>, part: usize, first| {
         if !block.is_empty() {
-            groups.push(Group { block, kind, part, first, history: 0..0 });
+            groups.push(Group { block, kind: model.parts[part].kind(), part, first, history: 0..0 });
         }
     };
-    for (k, part) in model.beams.iter().enumerate() {
-        pieces(part.elements.len())
-            .for_each(|piece| add(beams(part, piece.clone(), model, x, beta, plane), GroupKind::Beam, k, piece.start));
-    }
-    for (k, part) in model.bars.iter().enumerate() {
-        pieces(part.elements.len())
-            .for_each(|piece| add(bars(part, piece.clone(), x, beta), GroupKind::Bar, k, piece.start));
-    }
-    for (k, part) in model.shells.iter().enumerate() {
-        pieces(part.elements.len())
-            .for_each(|piece| add(shells(part, piece.clone(), x, beta), GroupKind::Shell, k, piece.start));
-    }
-    let (links, watched) = links(model, x);
-    links.into_iter().for_each(|block| add(block, GroupKind::Link, 0, 0));
-    for (k, contact) in model.contacts.iter().enumerate() {
-        let Some(law) = contact.law else { continue };
-        for count in 1..=MOST_NODES {
-            let points: Vec<Point> = contact.points.iter().filter(|point| point.count == count).cloned().collect();
-            for piece in pieces(points.len()) {
-                let block = Contacts::new(law, contact.surface.clone(), contact.node, points[piece.clone()].to_vec());
-                add(Box::new(block), GroupKind::Contact, k, piece.start);
+    let mut watched = Vec::new();
+    for (place, part) in model.parts.iter().enumerate() {
+        match part {
+            Part::Beam(beam) => pieces(part.elements())
+                .for_each(|piece| add(beams(beam, piece.clone(), model, x, beta, plane), place, piece.start)),
+            Part::Bar(bar) => {
+                pieces(part.elements()).for_each(|piece| add(bars(bar, piece.clone(), x, beta), place, piece.start));
+            }
+            Part::Shell(shell) => {
+                pieces(part.elements()).for_each(|piece| add(shells(shell, piece.clone(), x, beta), place, piece.start))
+            }
+            // The first stands for all links.
+            Part::Link(_) if watched.is_empty() => {
+                let blocks;
+                (blocks, watched) = links(model, x);
+                blocks.into_iter().for_each(|block| add(block, place, 0));
+            }
+            Part::Link(_) => {}
+            Part::Contact(contact) => {
+                contacts(contact).into_iter().for_each(|(block, first)| add(block, place, first));
             }
         }
     }
@@ -201,11 +231,25 @@ fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Bo
     }
 }
 
+/// Blocks of points that hang on as many nodes, with the number of the first point among those; none for a clearance monitor.
+fn contacts(contact: &model::Contact) -> Vec<(Box<dyn ElementBlock>, usize)> {
+    let Some(law) = contact.law else { return Vec::new() };
+    let mut blocks: Vec<(Box<dyn ElementBlock>, usize)> = Vec::new();
+    for count in 1..=MOST_NODES {
+        let points: Vec<Point> = contact.points.iter().filter(|point| point.count == count).cloned().collect();
+        for piece in pieces(points.len()) {
+            let block = Contacts::new(law, contact.surface.clone(), contact.node, points[piece.clone()].to_vec());
+            blocks.push((Box::new(block), piece.start));
+        }
+    }
+    blocks
+}
+
 fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn ElementBlock>; 2], Vec<Watched>) {
     let mut lines = Vec::new();
     let mut bushings = Vec::new();
     let mut watched = Vec::new();
-    for link in &model.links {
+    for link in model.each::<model::Link>() {
         match &link.kind {
             model::LinkKind::Line { law, damping, direction, free_length } => {
                 let start = link.ends.map(|node| x[node]);

@@ -1,9 +1,9 @@
 //! Contacts of a scene: how far a step may go, and what they come to.
 
-use super::{Group, GroupKind, System};
+use super::{Group, System};
 use crate::elements::contact::{self, Contacts};
 use crate::math::Vec3;
-use crate::model::Model;
+use crate::model::{Contact, Model, PartType};
 use crate::state::{Configuration, Node, State};
 
 /// A contact at the end of a step.
@@ -33,7 +33,7 @@ impl System {
         self.groups[self.contacts..].iter().filter_map(|group| Some((group, group.block.as_contacts()?)))
     }
 
-    /// The contact, by its place in the model's list, with an impact after `state` that a step which writes equilibrium `since`
+    /// The contact, by its place in [`Model::parts`], with an impact after `state` that a step which writes equilibrium `since`
     /// ahead would not resolve.
     pub fn hurried_contact(&self, state: &State, since: f64) -> Option<usize> {
         let hurried = |(group, block): &(&Group, &Contacts)| {
@@ -42,7 +42,7 @@ impl System {
         self.contact_groups().find(hurried).map(|(group, _)| group.part)
     }
 
-    /// The contact, by its place in the model's list, through whose surface a step from `start` to `now` would go, or into
+    /// The contact, by its place in [`Model::parts`], through whose surface a step from `start` to `now` would go, or into
     /// whose impact without resolving it.
     pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
         self.contact_groups().find(|(group, block)| block.misses(start, &group.share(now))).map(|(group, _)| group.part)
@@ -51,11 +51,11 @@ impl System {
     /// States of all contacts in deck order.
     pub fn contact_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ContactState>) {
         out.clear();
-        for (index, contact) in model.contacts.iter().enumerate() {
+        let contacts = model.parts.iter().enumerate().filter_map(|(place, part)| Some((place, Contact::of(part)?)));
+        for (place, contact) in contacts {
             let gap = contact::least_gap(&contact.surface, contact.node, &contact.points, now.nodes);
             let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
-            for (group, block) in self.contact_groups().filter(|(group, _)| group.part == index) {
-                debug_assert!(group.kind == GroupKind::Contact);
+            for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
                 let sum = block.resultant(&group.share(now));
                 state.touching += sum.touching;
                 state.f += sum.f;

@@ -1,8 +1,8 @@
 //! Energies and momenta of a state.
 
-use super::{GroupKind, System, lanes};
+use super::{System, lanes};
 use crate::math::Vec3;
-use crate::model::Model;
+use crate::model::{Model, Part, PartKind};
 use crate::state::{Configuration, State};
 
 /// The columns of energy.csv.
@@ -94,42 +94,26 @@ impl Balance {
 /// Elastic energy of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartEnergy {
-    pub kind: GroupKind,
-    /// The part's place in the model's list; of a shell with triangles and quadrilaterals that of the first of the two.
+    /// Place in [`Model::parts`]; of a shell with triangles and quadrilaterals that of the first of the two.
     pub part: usize,
     pub strain: f64,
 }
 
 impl PartEnergy {
-    pub fn name<'m>(&self, model: &'m Model) -> &'m str {
-        name(model, self.kind, self.part)
-    }
-}
-
-fn name(model: &Model, kind: GroupKind, part: usize) -> &str {
-    match kind {
-        GroupKind::Beam => &model.beams[part].name,
-        GroupKind::Bar => &model.bars[part].name,
-        GroupKind::Shell => &model.shells[part].name,
-        GroupKind::Link | GroupKind::Contact => "",
+    pub fn of<'m>(&self, model: &'m Model) -> &'m Part {
+        &model.parts[self.part]
     }
 }
 
 impl System {
     /// Elastic energy of each beam, bar and shell, in deck order; without what kinematic hardening keeps.
     pub fn part_energies(&self, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
-        for group in &self.groups {
-            let (kind, part) = (group.kind, group.part);
-            if matches!(kind, GroupKind::Link | GroupKind::Contact) {
-                continue;
-            }
+        for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
             let energy = group.block.energy(&group.share(now));
-            let same = |last: &PartEnergy| {
-                last.kind == kind && (last.part == part || last.name(model) == name(model, kind, part))
-            };
+            let part = &model.parts[group.part];
             match parts.last_mut() {
-                Some(last) if same(last) => last.strain += energy,
-                _ => parts.push(PartEnergy { kind, part, strain: energy }),
+                Some(last) if last.of(model).is_one_with(part) => last.strain += energy,
+                _ => parts.push(PartEnergy { part: group.part, strain: energy }),
             }
         }
     }
@@ -137,15 +121,15 @@ impl System {
     /// `initial`: the total at t = 0, against which the balance is drawn.
     pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
-        let stored = |of: &(dyn Fn(GroupKind) -> bool + Sync)| -> f64 {
+        let stored = |of: &(dyn Fn(PartKind) -> bool + Sync)| -> f64 {
             lanes::sum(&self.groups, self.splits(threads), &|group| match of(group.kind) {
                 true => group.block.energy(&group.share(&now)),
                 false => 0.0,
             })
         };
-        let is_part = |kind| kind != GroupKind::Link && kind != GroupKind::Contact;
-        let (strain, links) = (stored(&is_part) + work.material.stored, stored(&|kind| kind == GroupKind::Link));
-        let contact = if self.has_contacts() { stored(&|kind| kind == GroupKind::Contact) } else { 0.0 };
+        let strain = stored(&PartKind::is_deformable) + work.material.stored;
+        let links = stored(&|kind| kind == PartKind::Link);
+        let contact = if self.has_contacts() { stored(&|kind| kind == PartKind::Contact) } else { 0.0 };
         let mut kinetic = 0.0;
         let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
         for inertia in &self.inertias {

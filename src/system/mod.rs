@@ -26,7 +26,7 @@ use crate::constraints::joint::Joint;
 use crate::elements::{ElementBlock, Force};
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3, larger, rotation, skew};
-use crate::model::{self, Model};
+use crate::model::{self, Model, PartKind};
 use crate::state::{Configuration, Node};
 use inertia::ConsistentMass;
 use lanes::Lane;
@@ -35,8 +35,8 @@ use std::ops::Range;
 /// A group of like elements, of one part: all of them, or some in a row where they are many.
 pub struct Group {
     pub block: Box<dyn ElementBlock>,
-    pub kind: GroupKind,
-    /// The part's place in the model's list.
+    pub kind: PartKind,
+    /// Place in [`Model::parts`] of the part; of links, which share groups, that of the first.
     pub part: usize,
     /// The part's number of its first element.
     pub first: usize,
@@ -50,15 +50,6 @@ impl Group {
     pub fn share<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
         Configuration { history: &now.history[self.history.clone()], ..*now }
     }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GroupKind {
-    Beam,
-    Bar,
-    Shell,
-    Link,
-    Contact,
 }
 
 /// Everything that acts on the nodes. Constant over a run.
@@ -171,7 +162,7 @@ impl System {
         let plane = plane::normal(model, &inertias, &attachments);
         let (groups, watched) = build::groups(model, &x, plane);
         let joints = build::joints(model, &x, plane);
-        let contacts = groups.iter().position(|group| group.kind == GroupKind::Contact);
+        let contacts = groups.iter().position(|group| group.kind == PartKind::Contact);
         Ok(System {
             history: groups.last().map_or(0, |group| group.history.end),
             contacts: contacts.unwrap_or(groups.len()),

@@ -3,7 +3,7 @@
 use super::Inertia;
 use crate::constraints::attachment::Attachment;
 use crate::math::{Mat3, Vec3, skew};
-use crate::model::{LinkKind, Model};
+use crate::model::{BeamElement, Link, LinkKind, Model, Part};
 
 /// The global axis normal to the plane of a scene in which nothing can move out of it, where the deck does not ask to keep
 /// what is out of it.
@@ -22,8 +22,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     let pairs_wrongly =
         |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.amax()));
 
-    // Shells bend out of any plane they lie in.
-    if model.shells.iter().any(|shell| !shell.elements.is_empty()) || !model.pressures.is_empty() {
+    if !model.pressures.is_empty() {
         return false;
     }
     let Some(first) = model.nodes.first() else { return false };
@@ -46,10 +45,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     if inertias.iter().any(|i| mixes(&i.J0)) {
         return false;
     }
-    if !model.contacts.iter().all(|c| c.surface.center[n].abs() <= small * size && c.surface.keeps(n)) {
-        return false;
-    }
-    let beams = model.beams.iter().flat_map(|b| &b.elements).all(|e| {
+    let beam_keeps = |e: &BeamElement| {
         let C = &model.stiffnesses[e.section];
         let turn = |K: &Mat3| e.frame * K * e.frame.transpose();
         // What pairs forces with curvatures may be nothing but rounding, that of a shear centre at the centroid: it is small
@@ -57,13 +53,21 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
         let rest = turn(&C.NM);
         let paired = rest.amax() > small * C.N.amax().sqrt() * C.M.amax().sqrt();
         !mixes(&turn(&C.N)) && !mixes(&turn(&C.M)) && (!paired || !pairs_wrongly(&rest))
-    });
-    let links = model.links.iter().all(|link| match &link.kind {
+    };
+    let link_keeps = |link: &Link| match &link.kind {
         LinkKind::Line { direction, .. } => direction.is_none_or(|d| !out_of_plane(&d)),
         LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {
             let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
             !mixes(&turn(&k[..3])) && !mixes(&turn(&k[3..]))
         }),
+    };
+    let parts = model.parts.iter().all(|part| match part {
+        Part::Beam(beam) => beam.elements.iter().all(beam_keeps),
+        Part::Bar(_) => true,
+        // Shells bend out of any plane they lie in.
+        Part::Shell(shell) => shell.elements.is_empty(),
+        Part::Link(link) => link_keeps(link),
+        Part::Contact(contact) => contact.surface.center[n].abs() <= small * size && contact.surface.keeps(n),
     });
     // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
     let arms = attachments.iter().all(|a| !pairs_wrongly(&skew(&a.S0)) || a.S0 == Vec3::zeros());
@@ -71,5 +75,5 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
         let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
         joint.rows.iter().all(|row| row.in_plane(n, &d).is_some())
     });
-    beams && links && arms && joints
+    parts && arms && joints
 }

@@ -1,11 +1,11 @@
 //! What elements feel, for output: forces of links, stress resultants of beams.
 
-use super::{GroupKind, System};
+use super::System;
 use crate::elements::bushing::Bushing;
 use crate::elements::link::Link;
 use crate::elements::{Point, Resultants};
 use crate::math::{Mat3, Vec3};
-use crate::model::Model;
+use crate::model::{Beam, Model, PartType, Shell};
 use crate::state::{Configuration, Node};
 
 /// A link at the end of a step.
@@ -24,7 +24,8 @@ pub struct LinkState {
 /// An integration point of a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionPoint {
-    pub beam: usize,
+    /// Place of the beam in [`Model::parts`].
+    pub part: usize,
     pub element: usize,
     pub point: usize,
     /// At arc length `s` from the beam's start.
@@ -34,8 +35,8 @@ pub struct SectionPoint {
 /// A shell element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShellState {
-    /// Index into [`Model::shells`].
-    pub shell: usize,
+    /// Place of the shell in [`Model::parts`].
+    pub part: usize,
     /// Its number in the deck's part.
     pub element: usize,
     pub at: Resultants,
@@ -71,7 +72,7 @@ impl System {
     /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order.
     pub fn plastic_strains(&self, now: &Configuration, out: &mut Vec<f64>) {
         out.clear();
-        for group in self.groups.iter().filter(|group| !matches!(group.kind, GroupKind::Link | GroupKind::Contact)) {
+        for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
             let past = group.share(now).history;
             out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
         }
@@ -80,18 +81,18 @@ impl System {
     /// Stress resultants of all elements of all shells in deck order.
     pub fn shell_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
         out.clear();
-        for group in self.groups.iter().filter(|group| group.kind == GroupKind::Shell) {
-            let (shell, part) = (group.part, &model.shells[group.part]);
+        for group in &self.groups {
+            let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
             let now = group.share(now);
             for e in 0..group.block.len() {
                 let element = group.first + e;
-                let start = part.elements[element].nodes.map(|node| model.nodes[node].x);
-                let resultants = group.block.resultants(e, &part.axis, &start[..part.corners], &now);
+                let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
+                let resultants = group.block.resultants(e, &shell.axis, &start[..shell.corners], &now);
                 let Some(mut at) = resultants else { continue };
                 if at.layers().is_empty() {
-                    at.surfaces(part.plate.thickness);
+                    at.surfaces(shell.plate.thickness);
                 }
-                out.push(ShellState { shell, element: part.number(element), at });
+                out.push(ShellState { part: group.part, element: shell.number(element), at });
             }
         }
     }
@@ -100,22 +101,22 @@ impl System {
     pub fn section_points(&self, model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
         out.clear();
         let mut start = 0.0;
-        for group in self.groups.iter().filter(|group| group.kind == GroupKind::Beam) {
-            let (beam, part) = (group.part, &model.beams[group.part]);
+        for group in &self.groups {
+            let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
             let now = group.share(now);
             if group.first == 0 {
                 start = 0.0;
             }
             for e in 0..group.block.len() {
                 let element = group.first + e;
-                let spec = &part.elements[element];
+                let spec = &beam.elements[element];
                 let frame: &Mat3 = &spec.frame;
                 for point in 0..group.block.points() {
                     let Some(mut at) = group.block.point(e, point, frame, &now) else { continue };
                     at.s += start;
-                    out.push(SectionPoint { beam, element, point, at });
+                    out.push(SectionPoint { part: group.part, element, point, at });
                 }
-                let ends = (spec.nodes[0], spec.nodes[part.order]);
+                let ends = (spec.nodes[0], spec.nodes[beam.order]);
                 start += (model.nodes[ends.1].x - model.nodes[ends.0].x).norm();
             }
         }

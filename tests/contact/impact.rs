@@ -2,6 +2,7 @@
 
 use crate::support::slope;
 use crate::{go, read};
+use rdsolve::model::Contact;
 use rdsolve::solve::Frame;
 
 /// A ball of radius 0.1 and mass 2 at a height above a floor.
@@ -227,7 +228,8 @@ fn a_ball_on_a_free_plate_of_shells() {
 #[test]
 fn a_stiffness_left_open_suits_the_step() {
     let model = read(&ball(0.01, -4.0, 0.0, 1e-3, 0.1, ""));
-    let law = model.contacts[0].law.expect("a law");
+    let contact = model.each::<Contact>().next().unwrap();
+    let law = contact.law.expect("a law");
     let half_period = std::f64::consts::PI / (law.stiffness / 2.0).sqrt();
-    assert!((half_period - 0.02).abs() < 1e-12 && model.contacts[0].chosen, "{half_period}");
+    assert!((half_period - 0.02).abs() < 1e-12 && contact.chosen, "{half_period}");
 }

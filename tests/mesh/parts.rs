@@ -3,7 +3,7 @@
 use super::support::{self, node};
 use super::{Folder, Plate, displacements, positions};
 use rdsolve::math::Vec3;
-use rdsolve::model::Model;
+use rdsolve::model::{Link, Model, PartKind, Shell};
 
 const PLATE: Plate = Plate { n: 8, m: 3, size: [2.0, 0.6] };
 
@@ -106,7 +106,7 @@ fn sets_and_names() {
     let folder = Folder::with(&[("a.msh", &PLATE.msh4())]);
     let deck = meshed("static", "a.msh");
     let model = folder.model(&deck);
-    assert_eq!((model.nodes.len(), model.shells.len(), model.shells[0].elements.len()), (36, 1, 24));
+    assert_eq!((model.nodes.len(), model.count(PartKind::Shell), model.parts[0].elements()), (36, 1, 24));
     assert!(model.output.nodes.is_empty());
     let with = |nodes: &str| folder.model(&format!("{deck}\n[output]\nnodes = {nodes}\n"));
     let labels = |nodes: &str| -> Vec<String> {
@@ -140,7 +140,7 @@ stiffness = 1.0
 "#;
     let model = folder.model(&format!("{deck}{more}"));
     let at = node(&model, "mesh.36");
-    assert_eq!(model.links[0].ends[0], at);
+    assert_eq!(model.each::<Link>().next().unwrap().ends[0], at);
     let expected = rdsolve::model::ExpectAt::Node(at);
     assert!(model.expects.iter().all(|expect| expect.at == expected));
 }
@@ -175,7 +175,7 @@ fn a_group_of_both_kinds() {
     let more = "[[expect]]\nat = \"plate\"\nquantity = \"plastic_strain\"\ntime = 0.05\nvalue = 0.0\nabsolute_tolerance = 1.0\n";
     let model = folder.model(&format!("{deck}{more}[environment]\ngravity = [0.0, 0.0, -9.81]\n"));
     assert_eq!(
-        model.shells.iter().map(|shell| (shell.name.as_str(), shell.corners)).collect::<Vec<_>>(),
+        model.each::<Shell>().map(|shell| (shell.name.as_str(), shell.corners)).collect::<Vec<_>>(),
         [("plate", 4), ("plate", 3)]
     );
     assert_eq!(model.expects[0].at, rdsolve::model::ExpectAt::Shells(0, 2));
@@ -306,7 +306,7 @@ fn a_part_of_a_large_mesh_has_the_normals_of_a_small_one() {
     let alone = folder.model(&meshed("static", "small.inp"));
     let with = folder.model(&meshed("static", "large.inp").replace("[[shells]]\ngroup = \"plate\"", flap));
     let of = |model: &Model| -> Vec<_> {
-        let plate = model.shells.iter().filter(|shell| shell.name == "plate");
+        let plate = model.each::<Shell>().filter(|shell| shell.name == "plate");
         plate.flat_map(|shell| shell.elements.iter().map(|e| e.normals)).collect()
     };
     assert_eq!(of(&alone).len(), 4);

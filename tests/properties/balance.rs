@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, Link, LinkKind, MassKind, Model, Update};
+use rdsolve::model::{AnalysisKind, Link, LinkKind, MassKind, Model, PartType, Update};
 use rdsolve::system::energy::Energy;
 use rdsolve::system::{Forces, Loading, System};
 
@@ -98,7 +98,8 @@ fn static_reactions_balance_the_loads() {
     for _ in 0..3 {
         let mut m = zoo(&mut rng, AnalysisKind::Static, 0.05);
         // Links along a fixed direction pass on moments that nobody takes; only supports may.
-        m.links.retain(|l| !matches!(l.kind, LinkKind::Line { direction: Some(_), .. }));
+        let is_fixed = |link: &Link| matches!(link.kind, LinkKind::Line { direction: Some(_), .. });
+        m.parts.retain(|part| !Link::of(part).is_some_and(is_fixed));
         // Far from buckling.
         m.loads.iter_mut().for_each(|load| (load.force, load.moment) = (load.force * 0.3, load.moment * 0.3));
         m.gravity *= 0.3;
@@ -158,7 +159,7 @@ fn bushings_tell_the_moment_at_their_first_end() {
     fix(&mut m, ground, 0..6);
     let stiffness = [1e3, 2e3, 3e3, 100.0, 200.0, 300.0];
     let kind = LinkKind::Bushing { stiffness, damping: [0.0; 6], axes: Mat3::identity() };
-    m.links.push(Link { name: "mount".into(), ends: [ground, block], kind });
+    m.add(Link { name: "mount".into(), ends: [ground, block], kind });
     push(&mut m, block, Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.1, 0.2, 0.3), false, None);
     let state = run(&m).last().clone();
     let mut links = Vec::new();

@@ -65,11 +65,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         bodies: vec![],
         masses: vec![],
         stiffnesses: vec![],
-        beams: vec![],
-        bars: vec![],
-        shells: vec![],
-        links: vec![],
-        contacts: vec![],
+        parts: vec![],
         riders: vec![],
         joints: vec![],
         held: vec![],
@@ -148,15 +144,16 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
         last = nodes[order];
         made.push(BeamElement { nodes, frame, section: m.stiffnesses.len() - 1 });
     }
-    let name = format!("beam{}", m.beams.len());
-    m.beams.push(Beam { name, order, mass, rotary_inertia: true, yielding: None, elements: made });
+    let name = format!("beam{}", m.count(PartKind::Beam));
+    m.add(Beam { name, order, mass, rotary_inertia: true, yielding: None, elements: made });
 }
 
 pub fn line(m: &mut Model, ends: [usize; 2], law: Law, damping: f64, direction: Option<Vec3>) {
     let arm = m.nodes[ends[1]].x - m.nodes[ends[0]].x;
     let free_length = direction.map_or(arm.norm(), |d| d.dot(&arm));
     let kind = LinkKind::Line { law, damping, direction, free_length };
-    m.links.push(Link { name: format!("link{}", m.links.len()), ends, kind });
+    let name = format!("link{}", m.count(PartKind::Link));
+    m.add(Link { name, ends, kind });
 }
 
 pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
@@ -164,8 +161,8 @@ pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
 }
 
 pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_length: f64, mass: MassKind) {
-    let name = format!("bar{}", m.bars.len());
-    m.bars.push(Bar {
+    let name = format!("bar{}", m.count(PartKind::Bar));
+    m.add(Bar {
         name,
         axial_stiffness,
         mass_per_length,
@@ -196,9 +193,9 @@ pub fn shell(
         let of: &[[usize; 4]] = if corners == 3 { &split } else { &whole };
         elements.extend(of.iter().map(|&nodes| ShellElement { nodes, normals }));
     }
-    let name = format!("shell{}", model.shells.len());
+    let name = format!("shell{}", model.count(PartKind::Shell));
     let plate = Plate { thickness: 0.1, E: 2e3, nu: 0.3, drilling: DRILLING };
-    model.shells.push(Shell {
+    model.add(Shell {
         name,
         plate,
         density: 3.0,
@@ -214,7 +211,7 @@ pub fn shell(
 
 /// Pressure that follows on all shells.
 pub fn press(m: &mut Model, pressure: f64, amplitude: Option<usize>) {
-    let elements = m.shells.iter().flat_map(|s| s.elements.iter().map(|e| &e.nodes[..s.corners]));
+    let elements = m.each::<Shell>().flat_map(|s| s.elements.iter().map(|e| &e.nodes[..s.corners]));
     let faces = elements.filter_map(Face::of).collect();
     m.pressures.push(Pressure { faces, pressure, amplitude });
 }
@@ -268,7 +265,7 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
     spring(&mut m, [farther, free], 40.0, 0.0);
     line(&mut m, [far, ground], Law::Linear { stiffness: 30.0, preload: 2.0 }, 0.0, Some(vector(rng, 1.0).normalize()));
     line(&mut m, [free, ground], Law::Table { points: vec![[-9.0, -90.0], [0.0, 0.0], [9.0, 200.0]] }, 0.0, None);
-    m.links.push(Link {
+    m.add(Link {
         name: "bushing".into(),
         ends: [p[2], offset],
         kind: LinkKind::Bushing {
@@ -298,17 +295,17 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
     let fibres = (0..4).flat_map(|i| (0..4).map(move |j| (at(i), at(j))));
     let fibre = |(y, z): (f64, f64)| Fibre { area: 0.0156, y, z, shear: [[0.9, 0.0, -z], [0.0, 0.9, y]] };
     let fibres: Vec<Fibre> = fibres.map(fibre).collect();
-    for (i, beam) in m.beams.iter_mut().enumerate() {
+    for (i, beam) in m.each_mut::<Beam>().enumerate() {
         let (rule, points) =
             if i % 3 == 1 { (IntegrationRule::Lobatto, 5) } else { (IntegrationRule::Gauss, beam.order + i % 2) };
         let law = laws[i % 2].clone();
         beam.yielding = Some(Yielding { law, fibres: fibres.clone(), shear: i % 4 < 2, rule, points: points.min(5) });
     }
-    for (i, bar) in m.bars.iter_mut().enumerate() {
+    for (i, bar) in m.each_mut::<Bar>().enumerate() {
         bar.yielding = Some(laws[i % 2].clone());
         bar.tension_only = i % 2 == 1;
     }
-    for (i, part) in m.shells.iter_mut().enumerate() {
+    for (i, part) in m.each_mut::<Shell>().enumerate() {
         part.yielding = Some(shell::Yielding { law: laws[i % 2].clone(), layers: 3 });
     }
 }
@@ -323,9 +320,9 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
     }
     t.bodies.iter_mut().for_each(|b| tensor(&mut b.inertia));
     t.masses.iter_mut().for_each(|b| tensor(&mut b.inertia));
-    t.beams.iter_mut().flat_map(|b| &mut b.elements).for_each(|e| e.frame = R * e.frame);
-    t.shells.iter_mut().flat_map(|s| &mut s.elements).for_each(|e| e.normals = e.normals.map(|n| R * n));
-    for link in &mut t.links {
+    t.each_mut::<Beam>().flat_map(|b| &mut b.elements).for_each(|e| e.frame = R * e.frame);
+    t.each_mut::<Shell>().flat_map(|s| &mut s.elements).for_each(|e| e.normals = e.normals.map(|n| R * n));
+    for link in t.each_mut::<Link>() {
         match &mut link.kind {
             LinkKind::Line { direction: Some(d), .. } => *d = R * *d,
             LinkKind::Line { .. } => {}

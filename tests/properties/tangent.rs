@@ -10,7 +10,7 @@ use rdsolve::integrators::{Coefficients, RotationUpdate, load_steps};
 use rdsolve::linear;
 use rdsolve::math::rotation::{exp, inverse_tangent};
 use rdsolve::math::{Vec3, Vec6, bottom, join};
-use rdsolve::model::{AnalysisKind, MassKind, Model, NodalDamping, Pressure, StepLength};
+use rdsolve::model::{AnalysisKind, Beam, Link, MassKind, Model, NodalDamping, PartKind, Pressure, StepLength};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
 use rdsolve::system::assembly::Weights;
@@ -182,7 +182,7 @@ fn damp(m: &mut Model) {
     m.damping.stiffness_factor = 0.02;
     let nodal = [(2, 0.4, 0.2), (3, 0.0, 0.3)];
     m.damping.nodal = nodal.map(|(node, translation, rotation)| NodalDamping { node, translation, rotation }).into();
-    for link in &mut m.links {
+    for link in m.each_mut::<Link>() {
         match &mut link.kind {
             rdsolve::model::LinkKind::Line { damping, .. } => *damping = 0.7,
             rdsolve::model::LinkKind::Bushing { damping, .. } => *damping = [0.5, 0.3, 0.4, 0.2, 0.3, 0.1],
@@ -210,10 +210,10 @@ fn in_motion_errs_by_second_order_of_the_step() {
     let mut rng = StdRng::seed_from_u64(3);
     let mut scene = zoo(&mut rng, AnalysisKind::Dynamic, 0.1);
     // Nothing massive on a rider: the beams between riders without mass.
-    for beam in &mut scene.beams {
+    for beam in scene.each_mut::<Beam>() {
         beam.mass = MassKind::None;
     }
-    scene.bars.clear();
+    scene.parts.retain(|part| part.kind() != PartKind::Bar);
     let riders: Vec<usize> = scene.riders.iter().map(|r| r.node).collect();
     for n in 0..scene.nodes.len() {
         if !riders.contains(&n) {

@@ -2,7 +2,7 @@
 
 use super::support;
 use rdsolve::diagnostic::Source;
-use rdsolve::model::{self, Model};
+use rdsolve::model::{self, Model, Shell};
 use rdsolve::state::Node;
 
 pub fn read(text: &str) -> Model {
@@ -432,7 +432,7 @@ fn twist(model: &mut Model) {
         let (along, across) = (Vec3::new(1.0, -w * s * rate, w * c * rate), Vec3::new(0.0, c, s));
         normals.push(along.cross(&across).normalize());
     }
-    for element in model.shells.iter_mut().flat_map(|shell| &mut shell.elements) {
+    for element in model.each_mut::<Shell>().flat_map(|shell| &mut shell.elements) {
         element.normals = element.nodes.map(|n| normals[n]);
     }
 }
@@ -442,7 +442,7 @@ fn twist(model: &mut Model) {
 fn drilling_stiffness_does_not_matter() {
     let u = [(4e-3, 20), (2e-2, 20), (0.1, 20), (2e-2, 10)].map(|(drilling, steps)| {
         let mut model = read(&hemisphere("quadrilateral", 16, 0.04, 200.0, steps));
-        model.shells[0].plate.drilling = drilling;
+        model.each_mut::<Shell>().next().unwrap().plate.drilling = drilling;
         displacements(&model, &[("a", 0)])[steps][0]
     });
     check("weaker", u[0], u[1], 1e-3);

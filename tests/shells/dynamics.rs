@@ -4,7 +4,7 @@ use super::benchmarks::read;
 use super::support;
 use rdsolve::elements::shell::faces;
 use rdsolve::math::Vec3;
-use rdsolve::model::{Load, Model};
+use rdsolve::model::{Load, Model, PartType, Shell};
 
 fn dynamic(title: &str, step: f64, material: &str, body: &str) -> String {
     format!(
@@ -153,7 +153,7 @@ fn cap(kind: &str, n: usize, plastic: bool, step: f64) -> Model {
         normals.push(normal);
     }
     let mut forces = vec![Vec3::zeros(); model.nodes.len()];
-    for shell in &mut model.shells {
+    for shell in model.parts.iter_mut().filter_map(Shell::of_mut) {
         for element in &mut shell.elements {
             element.normals = element.nodes.map(|n| normals[n]);
             let x: Vec<Vec3> = element.nodes[..shell.corners].iter().map(|&n| model.nodes[n].x).collect();

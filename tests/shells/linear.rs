@@ -5,7 +5,7 @@ use super::benchmarks::{deck, displacements, fix, load, point, quarter_cylinder,
 use super::support;
 use rdsolve::elements::shell::shares;
 use rdsolve::math::Vec3;
-use rdsolve::model::Load;
+use rdsolve::model::{Load, PartType, Shell};
 
 const KINDS: [&str; 2] = ["quadrilateral", "triangle"];
 const ALL: &str = "ux uy uz rx ry rz";
@@ -76,7 +76,7 @@ fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
     // Deflections stay a thousandth of the thickness.
     let scale = 1e-3 * h / 0.5;
     let mut forces = vec![0.0; model.nodes.len()];
-    for shell in &mut model.shells {
+    for shell in model.parts.iter_mut().filter_map(Shell::of_mut) {
         for element in &mut shell.elements {
             let nodes = &element.nodes[..shell.corners];
             let x: Vec<Vec3> = nodes.iter().map(|&node| model.nodes[node].x).collect();

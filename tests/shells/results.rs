@@ -10,7 +10,7 @@ use rdsolve::elements::shell::{
 use rdsolve::elements::{ElementBlock, Resultants};
 use rdsolve::materials::{Hardening, Law};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
-use rdsolve::model::Model;
+use rdsolve::model::{Model, Shell};
 use rdsolve::solve::ShellState;
 use rdsolve::state::{Configuration, Node};
 
@@ -198,7 +198,7 @@ fn a_cantilever_obeys_statics() {
             let [low, high] = [at.layers()[0], at.layers()[1]];
             assert!((high.stress[0] - (at.N[0] / 0.1 + 600.0 * at.M[0])).abs() < 1e-12 && high.z == 0.05, "{high:?}");
             assert!((low.stress[0] - (at.N[0] / 0.1 - 600.0 * at.M[0])).abs() < 1e-12 && low.z == -0.05);
-            assert_eq!(model.shells[0].axis, Vec3::x());
+            assert_eq!(model.each::<Shell>().next().unwrap().axis, Vec3::x());
         }
     }
 }
@@ -282,9 +282,9 @@ fn a_z_section_in_torsion() {
         // A thousandth of the load: the theory is linear.
         let states = last(&model);
         let part = |shell: usize, x: [f64; 2], y: [f64; 2]| {
-            let of_it = |s: &&ShellState| s.shell == shell;
+            let of_it = |s: &&ShellState| s.part == shell;
             let inside = |s: &&ShellState| {
-                let nodes = &model.shells[shell].elements[s.element].nodes[..model.shells[shell].corners];
+                let nodes = model.parts[shell].nodes(s.element);
                 let c = nodes.iter().map(|&n| model.nodes[n].x).sum::<Vec3>() / nodes.len() as f64;
                 c.x > x[0] && c.x < x[1] && c.y.abs() > y[0] && c.y.abs() < y[1]
             };
