@@ -102,14 +102,13 @@ impl Cholesky {
         Some(self.pattern.col_ptr()[q] + place)
     }
 
-    pub(super) fn tile(&self, rows: &[u32; 6], cols: &[u32; 6]) -> Option<(Tile, bool)> {
-        let first = |rows: &[u32; 6]| {
-            let group = *self.graph.group.get(rows[0] as usize)? as usize;
+    pub(super) fn tile(&self, row: usize, col: usize) -> Option<(Tile, bool)> {
+        let first = |row: usize| {
+            let group = *self.graph.group.get(row)? as usize;
             let (own, size) = (self.graph.first[group], self.graph.sizes[group]);
-            let whole = size == 6 && (0..6).all(|i| rows[i] as usize == own + i);
-            whole.then(|| self.position[own])
+            (size == 6 && row == own).then(|| self.position[own])
         };
-        let (p, q) = (first(rows)?, first(cols)?);
+        let (p, q) = (first(row)?, first(col)?);
         let (lower, upper) = (p.max(q), p.min(q));
         let column = self.pattern.row_idx_of_col_raw(upper);
         let place = column.binary_search(&lower).ok()?;

@@ -60,11 +60,11 @@ impl Solver {
         each!(self, inner => inner.slot(row, col))
     }
 
-    /// The block that couples two groups of six unknowns, given by their rows (external numbers), and whether it is stored
-    /// transposed, as that of `cols` and `rows`. None where the matrix is not symmetric, or a group is smaller.
-    pub fn tile(&self, rows: &[u32; 6], cols: &[u32; 6]) -> Option<(Tile, bool)> {
+    /// The block that couples two groups of six unknowns, given by the first row of each (external numbers), and whether
+    /// it is stored transposed, as that of `col` and `row`. None where the matrix is not symmetric, or a group is smaller.
+    pub fn tile(&self, row: usize, col: usize) -> Option<(Tile, bool)> {
         match self {
-            Solver::Cholesky(inner) => inner.tile(rows, cols),
+            Solver::Cholesky(inner) => inner.tile(row, col),
             _ => None,
         }
     }

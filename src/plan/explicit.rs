@@ -15,7 +15,7 @@ const MOST: usize = 5;
 impl Plan {
     /// Where each moving node is a rigid body of its own.
     pub fn masses(&self, system: &System) -> Option<Masses> {
-        Masses::new(system, &self.rows)
+        Masses::new(system, &self.dofs)
     }
 
     /// What stands in place of the matrix of an implicit step.

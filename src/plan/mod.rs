@@ -11,13 +11,13 @@ mod savings;
 
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{AnalysisKind, Model};
-use crate::system::System;
-use crate::system::assembly::{self, Assembly, NONE};
+use crate::system::assembly::{self, Assembly};
+use crate::system::{DofMap, NodeRows, System};
 
 /// Decisions about a model. Constant over a run.
 pub struct Plan {
-    /// Row of each direction of each node in the system, or [`NONE`]; then the rows of the multipliers of each joint.
-    pub rows: Vec<[u32; 6]>,
+    /// Rows of directions and multipliers.
+    pub dofs: DofMap,
     /// Directions and multipliers.
     pub unknowns: usize,
     /// (node, direction) of each row; the rows of multipliers come after them.
@@ -47,25 +47,10 @@ pub struct Omission {
 impl Plan {
     pub fn new(model: &Model, system: &System, threads: usize) -> Plan {
         let (nodes, omissions) = place::place(model, system);
-        let mut rows = vec![[NONE; 6]; nodes.len()];
-        let mut directions = Vec::new();
-        for (node, place) in nodes.iter().enumerate() {
-            for (dof, why) in place.iter().enumerate() {
-                if *why == place::Why::Unknown {
-                    rows[node][dof] = directions.len() as u32;
-                    directions.push((node, dof));
-                }
-            }
-        }
-        let mut unknowns = directions.len();
-        for joint in &system.joints {
-            let mut own = [NONE; 6];
-            own.iter_mut().zip(&joint.rows).zip(unknowns as u32..).for_each(|((own, _), row)| *own = row);
-            rows.push(own);
-            unknowns += joint.rows.len();
-        }
+        let unknown = nodes.iter().map(|place| place.map(|why| why == place::Why::Unknown));
+        let dofs = DofMap::new(unknown, &system.joints);
         let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.scheme.is_explicit();
-        let structure = if explicit { structure(&system.bare(), &rows) } else { structure(system, &rows) };
+        let structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
         let kind = choose::kind(&structure, model.iteration.gyroscopic);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
@@ -77,12 +62,12 @@ impl Plan {
         };
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
         let mut plan = Plan {
-            unknowns,
+            unknowns: dofs.unknowns(),
+            directions: dofs.directions().to_vec(),
             refresh_cost: choose::refresh_cost(kind),
             explicit,
             linear,
-            rows,
-            directions,
+            dofs,
             structure,
             kind,
             omissions,
@@ -101,9 +86,9 @@ impl Plan {
     /// # Errors
     /// As for [`Plan::build`].
     pub fn build_bare(&self, bare: &System) -> Result<(Solver, Assembly), TooLarge> {
-        let structure = structure(bare, &self.rows);
+        let structure = structure(bare, &self.dofs);
         let solver = Solver::new(&structure, linear::Factorization::choose(&structure), 1)?;
-        let assembly = Assembly::new(bare, &self.rows, &solver, 1);
+        let assembly = Assembly::new(bare, &self.dofs, &solver, 1);
         Ok((solver, assembly))
     }
 
@@ -121,7 +106,7 @@ impl Plan {
             return self.build_bare(&system.bare());
         }
         let solver = Solver::new(&self.structure, self.kind, self.threads)?;
-        let assembly = Assembly::new(system, &self.rows, &solver, self.threads);
+        let assembly = Assembly::new(system, &self.dofs, &solver, self.threads);
         Ok((solver, assembly))
     }
 
@@ -132,26 +117,24 @@ impl Plan {
 }
 
 /// Groups of unknowns, one for each node and each joint that has any, and who couples with whom.
-fn structure(system: &System, rows: &[[u32; 6]]) -> Structure {
-    grouped(rows, assembly::cliques(system, rows.len()), system.joints.len())
+fn structure(system: &System, dofs: &DofMap) -> Structure {
+    let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
+    grouped(&sizes, assembly::cliques(system, sizes.len()), system.joints.len())
 }
 
-/// The same from couplings of nodes, of which the last `multipliers` hold multipliers.
-fn grouped(rows: &[[u32; 6]], cliques: Vec<Vec<usize>>, multipliers: usize) -> Structure {
+/// The same from the numbers of unknowns of nodes, of which the last `multipliers` hold multipliers, and from their couplings.
+fn grouped(unknowns: &[usize], cliques: Vec<Vec<usize>>, multipliers: usize) -> Structure {
     let mut sizes = Vec::new();
     let mut last = 0;
-    let mut group = vec![usize::MAX; rows.len()];
-    for (node, rows) in rows.iter().enumerate() {
-        let size = rows.iter().filter(|&&row| row != NONE).count();
+    let mut group = vec![None; unknowns.len()];
+    for (node, &size) in unknowns.iter().enumerate() {
         if size > 0 {
-            group[node] = sizes.len();
+            group[node] = Some(sizes.len());
             sizes.push(size);
             last += usize::from(node >= group.len() - multipliers);
         }
     }
-    let known = |clique: Vec<usize>| -> Vec<usize> {
-        clique.into_iter().map(|node| group[node]).filter(|&g| g != usize::MAX).collect()
-    };
+    let known = |clique: Vec<usize>| -> Vec<usize> { clique.into_iter().filter_map(|node| group[node]).collect() };
     let cliques = cliques.into_iter().map(known).filter(|clique| clique.len() > 1);
     Structure { sizes, cliques: cliques.collect(), multipliers: last }
 }

@@ -5,7 +5,7 @@ use crate::math::Vec3;
 use crate::model::Model;
 use crate::state::Node;
 use crate::system::System;
-use crate::system::assembly::{self, NONE};
+use crate::system::assembly;
 
 /// Part of a row that must be new for it to say something.
 const NEW: f64 = 1e-8;
@@ -24,7 +24,7 @@ pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize
     let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
 
     // Columns that joints touch, numbered as they come.
-    let mut column = vec![usize::MAX; directions];
+    let mut column = vec![None; directions];
     let mut columns = 0;
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
     for joint in &system.joints {
@@ -34,13 +34,13 @@ pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize
             for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
                 for (&root, T) in roots[node].iter().zip(&carry[node]) {
                     let G = T.tr_mul(&G);
-                    for dof in (0..6).filter(|&dof| plan.rows[root][dof] != NONE) {
-                        let at = &mut column[plan.rows[root][dof] as usize];
-                        if *at == usize::MAX {
-                            *at = columns;
+                    for dof in 0..6 {
+                        let Some(row) = plan.dofs.row(root, dof) else { continue };
+                        let at = *column[row].get_or_insert_with(|| {
                             columns += 1;
-                        }
-                        entries.push((*at, if dof < 3 { G[dof] } else { G[dof] / length }));
+                            columns - 1
+                        });
+                        entries.push((at, if dof < 3 { G[dof] } else { G[dof] / length }));
                     }
                 }
             }

@@ -1,11 +1,11 @@
 //! What the omissions of a plan save: the matrix with each of them undone, against that of the plan.
 
 use super::place::Why;
-use super::{Plan, grouped, structure};
+use super::{Plan, grouped};
 use crate::linear::{Factorization, Structure, operations};
 use crate::model::{AnalysisKind, Model};
-use crate::system::System;
-use crate::system::assembly::{NONE, loose_cliques};
+use crate::system::assembly::{cliques, loose_cliques};
+use crate::system::{NodeRows, System};
 
 /// Savings of less are not worth a line.
 const WORTH: f64 = 1.05;
@@ -33,7 +33,8 @@ impl Plan {
             (Why::Held, "held directions"),
         ];
         for (why, what) in kept {
-            compare(what, &structure(system, &self.rows_with(why)));
+            let sizes = self.sizes_with(why);
+            compare(what, &grouped(&sizes, cliques(system, sizes.len()), system.joints.len()));
         }
         if !system.attachments.is_empty() {
             compare("multipliers of attached nodes", &self.with_multipliers(system));
@@ -49,23 +50,20 @@ impl Plan {
         out
     }
 
-    /// Rows with the directions left out for this reason kept; their numbers mean nothing.
-    fn rows_with(&self, why: Why) -> Vec<[u32; 6]> {
-        let mut rows = self.rows.clone();
-        for (rows, place) in rows.iter_mut().zip(&self.nodes) {
-            for (row, reason) in rows.iter_mut().zip(place) {
-                *row = if *reason == why { 0 } else { *row };
-            }
+    /// Unknowns of each node and joint with the directions omitted for this reason kept.
+    fn sizes_with(&self, why: Why) -> Vec<usize> {
+        let mut sizes: Vec<usize> = self.dofs.each().iter().map(NodeRows::count).collect();
+        for (size, place) in sizes.iter_mut().zip(&self.nodes) {
+            *size += place.iter().filter(|reason| **reason == why).count();
         }
-        rows
+        sizes
     }
 
     /// Riders with unknowns of their own and a multiplier for each direction that rides.
     fn with_multipliers(&self, system: &System) -> Structure {
-        let mut rows = self.rows_with(Why::Rides);
-        let joints = rows.len() - self.nodes.len();
-        let nodes = rows.len();
-        rows.extend(system.attachments.iter().map(|rider| rider.dofs.map(|rides| if rides { 0 } else { NONE })));
-        grouped(&rows, loose_cliques(system, nodes), joints + system.attachments.len())
+        let mut sizes = self.sizes_with(Why::Rides);
+        let nodes = sizes.len();
+        sizes.extend(system.attachments.iter().map(|rider| rider.dofs.iter().filter(|&&rides| rides).count()));
+        grouped(&sizes, loose_cliques(system, nodes), system.joints.len() + system.attachments.len())
     }
 }

@@ -11,7 +11,6 @@ use crate::integrators::load_steps;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, bottom, join, top};
 use crate::state::{Configuration, State};
-use crate::system::assembly::NONE;
 use crate::system::{Forces, Loading, Scale};
 
 /// What takes the place of a given time.
@@ -99,10 +98,10 @@ impl Stepper<'_> {
         let dt = match condition {
             _ if idle => None,
             Condition::Arc(length) => self.on_arc(&path, length),
-            Condition::Motion { node, dof, by } => match self.plan.rows[node][dof] {
-                NONE => None,
-                row => Some((by - self.increments[node].q[dof] - self.r[row as usize]) / path.rate[row as usize]),
-            },
+            Condition::Motion { node, dof, by } => {
+                let row = self.plan.dofs.row(node, dof);
+                row.map(|row| (by - self.increments[node].q[dof] - self.r[row]) / path.rate[row])
+            }
         };
         if let Some(dt) = dt {
             self.r.iter_mut().zip(&path.rate).for_each(|(r, b)| *r += dt * b);
@@ -170,11 +169,11 @@ impl Stepper<'_> {
         let mut sum = Products::default();
         let mut last_b = 0.0;
         for &node in &self.movers {
-            let rows = &self.plan.rows[node];
+            let rows = self.plan.dofs.of(node);
             let D = self.unknown_part(node, &self.increments[node].q);
             let theta = bottom(&self.increments[node].q);
             let vector = |x: &[f64]| {
-                let x = Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { x[rows[i] as usize] });
+                let x = rows.gather(x);
                 // As the correction will be added: δΘ = T⁻¹ δθ
                 self.unknown_part(node, &join(&top(&x), &inverse_tangent(&theta, &bottom(&x))))
             };
@@ -192,8 +191,7 @@ impl Stepper<'_> {
     }
 
     fn unknown_part(&self, node: usize, q: &Vec6) -> Vec6 {
-        let rows = &self.plan.rows[node];
-        Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { q[i] })
+        self.plan.dofs.of(node).mask(q)
     }
 
     /// The motion of the step that was found.

@@ -4,7 +4,6 @@ use super::step::Stepper;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, bottom, larger};
 use crate::system::Scale;
-use crate::system::assembly::NONE;
 
 /// Largest translations and rotations of a set of increments.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -69,8 +68,8 @@ impl Stepper<'_> {
     pub(super) fn correct(&mut self) -> (Size, Size) {
         let (mut correction, mut motion) = (Size::default(), Size::default());
         for &node in &self.movers {
-            let rows = &self.plan.rows[node];
-            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
+            let rows = self.plan.dofs.of(node);
+            let entry = |i: usize| rows.get(i).map_or(0.0, |row| self.r[row]);
             let increment = &mut self.increments[node].q;
             let dq = Vec6::from_fn(|i, _| entry(i));
             let theta = bottom(increment);
@@ -78,7 +77,7 @@ impl Stepper<'_> {
             let dtheta = inverse_tangent(&theta, &bottom(&dq));
             for i in 0..3 {
                 increment[i] += dq[i];
-                if rows[3 + i] != NONE {
+                if rows.has(3 + i) {
                     increment[3 + i] += dtheta[i];
                 }
                 correction.translation = larger(correction.translation, dq[i].abs());

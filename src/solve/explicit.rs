@@ -15,7 +15,7 @@ use crate::model::{Model, StepLength};
 use crate::plan::Plan;
 use crate::state::{Configuration, Node, State};
 use crate::system::System;
-use crate::system::assembly::{NONE, Weights};
+use crate::system::assembly::Weights;
 use crate::system::masses::{MassBlock, Masses};
 use crate::system::ties::Ties;
 
@@ -86,11 +86,6 @@ impl Explicit {
     }
 }
 
-/// Motion of a node in directions that are unknown.
-fn kept(rows: &[u32; 6], motion: &Vec6) -> Vec6 {
-    Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { motion[i] })
-}
-
 impl Stepper<'_> {
     /// From the forces on the trial motion at hand, which includes some accelerations: what is missing of them, into `push`. With
     /// `joints`, the accelerations that these allow, and what they carry; without, the part that does not open them.
@@ -153,9 +148,9 @@ impl Stepper<'_> {
                 multipliers.add(&self.r[directions..]);
             }
             for &node in &self.movers {
-                let rows = &self.plan.rows[node];
+                let rows = self.plan.dofs.of(node);
                 let r = &self.r;
-                let found = Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { r[rows[i] as usize] });
+                let found = rows.gather(r);
                 explicit.push[node] += found;
                 self.trial[node].a += top(&found);
                 self.trial[node].alpha += bottom(&found);
@@ -292,14 +287,15 @@ impl Stepper<'_> {
     ) {
         for k in 0..self.movers.len() {
             let node = self.movers[k];
-            room[node] = kept(&self.plan.rows[node], &of(self, node));
+            room[node] = self.plan.dofs.of(node).mask(&of(self, node));
         }
         self.system.weigh(nodes.unwrap_or(&self.trial), room, &mut self.forces);
     }
 
     /// A motion times what was weighed last.
     pub(super) fn times_weighed(&self, of: impl Fn(usize) -> Vec6) -> f64 {
-        let times = |&node: &usize| kept(&self.plan.rows[node], &of(node)).dot(&Vec6::from(self.forces.on_nodes[node]));
+        let times =
+            |&node: &usize| self.plan.dofs.of(node).mask(&of(node)).dot(&Vec6::from(self.forces.on_nodes[node]));
         self.movers.iter().map(times).sum()
     }
 
@@ -315,7 +311,7 @@ impl Stepper<'_> {
             return self.times_weighed(|node| a(self, node));
         };
         let weight = |block: &MassBlock| {
-            let a = kept(&self.plan.rows[block.node], &a(self, block.node));
+            let a = self.plan.dofs.of(block.node).mask(&a(self, block.node));
             block.weigh(&nodes.unwrap_or(&self.trial)[block.node], &a, &a)
         };
         masses.blocks.iter().map(weight).sum()

@@ -14,7 +14,7 @@ use crate::math::{Vec3, bottom};
 use crate::model::{Held, Model};
 use crate::plan::Plan;
 use crate::state::{Configuration, Node, State};
-use crate::system::assembly::{Assembly, NONE, Weights};
+use crate::system::assembly::{Assembly, Weights};
 use crate::system::{Forces, Loading, System};
 
 /// Corrections of a position before the step is given up.
@@ -192,9 +192,9 @@ impl Stepper<'_> {
     fn close_gap(&mut self, closing: &mut Closing, state: &State, scheme: &Coefficients, derivative: usize) {
         closing.solve(self.plan.directions.len());
         for &node in &self.movers {
-            let rows = &self.plan.rows[node];
+            let rows = self.plan.dofs.of(node);
             let theta = bottom(&self.increments[node].q);
-            let entry = |i: usize| if rows[i] == NONE { 0.0 } else { closing.r[rows[i] as usize] };
+            let entry = |i: usize| rows.get(i).map_or(0.0, |row| closing.r[row]);
             let turn = inverse_tangent(&theta, &Vec3::new(entry(3), entry(4), entry(5)));
             let increment = &mut self.increments[node];
             let change = match derivative {
@@ -204,7 +204,7 @@ impl Stepper<'_> {
             };
             for i in 0..3 {
                 change[i] += entry(i);
-                if rows[3 + i] != NONE {
+                if rows.has(3 + i) {
                     change[3 + i] += turn[i];
                 }
             }
@@ -231,8 +231,8 @@ impl Stepper<'_> {
             self.forces.multipliers.ask(&mut self.r[directions..]);
             self.solver.solve(&mut self.r);
             self.solves += 1;
-            for (node, rows) in nodes.iter_mut().zip(&self.plan.rows) {
-                let entry = |i: usize| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] };
+            for (node, rows) in nodes.iter_mut().zip(self.plan.dofs.each_node()) {
+                let entry = |i: usize| rows.get(i).map_or(0.0, |row| self.r[row]);
                 let (dv, domega) = (Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5)));
                 fastest = fastest.max(speed(&node.v, &node.omega, self.length));
                 node.v += dv;

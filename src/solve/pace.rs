@@ -19,7 +19,6 @@ use crate::integrators::{RotationUpdate, newmark};
 use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::Model;
 use crate::state::State;
-use crate::system::assembly::NONE;
 
 /// Of what a step may err, and of what steps have erred lately, where it is taken back: something has happened.
 const TOO_MUCH: f64 = 4.0;
@@ -267,12 +266,12 @@ impl Stepper<'_> {
         errors.fill(Vec6::zeros());
         let factor = pace.constant * dt.powi(3);
         for &node in &self.movers {
-            let rows = &self.plan.rows[node];
+            let rows = self.plan.dofs.of(node);
             let (start, end) = (&pace.start.nodes[node], &state.nodes[node]);
             // Of the rotation vector of a step Θ‴ = α̇ − ½ ω×α: a body that spins turns α without changing it.
             let across = 0.25 * (start.omega.cross(&start.alpha) + end.omega.cross(&end.alpha));
             let third = state.jerk[node] - join(&Vec3::zeros(), &across);
-            errors[node] = Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { factor * third[i] });
+            errors[node] = Vec6::from_fn(|i, _| if rows.has(i) { factor * third[i] } else { 0.0 });
         }
         self.system.carry(&state.nodes, errors);
         let mut passed = [pace.measure.relative(errors, motion, time, end); 3];
@@ -308,8 +307,8 @@ impl Stepper<'_> {
         self.solver.solve(&mut self.r);
         self.solves += 1;
         for &node in &self.movers {
-            let rows = &self.plan.rows[node];
-            errors[node] = Vec6::from_fn(|i, _| if rows[i] == NONE { 0.0 } else { self.r[rows[i] as usize] });
+            let rows = self.plan.dofs.of(node);
+            errors[node] = rows.gather(&self.r);
         }
         self.system.carry(&state.nodes, errors);
     }

@@ -7,7 +7,7 @@ use crate::math::{Vec3, Vec6, rotation};
 use crate::model::AnalysisKind;
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
-use crate::system::assembly::{NONE, Weights};
+use crate::system::assembly::Weights;
 
 impl Stepper<'_> {
     /// # Errors
@@ -183,13 +183,13 @@ impl Stepper<'_> {
         multipliers.shift(&mut self.r[directions..]);
         multipliers.add(&self.r[directions..]);
         state.multipliers.copy_from_slice(&multipliers.values);
-        for (node, rows) in state.nodes.iter_mut().zip(&self.plan.rows) {
+        for (node, rows) in state.nodes.iter_mut().zip(self.plan.dofs.each_node()) {
             for dof in 0..3 {
-                if rows[dof] != NONE {
-                    node.a[dof] += self.r[rows[dof] as usize];
+                if let Some(row) = rows.get(dof) {
+                    node.a[dof] += self.r[row];
                 }
-                if rows[3 + dof] != NONE {
-                    node.alpha[dof] += self.r[rows[3 + dof] as usize];
+                if let Some(row) = rows.get(3 + dof) {
+                    node.alpha[dof] += self.r[row];
                 }
             }
         }

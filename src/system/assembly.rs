@@ -3,19 +3,13 @@
 
 use super::joints::{self, Diagonal};
 use super::tiles::Tiles;
-use super::{Forces, Loading, System, follower_stiffness};
+use super::{DofMap, Forces, Loading, System, follower_stiffness};
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
 use crate::model::PartKind;
 use crate::state::{Configuration, Node};
 use rayon::prelude::*;
-
-/// A direction of a node that is no unknown.
-pub const NONE: u32 = u32::MAX;
-
-/// Row of each direction of each node in the system, or [`NONE`]; after the nodes, the rows of the multipliers of each joint.
-pub type Rows = [[u32; 6]];
 
 /// Elements whose matrices are filled side by side before they are added, one after the other, in deck order.
 const CHUNK: usize = 256;
@@ -63,16 +57,16 @@ struct Entries {
 struct Scatter(Vec<[u32; 2]>);
 
 impl Scatter {
-    /// `entry(k)` gives the rows and columns of the local matrix's k-th number.
-    fn push(&mut self, solver: &Solver, length: usize, entry: impl Fn(usize) -> (u32, u32)) -> Entries {
+    /// `entry(k)` gives the row and the column of the local matrix's k-th number, where both are unknowns.
+    fn push(&mut self, solver: &Solver, length: usize, entry: impl Fn(usize) -> Option<(usize, usize)>) -> Entries {
         let from = self.0.len();
         let mut add = |half: bool| {
             for k in 0..length {
-                let (i, j) = entry(k);
-                if i == NONE || j == NONE || (solver.is_symmetric() && i != j) != half {
+                let Some((i, j)) = entry(k) else { continue };
+                if (solver.is_symmetric() && i != j) != half {
                     continue;
                 }
-                if let Some(slot) = solver.slot(i as usize, j as usize) {
+                if let Some(slot) = solver.slot(i, j) {
                     self.0.push([k as u32, slot as u32]);
                 }
             }
@@ -187,8 +181,8 @@ fn coupled(system: &System, nodes: usize, roots: &[Vec<usize>]) -> Vec<Vec<usize
 }
 
 impl Assembly {
-    pub fn new(system: &System, rows: &Rows, solver: &Solver, threads: usize) -> Self {
-        let nodes = rows.len();
+    pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
+        let nodes = dofs.each().len();
         let roots = roots(system, nodes);
         let mut scatter = Scatter(Vec::new());
         let mut tiles = Tiles::new();
@@ -205,7 +199,8 @@ impl Assembly {
             most = most.max(m);
             let entry = |k: usize| {
                 let (block, i, j) = (k / 36, k % 6, k / 6 % 6);
-                if keep(i, j) { (rows[targets[block / m]][i], rows[targets[block % m]][j]) } else { (NONE, NONE) }
+                let (row, column) = (targets[block / m], targets[block % m]);
+                if keep(i, j) { dofs.row(row, i).zip(dofs.row(column, j)) } else { None }
             };
             let entries = scatter.push(solver, 36 * m * m, entry);
             Place { targets, entries, tiles: [0; 2] }
@@ -215,16 +210,17 @@ impl Assembly {
             if of.iter().any(|&n| roots[n] != [n]) {
                 return carried(scatter, of, &|_, _| true);
             }
-            if d == 6 {
-                let (from, rows): (_, Vec<_>) = (tiles.len() as u32, of.iter().map(|&n| rows[n]).collect());
+            let firsts = || of.iter().map(|&n| dofs.of(n).first_of_six()).collect::<Option<Vec<usize>>>();
+            if let (6, Some(rows)) = (d, firsts()) {
+                let from = tiles.len() as u32;
                 if tiles.push(solver, &rows) {
                     let none = Entries { from: 0, halves: 0, to: 0 };
                     return Place { targets: Vec::new(), entries: none, tiles: [from, tiles.len() as u32] };
                 }
             }
             let size = d * of.len();
-            let row = |i: usize| rows[of[i / d]][i % d];
-            let entries = scatter.push(solver, size * size, |k| (row(k / size), row(k % size)));
+            let row = |i: usize| dofs.row(of[i / d], i % d);
+            let entries = scatter.push(solver, size * size, |k| row(k / size).zip(row(k % size)));
             Place { targets: Vec::new(), entries, tiles: [0; 2] }
         };
         let groups: Vec<Vec<Place>> = system
@@ -242,7 +238,7 @@ impl Assembly {
         let joints = system.joints.iter().zip(first..);
         let joints: Vec<Place> =
             joints.map(|(joint, own)| local(&mut scatter, &[joint.nodes[0], joint.nodes[1], own], 6)).collect();
-        let diagonals = system.joints.iter().map(|joint| Diagonal::new(joint, &roots, rows, solver)).collect();
+        let diagonals = system.joints.iter().map(|joint| Diagonal::new(joint, &roots, dofs, solver)).collect();
 
         // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);

@@ -7,7 +7,7 @@
 //! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Rows that say the same twice share what they carry by
 //! least norm: ε decides, and leaves a fraction ε of a gap to the next iteration.
 
-use super::{Forces, Scale, System};
+use super::{DofMap, Forces, Scale, System};
 use crate::constraints::joint::{Joint, MOST_ROWS, Row};
 use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6};
@@ -176,14 +176,14 @@ impl System {
 pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
 
 impl Diagonal {
-    pub fn new(joint: &Joint, roots: &[Vec<usize>], rows: &super::assembly::Rows, solver: &Solver) -> Self {
-        let slot = |row: u32| match row {
-            super::assembly::NONE => None,
-            row => solver.slot(row as usize, row as usize).map(|slot| slot as u32),
+    pub fn new(joint: &Joint, roots: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
+        let slot = |node: usize, dof: usize| {
+            let row = dofs.row(node, dof)?;
+            solver.slot(row, row).map(|slot| slot as u32)
         };
         let of = |(end, &node): (usize, &usize)| {
             let places = roots[node].iter().enumerate();
-            places.map(move |(k, &root)| (end, node, k, rows[root].map(slot))).collect::<Vec<_>>()
+            places.map(move |(k, &root)| (end, node, k, std::array::from_fn(|dof| slot(root, dof)))).collect::<Vec<_>>()
         };
         Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }

@@ -1,8 +1,7 @@
 //! Accelerations from forces where each moving node is a rigid body of its own: its mass and inertia, with those of all that
 //! rides on it, about the centre that they have together. In body axes these never change, so nothing is ever factorised.
 
-use super::System;
-use super::assembly::{NONE, Rows};
+use super::{DofMap, System};
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
 use crate::state::Node;
@@ -16,8 +15,8 @@ pub const CORRECTIONS: usize = 2;
 #[derive(Debug, Clone)]
 pub struct Masses {
     pub blocks: Vec<MassBlock>,
-    /// By node: its place in `blocks`, or [`NONE`].
-    place: Vec<u32>,
+    /// By node: its place in `blocks`, where it has unknowns.
+    place: Vec<Option<u32>>,
 }
 
 /// Mass and inertia that move with a node.
@@ -59,13 +58,13 @@ pub struct Motion {
 
 impl Masses {
     /// `None`: masses of several nodes belong together, by their elements or by riders that turn on their own.
-    pub fn new(system: &System, rows: &Rows) -> Option<Masses> {
+    pub fn new(system: &System, dofs: &DofMap) -> Option<Masses> {
         if !system.consistent.is_empty() {
             return None;
         }
         // Mass, its moment, inertia about the node.
-        let mut sums = vec![(0.0, Vec3::zeros(), Mat3::zeros()); rows.len()];
-        let mut rides = vec![None; rows.len()];
+        let mut sums = vec![(0.0, Vec3::zeros(), Mat3::zeros()); dofs.nodes()];
+        let mut rides = vec![None; dofs.nodes()];
         system.attachments.iter().for_each(|rider| rides[rider.node] = Some(rider));
         let point = |mass: f64, s: &Vec3| -mass * skew(s) * skew(s);
         for inertia in &system.inertias {
@@ -87,11 +86,11 @@ impl Masses {
             *moment += inertia.mass * arm;
             *J += J0 + point(inertia.mass, &arm);
         }
-        let mut place = vec![NONE; rows.len()];
+        let mut place = vec![None; dofs.nodes()];
         let mut blocks = Vec::new();
         for (node, (mass, moment, J)) in sums.into_iter().enumerate() {
-            let free = rows[node].map(|row| row != NONE);
-            if !free.contains(&true) || node >= rows.len() - system.joints.len() {
+            let free = dofs.of(node).unknown();
+            if !free.contains(&true) {
                 continue;
             }
             let s0 = if mass > 0.0 { moment / mass } else { Vec3::zeros() };
@@ -99,7 +98,7 @@ impl Masses {
             // What is left of a point mass at the end of an arm.
             let trace = NOTHING * J.amax();
             J0.iter_mut().filter(|J| J.abs() < trace).for_each(|J| *J = 0.0);
-            place[node] = blocks.len() as u32;
+            place[node] = Some(blocks.len() as u32);
             blocks.push(MassBlock::new(node, free, mass, s0, J0));
         }
         Some(Masses { blocks, place })
@@ -107,7 +106,7 @@ impl Masses {
 
     /// That of a node, where it has unknowns.
     pub fn of(&self, node: usize) -> Option<&MassBlock> {
-        self.blocks.get(self.place[node] as usize)
+        self.place[node].map(|place| &self.blocks[place as usize])
     }
 
     /// M⁻¹ F, into `out` by node, where there is an unknown; accelerations of what is held stay zero.

@@ -4,6 +4,7 @@
 pub mod assembly;
 mod build;
 mod contacts;
+mod dofs;
 pub mod energy;
 mod inertia;
 pub mod joints;
@@ -16,6 +17,7 @@ pub mod ties;
 mod tiles;
 
 pub use contacts::ContactState;
+pub use dofs::{DofMap, NodeRows};
 pub use inertia::Inertia;
 pub use joints::{JointState, Multipliers};
 pub use motion::{Drive, Prescribed, Side, between};

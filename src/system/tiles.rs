@@ -21,12 +21,11 @@ impl Tiles {
         self.0.len()
     }
 
-    /// `rows`: of the six directions of each node, in the system. False, and nothing is added, where a block has no place of
-    /// its own.
-    pub fn push(&mut self, solver: &Solver, rows: &[[u32; 6]]) -> bool {
+    /// `rows`: the first of the six rows of each node. False, and nothing is added, where a block has no place of its own.
+    pub fn push(&mut self, solver: &Solver, rows: &[usize]) -> bool {
         let before = self.0.len();
-        for (a, of_a) in rows.iter().enumerate() {
-            for (b, of_b) in rows.iter().enumerate().skip(a) {
+        for (a, &of_a) in rows.iter().enumerate() {
+            for (b, &of_b) in rows.iter().enumerate().skip(a) {
                 let Some((tile, swapped)) = solver.tile(of_a, of_b) else {
                     self.0.truncate(before);
                     return false;

@@ -1,0 +1,131 @@
+//! Which row of the system belongs to which direction of which node. The rows of directions come first, node by node; the
+//! multipliers of each joint follow, as if the joint were one more node.
+
+use crate::constraints::joint::Joint;
+use crate::math::Vec6;
+
+/// Stands for "no unknown" in the packed rows, and is seen nowhere else.
+const NONE: u32 = u32::MAX;
+
+/// Rows of the directions of one node, or of the multipliers of one joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NodeRows([u32; 6]);
+
+impl NodeRows {
+    /// The row of direction `dof`; `None` where it is no unknown.
+    #[inline]
+    pub fn get(&self, dof: usize) -> Option<usize> {
+        if self.has(dof) { Some(self.0[dof] as usize) } else { None }
+    }
+
+    #[inline]
+    pub fn has(&self, dof: usize) -> bool {
+        self.0[dof] != NONE
+    }
+
+    /// Which directions are unknowns.
+    pub fn unknown(&self) -> [bool; 6] {
+        std::array::from_fn(|dof| self.has(dof))
+    }
+
+    /// Number of unknowns.
+    pub fn count(&self) -> usize {
+        (0..6).filter(|&dof| self.has(dof)).count()
+    }
+
+    /// The first row where all six directions are unknowns: the others follow it.
+    pub fn first_of_six(&self) -> Option<usize> {
+        if self.count() == 6 { self.get(0) } else { None }
+    }
+
+    /// The entries of `x` in these rows; zero where a direction is no unknown.
+    #[inline]
+    pub fn gather(&self, x: &[f64]) -> Vec6 {
+        Vec6::from_fn(|dof, _| self.get(dof).map_or(0.0, |row| x[row]))
+    }
+
+    /// Writes the entries of `values` into these rows of `x`.
+    #[inline]
+    pub fn scatter(&self, values: &Vec6, x: &mut [f64]) {
+        for dof in 0..6 {
+            if let Some(row) = self.get(dof) {
+                x[row] = values[dof];
+            }
+        }
+    }
+
+    /// `values` with zeros in directions that are no unknowns.
+    #[inline]
+    pub fn mask(&self, values: &Vec6) -> Vec6 {
+        Vec6::from_fn(|dof, _| if self.has(dof) { values[dof] } else { 0.0 })
+    }
+}
+
+/// The rows of all nodes, then those of the multipliers of all joints. Constant over a run.
+#[derive(Debug, Clone)]
+pub struct DofMap {
+    rows: Vec<NodeRows>,
+    nodes: usize,
+    /// (node, direction) of each row of a direction.
+    directions: Vec<(usize, usize)>,
+    unknowns: usize,
+}
+
+impl DofMap {
+    /// Numbers the directions that are unknowns, node by node, then the multipliers of the joints.
+    pub fn new(unknown: impl Iterator<Item = [bool; 6]>, joints: &[Joint]) -> DofMap {
+        let mut map = DofMap { rows: Vec::new(), nodes: 0, directions: Vec::new(), unknowns: 0 };
+        for (node, unknown) in unknown.enumerate() {
+            map.directions.extend((0..6).filter(|&dof| unknown[dof]).map(|dof| (node, dof)));
+            map.push(unknown);
+        }
+        map.nodes = map.rows.len();
+        joints.iter().for_each(|joint| map.push(std::array::from_fn(|k| k < joint.rows.len())));
+        map
+    }
+
+    /// Gives the next rows to a node or joint.
+    fn push(&mut self, unknown: [bool; 6]) {
+        self.rows.push(NodeRows(unknown.map(|unknown| {
+            let row = self.unknowns as u32;
+            self.unknowns += usize::from(unknown);
+            if unknown { row } else { NONE }
+        })));
+    }
+
+    #[inline]
+    pub fn row(&self, node: usize, dof: usize) -> Option<usize> {
+        self.rows[node].get(dof)
+    }
+
+    /// Rows of a node; of the multipliers of the k-th joint at [`DofMap::nodes`] + k.
+    #[inline]
+    pub fn of(&self, node: usize) -> &NodeRows {
+        &self.rows[node]
+    }
+
+    /// Rows of all nodes, without those of multipliers.
+    pub fn each_node(&self) -> &[NodeRows] {
+        &self.rows[..self.nodes]
+    }
+
+    /// Rows of all nodes, then of the multipliers of all joints.
+    pub fn each(&self) -> &[NodeRows] {
+        &self.rows
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    /// (node, direction) of each row; the rows of multipliers come after them.
+    pub fn directions(&self) -> &[(usize, usize)] {
+        &self.directions
+    }
+
+    /// Number of rows: directions and multipliers.
+    pub fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+}
