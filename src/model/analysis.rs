@@ -1,15 +1,17 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
-use super::build::{Builder, Owner, chosen, span};
-use super::step_length::{ERROR_TOLERANCE, FIRST_STEP, stable_fraction};
-use super::{Analysis, AnalysisKind, MassKind, Method, StepLength};
-use crate::deck::analysis as deck;
+use super::report::{Owner, Report};
+use super::step_length::{ERROR_TOLERANCE, FIRST_STEP};
+use super::values::{chosen, span};
+use super::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
+use crate::deck::Deck;
+use crate::deck::analysis as words;
 use crate::deck::read::ROOT;
-use crate::deck::words::{Maybe, NumberOrAuto};
+use crate::deck::words::{Maybe, NumberOrAuto, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
 use crate::integrators::wilson_theta::STABLE_THETA;
 use crate::integrators::{
-    Bathe, CentralDifference, GeneralizedAlpha, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
+    Bathe, CentralDifference, GeneralizedAlpha, RotationUpdate, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
 };
 use crate::names::short;
 
@@ -20,295 +22,291 @@ const MOST_STEPS: f64 = 1e9;
 /// Steps of a run whose error is to be τ are about so many over τ^(1/p), p the order of the scheme.
 const STEPS: f64 = 20.0;
 
-impl<'d> Builder<'d> {
-    pub fn analysis(&mut self) {
-        match &self.deck.analysis {
-            Some(analysis) => self.times(&analysis.value, &analysis.span),
-            None if self.is_spoiled(&ROOT, "analysis") => {}
-            None => {
+/// How a scene is computed, before the supports say what leads it on.
+pub(super) struct Procedure {
+    pub analysis: Analysis,
+    pub scheme: Scheme,
+    pub iteration: Iteration,
+}
+
+pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure {
+    let analysis = match &deck.analysis {
+        Some(analysis) => times(&analysis.value, &analysis.span, report),
+        None => {
+            if !report.is_spoiled(&ROOT, "analysis") {
                 let example = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-3";
-                self.problems.push(Diagnostic::error("the deck has no table `[analysis]`").hint(example));
+                report.push(Diagnostic::error("the deck has no table `[analysis]`").hint(example));
+            }
+            Analysis {
+                kind: AnalysisKind::Dynamic,
+                end_time: 0.0,
+                step_length: StepLength::Fixed { step: 0.0 },
+                least_step: 0.0,
+                plane: true,
             }
         }
-        if let Some(integrator) = &self.deck.integrator {
-            self.scheme(integrator);
-        }
-        self.can_follow_error();
-        if let (StepLength::ErrorControlled { tolerance, .. }, Some(analysis)) =
-            (&self.model.analysis.step_length, &self.deck.analysis)
-            && let Some(at) = &analysis.value.error_tolerance
-        {
-            let (tolerance, scheme) = (*tolerance, self.model.scheme.clone());
-            self.can_be_kept("error_tolerance", tolerance, &scheme, &at.span);
-        }
-        if self.model.analysis.step_length.is_automatic() && matches!(self.model.scheme, Scheme::CentralDifference(_)) {
-            let fraction = stable_fraction(&self.model);
-            self.model.analysis.step_length = StepLength::StabilityLimited { fraction };
-        }
-        if let Some(iteration) = &self.deck.iteration {
-            self.iteration(iteration);
-        }
+    };
+    let default = || Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential });
+    let scheme = deck.integrator.as_ref().map_or_else(default, |integrator| self::scheme(integrator, report));
+    if let (StepLength::ErrorControlled { tolerance, .. }, Some(table)) = (&analysis.step_length, &deck.analysis) {
+        check_error_control(*tolerance, table, &scheme, report);
     }
+    Procedure { analysis, scheme, iteration: iteration(deck.iteration.as_ref(), report) }
+}
 
-    fn times(&mut self, analysis: &'d deck::Analysis, span: &'d std::ops::Range<usize>) {
-        let owner = Owner { what: "`[analysis]`".to_owned(), span };
-        let kind = self.need(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
-        let end_time = self.need_positive(&owner, "end_time", &analysis.end_time);
-        let (time_step, error_tolerance) = self.time_step(&owner, analysis, kind);
-        let least_step = self.positive("least_step", &analysis.least_step);
-        if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
-            && step > end
-        {
-            self.error::<()>(&at.span, format!("`time_step` is longer than the run, which ends at {end}"));
-        }
-        if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
-            && end / step > MOST_STEPS
-        {
-            let message = format!("`time_step` asks for {:.1e} steps", end / step);
-            self.error_with::<()>(&at.span, message, format!("at most {MOST_STEPS:.0e} are taken to be meant"));
-        }
-        if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
-            && least > step
-        {
-            self.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
-        }
-        if let (Some(least), Some(end), Some(_), Some(at)) =
-            (least_step, end_time, error_tolerance, &analysis.least_step)
-            && least > FIRST_STEP * end
-        {
-            let longest = short(FIRST_STEP * end);
-            self.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
-        }
-        let end_time = end_time.unwrap_or(f64::MAX);
-        let (step_length, least) = match error_tolerance {
-            Some(tolerance) => {
-                (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * end_time }, end_time / MOST_STEPS)
-            }
-            None => {
-                let step = time_step.unwrap_or(1.0);
-                (StepLength::Fixed { step }, step * 0.5_f64.powi(HALVINGS))
-            }
-        };
-        self.model.analysis = Analysis {
-            kind,
-            end_time,
-            step_length,
-            least_step: least_step.unwrap_or(least),
-            plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == deck::Plane::Auto),
-        };
+fn times<'d>(analysis: &'d words::Analysis, span: &'d Span, report: &mut Report<'d>) -> Analysis {
+    let owner = Owner::new("`[analysis]`", span);
+    let kind = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
+    let end_time = report.require_positive(&owner, "end_time", &analysis.end_time);
+    let (time_step, error_tolerance) = time_step(&owner, analysis, kind, report);
+    let least_step = report.positive("least_step", &analysis.least_step);
+    if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
+        && step > end
+    {
+        report.error::<()>(&at.span, format!("`time_step` is longer than the run, which ends at {end}"));
     }
+    if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
+        && end / step > MOST_STEPS
+    {
+        let message = format!("`time_step` asks for {:.1e} steps", end / step);
+        report.error_with::<()>(&at.span, message, format!("at most {MOST_STEPS:.0e} are taken to be meant"));
+    }
+    if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
+        && least > step
+    {
+        report.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
+    }
+    if let (Some(least), Some(end), Some(_), Some(at)) = (least_step, end_time, error_tolerance, &analysis.least_step)
+        && least > FIRST_STEP * end
+    {
+        let longest = short(FIRST_STEP * end);
+        report.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
+    }
+    let end_time = end_time.unwrap_or(f64::MAX);
+    let (step_length, least) = match error_tolerance {
+        Some(tolerance) => {
+            (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * end_time }, end_time / MOST_STEPS)
+        }
+        None => {
+            let step = time_step.unwrap_or(1.0);
+            (StepLength::Fixed { step }, step * 0.5_f64.powi(HALVINGS))
+        }
+    };
+    Analysis {
+        kind,
+        end_time,
+        step_length,
+        least_step: least_step.unwrap_or(least),
+        plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto),
+    }
+}
 
-    /// The length of the steps, or the error that it follows.
-    fn time_step(
-        &mut self,
-        owner: &Owner,
-        analysis: &'d deck::Analysis,
-        kind: AnalysisKind,
-    ) -> (Option<f64>, Option<f64>) {
-        let Some(at) = self.need(owner, "time_step", &analysis.time_step) else { return (None, None) };
-        let tolerance = &analysis.error_tolerance;
-        match at.value {
-            NumberOrAuto::Number(step) => {
-                self.stray("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
-                (self.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
+/// The length of the steps, or the error that it follows.
+fn time_step<'d>(
+    owner: &Owner,
+    analysis: &'d words::Analysis,
+    kind: AnalysisKind,
+    report: &mut Report<'d>,
+) -> (Option<f64>, Option<f64>) {
+    let Some(at) = report.require(owner, "time_step", &analysis.time_step) else { return (None, None) };
+    let tolerance = &analysis.error_tolerance;
+    match at.value {
+        NumberOrAuto::Number(step) => {
+            report.reject_unused("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
+            (report.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
+        }
+        NumberOrAuto::Auto if kind == AnalysisKind::Static => {
+            let hint = "load steps have no error in time: give a number";
+            report.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
+            (None, None)
+        }
+        NumberOrAuto::Auto => {
+            if let Some(at) = tolerance
+                && !(at.value > 0.0 && at.value < 1.0)
+            {
+                let hint = "it is relative to the largest displacement";
+                report.error_with::<()>(&at.span, "`error_tolerance` must lie between 0 and 1", hint);
             }
-            NumberOrAuto::Auto if kind == AnalysisKind::Static => {
-                let hint = "load steps have no error in time: give a number";
-                self.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
-                (None, None)
-            }
-            NumberOrAuto::Auto => {
-                if let Some(at) = tolerance
-                    && !(at.value > 0.0 && at.value < 1.0)
-                {
-                    let hint = "it is relative to the largest displacement";
-                    self.error_with::<()>(&at.span, "`error_tolerance` must lie between 0 and 1", hint);
-                }
-                (None, Some(tolerance.as_ref().map_or(ERROR_TOLERANCE, |at| at.value)))
-            }
+            (None, Some(tolerance.as_ref().map_or(ERROR_TOLERANCE, |at| at.value)))
         }
     }
+}
 
-    /// What an error is estimated by holds for schemes of second order.
-    fn can_follow_error(&mut self) {
-        if self.model.analysis.step_length.is_automatic()
-            && let Scheme::Newmark(GeneralizedAlpha { gamma, .. }) = self.model.scheme
-            && gamma != 0.5
-            && let Some(at) = self.deck.analysis.as_ref().and_then(|analysis| analysis.value.time_step.as_ref())
-        {
-            let message = format!("`time_step` is \"auto\", but Newmark with gamma = {gamma} is of first order");
-            self.error_with::<()>(&at.span, message, "leave gamma at 0.5, or use \"generalized-alpha\"");
-        }
+/// What an error is estimated by holds for schemes of second order, and digits bound how small it can be.
+fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &Scheme, report: &mut Report) {
+    if let Scheme::Newmark(GeneralizedAlpha { gamma, .. }) = scheme
+        && *gamma != 0.5
+        && let Some(at) = &table.time_step
+    {
+        let message = format!("`time_step` is \"auto\", but Newmark with gamma = {gamma} is of first order");
+        report.error_with::<()>(&at.span, message, "leave gamma at 0.5, or use \"generalized-alpha\"");
     }
+    if let Some(at) = &table.error_tolerance {
+        can_be_kept("error_tolerance", tolerance, scheme, &at.span, report);
+    }
+}
 
-    /// Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p), the sum may be more than the tolerance. (A mass on
-    /// a spring ends at 7e-11, whatever is asked of a scheme of second order.)
-    pub(super) fn can_be_kept(&mut self, key: &str, tolerance: f64, scheme: &Scheme, place: &Span) {
-        let order = scheme.order() as f64;
-        let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
-        if tolerance > 0.0 && tolerance < least {
-            let message = format!("`{key}` is below what the digits of numbers hold with \"{}\"", scheme.word());
-            let hint = format!("rounding of so many steps may add up to more than {least:.0e}");
-            self.warn(place, message, hint);
-        }
+/// Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p), the sum may be more than the tolerance. (A mass on
+/// a spring ends at 7e-11, whatever is asked of a scheme of second order.)
+pub(super) fn can_be_kept(key: &str, tolerance: f64, scheme: &Scheme, place: &Span, report: &mut Report) {
+    let order = scheme.order() as f64;
+    let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
+    if tolerance > 0.0 && tolerance < least {
+        let message = format!("`{key}` is below what the digits of numbers hold with \"{}\"", scheme.word());
+        let hint = format!("rounding of so many steps may add up to more than {least:.0e}");
+        report.warn(place, message, hint);
     }
+}
 
-    pub(super) fn scheme(&mut self, integrator: &'d deck::Integrator) {
-        let rotation = chosen(&integrator.rotation_update);
-        let word = integrator.scheme.as_ref().map_or(deck::Scheme::WilsonTheta, |scheme| scheme.value);
-        let keys = [
-            ("theta", &integrator.theta, deck::Scheme::WilsonTheta),
-            ("gamma", &integrator.gamma, deck::Scheme::Newmark),
-            ("beta", &integrator.beta, deck::Scheme::Newmark),
-            ("alpha", &integrator.alpha, deck::Scheme::HhtAlpha),
-            ("spectral_radius", &integrator.spectral_radius, deck::Scheme::GeneralizedAlpha),
-            ("split", &integrator.split, deck::Scheme::Bathe),
-        ];
-        let strays = keys.iter().filter(|(.., of)| *of != word).map(|(key, value, _)| (*key, span(value)));
-        let mut strays: Vec<_> = strays.collect();
-        if word == deck::Scheme::RungeKutta {
-            strays.push(("rotation_update", span(&integrator.rotation_update)));
-        } else {
-            strays.push(("order", span(&integrator.order)));
-        }
-        self.model.scheme = match word {
-            deck::Scheme::WilsonTheta => {
-                let theta = self.theta(integrator);
-                Scheme::WilsonTheta(WilsonTheta { theta, rotation })
-            }
-            deck::Scheme::Newmark => {
-                let (gamma, beta) = self.newmark(integrator);
-                Scheme::Newmark(newmark(gamma, beta, rotation))
-            }
-            deck::Scheme::HhtAlpha => {
-                let alpha = self.between("alpha", &integrator.alpha, [-1.0 / 3.0, 0.0], -0.05);
-                Scheme::HhtAlpha(hht_alpha(alpha, rotation))
-            }
-            deck::Scheme::GeneralizedAlpha => {
-                let radius = self.between("spectral_radius", &integrator.spectral_radius, [0.0, 1.0], 0.8);
-                Scheme::GeneralizedAlpha(GeneralizedAlpha::new(radius, rotation))
-            }
-            deck::Scheme::Bathe => {
-                let split = self.between("split", &integrator.split, [0.05, 0.95], 2.0 - 2.0_f64.sqrt());
-                Scheme::Bathe(Bathe { split, rotation })
-            }
-            deck::Scheme::CentralDifference => Scheme::CentralDifference(CentralDifference { rotation }),
-            deck::Scheme::RungeKutta => Scheme::RungeKutta(self.runge_kutta(integrator)),
-        };
-        self.stray(&format!("the scheme \"{}\"", self.model.scheme.word()), &strays);
+pub(super) fn scheme<'d>(integrator: &'d words::Integrator, report: &mut Report<'d>) -> Scheme {
+    let rotation = chosen(&integrator.rotation_update);
+    let word = integrator.scheme.as_ref().map_or(words::Scheme::WilsonTheta, |scheme| scheme.value);
+    let keys = [
+        ("theta", &integrator.theta, words::Scheme::WilsonTheta),
+        ("gamma", &integrator.gamma, words::Scheme::Newmark),
+        ("beta", &integrator.beta, words::Scheme::Newmark),
+        ("alpha", &integrator.alpha, words::Scheme::HhtAlpha),
+        ("spectral_radius", &integrator.spectral_radius, words::Scheme::GeneralizedAlpha),
+        ("split", &integrator.split, words::Scheme::Bathe),
+    ];
+    let unused = keys.iter().filter(|(.., of)| *of != word).map(|(key, value, _)| (*key, span(value)));
+    let mut unused: Vec<_> = unused.collect();
+    if word == words::Scheme::RungeKutta {
+        unused.push(("rotation_update", span(&integrator.rotation_update)));
+    } else {
+        unused.push(("order", span(&integrator.order)));
     }
+    let scheme = match word {
+        words::Scheme::WilsonTheta => {
+            let theta = theta(integrator, report);
+            Scheme::WilsonTheta(WilsonTheta { theta, rotation })
+        }
+        words::Scheme::Newmark => {
+            let (gamma, beta) = gamma_and_beta(integrator, report);
+            Scheme::Newmark(newmark(gamma, beta, rotation))
+        }
+        words::Scheme::HhtAlpha => {
+            let alpha = between("alpha", &integrator.alpha, [-1.0 / 3.0, 0.0], -0.05, report);
+            Scheme::HhtAlpha(hht_alpha(alpha, rotation))
+        }
+        words::Scheme::GeneralizedAlpha => {
+            let radius = between("spectral_radius", &integrator.spectral_radius, [0.0, 1.0], 0.8, report);
+            Scheme::GeneralizedAlpha(GeneralizedAlpha::new(radius, rotation))
+        }
+        words::Scheme::Bathe => {
+            let split = between("split", &integrator.split, [0.05, 0.95], 2.0 - 2.0_f64.sqrt(), report);
+            Scheme::Bathe(Bathe { split, rotation })
+        }
+        words::Scheme::CentralDifference => Scheme::CentralDifference(CentralDifference { rotation }),
+        words::Scheme::RungeKutta => Scheme::RungeKutta(runge_kutta(integrator, report)),
+    };
+    report.reject_unused(&format!("the scheme \"{}\"", scheme.word()), &unused);
+    scheme
+}
 
-    fn theta(&mut self, integrator: &deck::Integrator) -> f64 {
-        let theta = integrator.theta.as_ref().map_or(1.4, |theta| theta.value);
-        if let Some(at) = &integrator.theta {
-            if theta < 1.0 {
-                self.error::<()>(&at.span, "`theta` must be at least 1");
-            } else if theta < STABLE_THETA {
-                let limit = format!("below {STABLE_THETA} long steps may grow without bound");
-                self.warn(&at.span, format!("Wilson-theta with theta = {theta} is not unconditionally stable"), limit);
-            }
+fn theta(integrator: &words::Integrator, report: &mut Report) -> f64 {
+    let theta = integrator.theta.as_ref().map_or(1.4, |theta| theta.value);
+    if let Some(at) = &integrator.theta {
+        if theta < 1.0 {
+            report.error::<()>(&at.span, "`theta` must be at least 1");
+        } else if theta < STABLE_THETA {
+            let limit = format!("below {STABLE_THETA} long steps may grow without bound");
+            report.warn(&at.span, format!("Wilson-theta with theta = {theta} is not unconditionally stable"), limit);
         }
-        theta
     }
+    theta
+}
 
-    /// γ and β; what is not second order or not unconditionally stable is said.
-    fn newmark(&mut self, integrator: &deck::Integrator) -> (f64, f64) {
-        let gamma = integrator.gamma.as_ref().map_or(0.5, |gamma| gamma.value);
-        let beta = integrator.beta.as_ref().map_or(0.25 * (gamma + 0.5).powi(2), |beta| beta.value);
-        if let Some(at) = &integrator.gamma {
-            if gamma < 0.5 {
-                self.error_with::<()>(&at.span, "`gamma` must be at least 0.5", "below, every motion grows");
-            } else if gamma > 0.5 {
-                let text = format!("Newmark with gamma = {gamma} is of first order");
-                self.warn(&at.span, text, "\"generalized-alpha\" damps as well and is of second order");
-            }
+/// γ and β; what is not second order or not unconditionally stable is said.
+fn gamma_and_beta(integrator: &words::Integrator, report: &mut Report) -> (f64, f64) {
+    let gamma = integrator.gamma.as_ref().map_or(0.5, |gamma| gamma.value);
+    let beta = integrator.beta.as_ref().map_or(0.25 * (gamma + 0.5).powi(2), |beta| beta.value);
+    if let Some(at) = &integrator.gamma {
+        if gamma < 0.5 {
+            report.error_with::<()>(&at.span, "`gamma` must be at least 0.5", "below, every motion grows");
+        } else if gamma > 0.5 {
+            let text = format!("Newmark with gamma = {gamma} is of first order");
+            report.warn(&at.span, text, "\"generalized-alpha\" damps as well and is of second order");
         }
-        if let Some(at) = &integrator.beta {
-            if beta <= 0.0 {
-                self.error_with::<()>(&at.span, "`beta` must be above zero", "at zero the scheme is explicit");
-            } else if 2.0 * beta < gamma {
-                let text = format!("Newmark with beta = {beta} is not unconditionally stable");
-                self.warn(&at.span, text, format!("below {} long steps may grow without bound", 0.5 * gamma));
-            }
-        }
-        (gamma, beta)
     }
+    if let Some(at) = &integrator.beta {
+        if beta <= 0.0 {
+            report.error_with::<()>(&at.span, "`beta` must be above zero", "at zero the scheme is explicit");
+        } else if 2.0 * beta < gamma {
+            let text = format!("Newmark with beta = {beta} is not unconditionally stable");
+            report.warn(&at.span, text, format!("below {} long steps may grow without bound", 0.5 * gamma));
+        }
+    }
+    (gamma, beta)
+}
 
-    fn runge_kutta(&mut self, integrator: &deck::Integrator) -> RungeKutta {
-        let order = integrator.order.as_ref().map_or(8, |order| order.value);
-        let scheme = usize::try_from(order).ok().and_then(RungeKutta::of_order);
-        if let (None, Some(at)) = (&scheme, &integrator.order) {
-            self.error_with::<()>(&at.span, format!("there is no Runge-Kutta scheme of order {order}"), "5 or 8");
-        }
-        scheme.unwrap_or_default()
+fn runge_kutta(integrator: &words::Integrator, report: &mut Report) -> RungeKutta {
+    let order = integrator.order.as_ref().map_or(8, |order| order.value);
+    let scheme = usize::try_from(order).ok().and_then(RungeKutta::of_order);
+    if let (None, Some(at)) = (&scheme, &integrator.order) {
+        report.error_with::<()>(&at.span, format!("there is no Runge-Kutta scheme of order {order}"), "5 or 8");
     }
+    scheme.unwrap_or_default()
+}
 
-    /// Whether the scheme at hand, named there, goes with the materials.
-    pub(super) fn check_yielding(&mut self, scheme: &Span) {
-        let model = &self.model;
-        if model.yields() && matches!(model.scheme, Scheme::RungeKutta(_)) {
-            let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
-            self.error_with::<()>(scheme, "\"runge-kutta\" does not go with material that yields", hint);
-        }
+/// Whether a scheme, named at `place`, goes with material that yields.
+pub(super) fn check_yielding(scheme: &Scheme, place: &Span, yields: bool, report: &mut Report) {
+    if yields && matches!(scheme, Scheme::RungeKutta(_)) {
+        let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
+        report.error_with::<()>(place, "\"runge-kutta\" does not go with material that yields", hint);
     }
+}
 
-    /// What an explicit scheme cannot do, once all parts are known.
-    pub(super) fn check_explicit(&mut self) {
-        let deck = self.deck;
-        let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
-        if self.model.analysis.kind == AnalysisKind::Static || !self.model.scheme.is_explicit() {
-            return;
-        }
-        if let StepLength::StabilityLimited { .. } = self.model.analysis.step_length {
-            // Now that links and contacts are known.
-            let fraction = stable_fraction(&self.model);
-            self.model.analysis.step_length = StepLength::StabilityLimited { fraction };
-        }
-        self.check_yielding(&at.span);
-        let model = &self.model;
-        if model.parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
-            let hint = "mass = \"lumped\" needs no matrix at all";
-            self.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
-        }
-        if let (Scheme::CentralDifference(_), Some(tolerance)) =
-            (&self.model.scheme, deck.analysis.as_ref().and_then(|analysis| analysis.value.error_tolerance.as_ref()))
-        {
-            let hint = "its steps are as long as is stable";
-            self.error_with::<()>(
-                &tolerance.span,
-                "`error_tolerance` means nothing for the scheme \"central-difference\"",
-                hint,
-            );
-        }
+/// Reports what an explicit scheme cannot do, once all parts are known.
+pub(super) fn check_explicit(deck: &Deck, kind: AnalysisKind, scheme: &Scheme, parts: &[Part], report: &mut Report) {
+    let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
+    if kind == AnalysisKind::Static || !scheme.is_explicit() {
+        return;
     }
+    check_yielding(scheme, &at.span, parts.iter().any(Part::yields), report);
+    if parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
+        let hint = "mass = \"lumped\" needs no matrix at all";
+        report.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
+    }
+    let tolerance = deck.analysis.as_ref().and_then(|analysis| analysis.error_tolerance.as_ref());
+    if let (Scheme::CentralDifference(_), Some(tolerance)) = (scheme, tolerance) {
+        let message = "`error_tolerance` means nothing for the scheme \"central-difference\"";
+        report.error_with::<()>(&tolerance.span, message, "its steps are as long as is stable");
+    }
+}
 
-    fn between(&mut self, key: &str, value: &Maybe<f64>, [low, high]: [f64; 2], default: f64) -> f64 {
-        match value {
-            Some(at) if !(low..=high).contains(&at.value) => {
-                let range = format!("from {} to {}", short(low), short(high));
-                self.error_with::<()>(&at.span, format!("`{key}` lies out of its range"), range);
-                default
-            }
-            Some(at) => at.value,
-            None => default,
+fn between(key: &str, value: &Maybe<f64>, [low, high]: [f64; 2], default: f64, report: &mut Report) -> f64 {
+    match value {
+        Some(at) if !(low..=high).contains(&at.value) => {
+            let range = format!("from {} to {}", short(low), short(high));
+            report.error_with::<()>(&at.span, format!("`{key}` lies out of its range"), range);
+            default
         }
+        Some(at) => at.value,
+        None => default,
     }
+}
 
-    fn iteration(&mut self, iteration: &deck::Iteration) {
-        if let Some(at) = &iteration.tolerance
-            && !(at.value > 0.0 && at.value < 1.0)
-        {
-            self.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
+fn iteration(table: Option<&At<Table<words::Iteration>>>, report: &mut Report) -> Iteration {
+    let mut iteration = Iteration {
+        method: Method::Auto,
+        update: Update::Auto,
+        gyroscopic: Gyroscopic::Auto,
+        tolerance: 1e-8,
+        limit: 20,
+    };
+    let Some(table) = table else { return iteration };
+    if let Some(at) = &table.tolerance {
+        if !(at.value > 0.0 && at.value < 1.0) {
+            report.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
         }
-        let method: Method = chosen(&iteration.method);
-        // An elastic matrix converges slowly while material yields, at little cost per iteration.
-        let default = if method == Method::InitialLoad { 10 } else { 1 } * self.model.iteration.limit;
-        let limit = self.count("limit", &iteration.limit, default);
-        let own = &mut self.model.iteration;
-        own.method = method;
-        own.limit = limit;
-        own.tolerance = iteration.tolerance.as_ref().map_or(own.tolerance, |at| at.value);
-        own.gyroscopic = chosen(&iteration.gyroscopic);
-        own.update = chosen(&iteration.update);
+        iteration.tolerance = at.value;
     }
+    iteration.method = chosen(&table.method);
+    iteration.gyroscopic = chosen(&table.gyroscopic);
+    iteration.update = chosen(&table.update);
+    // An elastic matrix converges slowly while material yields, at little cost per iteration.
+    let default = if iteration.method == Method::InitialLoad { 10 } else { 1 } * iteration.limit;
+    iteration.limit = report.count("limit", &table.limit, default);
+    iteration
 }

@@ -1,15 +1,19 @@
-//! `[[bodies]]` and `[[masses]]`: mass, inertia and shape of what is rigid.
+//! `[[bodies]]`: mass, inertia and shape of what is rigid, or the parts that make it up.
 
 use std::f64::consts::PI;
 
-use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
-use super::places::{Place, Reach};
-use super::{Body, Mass, Shape};
-use crate::deck::bodies as deck;
-use crate::deck::words::Table;
+use super::nodes::Nodes;
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::values::{flag, span, vec3, vec3_or_zero};
+use super::{Body, Shape};
+use crate::deck::Deck;
+use crate::deck::bodies as words;
+use crate::deck::words::{Names, Table};
 use crate::diagnostic::{At, Span};
 use crate::math::{Mat3, Vec3};
-use crate::names::short;
+use crate::names::{nearest, short};
+use std::collections::HashMap;
 
 /// Round-off in a principal moment, relative to the largest.
 const ROUND_OFF: f64 = 1e-9;
@@ -21,193 +25,266 @@ struct Solid {
     volume: f64,
 }
 
-impl<'d> Builder<'d> {
-    /// One body and one node for each of the deck, also for those with errors: others refer to them.
-    pub fn bodies(&mut self) {
-        for body in &self.deck.bodies {
-            let index = self.model.bodies.len();
-            let label = body.name.as_ref().map_or_else(|| format!("bodies.{index}"), |name| name.value.clone());
-            let owner = Owner { what: format!("body `{label}`"), span: &body.span };
-            if let Some(parts) = &body.parts {
-                let strays = [
-                    ("center", span(&body.center)),
-                    ("mass", span(&body.mass)),
-                    ("inertia", span(&body.inertia)),
-                    ("shape", span(&body.shape)),
-                ];
-                self.stray("a body that parts make up", &strays);
-                if let Some(name) = self.need(&owner, "name", &body.name) {
-                    self.name(name, Place::Body(index));
-                }
-                self.body_of_parts(label, body, &parts.span);
-                continue;
-            }
-            let center = self.need(&owner, "center", &body.center).map_or_else(Vec3::zeros, |center| vec3(center));
-            let node = self.node(label.clone(), true, center);
-            self.touch(node, true);
-            self.model.nodes[node].v = vec3_or_zero(&body.velocity);
-            self.model.nodes[node].omega = vec3_or_zero(&body.angular_velocity);
-            if let Some(name) = self.need(&owner, "name", &body.name) {
-                self.name(name, Place::Body(index));
-            }
-            let (mass, inertia, shape) =
-                self.mass_properties(&owner, body).unwrap_or((1.0, Mat3::identity(), Shape::Sphere { radius: 1.0 }));
-            self.model.bodies.push(Body { name: label, node, mass, inertia, shape });
+/// Bodies of the deck, then parts that are a body by themselves.
+#[derive(Default)]
+pub(super) struct Bodies<'d> {
+    pub list: Vec<Body>,
+    /// The body that a part with `rigid = true` makes up by itself.
+    pub body_of: HashMap<Place, usize>,
+    /// Bodies whose mass comes from parts: the body, its parts, and where the deck says so.
+    pub of_parts: Vec<(usize, Vec<Place>, &'d Span)>,
+}
+
+/// One body and one node for each `[[bodies]]`, also for those with errors since others refer to them, then for each part with
+/// `rigid = true`.
+pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<'d>) -> Bodies<'d> {
+    let mut bodies = Bodies::default();
+    for (index, body) in deck.bodies.iter().enumerate() {
+        let label = body.name.as_ref().map_or_else(|| format!("bodies.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("body `{label}`"), &body.span);
+        report.require(&owner, "name", &body.name);
+        let center = match &body.parts {
+            Some(_) => Vec3::zeros(),
+            None => report.require(&owner, "center", &body.center).map_or_else(Vec3::zeros, |center| vec3(center)),
+        };
+        let index = bodies.add(label, center, nodes);
+        let node = &mut nodes.list[bodies.list[index].node];
+        (node.v, node.omega) = (vec3_or_zero(&body.velocity), vec3_or_zero(&body.angular_velocity));
+        if let Some(list) = &body.parts {
+            let unused = [
+                ("center", span(&body.center)),
+                ("mass", span(&body.mass)),
+                ("inertia", span(&body.inertia)),
+                ("shape", span(&body.shape)),
+            ];
+            report.reject_unused("a body that parts make up", &unused);
+            bodies.take_parts(index, deck, list, report);
+        } else {
+            let sound = mass_properties(&owner, body, report);
+            let made = &mut bodies.list[index];
+            (made.mass, made.inertia, made.shape) =
+                sound.unwrap_or((1.0, Mat3::identity(), Shape::Sphere { radius: 1.0 }));
         }
-        self.rigid_parts();
+    }
+    bodies.add_rigid_parts(deck, nodes);
+    bodies
+}
+
+impl<'d> Bodies<'d> {
+    /// A body without mass.
+    fn add(&mut self, label: String, center: Vec3, nodes: &mut Nodes) -> usize {
+        let node = nodes.add(label.clone(), true, center);
+        nodes.connect(node, true);
+        let shape = Shape::Faces { points: Vec::new(), faces: Vec::new() };
+        self.list.push(Body { name: label, node, mass: 0.0, inertia: Mat3::zeros(), shape });
+        self.list.len() - 1
     }
 
-    fn mass_properties(&mut self, owner: &Owner<'d>, body: &'d deck::Body) -> Option<(f64, Mat3, Shape)> {
-        let solid = match &body.shape {
-            Some(shape) => Some(self.solid(shape, &owner.what)?),
-            None => None,
-        };
-        let density = body.shape.as_ref().and_then(|shape| shape.density.as_ref());
-        let mass = match (&body.mass, density, &solid) {
-            (Some(mass), Some(density), _) => {
-                let message = format!("{} has a mass and a density", owner.what);
-                return self.error_with(&density.span, message, format!("the mass is given as {}", mass.value));
-            }
-            (None, Some(_), Some(solid)) => {
-                let density = &body.shape.as_ref()?.density;
-                self.positive("density", density)? * solid.volume
-            }
-            (None, None, Some(_)) if !self.is_spoiled(owner.span, "mass") => {
-                let message = format!("{} needs `mass`, or a density in its shape", owner.what);
-                return self.error(owner.span, message);
-            }
-            _ => self.need_positive(owner, "mass", &body.mass)?,
-        };
-        if let Some(values) = &body.inertia {
-            let inertia = self.inertia(values)?;
-            let shape = solid.map_or_else(|| cuboid(mass, &inertia), |solid| solid.shape);
-            return Some((mass, inertia, shape));
-        }
-        match solid {
-            Some(solid) => Some((mass, solid.inertia * mass, solid.shape)),
-            None if self.is_spoiled(owner.span, "inertia") || self.is_spoiled(owner.span, "shape") => None,
-            None => {
-                let message = format!("{} needs `inertia` or `shape`", owner.what);
-                self.error_with(owner.span, message, "a mass without inertia goes into [[masses]], on a point")
+    /// Notes which parts make up a body of the deck.
+    fn take_parts(&mut self, index: usize, deck: &'d Deck, list: &'d At<Names>, report: &mut Report<'d>) {
+        let parts: Vec<Place> = list.values.iter().filter_map(|name| find_part(deck, name, report)).collect();
+        for (k, part) in parts.iter().enumerate() {
+            if parts[..k].contains(part) || self.of_parts.iter().any(|(_, others, _)| others.contains(part)) {
+                let what = part_name(deck, *part);
+                report.error::<()>(&list.span, format!("{what} is in two bodies, or twice in one"));
             }
         }
+        if list.values.is_empty() {
+            report.error::<()>(&list.span, "`parts` is empty");
+        }
+        self.of_parts.push((index, parts, &list.span));
     }
 
-    /// Three or six values → matrix, which must be that of a real body.
-    fn inertia(&mut self, values: &At<Vec<f64>>) -> Option<Mat3> {
-        let [xx, yy, zz, xy, yz, zx] = match values.as_slice() {
-            &[xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],
-            &[xx, yy, zz, xy, yz, zx] => [xx, yy, zz, xy, yz, zx],
-            other => {
-                let message = format!("`inertia` has {} values", other.len());
-                return self.error_with(&values.span, message, "three: xx, yy, zz; or six: xx, yy, zz, xy, yz, zx");
-            }
-        };
-        let inertia = Mat3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
-        let mut moments = inertia.symmetric_eigenvalues();
-        moments.as_mut_slice().sort_by(f64::total_cmp);
-        if moments[0] <= 0.0 {
-            let message = "`inertia` must have three positive principal moments";
-            return self.error_with(&values.span, message, format!("the smallest is {}", short(moments[0])));
+    /// A body for each part with `rigid = true`; its mass is known when the part is.
+    fn add_rigid_parts(&mut self, deck: &'d Deck, nodes: &mut Nodes) {
+        let beams = deck.beams.iter().enumerate().filter(|(_, beam)| flag(&beam.rigid, false));
+        let beams = beams.map(|(i, beam)| (Place::Beam(i), format!("beams.{i}"), &beam.name, &beam.group, &beam.span));
+        let shells = deck.shells.iter().enumerate().filter(|(_, shell)| flag(&shell.rigid, false));
+        let shells =
+            shells.map(|(i, shell)| (Place::Shell(i), format!("shells.{i}"), &shell.name, &shell.group, &shell.span));
+        for (part, unnamed, name, group, span) in beams.chain(shells) {
+            let label = name.as_ref().or(group.as_ref()).map_or(unnamed, |name| name.value.clone());
+            let body = self.add(label, Vec3::zeros(), nodes);
+            self.body_of.insert(part, body);
+            self.of_parts.push((body, vec![part], span));
         }
-        if moments[2] > (moments[0] + moments[1]) * (1.0 + ROUND_OFF) {
-            let [a, b, c] = [0, 1, 2].map(|i| short(moments[i]));
-            let message = "no body has this inertia: a principal moment is larger than the sum of the other two";
-            return self.error_with(&values.span, message, format!("{c} > {a} + {b}"));
-        }
-        Some(inertia)
     }
+}
 
-    fn solid(&mut self, shape: &'d At<Table<deck::Shape>>, body: &str) -> Option<Solid> {
-        let owner = Owner { what: format!("the shape of {body}"), span: &shape.span };
-        let kind = self.need(&owner, "kind", &shape.kind)?.value;
-        let keys = [
-            ("size", span(&shape.size)),
-            ("radius", span(&shape.radius)),
-            ("inner_radius", span(&shape.inner_radius)),
-            ("thickness", span(&shape.thickness)),
-            ("length", span(&shape.length)),
-            ("axis", span(&shape.axis)),
-        ];
-        let (what, taken): (_, &[&str]) = match kind {
-            deck::ShapeKind::Box => ("a box", &["size"]),
-            deck::ShapeKind::Cylinder => ("a cylinder", &["radius", "inner_radius", "length", "axis"]),
-            deck::ShapeKind::Sphere => ("a sphere", &["radius"]),
-            deck::ShapeKind::Tube => ("a tube", &["radius", "inner_radius", "thickness", "length", "axis"]),
-        };
-        let stray: Vec<(&str, Option<&Span>)> = keys.into_iter().filter(|(key, _)| !taken.contains(key)).collect();
-        self.stray(what, &stray);
-        match kind {
-            deck::ShapeKind::Box => {
-                let size = self.need(&owner, "size", &shape.size)?;
-                let [a, b, c] = size.value.0;
-                if !(a > 0.0 && b > 0.0 && c > 0.0) {
-                    return self.error(&size.span, "the edges of a box must be above zero");
-                }
-                let inertia = Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b) / 12.0;
-                let shape = Shape::Box { size: [a, b, c], axes: Mat3::identity() };
-                Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c })
-            }
-            deck::ShapeKind::Sphere => {
-                let r = self.need_positive(&owner, "radius", &shape.radius)?;
-                let inertia = Mat3::identity() * (0.4 * r * r);
-                Some(Solid { shape: Shape::Sphere { radius: r }, inertia, volume: 4.0 / 3.0 * PI * r * r * r })
-            }
-            deck::ShapeKind::Cylinder | deck::ShapeKind::Tube => {
-                let radius = self.need_positive(&owner, "radius", &shape.radius);
-                let length = self.need_positive(&owner, "length", &shape.length);
-                let axis = self.need(&owner, "axis", &shape.axis).and_then(|axis| self.unit("axis", axis));
-                let (radius, length, axis) = (radius?, length?, axis?);
-                let inner_radius = self.inner_radius(&owner, shape, kind, radius)?;
-                let squares = radius * radius + inner_radius * inner_radius;
-                let (along, across) = (squares / 2.0, squares / 4.0 + length * length / 12.0);
-                let inertia = Mat3::identity() * across + axis * axis.transpose() * (along - across);
-                let volume = PI * (radius - inner_radius) * (radius + inner_radius) * length;
-                Some(Solid { shape: Shape::Cylinder { radius, inner_radius, length, axis }, inertia, volume })
-            }
-        }
+/// A part by name, before names have places.
+fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<Place> {
+    let is = |word: Option<&At<String>>| word.is_some_and(|word| word.value == name.value);
+    let rigid_by_itself = |report: &mut Report| {
+        let message = format!("`{}` is a body of its own", name.value);
+        report.error_with(&name.span, message, "leave out its `rigid`, or attach the body")
+    };
+    if let Some(i) = deck.beams.iter().position(|beam| is(beam.name.as_ref().or(beam.group.as_ref()))) {
+        return if flag(&deck.beams[i].rigid, false) { rigid_by_itself(report) } else { Some(Place::Beam(i)) };
     }
+    if let Some(i) = deck.bars.iter().position(|bar| is(bar.name.as_ref())) {
+        return Some(Place::Bar(i));
+    }
+    if let Some(i) = deck.shells.iter().position(|shell| is(shell.name.as_ref().or(shell.group.as_ref()))) {
+        return if flag(&deck.shells[i].rigid, false) { rigid_by_itself(report) } else { Some(Place::Shell(i)) };
+    }
+    let beams = deck.beams.iter().filter_map(|beam| beam.name.as_ref().or(beam.group.as_ref()));
+    let bars = deck.bars.iter().filter_map(|bar| bar.name.as_ref());
+    let shells = deck.shells.iter().filter_map(|shell| shell.name.as_ref().or(shell.group.as_ref()));
+    let message = format!("no shell, beam or bar is named `{}`", name.value);
+    match nearest(name, beams.chain(bars).chain(shells).map(|name| name.as_str())) {
+        Some(near) => report.error_with(&name.span, message, format!("did you mean `{near}`?")),
+        None => report.error(&name.span, message),
+    }
+}
 
-    fn inner_radius(
-        &mut self,
-        owner: &Owner<'d>,
-        shape: &deck::Shape,
-        kind: deck::ShapeKind,
-        radius: f64,
-    ) -> Option<f64> {
-        let (inner, place) = match (&shape.inner_radius, &shape.thickness) {
-            (Some(_), Some(thickness)) => {
-                return self.error(&thickness.span, "a tube takes `thickness` or `inner_radius`, not both");
-            }
-            (Some(inner), None) => (self.not_negative("inner_radius", &shape.inner_radius, 0.0), &inner.span),
-            (None, Some(thickness)) => (radius - self.positive("thickness", &shape.thickness)?, &thickness.span),
-            (None, None) if kind == deck::ShapeKind::Cylinder => return Some(0.0),
-            (None, None) => {
-                return self.error(owner.span, format!("{} needs `thickness` or `inner_radius`", owner.what));
-            }
-        };
-        if inner >= radius || inner < 0.0 {
-            return self.error(place, format!("the wall does not fit into the radius, {radius}"));
-        }
-        Some(inner)
-    }
+/// "shell `roof`".
+pub(super) fn part_name(deck: &Deck, part: Place) -> String {
+    let name = match part {
+        Place::Beam(i) => deck.beams[i].name.as_ref().or(deck.beams[i].group.as_ref()),
+        Place::Bar(i) => deck.bars[i].name.as_ref(),
+        Place::Shell(i) => deck.shells[i].name.as_ref().or(deck.shells[i].group.as_ref()),
+        _ => None,
+    };
+    format!("{} `{}`", part.noun(), name.map_or("", |name| name.as_str()))
+}
 
-    pub fn masses(&mut self) {
-        for mass in &self.deck.masses {
-            let owner = Owner { what: "`[[masses]]`".to_owned(), span: &mass.span };
-            let spots = self.spots(&owner, "at", &mass.at, Reach::Nodes);
-            let value = self.need_positive(&owner, "mass", &mass.mass);
-            let inertia = match &mass.inertia {
-                Some(values) => self.inertia(values),
-                None => Some(Mat3::zeros()),
-            };
-            let (Some(value), Some(inertia)) = (value, inertia) else { continue };
-            for spot in spots {
-                self.touch(spot.node, mass.inertia.is_some());
-                self.model.masses.push(Mass { node: spot.node, mass: value, inertia });
-            }
+fn mass_properties<'d>(
+    owner: &Owner<'d>,
+    body: &'d words::Body,
+    report: &mut Report<'d>,
+) -> Option<(f64, Mat3, Shape)> {
+    let solid = match &body.shape {
+        Some(shape) => Some(read_solid(shape, &owner.what, report)?),
+        None => None,
+    };
+    let density = body.shape.as_ref().and_then(|shape| shape.density.as_ref());
+    let mass = match (&body.mass, density, &solid) {
+        (Some(mass), Some(density), _) => {
+            let message = format!("{} has a mass and a density", owner.what);
+            return report.error_with(&density.span, message, format!("the mass is given as {}", mass.value));
+        }
+        (None, Some(_), Some(solid)) => {
+            let density = &body.shape.as_ref()?.density;
+            report.positive("density", density)? * solid.volume
+        }
+        (None, None, Some(_)) if !report.is_spoiled(owner.span, "mass") => {
+            let message = format!("{} needs `mass`, or a density in its shape", owner.what);
+            return report.error(owner.span, message);
+        }
+        _ => report.require_positive(owner, "mass", &body.mass)?,
+    };
+    if let Some(values) = &body.inertia {
+        let inertia = read_inertia(values, report)?;
+        let shape = solid.map_or_else(|| cuboid(mass, &inertia), |solid| solid.shape);
+        return Some((mass, inertia, shape));
+    }
+    match solid {
+        Some(solid) => Some((mass, solid.inertia * mass, solid.shape)),
+        None if report.is_spoiled(owner.span, "inertia") || report.is_spoiled(owner.span, "shape") => None,
+        None => {
+            let message = format!("{} needs `inertia` or `shape`", owner.what);
+            report.error_with(owner.span, message, "a mass without inertia goes into [[masses]], on a point")
         }
     }
+}
+
+/// Three or six values → matrix, which must be that of a real body.
+pub(super) fn read_inertia(values: &At<Vec<f64>>, report: &mut Report) -> Option<Mat3> {
+    let [xx, yy, zz, xy, yz, zx] = match values.as_slice() {
+        &[xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],
+        &[xx, yy, zz, xy, yz, zx] => [xx, yy, zz, xy, yz, zx],
+        other => {
+            let message = format!("`inertia` has {} values", other.len());
+            return report.error_with(&values.span, message, "three: xx, yy, zz; or six: xx, yy, zz, xy, yz, zx");
+        }
+    };
+    let inertia = Mat3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
+    let mut moments = inertia.symmetric_eigenvalues();
+    moments.as_mut_slice().sort_by(f64::total_cmp);
+    if moments[0] <= 0.0 {
+        let message = "`inertia` must have three positive principal moments";
+        return report.error_with(&values.span, message, format!("the smallest is {}", short(moments[0])));
+    }
+    if moments[2] > (moments[0] + moments[1]) * (1.0 + ROUND_OFF) {
+        let [a, b, c] = [0, 1, 2].map(|i| short(moments[i]));
+        let message = "no body has this inertia: a principal moment is larger than the sum of the other two";
+        return report.error_with(&values.span, message, format!("{c} > {a} + {b}"));
+    }
+    Some(inertia)
+}
+
+fn read_solid<'d>(shape: &'d At<Table<words::Shape>>, body: &str, report: &mut Report<'d>) -> Option<Solid> {
+    let owner = Owner::new(format!("the shape of {body}"), &shape.span);
+    let kind = report.require(&owner, "kind", &shape.kind)?.value;
+    let keys = [
+        ("size", span(&shape.size)),
+        ("radius", span(&shape.radius)),
+        ("inner_radius", span(&shape.inner_radius)),
+        ("thickness", span(&shape.thickness)),
+        ("length", span(&shape.length)),
+        ("axis", span(&shape.axis)),
+    ];
+    let (what, taken): (_, &[&str]) = match kind {
+        words::ShapeKind::Box => ("a box", &["size"]),
+        words::ShapeKind::Cylinder => ("a cylinder", &["radius", "inner_radius", "length", "axis"]),
+        words::ShapeKind::Sphere => ("a sphere", &["radius"]),
+        words::ShapeKind::Tube => ("a tube", &["radius", "inner_radius", "thickness", "length", "axis"]),
+    };
+    let unused: Vec<(&str, Option<&Span>)> = keys.into_iter().filter(|(key, _)| !taken.contains(key)).collect();
+    report.reject_unused(what, &unused);
+    match kind {
+        words::ShapeKind::Box => {
+            let size = report.require(&owner, "size", &shape.size)?;
+            let [a, b, c] = size.value.0;
+            if !(a > 0.0 && b > 0.0 && c > 0.0) {
+                return report.error(&size.span, "the edges of a box must be above zero");
+            }
+            let inertia = Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b) / 12.0;
+            let shape = Shape::Box { size: [a, b, c], axes: Mat3::identity() };
+            Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c })
+        }
+        words::ShapeKind::Sphere => {
+            let r = report.require_positive(&owner, "radius", &shape.radius)?;
+            let inertia = Mat3::identity() * (0.4 * r * r);
+            Some(Solid { shape: Shape::Sphere { radius: r }, inertia, volume: 4.0 / 3.0 * PI * r * r * r })
+        }
+        words::ShapeKind::Cylinder | words::ShapeKind::Tube => {
+            let radius = report.require_positive(&owner, "radius", &shape.radius);
+            let length = report.require_positive(&owner, "length", &shape.length);
+            let axis = report.require(&owner, "axis", &shape.axis).and_then(|axis| report.unit("axis", axis));
+            let (radius, length, axis) = (radius?, length?, axis?);
+            let inner_radius = read_inner_radius(&owner, shape, kind, radius, report)?;
+            let squares = radius * radius + inner_radius * inner_radius;
+            let (along, across) = (squares / 2.0, squares / 4.0 + length * length / 12.0);
+            let inertia = Mat3::identity() * across + axis * axis.transpose() * (along - across);
+            let volume = PI * (radius - inner_radius) * (radius + inner_radius) * length;
+            Some(Solid { shape: Shape::Cylinder { radius, inner_radius, length, axis }, inertia, volume })
+        }
+    }
+}
+
+fn read_inner_radius<'d>(
+    owner: &Owner<'d>,
+    shape: &words::Shape,
+    kind: words::ShapeKind,
+    radius: f64,
+    report: &mut Report<'d>,
+) -> Option<f64> {
+    let (inner, place) = match (&shape.inner_radius, &shape.thickness) {
+        (Some(_), Some(thickness)) => {
+            return report.error(&thickness.span, "a tube takes `thickness` or `inner_radius`, not both");
+        }
+        (Some(inner), None) => (report.not_negative("inner_radius", &shape.inner_radius, 0.0), &inner.span),
+        (None, Some(thickness)) => (radius - report.positive("thickness", &shape.thickness)?, &thickness.span),
+        (None, None) if kind == words::ShapeKind::Cylinder => return Some(0.0),
+        (None, None) => {
+            return report.error(owner.span, format!("{} needs `thickness` or `inner_radius`", owner.what));
+        }
+    };
+    if inner >= radius || inner < 0.0 {
+        return report.error(place, format!("the wall does not fit into the radius, {radius}"));
+    }
+    Some(inner)
 }
 
 /// The homogeneous cuboid of a mass and inertia: I_i = m/12 (s_j² + s_k²).

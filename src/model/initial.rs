@@ -1,8 +1,11 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
-use super::Shell;
-use super::build::{Builder, Owner, span, vec3, vec3_or_zero};
-use super::places::{Reach, Spot};
+use super::nodes::Topology;
+use super::report::{Owner, Report};
+use super::scene::{Reach, Scene};
+use super::spot::Spot;
+use super::values::{span, vec3, vec3_or_zero};
+use super::{PartType, Rider, Shell};
 use crate::amplitude::Amplitude;
 use crate::deck::initial::{Initial, Profile};
 use crate::deck::words::Table;
@@ -30,58 +33,73 @@ impl Factor {
     }
 }
 
-impl<'d> Builder<'d> {
-    pub fn initial(&mut self) {
-        let deck = self.deck;
-        for initial in &deck.initial {
-            self.initial_motion(initial);
-        }
-        self.hold_still();
-        self.carry();
-    }
+/// Gives nodes their initial velocities.
+pub(super) fn initial<'d>(
+    scene: &Scene<'d>,
+    amplitudes: &[Amplitude],
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) {
+    let mut motions = Motions { scene, amplitudes, topology, report };
+    scene.deck.initial.iter().for_each(|initial| motions.initial_motion(initial));
+    stop_restrained(topology);
+    carry_dependents(topology);
+}
 
+struct Motions<'a, 'd> {
+    scene: &'a Scene<'d>,
+    amplitudes: &'a [Amplitude],
+    topology: &'a mut Topology,
+    report: &'a mut Report<'d>,
+}
+
+impl<'d> Motions<'_, 'd> {
     fn initial_motion(&mut self, initial: &'d At<Table<Initial>>) {
-        let owner = Owner { what: "`[[initial]]`".to_owned(), span: &initial.span };
+        let owner = Owner::new("`[[initial]]`", &initial.span);
         let everything = initial.at.as_ref().is_some_and(|at| at.values.iter().any(|name| name.value == "all"));
-        let spots = if everything { Vec::new() } else { self.spots(&owner, "at", &initial.at, Reach::Parts) };
+        let spots = if everything {
+            Vec::new()
+        } else {
+            self.scene.spots(&owner, "at", &initial.at, Reach::Parts, self.report)
+        };
         for spot in spots.iter().filter(|spot| spot.direct) {
-            if let Some(master) = self.master(spot.node, 0) {
-                let master = &self.model.nodes[master].label;
+            if let Some(master) = self.topology.master_in(spot.node, 0) {
+                let master = self.topology.label(master);
                 let message = format!("`{}` moves with `{master}`", spot.name);
-                self.error_with::<()>(spot.span, message, "give the velocity to that");
+                self.report.error_with::<()>(spot.span, message, "give the velocity to that");
             }
         }
         self.moves_by_itself(&spots);
         let nodes: Vec<usize> = match everything {
-            true => (0..self.model.nodes.len()).collect(),
+            true => (0..self.topology.list.len()).collect(),
             false => spots.iter().map(|spot| spot.node).collect(),
         };
         let words = ["velocity", "angular_velocity", "normal_velocity"];
-        let unread = words.iter().any(|key| self.is_spoiled(owner.span, key));
+        let unread = words.iter().any(|key| self.report.is_spoiled(owner.span, key));
         let normal = initial.normal_velocity.as_ref();
         if initial.velocity.is_none() && initial.angular_velocity.is_none() && normal.is_none() && !unread {
             let hint = "give it `velocity`, `angular_velocity` or `normal_velocity`";
-            self.error_with::<()>(owner.span, "this initial motion is empty", hint);
+            self.report.error_with::<()>(owner.span, "this initial motion is empty", hint);
         }
         if normal.is_some() {
             let others = [("velocity", span(&initial.velocity)), ("about", span(&initial.about))];
-            self.stray("a velocity along normals", &others);
+            self.report.reject_unused("a velocity along normals", &others);
         } else if let (Some(_), Some(profile)) = (&initial.about, &initial.profile) {
-            self.stray("the motion of a rigid body", &[("profile", Some(&profile.span))]);
+            self.report.reject_unused("the motion of a rigid body", &[("profile", Some(&profile.span))]);
         }
         let profile = initial.profile.as_ref().map_or(&[][..], |profile| &profile.value);
         let factors: Vec<Factor> = profile.iter().filter_map(|entry| self.factor(entry)).collect();
         let normals = normal.map(|_| self.normals(&spots));
         let (v, omega) = (vec3_or_zero(&initial.velocity), vec3_or_zero(&initial.angular_velocity));
         for node in nodes {
-            let x = self.x(node);
+            let x = self.topology.x(node);
             let v = match (&initial.about, &normals) {
                 (Some(about), _) => v + omega.cross(&(x - vec3(about))),
                 (None, Some(normals)) => normal.map_or(0.0, |normal| normal.value) * normals[node],
                 (None, None) => v,
             };
             let factor: f64 = factors.iter().map(|factor| factor.at(&x)).product();
-            let node = &mut self.model.nodes[node];
+            let node = &mut self.topology.list[node];
             (node.v, node.omega) = (factor * v, factor * omega);
         }
     }
@@ -90,85 +108,89 @@ impl<'d> Builder<'d> {
     fn moves_by_itself(&mut self, spots: &[Spot<'d>]) {
         let named: HashSet<usize> = spots.iter().map(|spot| spot.node).collect();
         for spots in spots.chunk_by(|a, b| a.span == b.span).filter(|spots| !spots[0].direct) {
-            let masters: Option<Vec<usize>> = spots.iter().map(|spot| self.master(spot.node, 0)).collect();
+            let masters: Option<Vec<usize>> = spots.iter().map(|spot| self.topology.master_in(spot.node, 0)).collect();
             if let Some(&[master, ..]) = masters.as_deref().filter(|m| m.iter().all(|node| !named.contains(node))) {
-                let message = format!("all of this moves with `{}`", self.model.nodes[master].label);
-                self.error_with::<()>(spots[0].span, message, "give the velocity to that");
+                let message = format!("all of this moves with `{}`", self.topology.label(master));
+                self.report.error_with::<()>(spots[0].span, message, "give the velocity to that");
             }
         }
     }
 
     fn factor(&mut self, profile: &'d At<Table<Profile>>) -> Option<Factor> {
-        let owner = Owner { what: "an entry of `profile`".to_owned(), span: &profile.span };
-        let amplitude = self.need(&owner, "amplitude", &profile.amplitude).and_then(|name| self.amplitude(name));
-        let direction = self.need(&owner, "direction", &profile.direction);
-        let mut unit = direction.and_then(|direction| self.unit("direction", direction));
+        let owner = Owner::new("an entry of `profile`", &profile.span);
+        let amplitude = self
+            .report
+            .require(&owner, "amplitude", &profile.amplitude)
+            .and_then(|name| self.report.find("amplitude", &self.scene.deck.amplitudes, name));
+        let direction = self.report.require(&owner, "direction", &profile.direction);
+        let mut unit = direction.and_then(|direction| self.report.unit("direction", direction));
         let axis = match &profile.axis {
-            Some(axis) => Some(self.unit("axis", axis)?),
+            Some(axis) => Some(self.report.unit("axis", axis)?),
             None => None,
         };
         if let (Some(axis), Some(from), Some(at)) = (axis, unit, direction) {
             let across = from - from.dot(&axis) * axis;
             if across.norm() < 1e-9 {
-                return self.error(&at.span, "`direction` lies along `axis`: angles need one across it");
+                return self.report.error(&at.span, "`direction` lies along `axis`: angles need one across it");
             }
             unit = Some(across.normalize());
         }
-        let amplitude = self.model.amplitudes[amplitude?].clone();
+        let amplitude = self.amplitudes[amplitude?.0].clone();
         Some(Factor { amplitude, center: vec3_or_zero(&profile.center), direction: unit?, axis })
     }
 
     /// By node, zero where there is no shell: an error for those of the deck's list.
     fn normals(&mut self, spots: &[Spot<'d>]) -> Vec<Vec3> {
-        let mut normals = vec![Vec3::zeros(); self.model.nodes.len()];
-        for shell in self.model.each::<Shell>() {
+        let mut normals = vec![Vec3::zeros(); self.topology.list.len()];
+        for shell in self.scene.parts.list.iter().filter_map(Shell::of) {
             for element in &shell.elements {
                 for (&node, normal) in element.nodes[..shell.corners].iter().zip(&element.normals) {
                     normals[node] += normal;
                 }
             }
         }
-        let sure = self.sure;
+        let sure = self.topology.is_complete();
         for spot in spots.iter().filter(|spot| sure && normals[spot.node] == Vec3::zeros()) {
             let message = format!("no shell has a normal at `{}`", spot.name);
-            self.error_with::<()>(spot.span, message, "name shells or their edges");
+            self.report.error_with::<()>(spot.span, message, "name shells or their edges");
         }
         normals.iter().map(|normal| normal.try_normalize(0.0).unwrap_or_default()).collect()
     }
+}
 
-    /// Nothing moves at t = 0 where it is held at rest.
-    fn hold_still(&mut self) {
-        for held in self.model.held.iter().filter(|held| held.motion.is_none()) {
-            let node = &mut self.model.nodes[held.node];
-            match held.dof {
-                dof @ 0..3 => node.v[dof] = 0.0,
-                dof => node.omega[dof - 3] = 0.0,
-            }
+/// Nothing moves at t = 0 where it is restrained at rest.
+fn stop_restrained(topology: &mut Topology) {
+    let rests: Vec<[usize; 2]> =
+        topology.restraints().filter(|held| held.motion.is_none()).map(|held| [held.node, held.dof]).collect();
+    for [node, dof] in rests {
+        let node = &mut topology.list[node];
+        match dof {
+            0..3 => node.v[dof] = 0.0,
+            _ => node.omega[dof - 3] = 0.0,
         }
     }
+}
 
-    /// What rides moves as its master does; masters first.
-    fn carry(&mut self) {
-        let mut done = vec![false; self.model.riders.len()];
-        for start in 0..done.len() {
-            let (mut chain, mut next) = (Vec::new(), Some(start));
-            while let Some(rider) = next.filter(|&rider| !std::mem::replace(&mut done[rider], true)) {
-                chain.push(rider);
-                next = self.rides.get(&self.model.riders[rider].master).map(|(rider, _)| *rider);
-            }
-            for rider in chain.into_iter().rev() {
-                let rider = &self.model.riders[rider];
-                let master = &self.model.nodes[rider.master];
-                let omega = master.omega;
-                let v = master.v + omega.cross(&(self.model.nodes[rider.node].x - master.x));
-                let node = &mut self.model.nodes[rider.node];
-                for i in 0..3 {
-                    if rider.dofs[i] {
-                        node.v[i] = v[i];
-                    }
-                    if rider.dofs[3 + i] {
-                        node.omega[i] = omega[i];
-                    }
+/// Dependent nodes move as their masters do; masters first.
+fn carry_dependents(topology: &mut Topology) {
+    let mut done = vec![false; topology.dependents.len()];
+    for start in 0..done.len() {
+        let (mut chain, mut next) = (Vec::new(), Some(start));
+        while let Some(index) = next.filter(|&index| !std::mem::replace(&mut done[index], true)) {
+            chain.push(index);
+            next = topology.attachment(topology.dependents[index].master);
+        }
+        for index in chain.into_iter().rev() {
+            let Rider { node, master, dofs, .. } = topology.dependents[index];
+            let omega = topology.list[master].omega;
+            let v = topology.list[master].v + omega.cross(&(topology.x(node) - topology.x(master)));
+            let node = &mut topology.list[node];
+            for i in 0..3 {
+                if dofs[i] {
+                    node.v[i] = v[i];
+                }
+                if dofs[3 + i] {
+                    node.omega[i] = omega[i];
                 }
             }
         }

@@ -1,39 +1,66 @@
 //! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
 //! Built once from the deck, never changed; everything downstream borrows it.
 
+mod amplitudes;
 mod analysis;
 mod attachments;
+mod axes;
+mod bars;
 mod beams;
 mod bodies;
 mod build;
 mod check;
+mod contact_points;
+mod contact_surface;
 mod contacts;
+mod control;
+mod ends;
+mod environment;
 mod expects;
-mod fold;
+mod groups;
 mod initial;
 mod joints;
 mod links;
 mod loads;
+mod masses;
 mod materials;
-mod meshes;
+mod merge_diagnostics;
+mod mesh_file;
+mod names;
+mod nearest_nodes;
+mod node_places;
+mod nodes;
+mod output;
 mod part;
-mod path;
-mod places;
+mod part_context;
+mod parts;
+mod passages;
+mod patch;
+mod paths;
+mod place;
+mod report;
 mod rigid;
+mod scene;
 mod sections;
 mod shells;
 mod slivers;
+mod spot;
+mod spread_loads;
 mod step_length;
 pub mod study;
 mod supports;
+mod surface_map;
+mod units;
 mod unused;
+mod usage;
+mod values;
 
 pub use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
 pub use crate::deck::beams::MassKind;
 pub use crate::deck::supports::History;
 pub use build::{build, read};
 pub use expects::{CONTACT, ENERGY};
-pub use meshes::Input;
+pub use mesh_file::Input;
 pub use part::{
     Bar, Beam, BeamElement, Contact, Drawing, Link, LinkKind, Part, PartKind, PartType, Shell, ShellElement,
 };

@@ -1,7 +1,10 @@
 //! Shell elements that no one would draw. They pass the patch test, so they are taken, but what they leave of the digits is little.
 
-use super::build::Builder;
+use super::nodes::Nodes;
+use super::parts::Parts;
+use super::report::Report;
 use super::{PartType, Shell};
+use crate::deck::Deck;
 use crate::math::Vec3;
 use crate::names::short;
 
@@ -32,34 +35,31 @@ impl Worst {
     }
 }
 
-impl Builder<'_> {
-    /// One warning for each shell of the deck and each way to be odd.
-    pub fn check_slivers(&mut self) {
-        for (shell, parts) in self.deck.shells.iter().zip(self.shell_parts.clone()) {
-            let (mut long, mut flat) = (Worst::default(), Worst::default());
-            let parts = self.model.parts.get(parts).unwrap_or_default().iter().filter_map(Shell::of);
-            for (part, element) in parts.flat_map(|part| part.elements.iter().map(move |e| (part, e))) {
-                let n = part.corners;
-                let x: [Vec3; 4] = std::array::from_fn(|k| self.x(element.nodes[k % n]));
-                let centre = x[..n].iter().sum::<Vec3>() / n as f64;
-                long.meet(length_to_height(&x, n), LONG, centre);
-                if n == 4 {
-                    flat.meet(widest(&x), FLAT, centre);
-                }
+/// One warning for each shell of the deck and each way to be odd.
+pub(super) fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Report) {
+    for (shell, entry) in deck.shells.iter().zip(&parts.shells) {
+        let (mut long, mut flat) = (Worst::default(), Worst::default());
+        let made = parts.of(entry).iter().filter_map(Shell::of);
+        for (part, element) in made.flat_map(|part| part.elements.iter().map(move |e| (part, e))) {
+            let n = part.corners;
+            let x: [Vec3; 4] = std::array::from_fn(|k| nodes.x(element.nodes[k % n]));
+            let centre = x[..n].iter().sum::<Vec3>() / n as f64;
+            long.meet(length_to_height(&x, n), LONG, centre);
+            if n == 4 {
+                flat.meet(widest(&x), FLAT, centre);
             }
-            let name = shell.name.as_ref().or(shell.group.as_ref());
-            let name = name.map_or_else(|| "a shell".to_owned(), |name| format!("shell `{}`", name.value));
-            if long.count > 0 {
-                let message =
-                    format!("{} of {name}: up to {:.0} times as long as high", slivers(long.count), long.value);
-                let hint = format!("{}; of bending they lose as many digits as the square of that has", long.place());
-                self.warn(&shell.span, message, hint);
-            }
-            if flat.count > 0 {
-                let message = format!("{name} has a quadrilateral with a corner of {} degrees", degrees(flat.value));
-                let hint = format!("{}; it acts like a triangle", flat.place());
-                self.warn(&shell.span, message, hint);
-            }
+        }
+        let name = shell.name.as_ref().or(shell.group.as_ref());
+        let name = name.map_or_else(|| "a shell".to_owned(), |name| format!("shell `{}`", name.value));
+        if long.count > 0 {
+            let message = format!("{} of {name}: up to {:.0} times as long as high", slivers(long.count), long.value);
+            let hint = format!("{}; of bending they lose as many digits as the square of that has", long.place());
+            report.warn(&shell.span, message, hint);
+        }
+        if flat.count > 0 {
+            let message = format!("{name} has a quadrilateral with a corner of {} degrees", degrees(flat.value));
+            let hint = format!("{}; it acts like a triangle", flat.place());
+            report.warn(&shell.span, message, hint);
         }
     }
 }

@@ -1,13 +1,15 @@
 //! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
 //! [`crate::study`] alone.
 
-use super::Method;
-use super::build::{Builder, Owner};
-use super::places::Place;
+use super::analysis::{can_be_kept, check_yielding, scheme as read_scheme};
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use super::{Method, Node, Part};
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
 use crate::deck::words::{Maybe, OneOrMany};
-use crate::diagnostic::{At, Diagnostic, Span};
+use crate::diagnostic::{At, Span};
 use crate::integrators::Scheme;
 use crate::names::nearest;
 
@@ -78,10 +80,22 @@ pub const QUANTITIES: [&str; 33] = [
 const MOST_RUNGS: usize = 60;
 const MOST_SAMPLES: u64 = 1_000_000;
 
-impl<'d> Builder<'d> {
-    pub fn study(&mut self) {
-        let Some(at) = &self.deck.study else { return };
-        let study: &'d Written = &at.value;
+/// Checks `[study]` of a deck whose own scheme is known.
+pub(super) fn study<'d>(scene: &Scene<'d>, scheme: &Scheme, nodes: &[Node], report: &mut Report<'d>) -> Option<Study> {
+    let table = scene.deck.study.as_ref()?;
+    Some(Reader { scene, scheme, nodes, report }.study(table))
+}
+
+struct Reader<'a, 'd> {
+    scene: &'a Scene<'d>,
+    /// The deck's own.
+    scheme: &'a Scheme,
+    nodes: &'a [Node],
+    report: &'a mut Report<'d>,
+}
+
+impl<'d> Reader<'_, 'd> {
+    fn study(&mut self, study: &'d Written) -> Study {
         let (quantities, columns) = self.quantities(study);
         let time_steps = self.sorted("time_steps", &study.time_steps).into_iter().rev().collect::<Vec<_>>();
         let error_tolerances: Vec<f64> =
@@ -89,35 +103,35 @@ impl<'d> Builder<'d> {
         if let (Some(at), Some(&largest)) = (&study.error_tolerances, error_tolerances.first())
             && largest >= 1.0
         {
-            self.error_with::<()>(&at.span, "`error_tolerances` must lie below 1", "they are relative");
+            self.report.error_with::<()>(&at.span, "`error_tolerances` must lie below 1", "they are relative");
         }
         let halvings = self.halvings(study, time_steps.len());
         let samples = study.samples.as_ref().and_then(|samples| match samples.value {
             1..=MOST_SAMPLES => Some(samples.value as usize),
-            _ => self.error(&samples.span, format!("`samples` must lie between 1 and {MOST_SAMPLES}")),
+            _ => self.report.error(&samples.span, format!("`samples` must lie between 1 and {MOST_SAMPLES}")),
         });
-        let end = self.model.analysis.end_time;
+        let end = self.scene.analysis.end_time;
         if let (Some(samples), Some(&longest), Some(at)) = (samples, time_steps.first(), &study.time_steps)
             && longest > end / samples as f64 * (1.0 + 1e-9)
             && end < f64::MAX
         {
             let message =
                 format!("the time step {longest} is longer than the {} between two samples", end / samples as f64);
-            self.error_with::<()>(&at.span, message, "steps land on all of them: take fewer `samples`");
+            self.report.error_with::<()>(&at.span, message, "steps land on all of them: take fewer `samples`");
         }
         let finest = study.finest.as_ref().is_some_and(|finest| finest.value);
         let schemes = self.schemes(study);
         if let (Some(at), Some(&least)) = (&study.error_tolerances, error_tolerances.last()) {
             let listed: Vec<Scheme> = schemes.iter().map(|choice| choice.scheme.clone()).collect();
-            let all = if listed.is_empty() { vec![self.model.scheme.clone()] } else { listed };
+            let all = if listed.is_empty() { vec![self.scheme.clone()] } else { listed };
             for scheme in &all {
-                self.can_be_kept("error_tolerances", least, scheme, &at.span);
+                can_be_kept("error_tolerances", least, scheme, &at.span, self.report);
             }
         }
         let methods = self.methods(&study.methods);
         let meshes = self.sorted("meshes", &study.meshes);
         let wanted_errors = self.sorted("wanted_error", &study.wanted_error).into_iter().rev().collect();
-        self.model.study = Some(Study {
+        Study {
             quantities,
             reference: study.reference.as_ref().filter(|_| !finest).map(|file| file.value.clone()),
             columns,
@@ -129,7 +143,7 @@ impl<'d> Builder<'d> {
             methods,
             meshes,
             wanted_errors,
-        });
+        }
     }
 
     /// Of each quantity: where it is, and its column in the reference.
@@ -137,12 +151,12 @@ impl<'d> Builder<'d> {
         if study.reference.is_none() {
             let places: Vec<&Span> = study.columns.0.iter().map(|(column, _)| &column.span).collect();
             if let Some(place) = places.first() {
-                self.error_with::<()>(place, "`columns` is about a reference", "there is no `reference`");
+                self.report.error_with::<()>(place, "`columns` is about a reference", "there is no `reference`");
             }
         }
         let listed = study.quantities.as_ref().map(|at| (&at.span, &at.values));
         if let Some((span, [])) = listed.map(|(span, values)| (span, values.as_slice())) {
-            self.error::<()>(span, "`quantities` is empty");
+            self.report.error::<()>(span, "`quantities` is empty");
         }
         let of_columns = || study.columns.0.iter().map(|(_, word)| word).collect::<Vec<_>>();
         let words: Vec<&'d At<String>> = listed.map_or_else(of_columns, |(_, values)| values.iter().collect());
@@ -150,7 +164,7 @@ impl<'d> Builder<'d> {
         for word in words {
             let Some(quantity) = self.quantity(word) else { continue };
             if found.iter().any(|(other, _)| *other == quantity) {
-                self.error::<()>(&word.span, format!("`{}` is listed twice", word.value));
+                self.report.error::<()>(&word.span, format!("`{}` is listed twice", word.value));
                 continue;
             }
             let column = study.columns.0.iter().find(|(_, of)| of.value == word.value);
@@ -169,22 +183,23 @@ impl<'d> Builder<'d> {
 
     fn quantity(&mut self, word: &'d At<String>) -> Option<Quantity> {
         let Some((name, column)) = word.rsplit_once('.') else {
-            return self.error_with(&word.span, format!("`{}` is no quantity", word.value), "such as \"tip.uz\"");
+            return self.report.error_with(
+                &word.span,
+                format!("`{}` is no quantity", word.value),
+                "such as \"tip.uz\"",
+            );
         };
         let name = At { value: name.to_owned(), span: word.span.clone() };
-        let (label, body) = match self.place_or_node(&name) {
-            Some(Place::Point(node)) => (self.model.nodes[node].label.clone(), false),
-            Some(Place::Body(body)) => (self.model.bodies[body].name.clone(), true),
+        let (label, body) = match self.scene.place_or_node(&name) {
+            Some(Place::Point(node)) => (self.nodes[node].label.clone(), false),
+            Some(Place::Body(body)) => (self.scene.bodies[body].name.clone(), true),
             Some(place) => {
                 let message = format!("`{}` is {}", name.value, place.kind());
-                return self.error_with(&word.span, message, "quantities are at points and bodies");
+                return self.report.error_with(&word.span, message, "quantities are at points and bodies");
             }
             None => {
-                let is_node = |place: &Place| matches!(place, Place::Point(_) | Place::Body(_));
-                let known = self.places.iter().filter(|(_, (place, _))| is_node(place)).map(|(name, _)| *name);
-                let mut known: Vec<&str> = known.collect();
-                known.sort_unstable();
-                return self.unknown("point or body", &name, known.into_iter());
+                let known = self.scene.names.known(|place| matches!(place, Place::Point(_) | Place::Body(_)));
+                return self.scene.names.unknown("point or body", &name, known, self.report);
             }
         };
         let known: Vec<&'static str> =
@@ -194,8 +209,8 @@ impl<'d> Builder<'d> {
             None => {
                 let message = format!("there is no quantity `{column}` at `{}`", name.value);
                 match nearest(column, known.iter().copied()).filter(|_| column.len() > 2) {
-                    Some(near) => self.error_with(&word.span, message, format!("did you mean `{near}`?")),
-                    None => self.error_with(&word.span, message, format!("there are {}", known.join(", "))),
+                    Some(near) => self.report.error_with(&word.span, message, format!("did you mean `{near}`?")),
+                    None => self.report.error_with(&word.span, message, format!("there are {}", known.join(", "))),
                 }
             }
         }
@@ -205,14 +220,14 @@ impl<'d> Builder<'d> {
     fn sorted(&mut self, key: &str, list: &'d Maybe<OneOrMany<f64>>) -> Vec<f64> {
         let Some(list) = list else { return Vec::new() };
         if list.values.is_empty() {
-            self.error::<()>(&list.span, format!("`{key}` is empty"));
+            self.report.error::<()>(&list.span, format!("`{key}` is empty"));
         }
         if list.values.len() > MOST_RUNGS {
             let message = format!("`{key}` has {} entries", list.values.len());
-            self.error_with::<()>(&list.span, message, format!("at most {MOST_RUNGS} are taken to be meant"));
+            self.report.error_with::<()>(&list.span, message, format!("at most {MOST_RUNGS} are taken to be meant"));
         }
         for value in list.values.iter().filter(|value| value.value <= 0.0) {
-            self.error::<()>(&value.span, format!("`{key}` must be above zero"));
+            self.report.error::<()>(&value.span, format!("`{key}` must be above zero"));
         }
         let mut numbers: Vec<f64> = list.values.iter().map(|value| value.value).collect();
         numbers.sort_by(f64::total_cmp);
@@ -223,51 +238,53 @@ impl<'d> Builder<'d> {
     fn halvings(&mut self, study: &'d Written, time_steps: usize) -> usize {
         let Some(halvings) = &study.halvings else { return 0 };
         if halvings.value > 30 {
-            self.error_with::<()>(&halvings.span, "`halvings` is above 30", "each doubles the steps of a run");
+            self.report.error_with::<()>(&halvings.span, "`halvings` is above 30", "each doubles the steps of a run");
         }
         if time_steps > 1 && halvings.value > 0 {
-            self.error_with::<()>(&halvings.span, "`halvings` goes with one time step", "`time_steps` lists several");
+            self.report.error_with::<()>(
+                &halvings.span,
+                "`halvings` goes with one time step",
+                "`time_steps` lists several",
+            );
         }
         usize::try_from(halvings.value).unwrap_or(0)
     }
 
     fn schemes(&mut self, study: &'d Written) -> Vec<Choice> {
-        let own = self.deck.integrator.as_ref();
-        let deck_scheme = self.model.scheme.clone();
+        let own = self.scene.deck.integrator.as_ref();
+        let yields = self.scene.parts.list.iter().any(Part::yields);
         let mut choices: Vec<Choice> = Vec::new();
         for at in &study.schemes {
             let integrator: &'d deck::Integrator = at;
-            let owner = Owner { what: "a scheme of `schemes`".to_owned(), span: &at.span };
-            if self.need(&owner, "scheme", &integrator.scheme).is_none() {
+            let owner = Owner::new("a scheme of `schemes`", &at.span);
+            if self.report.require(&owner, "scheme", &integrator.scheme).is_none() {
                 continue;
             }
             // Errors are said in the words of `[integrator]`; what a scheme is warned of, a study shows.
-            let before = self.problems.len();
-            self.scheme(integrator);
-            let said = self.problems.split_off(before);
-            self.problems.extend(said.into_iter().filter(Diagnostic::is_error));
-            let word = self.model.scheme.word();
+            let mark = self.report.mark();
+            let mut scheme = read_scheme(integrator, self.report);
+            self.report.forget_warnings_since(mark);
+            let word = scheme.word();
             let mut entries = entries(integrator);
             let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| update.value.word());
-            if word == deck_scheme.word()
+            if word == self.scheme.word()
                 && entries.is_empty()
                 && let Some(own) = own
             {
                 entries = self::entries(own);
-                self.model.scheme = deck_scheme.clone();
+                scheme = self.scheme.clone();
             } else if let Some(rotation) = rotation
                 && !entries.iter().any(|(key, _)| *key == "rotation_update")
             {
                 entries.push(("rotation_update", format!("\"{rotation}\"")));
             }
-            self.check_yielding(&at.span);
-            let choice = choice(&self.model.scheme, &entries);
+            check_yielding(&scheme, &at.span, yields, self.report);
+            let choice = choice(&scheme, &entries);
             if choices.iter().any(|other| other.label == choice.label) {
-                self.error::<()>(&at.span, format!("`{}` is listed twice", choice.label));
+                self.report.error::<()>(&at.span, format!("`{}` is listed twice", choice.label));
             }
             choices.push(choice);
         }
-        self.model.scheme = deck_scheme;
         choices
     }
 
@@ -276,7 +293,7 @@ impl<'d> Builder<'d> {
         for at in list {
             let method = at.value;
             if methods.contains(&method) {
-                self.error::<()>(&at.span, format!("`{}` is listed twice", method.word()));
+                self.report.error::<()>(&at.span, format!("`{}` is listed twice", method.word()));
             }
             methods.push(method);
         }

@@ -1,90 +1,153 @@
 //! `[[supports]]`: directions whose motion is given.
 
-use super::build::{Builder, Owner, chosen};
-use super::places::{Reach, Spot};
-use super::{AnalysisKind, DIRECTIONS, Held, History, Motion};
-use crate::deck::supports as deck;
+use super::joints::rows;
+use super::nodes::Topology;
+use super::report::{Owner, Report};
+use super::scene::{Reach, Scene};
+use super::spot::Spot;
+use super::values::{chosen, directions};
+use super::{AnalysisKind, DIRECTIONS, History, Joint, Motion};
+use crate::amplitude::Amplitude;
+use crate::deck::supports as words;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
+use std::collections::HashMap;
 
-impl<'d> Builder<'d> {
-    pub fn supports(&mut self) {
-        for support in &self.deck.supports {
-            let owner = Owner { what: "`[[supports]]`".to_owned(), span: &support.span };
-            let spots = self.spots(&owner, "at", &support.at, Reach::Nodes);
-            let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(motions));
-            let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
-            let unread = self.is_spoiled(owner.span, "fix") || self.is_spoiled(owner.span, "motion");
-            if fixed == [false; 6] && motions.is_empty() && support.motion.is_none() && !unread {
-                let place = support.fix.as_ref().map_or(owner.span, |fix| &fix.span);
-                self.error_with::<()>(place, "this support holds nothing", "give it `fix` or `motion`");
-            }
-            for (dof, _, place) in motions.extract_if(.., |(dof, ..)| fixed[*dof]) {
-                self.error::<()>(place, format!("{} is both fixed and moved by this support", DIRECTIONS[dof]));
-            }
-            for spot in &spots {
-                if self.is_loose(spot, "this support") {
-                    continue;
-                }
-                let rides: [bool; 6] = std::array::from_fn(|dof| self.master(spot.node, dof).is_some());
-                let fixes = (0..6).filter(|&dof| fixed[dof]).map(|dof| (dof, None, spot.span));
-                let moves = motions.iter().map(|(dof, motion, place)| (*dof, Some(motion.clone()), *place));
-                let riding: Vec<_> = fixes.chain(moves).filter(|(dof, ..)| rides[*dof]).collect();
-                if !riding.is_empty() {
-                    self.hold_rider(spot, &riding);
-                }
-                for dof in (0..6).filter(|&dof| fixed[dof] && !rides[dof]) {
-                    self.hold(spot, dof, None, spot.span);
-                }
-                for (dof, motion, place) in motions.iter().filter(|(dof, ..)| !rides[*dof]) {
-                    if self.is_taken(spot.node, *dof) {
-                        self.hold(spot, *dof, Some(motion.clone()), place);
-                    } else if self.sure {
-                        let message = format!("nothing connected to `{}` moves in {}", spot.name, DIRECTIONS[*dof]);
-                        self.error::<()>(place, message);
-                    }
-                }
+/// Restrains nodes; returns the joints that hold dependent nodes to their supports.
+pub(super) fn supports<'d>(
+    scene: &Scene<'d>,
+    amplitudes: &[Amplitude],
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) -> Vec<Joint> {
+    let mut tables =
+        Supports { scene, amplitudes, topology, support_points: HashMap::new(), joints: Vec::new(), report };
+    scene.deck.supports.iter().for_each(|support| tables.support(support));
+    tables.joints
+}
+
+/// A direction that a support gives: with its motion, `None` for rest, and where the deck says so.
+type Given<'d> = (usize, Option<Motion>, &'d Span);
+
+struct Supports<'a, 'd> {
+    scene: &'a Scene<'d>,
+    amplitudes: &'a [Amplitude],
+    topology: &'a mut Topology,
+    /// By dependent node that is supported: the point of its own that is restrained for it.
+    support_points: HashMap<usize, usize>,
+    joints: Vec<Joint>,
+    report: &'a mut Report<'d>,
+}
+
+impl<'d> Supports<'_, 'd> {
+    fn support(&mut self, support: &'d At<Table<words::Support>>) {
+        let owner = Owner::new("`[[supports]]`", &support.span);
+        let spots = self.scene.spots(&owner, "at", &support.at, Reach::Nodes, self.report);
+        let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(motions));
+        let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
+        let unread = self.report.is_spoiled(owner.span, "fix") || self.report.is_spoiled(owner.span, "motion");
+        if fixed == [false; 6] && support.motion.is_none() && !unread {
+            let place = support.fix.as_ref().map_or(owner.span, |fix| &fix.span);
+            self.report.error_with::<()>(place, "this support holds nothing", "give it `fix` or `motion`");
+        }
+        for (dof, _, place) in motions.extract_if(.., |(dof, ..)| fixed[*dof]) {
+            let message = format!("{} is both fixed and moved by this support", DIRECTIONS[dof]);
+            self.report.error::<()>(place, message);
+        }
+        for spot in &spots {
+            if !self.topology.is_loose(spot, "this support", self.report) {
+                self.restrain(spot, fixed, &motions);
             }
         }
-        self.model.held = self.held.values().map(|(held, _)| held.clone()).collect();
     }
 
-    fn motions(&mut self, motions: &'d At<Table<deck::Motions>>) -> Vec<(usize, Motion, &'d Span)> {
+    /// Restrains a node in the directions that are fixed or moved: itself where it is independent.
+    fn restrain(&mut self, spot: &Spot<'d>, fixed: [bool; 6], motions: &[Given<'d>]) {
+        let node = spot.node;
+        let dependent: [bool; 6] = std::array::from_fn(|dof| self.topology.master_in(node, dof).is_some());
+        let fixes = (0..6).filter(|&dof| fixed[dof]).map(|dof| (dof, None, spot.span));
+        let given = fixes.chain(motions.iter().cloned());
+        let (of_dependent, own): (Vec<Given>, Vec<Given>) = given.partition(|(dof, ..)| dependent[*dof]);
+        if !of_dependent.is_empty() {
+            self.restrain_dependent(spot, &of_dependent);
+        }
+        for given in own {
+            let (dof, place) = (given.0, given.2);
+            if given.1.is_none() || self.topology.is_taken(node, dof) {
+                self.restrain_in(spot, node, given);
+            } else if self.topology.is_complete() {
+                let message = format!("nothing connected to `{}` moves in {}", spot.name, DIRECTIONS[dof]);
+                self.report.error::<()>(place, message);
+            }
+        }
+    }
+
+    /// The motions of a support.
+    fn motions(&mut self, motions: &'d At<Table<words::Motions>>) -> Vec<Given<'d>> {
         let given = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
         if given.iter().all(|motion| motion.is_none()) {
-            self.error_with::<()>(&motions.span, "`motion` is empty", "such as { ux = { amplitude = \"quake\" } }");
+            let hint = "such as { ux = { amplitude = \"quake\" } }";
+            self.report.error_with::<()>(&motions.span, "`motion` is empty", hint);
         }
         let mut read = Vec::new();
         for (dof, motion) in given.into_iter().enumerate() {
             let Some(motion) = motion else { continue };
-            let owner = Owner { what: format!("the motion in {}", DIRECTIONS[dof]), span: &motion.span };
-            let amplitude = self.need(&owner, "amplitude", &motion.amplitude).and_then(|name| self.amplitude(name));
+            let owner = Owner::new(format!("the motion in {}", DIRECTIONS[dof]), &motion.span);
+            let name = self.report.require(&owner, "amplitude", &motion.amplitude);
+            let amplitude = name.and_then(|name| self.report.find("amplitude", &self.scene.deck.amplitudes, name));
             let history: History = chosen(&motion.history);
             if let Some(at) = &motion.history
-                && self.model.analysis.kind == AnalysisKind::Static
+                && self.scene.analysis.kind == AnalysisKind::Static
                 && history != History::Displacement
             {
-                self.error::<()>(&at.span, "a static analysis knows displacements only");
+                self.report.error::<()>(&at.span, "a static analysis knows displacements only");
             }
             let scale = motion.scale.as_ref().map_or(1.0, |scale| scale.value);
-            let Some(amplitude) = amplitude else { continue };
-            read.push((dof, Motion { amplitude, scale, history }, &motion.span));
+            let Some((amplitude, _)) = amplitude else { continue };
+            read.push((dof, Some(Motion { amplitude, scale, history }), &motion.span));
         }
         read
     }
 
-    /// Two supports may fix the same direction; if one of them moves it, they contradict each other.
-    fn hold(&mut self, spot: &Spot, dof: usize, motion: Option<Motion>, place: &Span) {
-        let node = spot.node;
-        match self.held.get(&(node, dof)) {
-            Some((held, _)) if held.motion.is_some() || motion.is_some() => {
-                let message = format!("two supports give the motion of `{}` in {}", spot.name, DIRECTIONS[dof]);
-                self.error::<()>(place, message);
+    /// Restrains a node, which `spot` names, in a direction; true where it was not before. Two supports may fix the same
+    /// direction; if one of them moves it, they contradict each other.
+    fn restrain_in(&mut self, spot: &Spot, node: usize, (dof, motion, place): Given) -> bool {
+        match self.topology.restraint(node, dof) {
+            Some(restraint) if restraint.motion.is_some() || motion.is_some() => {
+                let message = format!("two supports give the motion of `{}` in {}", spot.name, directions([dof]));
+                self.report.error::<()>(place, message);
+                false
             }
-            Some(_) => {}
+            Some(_) => false,
             None => {
-                self.held.insert((node, dof), (Held { node, dof, motion }, place.clone()));
+                self.topology.restrain(node, dof, motion);
+                true
             }
+        }
+    }
+
+    /// Supports a node in directions in which it depends on another: by a joint to a point of its own, which is restrained.
+    fn restrain_dependent(&mut self, spot: &Spot, given: &[Given]) {
+        let support_point = *self.support_points.entry(spot.node).or_insert_with(|| {
+            let (label, x) = (self.topology.label(spot.node).to_owned(), self.topology.x(spot.node));
+            self.topology.add(label, false, x)
+        });
+        let mut new = [false; 6];
+        for (dof, motion, place) in given {
+            if let Some(motion) = motion
+                && self.scene.analysis.kind == AnalysisKind::Dynamic
+                && motion.history == History::Displacement
+                && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0
+            {
+                let message =
+                    format!("the motion of `{}` does not begin at zero, but it rides on something", spot.name);
+                self.report.error_with::<()>(place, message, "what it rides on starts where it is");
+            }
+            new[*dof] |= self.restrain_in(spot, support_point, (*dof, motion.clone(), place));
+        }
+        if new != [false; 6] {
+            let name = format!("{} on its support", self.topology.label(spot.node));
+            self.joints.push(Joint { name, ends: [spot.node, support_point], rows: rows(new), supports: true });
         }
     }
 }

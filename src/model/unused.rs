@@ -1,28 +1,19 @@
 //! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
 
-use super::build::Builder;
 use super::{ArcLength, ExpectAt, Model, StepLength, When};
 use crate::elements::pressure::Face;
 
-impl Builder<'_> {
-    /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
-    /// rigid parts have none.
-    pub fn drop_unused(&mut self) {
-        let model = &mut self.model;
-        if self.input.is_some() || !model.rigid.is_empty() {
-            let kept = kept(model);
-            renumber(model, &kept);
-        }
-        if self.writes_all {
-            let mut is_body = vec![false; model.nodes.len()];
-            model.bodies.iter().for_each(|body| is_body[body.node] = true);
-            model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_body[node]).collect();
-        }
+/// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
+/// rigid parts have none.
+pub(super) fn drop_unused(model: &mut Model) {
+    if model.mesh.is_some() || !model.rigid.is_empty() {
+        let kept = kept(model);
+        renumber(model, &kept);
     }
 }
 
 /// All that names a node, but for what rides.
-fn each(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
+fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.bodies.iter_mut().for_each(|body| of(&mut body.node));
     model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
     model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
@@ -47,7 +38,7 @@ fn each(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
 
 fn kept(model: &mut Model) -> Vec<bool> {
     let mut kept: Vec<bool> = model.nodes.iter().map(|node| node.named).collect();
-    each(model, &mut |node| kept[*node] = true);
+    visit_nodes(model, &mut |node| kept[*node] = true);
     // What rides needs what it rides on.
     let mut masters = vec![None; kept.len()];
     model.riders.iter().for_each(|rider| masters[rider.node] = Some(rider.master));
@@ -74,5 +65,5 @@ fn renumber(model: &mut Model, kept: &[bool]) {
     for rider in &mut model.riders {
         (rider.node, rider.master) = (number[rider.node], number[rider.master]);
     }
-    each(model, &mut |node| *node = number[*node]);
+    visit_nodes(model, &mut |node| *node = number[*node]);
 }

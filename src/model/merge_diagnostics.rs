@@ -9,7 +9,7 @@ const LISTED: usize = 4;
 
 /// Puts together what is said of several names at one place in the same words: the first message, then the next names and the
 /// count. The name is the first thing that a message quotes.
-pub(super) fn fold(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
+pub(super) fn merge_diagnostics(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut kept: Vec<(Diagnostic, Others)> = Vec::with_capacity(problems.len());
     let mut places: HashMap<Sameness, usize> = HashMap::new();
     for problem in problems {

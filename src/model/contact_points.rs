@@ -1,0 +1,300 @@
+//! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
+
+use super::contact_surface::along;
+use super::nodes::{Nodes, Topology};
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use super::{Bar, Beam, PartType, Shape as Drawn, Shell};
+use crate::deck::contacts as words;
+use crate::deck::words::Maybe;
+use crate::diagnostic::At;
+use crate::elements::contact::{MOST_NODES, Point};
+use crate::math::{Vec3, quadrature};
+use std::collections::{HashMap, HashSet};
+use std::f64::consts::TAU;
+
+/// Points around the rim of a cylinder.
+const RIM: usize = 16;
+/// More points between two nodes are a slip of the keyboard.
+const MOST_POINTS: usize = 100;
+
+/// A point that may touch, as found.
+struct Touch {
+    nodes: Vec<(usize, f64)>,
+    radius: f64,
+}
+
+impl Touch {
+    fn node(node: usize, radius: f64) -> Touch {
+        Touch { nodes: vec![(node, 1.0)], radius }
+    }
+}
+
+/// Connects points that the deck names as touching something, so that supports and loads find them connected.
+pub(super) fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
+    let lists = scene.deck.contacts.iter().filter_map(|contact| contact.with.as_ref());
+    for name in lists.flat_map(|list| &list.values) {
+        if let Some(Place::Point(node)) = scene.names.place(name) {
+            nodes.connect(node, false);
+        }
+    }
+}
+
+/// Finds the points of one contact.
+pub(super) struct Finder<'a, 'd> {
+    pub scene: &'a Scene<'d>,
+    pub topology: &'a mut Topology,
+    pub report: &'a mut Report<'d>,
+}
+
+impl<'d> Finder<'_, 'd> {
+    /// All points that may touch, each once.
+    pub fn touching(
+        &mut self,
+        owner: &Owner<'d>,
+        name: &str,
+        contact: &'d words::Contact,
+        carrier: Option<usize>,
+    ) -> Option<Vec<Point>> {
+        let between = match &contact.points {
+            Some(at) if at.value > MOST_POINTS as u64 => {
+                let message = format!("`points` is {}: at most {MOST_POINTS} are taken to be meant", at.value);
+                return self.report.error(&at.span, message);
+            }
+            points => points.as_ref().map_or(0, |at| at.value as usize),
+        };
+        let given = contact.radius.as_ref().map(|_| self.report.not_negative("radius", &contact.radius, 0.0));
+        let names = self.report.require_nodes(owner, "with", &contact.with)?;
+        if names.values.is_empty() {
+            return self.report.error(&names.span, "`with` is empty, so nothing touches the surface");
+        }
+        let (mut touches, mut seen, mut sound) = (Vec::new(), HashSet::new(), true);
+        for at in &names.values {
+            let Some(found) = self.touches_of_name(at, name, between, carrier) else {
+                sound = false;
+                continue;
+            };
+            for touch in found {
+                let key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
+                if seen.insert(key) {
+                    touches.push(touch);
+                }
+            }
+        }
+        if between > 0
+            && sound
+            && !names.values.iter().any(|at| self.names_part(at))
+            && let Some(at) = &contact.points
+        {
+            let message = "`points` lie between the nodes of parts or the corners of bodies, and none is named here";
+            return self.report.error(&at.span, message);
+        }
+        if !sound {
+            return None;
+        }
+        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
+    }
+
+    /// Whether a name covers bodies or parts.
+    fn names_part(&self, name: &str) -> bool {
+        let place = self.scene.names.place(name);
+        let leaves = place.into_iter().flat_map(|place| self.scene.names.leaves(place));
+        let is_part = |place| matches!(place, Place::Body(_) | Place::Beam(_) | Place::Bar(_) | Place::Shell(_));
+        leaves.into_iter().any(is_part)
+    }
+
+    /// The points that one name of the list covers; `None` where they are not known or may not touch.
+    fn touches_of_name(
+        &mut self,
+        at: &'d At<String>,
+        name: &str,
+        between: usize,
+        carrier: Option<usize>,
+    ) -> Option<Vec<Touch>> {
+        let place = self.scene.names.find(at, self.report)?;
+        if matches!(place, Place::Link(_) | Place::Contact(_)) {
+            let message = format!("`with` wants points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
+            return self.report.error(&at.span, message);
+        }
+        let mut found = Vec::new();
+        for place in self.scene.names.leaves(place) {
+            self.touches_of(place, name, between, at, &mut found);
+        }
+        if found.is_empty() {
+            // A part with errors of its own has no nodes, and these have been said.
+            if self.scene.nodes_of(place).is_empty() {
+                self.scene.report_empty(place, at, self.report);
+            }
+            return None;
+        }
+        if let Some(body) = carrier.map(|carrier| self.topology.root(carrier)) {
+            found.retain(|touch| touch.nodes.iter().any(|&(node, _)| self.topology.root(node) != body));
+        }
+        if found.is_empty() {
+            let message = format!("`{}` belongs to the body whose surface it would touch", at.value);
+            return self.report.error_with(&at.span, message, "a body does not touch itself");
+        }
+        Some(found)
+    }
+
+    fn contact_point(&self, touch: Touch, given: Option<f64>, friction: bool) -> Point {
+        let (mut nodes, mut weights) = ([touch.nodes[0].0; MOST_NODES], [0.0; MOST_NODES]);
+        for (k, (node, weight)) in touch.nodes.iter().enumerate() {
+            (nodes[k], weights[k]) = (*node, *weight);
+        }
+        let radius = given.unwrap_or(touch.radius);
+        // A point without rotation cannot be turned by friction.
+        let turns = touch.nodes.iter().all(|&(node, _)| self.topology.turns(self.topology.root(node)));
+        let lever = if friction && turns { radius } else { 0.0 };
+        Point { nodes, weights, count: touch.nodes.len(), radius, lever }
+    }
+
+    fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        match place {
+            Place::Body(body) => self.touches_of_body(body, name, between, at, found),
+            Place::Beam(beam) => {
+                let radius = self.half_depth(beam);
+                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
+                for part in self.scene.parts.of(&self.scene.parts.beams[beam]).iter().filter_map(Beam::of) {
+                    let (ends, _) = quadrature::lobatto(part.order + 1);
+                    for element in &part.elements {
+                        let nodes = &element.nodes[..=part.order];
+                        for xi in inside(ends, between) {
+                            let weights = lagrange(ends, xi);
+                            let nodes = nodes.iter().copied().zip(weights).collect();
+                            found.push(Touch { nodes, radius });
+                        }
+                    }
+                }
+            }
+            Place::Bar(bar) => {
+                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0)));
+                for part in self.scene.parts.of(&self.scene.parts.bars[bar]).iter().filter_map(Bar::of) {
+                    for [a, b] in &part.elements {
+                        found.extend((1..=between).map(|k| {
+                            let s = k as f64 / (between + 1) as f64;
+                            Touch { nodes: vec![(*a, 1.0 - s), (*b, s)], radius: 0.0 }
+                        }));
+                    }
+                }
+            }
+            Place::Shell(shell) => {
+                let radius = 0.5 * self.thickness(shell);
+                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
+                for part in self.scene.parts.of(&self.scene.parts.shells[shell]).iter().filter_map(Shell::of) {
+                    let mut edges = HashSet::new();
+                    for element in &part.elements {
+                        within(&element.nodes[..part.corners], between, radius, &mut edges, found);
+                    }
+                }
+            }
+            Place::Edge(shell, _) => {
+                let radius = 0.5 * self.thickness(shell);
+                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
+            }
+            _ => found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0))),
+        }
+    }
+
+    /// Thickness of a shell of the deck; 0 where it has errors.
+    fn thickness(&self, shell: usize) -> f64 {
+        let mut parts = self.scene.parts.of(&self.scene.parts.shells[shell]).iter().filter_map(Shell::of);
+        parts.next().map_or(0.0, |part| part.plate.thickness)
+    }
+
+    /// Half the smaller side of a beam's section; 0 where the section does not say.
+    fn half_depth(&self, beam: usize) -> f64 {
+        let name = self.scene.deck.beams[beam].section.as_ref();
+        let section =
+            name.and_then(|name| Some(&self.scene.deck.sections.0[self.scene.deck.sections.position(name)?].1));
+        let Some(section) = section else { return 0.0 };
+        let value = |key: &Maybe<f64>| key.as_ref().map_or(0.0, |at| at.value);
+        let wide = value(&section.width).max(value(&section.top_width)).max(value(&section.bottom_width));
+        let (low, high) = (wide.min(value(&section.height)), wide.max(value(&section.height)));
+        let side = if low > 0.0 { low } else { high };
+        (0.5 * side).max(value(&section.radius)).max(0.5 * value(&section.diameter))
+    }
+
+    /// Points of a body's shape, which ride on it.
+    fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
+        let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+        let mut corners = Vec::new();
+        match &shape {
+            Drawn::Faces { .. } => {
+                let riders: HashMap<usize, usize> =
+                    self.topology.dependents.iter().map(|r| (r.node, r.master)).collect();
+                let mut nodes: Vec<usize> = riders.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
+                nodes.sort_unstable();
+                return found.extend(nodes.into_iter().map(|node| Touch::node(node, 0.0)));
+            }
+            Drawn::Sphere { radius } => return found.push(Touch::node(node, if is_drawn { *radius } else { 0.0 })),
+            _ if !is_drawn => return found.push(Touch::node(node, 0.0)),
+            Drawn::Box { size, axes } => {
+                // Corners, and as many points as asked for between them, on edges and faces.
+                let n = between + 1;
+                let side = |i: usize, k: usize| size[i] * (k as f64 / n as f64 - 0.5);
+                for k in 0..(n + 1).pow(3) {
+                    let at = [k % (n + 1), k / (n + 1) % (n + 1), k / (n + 1).pow(2)];
+                    if at.iter().any(|&k| k == 0 || k == n) {
+                        corners.push(axes * Vec3::new(side(0, at[0]), side(1, at[1]), side(2, at[2])));
+                    }
+                }
+            }
+            Drawn::Cylinder { radius, length, axis, .. } => {
+                let axes = along(axis);
+                for end in (0..=between + 1).map(|k| length * (k as f64 / (between + 1) as f64 - 0.5)) {
+                    let rim = RIM * (between + 1);
+                    for k in 0..rim {
+                        let (sin, cos) = (TAU * k as f64 / rim as f64).sin_cos();
+                        corners.push(axes * Vec3::new(radius * cos, radius * sin, end));
+                    }
+                }
+            }
+        }
+        let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
+        for (k, corner) in corners.into_iter().enumerate() {
+            let rider = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
+            found.push(Touch::node(rider, 0.0));
+        }
+    }
+}
+
+/// As many places between each pair of neighbours.
+fn inside(nodes: &[f64], between: usize) -> Vec<f64> {
+    let pairs = nodes.windows(2);
+    pairs
+        .flat_map(|pair| (1..=between).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / (between + 1) as f64))
+        .collect()
+}
+
+/// The polynomials of nodes at ξ.
+fn lagrange(nodes: &[f64], xi: f64) -> Vec<f64> {
+    let others = |a: usize| (0..nodes.len()).filter(move |&b| b != a);
+    (0..nodes.len()).map(|a| others(a).map(|b| (xi - nodes[b]) / (nodes[a] - nodes[b])).product()).collect()
+}
+
+/// A lattice within an element and on those of its edges that are not in `edges` yet.
+fn within(nodes: &[usize], between: usize, radius: f64, edges: &mut HashSet<[usize; 2]>, found: &mut Vec<Touch>) {
+    let (count, parts) = (nodes.len(), between + 1);
+    let at = |k: usize| k as f64 / parts as f64;
+    for i in 0..count {
+        let pair = [nodes[i], nodes[(i + 1) % count]];
+        if edges.insert([pair[0].min(pair[1]), pair[0].max(pair[1])]) {
+            found.extend((1..parts).map(|k| Touch { nodes: vec![(pair[0], 1.0 - at(k)), (pair[1], at(k))], radius }));
+        }
+    }
+    for i in 1..parts {
+        for j in 1..parts {
+            let (s, t) = (at(i), at(j));
+            let weights = match count {
+                3 if i + j < parts => vec![1.0 - s - t, s, t],
+                3 => continue,
+                _ => vec![(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t],
+            };
+            found.push(Touch { nodes: nodes.iter().copied().zip(weights).collect(), radius });
+        }
+    }
+}

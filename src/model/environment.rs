@@ -1,0 +1,46 @@
+//! `[environment]` and `[damping]`: what acts on all of a scene.
+
+use super::nodes::Topology;
+use super::report::{Owner, Report};
+use super::scene::{Reach, Scene};
+use super::values::vec3_or_zero;
+use super::{BaseAcceleration, Damping, NodalDamping};
+use crate::deck::Deck;
+use crate::math::Vec3;
+
+/// Gravity, and the accelerations of the ground.
+pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> (Vec3, Vec<BaseAcceleration>) {
+    let Some(environment) = &deck.environment else { return (Vec3::zeros(), Vec::new()) };
+    let mut accelerations = Vec::new();
+    for base in &environment.base_acceleration {
+        let owner = Owner::new("an entry of `base_acceleration`", &base.span);
+        let direction = report.require(&owner, "direction", &base.direction);
+        let direction = direction.and_then(|direction| report.unit("direction", direction));
+        let amplitude = report.require(&owner, "amplitude", &base.amplitude);
+        let amplitude = amplitude.and_then(|name| report.find("amplitude", &deck.amplitudes, name));
+        let scale = base.scale.as_ref().map_or(1.0, |scale| scale.value);
+        if let (Some(direction), Some((amplitude, _))) = (direction, amplitude) {
+            accelerations.push(BaseAcceleration { direction: direction * scale, amplitude });
+        }
+    }
+    (vec3_or_zero(&environment.gravity), accelerations)
+}
+
+pub(super) fn damping<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut Report<'d>) -> Damping {
+    let Some(damping) = &scene.deck.damping else { return Damping::default() };
+    let mass_factor = report.not_negative("mass_factor", &damping.mass_factor, 0.0);
+    let stiffness_factor = report.not_negative("stiffness_factor", &damping.stiffness_factor, 0.0);
+    let mut nodal = Vec::new();
+    for entry in &damping.nodal {
+        let owner = Owner::new("an entry of `nodal`", &entry.span);
+        let spots = scene.spots(&owner, "at", &entry.at, Reach::Nodes, report);
+        let translation = report.not_negative("translation", &entry.translation, 0.0);
+        let rotation = report.not_negative("rotation", &entry.rotation, 0.0);
+        for spot in spots {
+            if !topology.is_loose(&spot, "this damper", report) {
+                nodal.push(NodalDamping { node: spot.node, translation, rotation });
+            }
+        }
+    }
+    Damping { mass_factor, stiffness_factor, nodal }
+}

@@ -1,0 +1,143 @@
+//! Groups of the mesh that parts are made of: which elements they take, and which of the mesh are left over.
+
+use std::collections::HashMap;
+
+use super::MeshFile;
+use super::mesh_file::MeshNodes;
+use super::names::Names;
+use super::report::Report;
+use crate::deck::Deck;
+use crate::diagnostic::At;
+use crate::mesh::{self, Kind};
+use crate::names::{joined, nearest, quoted};
+
+/// What parts have taken of the mesh so far.
+pub(super) struct Groups<'d> {
+    pub mesh: MeshNodes<'d>,
+    /// Groups that are parts, with what they are: "shell `roof`".
+    parts: HashMap<&'d str, String>,
+    /// By element: whether it is in a part.
+    taken: Vec<bool>,
+    /// By node of the mesh: its number in the part in hand, from 1; 0 for none.
+    local: Vec<u32>,
+}
+
+impl<'d> Groups<'d> {
+    pub fn new(mesh: MeshNodes<'d>) -> Self {
+        let elements = mesh.input.map_or(0, |input| input.mesh.elements.len());
+        Groups { mesh, parts: HashMap::new(), taken: vec![false; elements], local: Vec::new() }
+    }
+
+    /// Takes the segments or the faces of a group for a part.
+    pub fn take(
+        &mut self,
+        what: &str,
+        name: &'d At<String>,
+        faces: bool,
+        report: &mut Report<'d>,
+    ) -> Option<Vec<&'d mesh::Element>> {
+        if self.mesh.is_lost {
+            return None;
+        }
+        let Some(input) = self.mesh.input else {
+            return report.error_with(&name.span, "`group` wants a mesh", "the deck has no [mesh]");
+        };
+        let mesh = &input.mesh;
+        let Some(group) = mesh.group(name) else {
+            let message = format!("the mesh has no group `{}`", name.value);
+            let known = mesh.groups.iter().map(|group| group.name.as_str());
+            let hint = match nearest(name, known.clone()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if mesh.groups.is_empty() => "it has none".to_owned(),
+                None => format!("its groups are {}", quoted(known.take(12))),
+            };
+            report.lose_connections();
+            return report.error_with(&name.span, message, hint);
+        };
+        if let Some(other) = self.parts.get(name.as_str()) {
+            let message = format!("group `{}` is {other} already", name.value);
+            return report.error(&name.span, message);
+        }
+        self.parts.insert(name.as_str(), what.to_owned());
+        if group.skipped > 0 {
+            let message =
+                format!("{} elements of group `{}` are of kinds that are not read", group.skipped, name.value);
+            report.lose_connections();
+            return report.error_with(
+                &name.span,
+                message,
+                "mesh it with lines of two nodes and faces of three or four",
+            );
+        }
+        let is_meant = |e: &&mesh::Element| (e.kind != Kind::Segment) == faces;
+        let indices = || group.elements.iter().map(|&e| e as usize);
+        let elements: Vec<&mesh::Element> = indices().map(|e| &mesh.elements[e]).filter(is_meant).collect();
+        if elements.is_empty() {
+            report.lose_connections();
+            let wanted = if faces { "triangles or quadrilaterals" } else { "segments" };
+            return report.error(&name.span, format!("group `{}` has no {wanted}", name.value));
+        }
+        let mut shared = 0;
+        for e in indices().filter(|&e| is_meant(&&mesh.elements[e])) {
+            shared += usize::from(std::mem::replace(&mut self.taken[e], true));
+        }
+        if shared > 0 {
+            let message = format!("{shared} elements of group `{}` are in another part already", name.value);
+            return report.error(&name.span, message);
+        }
+        Some(elements)
+    }
+
+    /// Nodes of faces, each once in the order of the faces, and these by them. Takes no longer than the faces are many.
+    #[allow(clippy::type_complexity)]
+    pub fn own_nodes(&mut self, faces: &[&mesh::Element]) -> Option<(Vec<u32>, Vec<[u32; 4]>)> {
+        let local = &mut self.local;
+        local.resize(self.mesh.input?.mesh.nodes.len(), 0);
+        let (mut own, mut of) = (Vec::new(), Vec::with_capacity(faces.len()));
+        for face in faces {
+            let mut nodes = [0; 4];
+            for (place, &node) in nodes.iter_mut().zip(face.nodes()) {
+                let number = &mut local[node as usize];
+                if *number == 0 {
+                    own.push(node);
+                    *number = own.len() as u32;
+                }
+                *place = *number - 1;
+            }
+            of.push(nodes);
+        }
+        own.iter().for_each(|&node| local[node as usize] = 0);
+        Some((own, of))
+    }
+
+    /// Warns of elements that are in no part and in no group that the deck names; returns what to record of the file.
+    pub fn finish(self, deck: &Deck, names: &Names, report: &mut Report) -> Option<MeshFile> {
+        let (input, file) = (self.mesh.input?, deck.mesh.as_ref()?.file.as_ref()?);
+        let mut used = self.taken.clone();
+        for group in names.groups_in_lists() {
+            input.mesh.groups[group].elements.iter().for_each(|&e| used[e as usize] = true);
+        }
+        let kinds =
+            [(Kind::Segment, "segments"), (Kind::Triangle, "triangles"), (Kind::Quadrilateral, "quadrilaterals")];
+        let mut left = Vec::new();
+        for (kind, what) in kinds {
+            let elements = input.mesh.elements.iter().zip(&used);
+            let count = elements.filter(|(element, used)| element.kind == kind && !*used).count();
+            if count > 0 {
+                left.push(format!("{count} {what}"));
+            }
+        }
+        // A part with errors would take some of them.
+        if !left.is_empty() && !report.has_errors() {
+            let words: Vec<&str> = left.iter().map(String::as_str).collect();
+            report.warn(&file.span, format!("{} of the mesh are in no part", joined(&words)), "left out");
+        }
+        Some(MeshFile {
+            path: input.path.clone(),
+            digest: input.digest,
+            nodes: input.mesh.nodes.len(),
+            elements: input.mesh.elements.len(),
+            used: self.taken.iter().filter(|&&taken| taken).count(),
+        })
+    }
+}

@@ -1,0 +1,123 @@
+//! The mesh file that `[mesh]` names: it is read before the model is built, its nodes come after points and bodies.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::nodes::Nodes;
+use super::report::{Owner, Report};
+use crate::deck::Deck;
+use crate::diagnostic::{Diagnostic, Excerpt};
+use crate::mesh::{self, Kind, Mesh};
+
+/// A mesh that has been read.
+#[derive(Debug)]
+pub struct Input {
+    pub path: String,
+    pub mesh: Mesh,
+    /// SHA-256 of the file.
+    pub digest: [u8; 32],
+}
+
+impl Input {
+    /// Reads the mesh that the deck names, from the deck's folder; with all there is to say about the file.
+    pub fn load(deck: &Deck, folder: &Path) -> (Option<Input>, Vec<Diagnostic>) {
+        let Some(file) = deck.mesh.as_ref().and_then(|mesh| mesh.file.as_ref()) else { return (None, Vec::new()) };
+        let path = folder.join(&file.value);
+        let path = path.display().to_string();
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let message = format!("cannot read the mesh `{path}`: {error}");
+                return (None, vec![Diagnostic::error(message).at(&file.span).hint("from the deck's folder")]);
+            }
+        };
+        match mesh::read(&path, &bytes) {
+            Ok(mesh) => {
+                let said = said(&mesh, &path, &bytes).into_iter().map(|problem| problem.at(&file.span)).collect();
+                let digest = Sha256::digest(&bytes).into();
+                (Some(Input { path, mesh, digest }), said)
+            }
+            Err(problems) => (None, problems.into_iter().map(|problem| problem.at(&file.span)).collect()),
+        }
+    }
+}
+
+/// Warnings about what the reader skipped: elements, then keywords.
+fn said(mesh: &Mesh, path: &str, bytes: &[u8]) -> Vec<Diagnostic> {
+    let is_keyword = |skipped: &&mesh::Skipped| skipped.what.starts_with(['*', '$']);
+    let (keywords, elements): (Vec<_>, Vec<_>) = mesh.skipped.iter().partition(is_keyword);
+    let warning = |skipped: &[&mesh::Skipped], message: String| {
+        let line = skipped[0].line;
+        let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
+        Diagnostic::warning(message).of(Excerpt::new(path.to_owned(), line, text, 0..text.len()))
+    };
+    let mut said = Vec::new();
+    if !elements.is_empty() {
+        let list: Vec<String> = elements.iter().map(|s| format!("{} {} (line {})", s.count, s.what, s.line)).collect();
+        said.push(warning(&elements, format!("elements that are not read: {}", list.join(", "))));
+    }
+    if !keywords.is_empty() {
+        let line = |s: &&mesh::Skipped| {
+            let more = if s.count > 1 { format!(" and {} more", s.count - 1) } else { String::new() };
+            format!("{} (line {}{more})", s.what, s.line)
+        };
+        let list: Vec<String> = keywords.iter().map(line).collect();
+        said.push(warning(&keywords, format!("not read: {}", list.join(", "))));
+    }
+    said
+}
+
+/// The mesh in the model: all its nodes, one after the other. Those that nothing names or uses leave the model in the end.
+#[derive(Clone, Copy)]
+pub(super) struct MeshNodes<'d> {
+    pub input: Option<&'d Input>,
+    /// True where the deck names a mesh that could not be read.
+    pub is_lost: bool,
+    /// The model's node of the first one in the file.
+    pub first: usize,
+}
+
+impl<'d> MeshNodes<'d> {
+    /// Reads `[mesh]` and adds a node for each of the file.
+    pub fn add(deck: &'d Deck, input: Option<&'d Input>, nodes: &mut Nodes, report: &mut Report<'d>) -> Self {
+        let mesh = MeshNodes { input, is_lost: deck.mesh.is_some() && input.is_none(), first: nodes.list.len() };
+        let Some(table) = &deck.mesh else { return mesh };
+        report.require(&Owner::new("`[mesh]`", &table.span), "file", &table.file);
+        let scale = if table.scale.is_some() { report.positive("scale", &table.scale).unwrap_or(1.0) } else { 1.0 };
+        match input {
+            Some(input) => input.mesh.nodes.iter().for_each(|node| {
+                nodes.add(format!("mesh.{}", node.id), false, node.x * scale);
+            }),
+            None => report.lose_connections(),
+        }
+        mesh
+    }
+
+    /// The model's node of `mesh.17`.
+    pub fn node(&self, name: &str) -> Option<usize> {
+        let id = name.strip_prefix("mesh.")?.parse().ok()?;
+        Some(self.first + self.input?.mesh.node(id)?)
+    }
+
+    /// The file's number of a node of the model.
+    pub fn id(&self, node: usize) -> Option<u64> {
+        let node = node.checked_sub(self.first)?;
+        self.input?.mesh.nodes.get(node).map(|node| node.id)
+    }
+
+    /// The model's nodes of a group.
+    pub fn group_nodes(&self, group: usize) -> impl Iterator<Item = usize> + use<'d> {
+        let nodes = self.input.map_or(&[][..], |input| &input.mesh.groups[group].nodes);
+        let first = self.first;
+        nodes.iter().map(move |&node| first + node as usize)
+    }
+
+    /// Segments of a group, as pairs of the model's nodes.
+    pub fn group_segments(&self, group: usize) -> Vec<[usize; 2]> {
+        let Some(input) = self.input else { return Vec::new() };
+        let elements = input.mesh.groups[group].elements.iter().map(|&e| &input.mesh.elements[e as usize]);
+        let node = |node: u32| self.first + node as usize;
+        elements.filter(|e| e.kind == Kind::Segment).map(|e| [node(e.nodes()[0]), node(e.nodes()[1])]).collect()
+    }
+}

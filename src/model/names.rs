@@ -1,0 +1,341 @@
+//! Which names a deck has, of what kind they are and where they are declared: points, bodies, sets, beams, bars, shells and
+//! their edges, links, joints, contacts and groups of the mesh share one space of names.
+
+use std::collections::{HashMap, HashSet};
+
+use super::bodies::Bodies;
+use super::mesh_file::MeshNodes;
+use super::parts::Parts;
+use super::place::Place;
+use super::report::Report;
+use crate::deck::Deck;
+use crate::diagnostic::{At, Diagnostic, Span};
+
+/// Names with a meaning of their own in lists of nodes and in `[[expect]]`.
+const RESERVED: [&str; 2] = ["all", "energy"];
+
+pub(super) struct Names<'d> {
+    pub deck: &'d Deck,
+    pub mesh: MeshNodes<'d>,
+    /// What each name stands for, and where it is declared.
+    places: HashMap<&'d str, (Place, &'d Span)>,
+    /// By body: its node.
+    body_nodes: Vec<usize>,
+    /// The body that a part with `rigid = true` makes up by itself.
+    body_of: HashMap<Place, usize>,
+}
+
+impl<'d> Names<'d> {
+    /// Declares all names of a deck, then checks what sets are made of.
+    pub fn declare(deck: &'d Deck, bodies: &Bodies<'d>, mesh: MeshNodes<'d>, report: &mut Report<'d>) -> Self {
+        let body_nodes = bodies.list.iter().map(|body| body.node).collect();
+        let body_of = bodies.body_of.clone();
+        let mut names = Names { deck, mesh, places: HashMap::new(), body_nodes, body_of };
+        for (node, (name, _)) in deck.points.0.iter().enumerate() {
+            names.add(name, Place::Point(node), report);
+        }
+        names.add_all(deck.bodies.iter().map(|body| body.name.as_ref()), Place::Body, report);
+        names.add_all(deck.sets.0.iter().map(|(name, _)| Some(name)), Place::Set, report);
+        names.add_all(deck.beams.iter().map(|beam| beam.name.as_ref().or(beam.group.as_ref())), Place::Beam, report);
+        names.add_all(deck.bars.iter().map(|bar| bar.name.as_ref()), Place::Bar, report);
+        let shells = deck.shells.iter().map(|shell| shell.name.as_ref().or(shell.group.as_ref()));
+        names.add_all(shells, Place::Shell, report);
+        names.add_all(deck.links.iter().map(|link| link.name.as_ref()), Place::Link, report);
+        names.add_all(deck.joints.iter().map(|joint| joint.name.as_ref()), Place::Joint, report);
+        names.add_all(deck.contacts.iter().map(|contact| contact.name.as_ref()), Place::Contact, report);
+        names.add_groups(report);
+        names.check_sets(report);
+        names
+    }
+
+    /// Declares the names of a family of tables, of which some may have none. A part that is a body by itself stands for that.
+    fn add_all(
+        &mut self,
+        family: impl Iterator<Item = Option<&'d At<String>>>,
+        place: impl Fn(usize) -> Place,
+        report: &mut Report<'d>,
+    ) {
+        for (index, name) in family.enumerate() {
+            let Some(name) = name else { continue };
+            let place = place(index);
+            let place = self.body_of.get(&place).map_or(place, |&body| Place::Body(body));
+            self.add(name, place, report);
+        }
+    }
+
+    fn add(&mut self, name: &'d At<String>, place: Place, report: &mut Report<'d>) {
+        if name.is_empty() {
+            report.error::<()>(&name.span, "a name must not be empty");
+        } else if RESERVED.contains(&name.as_str()) {
+            report.error::<()>(&name.span, format!("`{}` has a meaning of its own and cannot be a name", name.value));
+        } else if self.places.contains_key(name.as_str()) {
+            let message = format!("the name `{}` is taken", name.value);
+            let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
+            let rule = "points, bodies, sets, beams, bars, shells, links, joints and contacts share one space of names";
+            report.push(diagnostic.hint(rule));
+        } else {
+            self.places.insert(&name.value, (place, &name.span));
+        }
+    }
+
+    /// Declares groups of the mesh, whose names must be different from all others but the parts made of them.
+    fn add_groups(&mut self, report: &mut Report<'d>) {
+        let deck = self.deck;
+        let Some(input) = self.mesh.input else { return };
+        let Some(file) = deck.mesh.as_ref().and_then(|mesh| mesh.file.as_ref()) else { return };
+        let beams = deck.beams.iter().filter_map(|beam| beam.group.as_ref());
+        let shells = deck.shells.iter().filter_map(|shell| shell.group.as_ref());
+        let parts: HashSet<&str> = beams.chain(shells).map(|group| group.as_str()).collect();
+        for (index, group) in input.mesh.groups.iter().enumerate() {
+            let name = group.name.as_str();
+            if RESERVED.contains(&name) {
+                if !parts.contains(name) {
+                    let message = format!("group `{name}` of the mesh has a name with a meaning of its own");
+                    report.warn(&file.span, message, "it is no set");
+                }
+                continue;
+            }
+            match self.places.get(name) {
+                None => {
+                    self.places.insert(name, (Place::Group(index), &file.span));
+                }
+                // A part may be called like the group it is made of.
+                Some(_) if parts.contains(name) => {}
+                Some((place, span)) => {
+                    let message = format!("{} `{name}` has the name of a group of the mesh", place.noun());
+                    report.error_with::<()>(span, message, "give it another one");
+                }
+            }
+        }
+    }
+
+    /// Reports members of sets that stand for nothing, and sets that hold themselves.
+    fn check_sets(&self, report: &mut Report<'d>) {
+        for (index, (name, members)) in self.deck.sets.0.iter().enumerate() {
+            for member in &members.values {
+                self.find(member, report);
+            }
+            if self.holds_itself(index) {
+                report.error::<()>(&name.span, format!("set `{}` holds itself", name.value));
+            }
+        }
+    }
+
+    fn holds_itself(&self, set: usize) -> bool {
+        let (mut todo, mut seen) = (vec![set], vec![false; self.deck.sets.0.len()]);
+        while let Some(index) = todo.pop() {
+            for member in &self.deck.sets.0[index].1.values {
+                match self.places.get(member.as_str()) {
+                    Some((Place::Set(inner), _)) if *inner == set => return true,
+                    Some((Place::Set(inner), _)) if !seen[*inner] => {
+                        seen[*inner] = true;
+                        todo.push(*inner);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        false
+    }
+
+    /// What a declared name stands for, without edges of shells and nodes of the mesh.
+    pub fn declared(&self, name: &str) -> Option<Place> {
+        self.places.get(name).map(|(place, _)| *place)
+    }
+
+    /// All declared names with what they stand for and where they are declared, in no order.
+    pub fn declarations(&self) -> impl Iterator<Item = (&'d str, Place, &'d Span)> {
+        self.places.iter().map(|(name, (place, span))| (*name, *place, *span))
+    }
+
+    /// All declared names of some places, sorted.
+    pub fn known(&self, is_meant: impl Fn(Place) -> bool) -> Vec<&'d str> {
+        let mut known: Vec<&str> =
+            self.declarations().filter(|(_, place, _)| is_meant(*place)).map(|(name, ..)| name).collect();
+        known.sort_unstable();
+        known
+    }
+
+    /// What a name stands for, `mesh.17` and `shell.edge1` to `shell.edge4` among them.
+    pub fn place(&self, name: &str) -> Option<Place> {
+        let node = || self.mesh.node(name).map(Place::Point);
+        self.declared(name).or_else(node).or_else(|| self.edge(name))
+    }
+
+    /// The edge that `shell.edge2` stands for.
+    fn edge(&self, name: &str) -> Option<Place> {
+        let (shell, edge) = name.rsplit_once(".edge")?;
+        let shells = &self.deck.shells;
+        let index = match self.declared(shell)? {
+            Place::Shell(index) => index,
+            // It is a rigid one.
+            Place::Body(_) => shells.iter().position(|s| s.name.as_ref().is_some_and(|n| n.value == shell))?,
+            _ => return None,
+        };
+        // A group has no corners.
+        if shells[index].group.is_some() {
+            return None;
+        }
+        // Where the corners are wrong, that is said there.
+        let three = shells[index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
+        let corners = if three { 3 } else { 4 };
+        (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(index, k - 1))
+    }
+
+    /// What a name stands for. A set or group of one node stands for that node.
+    pub fn place_or_node(&self, name: &str, parts: &Parts) -> Option<Place> {
+        self.place(name).map(|place| match place {
+            Place::Set(_) | Place::Group(_) => match self.nodes_of(place, parts)[..] {
+                [node] => Place::Point(node),
+                _ => place,
+            },
+            place => place,
+        })
+    }
+
+    /// What a name stands for; a name that stands for nothing is an error.
+    pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
+        let has_nodes = |place| !matches!(place, Place::Link(_) | Place::Joint(_) | Place::Contact(_));
+        self.place(name).or_else(|| self.unknown("point, body, set or part", name, self.known(has_nodes), report))
+    }
+
+    /// [`Names::find`] in a list of points, bodies and sets.
+    pub fn find_nodes(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
+        self.place(name)
+            .or_else(|| self.unknown("point, body or set", name, self.known(|place| !self.is_part(place)), report))
+    }
+
+    /// Reports a name that stands for nothing where nodes are wanted.
+    pub fn unknown<T>(&self, what: &str, name: &At<String>, known: Vec<&str>, report: &mut Report<'d>) -> Option<T> {
+        report.lose_connections();
+        // It may be a group of a mesh that could not be read.
+        if self.mesh.is_lost { None } else { report.unknown(what, name, known.into_iter()) }
+    }
+
+    /// Whether a place is no list of nodes.
+    pub fn is_part(&self, place: Place) -> bool {
+        match place {
+            Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
+            place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_)),
+        }
+    }
+
+    /// The node of a point, where `key` wants nothing else.
+    pub fn point(&self, key: &str, name: &At<String>, parts: &Parts, report: &mut Report<'d>) -> Option<usize> {
+        match self.place(name) {
+            Some(Place::Point(node)) => Some(node),
+            Some(set @ (Place::Group(_) | Place::Set(_))) => match self.nodes_of(set, parts)[..] {
+                [node] => Some(node),
+                ref nodes => {
+                    let (kind, count) = (set.kind(), nodes.len());
+                    let message = format!("`{key}` wants points, and `{}` is {kind} of {count} nodes", name.value);
+                    report.error(&name.span, message)
+                }
+            },
+            Some(place) => {
+                let message = format!("`{key}` wants points, and `{}` is {}", name.value, place.kind());
+                report.error(&name.span, message)
+            }
+            None => self.unknown("point", name, self.deck.points.names().collect(), report),
+        }
+    }
+
+    /// Index of a body by name.
+    pub fn body(&self, name: &At<String>, report: &mut Report<'d>) -> Option<usize> {
+        match self.declared(name) {
+            Some(Place::Body(body)) => Some(body),
+            Some(place) => report.error(&name.span, format!("`{}` is {}, not a body", name.value, place.kind())),
+            None => {
+                let names = self.deck.bodies.iter().filter_map(|body| body.name.as_ref()).map(|name| name.as_str());
+                report.lose_connections();
+                report.unknown("body", name, names)
+            }
+        }
+    }
+
+    pub fn body_node(&self, body: usize) -> usize {
+        self.body_nodes[body]
+    }
+
+    /// The shell that a name stands for, a rigid one and one made of the group of this name too; by its index in the deck.
+    pub fn shell_of(&self, place: Place) -> Option<usize> {
+        match place {
+            Place::Shell(shell) => Some(shell),
+            Place::Body(body) => self.body_of.iter().find_map(|(part, of)| match part {
+                Place::Shell(shell) if *of == body => Some(*shell),
+                _ => None,
+            }),
+            Place::Group(index) => {
+                let name = self.mesh.input?.mesh.groups[index].name.as_str();
+                self.deck.shells.iter().position(|shell| shell.group.as_ref().is_some_and(|group| group.value == name))
+            }
+            _ => None,
+        }
+    }
+
+    /// A place without its sets, in the order of the deck.
+    pub fn leaves(&self, place: Place) -> Vec<Place> {
+        let (mut leaves, mut todo, mut seen) = (Vec::new(), vec![place], HashSet::new());
+        while let Some(place) = todo.pop() {
+            match place {
+                Place::Set(set) if !seen.insert(set) => {}
+                Place::Set(set) => {
+                    let members = self.deck.sets.0[set].1.values.iter().rev();
+                    todo.extend(members.filter_map(|name| self.place(name)));
+                }
+                place => leaves.push(place),
+            }
+        }
+        leaves
+    }
+
+    /// The nodes that a place covers, some of them perhaps more than once. Parts have those that are made so far.
+    pub fn nodes_of(&self, place: Place, parts: &Parts) -> Vec<usize> {
+        let mut nodes = Vec::new();
+        for place in self.leaves(place) {
+            match place {
+                Place::Point(node) => nodes.push(node),
+                Place::Body(body) => nodes.push(self.body_nodes[body]),
+                Place::Beam(_) | Place::Bar(_) | Place::Shell(_) => {
+                    nodes.extend(parts.entry(place).into_iter().flat_map(|entry| &entry.nodes));
+                }
+                Place::Edge(shell, edge) => {
+                    let edges = parts.shells.get(shell).and_then(|entry| entry.edges.get(edge));
+                    nodes.extend(edges.into_iter().flatten());
+                }
+                Place::Group(group) => nodes.extend(self.mesh.group_nodes(group)),
+                Place::Set(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_) => {}
+            }
+        }
+        nodes
+    }
+
+    /// Groups of the mesh that lists of the deck name.
+    pub fn groups_in_lists(&self) -> impl Iterator<Item = usize> {
+        let deck = self.deck;
+        let ends = |ends: [&'d Option<_>; 2]| ends.into_iter().flatten().filter_map(node_of_end);
+        let points = deck.links.iter().flat_map(move |link| ends([&link.from, &link.to]));
+        let points = points.chain(deck.joints.iter().flat_map(move |joint| ends([&joint.from, &joint.to])));
+        let lists = deck.beams.iter().map(|beam| &beam.path);
+        let lists = lists.chain(deck.bars.iter().map(|bar| &bar.path));
+        let lists = lists.chain(deck.shells.iter().map(|shell| &shell.corners));
+        let lists = lists.chain(deck.masses.iter().map(|mass| &mass.at));
+        let lists = lists.chain(deck.attachments.iter().map(|attachment| &attachment.nodes));
+        let lists = lists.chain(deck.supports.iter().map(|support| &support.at));
+        let lists = lists.chain(deck.contacts.iter().map(|contact| &contact.with));
+        let lists = lists.chain(deck.loads.iter().map(|load| &load.at));
+        let lists = lists.chain(deck.initial.iter().map(|initial| &initial.at));
+        let lists = lists.chain(deck.damping.iter().flat_map(|damping| &damping.nodal).map(|damper| &damper.at));
+        let lists = lists.chain(deck.output.iter().map(|output| &output.nodes)).flatten().map(|at| &at.value);
+        let lists = lists.chain(deck.sets.0.iter().map(|(_, members)| &members.value));
+        let names = lists.flat_map(|names| &names.values).chain(points);
+        names.filter_map(|name| match self.place(name) {
+            Some(Place::Group(group)) => Some(group),
+            _ => None,
+        })
+    }
+}
+
+fn node_of_end(end: &At<crate::deck::words::Table<crate::deck::links::End>>) -> Option<&At<String>> {
+    end.node.as_ref()
+}

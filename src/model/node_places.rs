@@ -1,0 +1,38 @@
+//! Where the deck names each node, for what is found out about a sound model.
+
+use super::names::Names;
+use super::nodes::Topology;
+use super::parts::Parts;
+use super::place::Place;
+use crate::diagnostic::Span;
+
+/// Tells nodes where the deck names them: itself, the attachment that makes it depend on another, or its part.
+pub(super) fn place_nodes(names: &Names, parts: &Parts, topology: &mut Topology) {
+    let deck = names.deck;
+    let beams =
+        deck.beams.iter().map(|part| part.name.as_ref().or(part.group.as_ref()).map_or(&part.span, |at| &at.span));
+    let bars = deck.bars.iter().map(|part| part.name.as_ref().map_or(&part.span, |at| &at.span));
+    let shells =
+        deck.shells.iter().map(|part| part.name.as_ref().or(part.group.as_ref()).map_or(&part.span, |at| &at.span));
+    let of_parts = beams.zip(&parts.beams).chain(bars.zip(&parts.bars)).chain(shells.zip(&parts.shells));
+    let place = |span: &Span| Some([span.start, span.end]);
+    for (span, entry) in of_parts {
+        for &node in &entry.nodes {
+            let node = &mut topology.list[node];
+            node.place = node.place.or(place(span));
+        }
+    }
+    for index in 0..topology.dependents.len() {
+        let dependent = &topology.dependents[index];
+        let (node, place) = (dependent.node, dependent.place);
+        topology.list[node].place = place;
+    }
+    // Names of their own come before all others.
+    for (_, named, span) in names.declarations() {
+        match named {
+            Place::Point(node) => topology.list[node].place = place(span),
+            Place::Body(body) => topology.list[names.body_node(body)].place = place(span),
+            _ => {}
+        }
+    }
+}

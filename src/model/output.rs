@@ -1,0 +1,110 @@
+//! `[output]`: what is written, and how often.
+
+use super::report::{Owner, Report};
+use super::scene::{Reach, Scene};
+use super::values::flag;
+use super::{Cadence, Model, Node, Output};
+use crate::deck::output as words;
+use crate::deck::words::Table;
+use crate::diagnostic::At;
+
+/// More output times are a slip of the keyboard, and would only exhaust memory.
+const MOST_ROWS: f64 = 1e7;
+
+/// What is written. Where all nodes are, the list of nodes stays empty until it is known which of them are left.
+pub(super) struct Selection {
+    pub output: Output,
+    pub all_nodes: bool,
+}
+
+pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool, report: &mut Report<'d>) -> Selection {
+    let Some(table) = &scene.deck.output else {
+        let nodes = named_nodes(scene, nodes);
+        let output = Output {
+            nodes,
+            cadence: Cadence::Steps(1),
+            energy: true,
+            links: false,
+            contacts: false,
+            reactions: false,
+            sections: false,
+            layers: false,
+            parts: false,
+            fields: None,
+        };
+        return Selection { output, all_nodes: false };
+    };
+    let word = table.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
+    let nodes = match word {
+        Some("all") => Vec::new(),
+        Some("named") => named_nodes(scene, nodes),
+        _ if table.nodes.is_none() => named_nodes(scene, nodes),
+        _ => listed_nodes(scene, table, report),
+    };
+    let cadence = cadence(table, scene.analysis.end_time, is_arc_length, report);
+    let fields = table.fields.as_ref().map(|fields| {
+        report.require(&Owner::new("`fields`", &fields.span), "format", &fields.format);
+        report.count("every", &fields.every, 1)
+    });
+    let output = Output {
+        nodes,
+        cadence,
+        energy: flag(&table.energy, true),
+        links: flag(&table.links, false),
+        contacts: flag(&table.contacts, false),
+        reactions: flag(&table.reactions, false),
+        sections: flag(&table.sections, false),
+        layers: flag(&table.layers, false),
+        parts: flag(&table.parts, false),
+        fields,
+    };
+    Selection { output, all_nodes: word == Some("all") }
+}
+
+/// Lists all nodes of a model but bodies, for output.
+pub(super) fn write_all_nodes(model: &mut Model) {
+    let mut is_body = vec![false; model.nodes.len()];
+    model.bodies.iter().for_each(|body| is_body[body.node] = true);
+    model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_body[node]).collect();
+}
+
+fn is_body(scene: &Scene, node: usize) -> bool {
+    scene.bodies.binary_search_by_key(&node, |body| body.node).is_ok()
+}
+
+/// Nodes that the deck names, without bodies.
+fn named_nodes(scene: &Scene, nodes: &[Node]) -> Vec<usize> {
+    (0..nodes.len()).filter(|&node| nodes[node].named && !is_body(scene, node)).collect()
+}
+
+/// Nodes that the table lists, sorted.
+fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, report: &mut Report<'d>) -> Vec<usize> {
+    let owner = Owner::new("`[output]`", &table.span);
+    let spots = scene.spots(&owner, "nodes", &table.nodes, Reach::Nodes, report);
+    for spot in spots.iter().filter(|spot| spot.direct && is_body(scene, spot.node)) {
+        let message = format!("`{}` is a body, and not written with the nodes", spot.name);
+        report.error_with::<()>(spot.span, message, "bodies always go to bodies.csv");
+    }
+    let mut nodes: Vec<usize> = spots.iter().map(|spot| spot.node).filter(|&node| !is_body(scene, node)).collect();
+    nodes.sort_unstable();
+    nodes
+}
+
+fn cadence(table: &words::Output, end_time: f64, is_arc_length: bool, report: &mut Report) -> Cadence {
+    let Some(at) = &table.interval else { return Cadence::Steps(report.count("every", &table.every, 1)) };
+    if table.every.is_some() {
+        report.error::<()>(&at.span, "`[output]` takes `every` or `interval`, not both");
+        return Cadence::Steps(1);
+    }
+    let Some(interval) = report.positive("interval", &table.interval) else { return Cadence::Steps(1) };
+    // Where the end time is missing, that has been said.
+    if end_time < f64::MAX && end_time / interval > MOST_ROWS {
+        let message = format!("`interval` asks for {:.1e} rows", end_time / interval);
+        report.error_with::<()>(&at.span, message, format!("at most {MOST_ROWS:.0e} are taken to be meant"));
+    }
+    if is_arc_length {
+        let hint = "give `every`, in steps";
+        report.error_with::<()>(&at.span, "with arc-length steps do not land on multiples of a time", hint);
+    }
+    Cadence::Interval(interval)
+}

@@ -1,0 +1,59 @@
+//! Displacements on their way through a value, for `stop` of `[analysis]` and `when` of `[[expect]]`.
+
+use super::Passage;
+use super::nodes::Topology;
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use crate::deck::analysis as words;
+use crate::deck::words::Table;
+use crate::diagnostic::At;
+
+/// A displacement that some step is to land on; it must be one of the unknowns.
+pub(super) fn passage<'d>(
+    what: &str,
+    passage: &'d At<Table<words::Passage>>,
+    scene: &Scene<'d>,
+    topology: &Topology,
+    report: &mut Report<'d>,
+) -> Option<Passage> {
+    let owner = Owner::new(what, &passage.span);
+    let table: &'d words::Passage = &passage.value;
+    let name = report.require(&owner, "at", &table.at);
+    let quantity = report.require(&owner, "quantity", &table.quantity);
+    let value = report.require(&owner, "value", &table.value);
+    let pass = report.count("pass", &table.pass, 1);
+    let name = name?;
+    let node = match scene.place_or_node(name) {
+        Some(Place::Point(node)) => node,
+        Some(Place::Body(body)) => scene.names.body_node(body),
+        Some(place) => {
+            let message = format!("{what} wants a point or body, and `{}` is {}", name.value, place.kind());
+            return report.error(&name.span, message);
+        }
+        None => return scene.names.unknown("point or body", name, scene.names.known(|_| true), report),
+    };
+    let (quantity, value) = (quantity?, value?);
+    let (dof, word) = match quantity.value {
+        words::Displacement::Ux => (0, "ux"),
+        words::Displacement::Uy => (1, "uy"),
+        words::Displacement::Uz => (2, "uz"),
+    };
+    if let Some(master) = topology.master_in(node, dof) {
+        let master = topology.label(master);
+        let message = format!("`{}` moves with `{master}`", name.value);
+        return report.error_with(&name.span, message, format!("{what} wants one that moves by itself"));
+    }
+    if topology.restraint(node, dof).is_some() {
+        return report.error(&quantity.span, format!("a support gives {word} of `{}`", name.value));
+    }
+    if topology.is_complete() && !topology.is_taken(node, dof) {
+        let message = format!("nothing acts on `{}` in direction {word}", name.value);
+        return report.error_with(&quantity.span, message, format!("{what} wants a displacement that is an unknown"));
+    }
+    if value.value == 0.0 {
+        return report.error_with(&value.span, format!("{word} begins at zero"), "a passage lies off the start");
+    }
+    let place = [quantity.span.start, quantity.span.end];
+    Some(Passage { node, dof, value: value.value, pass, place })
+}

@@ -1,0 +1,220 @@
+//! Everything there is to say about a deck. A [`Report`] collects it, table after table, and holds the checks that all tables
+//! share: keys that must be there, keys that have no meaning, numbers in their range. A table goes on after an error with what
+//! is sound, so that one mistake hides no other.
+
+use crate::deck::Deck;
+use crate::deck::read::ROOT;
+use crate::deck::words::{Maybe, Named, Numbers, Vector};
+use crate::diagnostic::{At, Diagnostic, Span};
+use crate::math::Vec3;
+use crate::names::{nearest, quoted};
+
+/// A table of the deck as messages name it, "beam `portal`", and where it stands.
+pub(super) struct Owner<'d> {
+    pub what: String,
+    pub span: &'d Span,
+}
+
+impl<'d> Owner<'d> {
+    pub fn new(what: impl Into<String>, span: &'d Span) -> Self {
+        Owner { what: what.into(), span }
+    }
+}
+
+pub(super) struct Report<'d> {
+    deck: &'d Deck,
+    problems: Vec<Diagnostic>,
+    /// False once something failed to say which nodes it connects. A point that nothing seems to be connected to may then be
+    /// connected by that, and is no error of its own.
+    connections_known: bool,
+}
+
+impl<'d> Report<'d> {
+    pub fn new(deck: &'d Deck) -> Self {
+        let is_table = |table: &Option<Span>| table.as_ref().is_none_or(|table| *table == ROOT);
+        let connections_known = !deck.spoiled.iter().any(|entry| is_table(&entry.table));
+        Report { deck, problems: Vec::new(), connections_known }
+    }
+
+    /// Reports an error and returns `None`, so that `return report.error(…)` leaves a table that cannot go on.
+    pub fn error<T>(&mut self, place: &Span, message: impl Into<String>) -> Option<T> {
+        self.push(Diagnostic::error(message).at(place));
+        None
+    }
+
+    /// Reports an error with a hint at the caret; see [`Report::error`].
+    pub fn error_with<T>(&mut self, place: &Span, message: impl Into<String>, hint: impl Into<String>) -> Option<T> {
+        self.push(Diagnostic::error(message).at(place).hint(hint));
+        None
+    }
+
+    /// Reports a warning with a hint at the caret.
+    pub fn warn(&mut self, place: &Span, message: impl Into<String>, hint: impl Into<String>) {
+        self.push(Diagnostic::warning(message).at(place).hint(hint));
+    }
+
+    pub fn push(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
+    }
+
+    pub fn has_errors(&self) -> bool {
+        self.problems.iter().any(Diagnostic::is_error)
+    }
+
+    /// Everything reported so far, in the order in which it was found.
+    pub fn into_problems(self) -> Vec<Diagnostic> {
+        self.problems
+    }
+
+    /// How many problems there are so far, for [`Report::is_clean_since`] and [`Report::forget_warnings_since`].
+    pub fn mark(&self) -> usize {
+        self.problems.len()
+    }
+
+    /// Whether nothing was reported since [`Report::mark`].
+    pub fn is_clean_since(&self, mark: usize) -> bool {
+        self.problems.len() == mark
+    }
+
+    /// Drops the warnings reported since [`Report::mark`]; errors stay.
+    pub fn forget_warnings_since(&mut self, mark: usize) {
+        let later = self.problems.split_off(mark);
+        self.problems.extend(later.into_iter().filter(Diagnostic::is_error));
+    }
+
+    /// Notes that something which connects nodes could not say which.
+    pub fn lose_connections(&mut self) {
+        self.connections_known = false;
+    }
+
+    /// Whether everything that connects nodes could be read so far.
+    pub fn connections_known(&self) -> bool {
+        self.connections_known
+    }
+
+    /// Whether a key is written but could not be read, which has been reported when the deck was read.
+    pub fn is_spoiled(&self, table: &Span, key: &str) -> bool {
+        let here = |entry: &Option<Span>| entry.as_ref().is_none_or(|span| span == table);
+        self.deck.spoiled.iter().any(|entry| entry.key == key && here(&entry.table))
+    }
+
+    /// Whether any key of a table could not be read.
+    pub fn is_any_spoiled(&self, table: &Span) -> bool {
+        self.deck.spoiled.iter().any(|entry| entry.table.as_ref() == Some(table))
+    }
+
+    /// The value of a key that must be there.
+    pub fn require<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
+        if value.is_none() && !self.is_spoiled(owner.span, key) {
+            self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
+        }
+        value.as_ref()
+    }
+
+    /// [`Report::require`] for a key that names the nodes which its table connects.
+    pub fn require_nodes<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
+        if value.is_none() {
+            self.lose_connections();
+        }
+        self.require(owner, key, value)
+    }
+
+    /// A number above zero, if it is there.
+    pub fn positive(&mut self, key: &str, value: &Maybe<f64>) -> Option<f64> {
+        let value = value.as_ref()?;
+        if value.value > 0.0 {
+            Some(value.value)
+        } else {
+            self.error(&value.span, format!("`{key}` must be above zero"))
+        }
+    }
+
+    /// A number above zero, which must be there.
+    pub fn require_positive(&mut self, owner: &Owner, key: &str, value: &'d Maybe<f64>) -> Option<f64> {
+        self.require(owner, key, value)?;
+        self.positive(key, value)
+    }
+
+    /// A number of zero or more, or `default` if it is not there.
+    pub fn not_negative(&mut self, key: &str, value: &Maybe<f64>, default: f64) -> f64 {
+        match value {
+            Some(value) if value.value < 0.0 => {
+                self.error::<()>(&value.span, format!("`{key}` must not be negative"));
+                default
+            }
+            Some(value) => value.value,
+            None => default,
+        }
+    }
+
+    /// A whole number of at least one, or `default` if it is not there.
+    pub fn count(&mut self, key: &str, value: &Maybe<u64>, default: usize) -> usize {
+        match value {
+            Some(value) if value.value == 0 => {
+                self.error::<()>(&value.span, format!("`{key}` must be at least 1"));
+                default
+            }
+            Some(value) => usize::try_from(value.value).unwrap_or(usize::MAX),
+            None => default,
+        }
+    }
+
+    /// The unit vector along a direction, which must not be zero.
+    pub fn unit(&mut self, key: &str, value: &At<Vector>) -> Option<Vec3> {
+        // It is scaled first: the square of a large component may overflow, that of a small one vanish.
+        let v = Vec3::from(value.0);
+        let unit = v.try_normalize(0.0).or_else(|| (v / v.amax()).try_normalize(0.0)).filter(|u| u.amax().is_finite());
+        unit.or_else(|| self.error(&value.span, format!("`{key}` must not be zero")))
+    }
+
+    /// A table of two points or more whose first numbers, of the quantity `what`, increase.
+    pub fn rising(&mut self, what: &str, points: &At<Vec<At<Numbers<2>>>>) -> Option<Vec<[f64; 2]>> {
+        if points.len() < 2 {
+            return self.error(&points.span, "`points` needs two points or more");
+        }
+        if let Some(pair) = points.windows(2).find(|pair| pair[1].0[0] <= pair[0].0[0]) {
+            let message = format!("`points` must go up in {what}");
+            return self.error_with(&pair[1].span, message, format!("the one before is at {}", pair[0].0[0]));
+        }
+        Some(points.iter().map(|point| point.0).collect())
+    }
+
+    /// Reports keys that are given but have no meaning for `what`; they come with the places where they stand.
+    pub fn reject_unused(&mut self, what: &str, keys: &[(&str, Option<&Span>)]) {
+        for (key, place) in keys {
+            if let Some(place) = place {
+                self.error::<()>(place, format!("`{key}` means nothing for {what}"));
+            }
+        }
+    }
+
+    /// The entry of a table of names; `what` is one of them, in singular.
+    pub fn find<T>(&mut self, what: &str, table: &'d Named<T>, name: &At<String>) -> Option<(usize, &'d At<T>)> {
+        match table.position(name) {
+            Some(index) => Some((index, &table.0[index].1)),
+            None => self.unknown(what, name, table.names()),
+        }
+    }
+
+    /// Reports a name that stands for nothing, with the nearest of those that are known. What could not be read may have this
+    /// name, so then nothing is said.
+    pub fn unknown<'n, T>(
+        &mut self,
+        what: &str,
+        name: &At<String>,
+        known: impl Iterator<Item = &'n str> + Clone,
+    ) -> Option<T> {
+        if self.deck.spoiled.iter().any(|entry| entry.key == name.value) {
+            return None;
+        }
+        let message = format!("no {what} is named `{}`", name.value);
+        match nearest(name, known.clone()) {
+            Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
+            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck has none"),
+            None if known.clone().count() <= 8 => {
+                self.error_with(&name.span, message, format!("known: {}", quoted(known)))
+            }
+            None => self.error(&name.span, message),
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What the tables that act on a scene refer to: its names, bodies and parts, which no longer change. Lists of names become
+//! nodes here.
+
+use std::collections::HashSet;
+
+use super::names::Names;
+use super::parts::Parts;
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::spot::{Label, Spot};
+use super::{Analysis, Body};
+use crate::deck::Deck;
+use crate::deck::words::Maybe;
+use crate::deck::words::Names as List;
+use crate::diagnostic::At;
+
+pub(super) struct Scene<'d> {
+    pub deck: &'d Deck,
+    pub analysis: Analysis,
+    pub names: Names<'d>,
+    pub bodies: Vec<Body>,
+    pub parts: Parts,
+}
+
+/// Which names a list may hold besides points, bodies and sets.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    Nodes,
+    /// Beams and bars too. (Shells are lists of nodes like sets: their inner ones have no other name.)
+    Parts,
+}
+
+impl<'d> Scene<'d> {
+    /// The nodes that a place covers, some of them perhaps more than once.
+    pub fn nodes_of(&self, place: Place) -> Vec<usize> {
+        self.names.nodes_of(place, &self.parts)
+    }
+
+    /// What a name stands for. A set or group of one node stands for that node.
+    pub fn place_or_node(&self, name: &str) -> Option<Place> {
+        self.names.place_or_node(name, &self.parts)
+    }
+
+    /// All nodes that a list of names covers, each once, in the order of the list.
+    pub fn spots(
+        &self,
+        owner: &Owner,
+        key: &str,
+        list: &'d Maybe<List>,
+        reach: Reach,
+        report: &mut Report<'d>,
+    ) -> Vec<Spot<'d>> {
+        let Some(list) = report.require_nodes(owner, key, list) else { return Vec::new() };
+        if list.values.is_empty() {
+            report.error::<()>(&list.span, format!("`{key}` is empty"));
+        }
+        let mut spots = Vec::new();
+        let mut seen = HashSet::new();
+        for name in &list.values {
+            let place = match reach {
+                Reach::Nodes => self.names.find_nodes(name, report),
+                Reach::Parts => self.names.find(name, report),
+            };
+            let Some(place) = place else { continue };
+            if reach == Reach::Nodes && self.names.is_part(place) {
+                let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
+                report.error_with::<()>(&name.span, message, "name its points");
+                continue;
+            }
+            let direct = matches!(place, Place::Point(_) | Place::Body(_));
+            let nodes = self.nodes_of(place);
+            if nodes.is_empty() {
+                self.report_empty(place, name, report);
+            }
+            for node in nodes {
+                if seen.insert(node) {
+                    let label = if direct { Label::Name(name) } else { self.label(node, name) };
+                    spots.push(Spot { node, name: label, span: &name.span, direct });
+                }
+            }
+        }
+        spots
+    }
+
+    /// Says of a set or group that it covers no node, unless an error of what is in it has been said.
+    pub fn report_empty(&self, place: Place, name: &At<String>, report: &mut Report<'d>) {
+        let members = match place {
+            Place::Group(_) => {
+                let hint = "its elements are of kinds that are skipped, or there are none";
+                report.error_with::<()>(&name.span, format!("the group `{}` has no nodes", name.value), hint);
+                return;
+            }
+            Place::Set(set) => &self.deck.sets.0[set].1.values,
+            _ => return,
+        };
+        let has_none =
+            |leaf: &Place| matches!(leaf, Place::Link(_) | Place::Joint(_) | Place::Contact(_) | Place::Group(_));
+        if members.is_empty() {
+            report.error::<()>(&name.span, format!("the set `{}` is empty", name.value));
+        } else if report.connections_known() && self.names.leaves(place).iter().all(has_none) {
+            report.error::<()>(&name.span, format!("the set `{}` has no nodes", name.value));
+        }
+    }
+
+    /// The name under which the deck knows a node that a set or a part brought in.
+    pub fn label(&self, node: usize, part: &'d At<String>) -> Label<'d> {
+        let point = self.deck.points.0.get(node).map(|(name, _)| name);
+        let body = || self.deck.bodies.get(node.checked_sub(self.deck.points.0.len())?)?.name.as_ref();
+        if let Some(name) = point.or_else(body) {
+            return Label::Name(name);
+        }
+        self.names.mesh.id(node).map_or(Label::Name(part), Label::Mesh)
+    }
+}

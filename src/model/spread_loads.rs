@@ -1,0 +1,178 @@
+//! `[[loads]]` spread over shells and along their edges.
+
+use super::nodes::Topology;
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use super::spot::Spot;
+use super::values::{span, vec3_or_zero};
+use super::{Load, Pressure};
+use crate::deck::loads as words;
+use crate::deck::words::Table;
+use crate::diagnostic::At;
+use crate::elements::pressure::Face;
+use crate::elements::shell;
+use crate::math::Vec3;
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// A load spread over edges or shells, as forces on their nodes; a pressure that follows, as one on their faces.
+pub(super) fn spread_load<'d>(
+    scene: &Scene<'d>,
+    load: &'d At<Table<words::Load>>,
+    amplitude: Option<usize>,
+    topology: &Topology,
+    report: &mut Report<'d>,
+) -> (Vec<Load>, Option<Pressure>) {
+    let owner = Owner::new("`[[loads]]`", &load.span);
+    let unused = [("force", span(&load.force)), ("moment", span(&load.moment))];
+    report.reject_unused("a load spread over shells", &unused);
+    let follower = load.follower.as_ref().filter(|follower| follower.value);
+    if let Some(at) = follower
+        && (load.force_per_length.is_some() || load.force_per_area.is_some())
+    {
+        let hint = "give what keeps its direction a table of its own";
+        report.error_with::<()>(&at.span, "of loads spread over shells only `pressure` follows", hint);
+    }
+    let Some(names) = report.require_nodes(&owner, "at", &load.at) else { return (Vec::new(), None) };
+    if names.values.is_empty() {
+        report.error::<()>(&names.span, "`at` is empty");
+    }
+    let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
+    let mut spread = Spread {
+        line: load.force_per_length.as_ref().map(|_| vec3_or_zero(&load.force_per_length)),
+        area: vec3_or_zero(&load.force_per_area),
+        pressure,
+        follows: follower.is_some(),
+        scene,
+        topology,
+        forces: BTreeMap::new(),
+        faces: Vec::new(),
+    };
+    // What is named twice is loaded once, like nodes.
+    let mut seen = HashSet::new();
+    for name in &names.values {
+        let Some(place) = scene.names.find(name, report) else { continue };
+        if seen.insert(scene.names.shell_of(place).map_or(place, Place::Shell)) {
+            spread.over(place, name, report);
+        }
+    }
+    let load = |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude };
+    let faces = spread.faces;
+    let pressure = if faces.is_empty() { None } else { Some(Pressure { faces, pressure, amplitude }) };
+    (spread.forces.into_iter().map(load).collect(), pressure)
+}
+
+struct Spread<'a, 'd> {
+    /// Force per length; `None` for a load over areas.
+    line: Option<Vec3>,
+    /// Force per area.
+    area: Vec3,
+    pressure: f64,
+    /// The pressure acts on the faces as they are at the moment.
+    follows: bool,
+    scene: &'a Scene<'d>,
+    topology: &'a Topology,
+    forces: BTreeMap<usize, Vec3>,
+    faces: Vec<Face>,
+}
+
+impl<'d> Spread<'_, 'd> {
+    fn over(&mut self, place: Place, name: &'d At<String>, report: &mut Report<'d>) {
+        match (place, self.line) {
+            (Place::Edge(shell, edge), Some(line)) => {
+                let nodes = self.scene.parts.shells[shell].edges.get(edge).map_or(&[][..], |nodes| nodes);
+                nodes.windows(2).for_each(|pair| self.along([pair[0], pair[1]], line));
+            }
+            (Place::Group(_) | Place::Set(_), Some(line)) => {
+                for pair in line_of(self.scene, place, name, self.topology, report) {
+                    if !self.is_loose(pair, name, report) {
+                        self.along(pair, line);
+                    }
+                }
+            }
+            _ => match self.scene.names.shell_of(place) {
+                Some(shell) if self.line.is_none() => self.over_shell(shell),
+                _ => {
+                    let wants = if self.line.is_some() { "edges of shells" } else { "shells" };
+                    let message = format!("this load wants {wants}, and `{}` is {}", name.value, place.kind());
+                    report.error::<()>(&name.span, message);
+                }
+            },
+        }
+    }
+
+    /// Whether one of two nodes, which a list brought in under a name, is loose.
+    fn is_loose(&self, pair: [usize; 2], name: &'d At<String>, report: &mut Report<'d>) -> bool {
+        let spot = |node| Spot { node, name: self.scene.label(node, name), span: &name.span, direct: false };
+        pair.iter().any(|&node| self.topology.is_loose(&spot(node), "this load", report))
+    }
+
+    /// Half of the force on a segment goes to each of its ends.
+    fn along(&mut self, pair: [usize; 2], line: Vec3) {
+        let half = 0.5 * (self.topology.x(pair[1]) - self.topology.x(pair[0])).norm();
+        pair.iter().for_each(|&node| *self.forces.entry(node).or_default() += half * line);
+    }
+
+    fn over_shell(&mut self, shell: usize) {
+        for nodes in self.scene.parts.faces(shell) {
+            if self.follows {
+                self.faces.extend(Face::of(&nodes));
+                continue;
+            }
+            let x: Vec<Vec3> = nodes.iter().map(|&node| self.topology.x(node)).collect();
+            let parts = shell::shares(&x).into_iter().zip(shell::faces(&x));
+            for (&node, (share, face)) in nodes.iter().zip(parts) {
+                *self.forces.entry(node).or_default() += share * self.area - self.pressure * face;
+            }
+        }
+    }
+}
+
+/// Pairs of nodes along which a load per length acts: the segments of a group, or edges of shells between nodes of a set,
+/// those at the border if there are any.
+fn line_of(
+    scene: &Scene,
+    place: Place,
+    name: &At<String>,
+    topology: &Topology,
+    report: &mut Report,
+) -> Vec<[usize; 2]> {
+    if let Place::Group(group) = place {
+        let segments = scene.names.mesh.group_segments(group);
+        if !segments.is_empty() {
+            return segments;
+        }
+    }
+    let set: HashSet<usize> = scene.nodes_of(place).into_iter().collect();
+    // Each edge between two of them, with the number of its faces; in order of first appearance.
+    let (mut edges, mut places): (Vec<([usize; 2], usize)>, _) = (Vec::new(), HashMap::new());
+    let mut whole = false;
+    for shell in 0..scene.deck.shells.len() {
+        for face in scene.parts.faces(shell) {
+            whole |= face.iter().all(|node| set.contains(node));
+            for (k, &a) in face.iter().enumerate() {
+                let b = face[(k + 1) % face.len()];
+                if set.contains(&a) && set.contains(&b) {
+                    let next = edges.len();
+                    let place = *places.entry([a.min(b), a.max(b)]).or_insert(next);
+                    if place == next {
+                        edges.push(([a, b], 0));
+                    }
+                    edges[place].1 += 1;
+                }
+            }
+        }
+    }
+    let border: Vec<[usize; 2]> = edges.iter().filter(|edge| edge.1 == 1).map(|edge| edge.0).collect();
+    if !border.is_empty() {
+        return border;
+    }
+    if whole {
+        let message = format!("`{}` holds whole elements, not an edge", name.value);
+        report.error_with::<()>(&name.span, message, "name the nodes along one line");
+    } else if edges.is_empty() && topology.is_complete() {
+        let message = format!("no edge of a shell lies between two nodes of `{}`", name.value);
+        report.error_with::<()>(&name.span, message, "a load per length acts along edges of shells or segments");
+    }
+    edges.into_iter().map(|edge| edge.0).collect()
+}

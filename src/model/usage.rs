@@ -1,0 +1,30 @@
+//! Which materials, sections and amplitudes of a deck something names.
+
+use crate::deck::Deck;
+use std::collections::HashSet;
+
+/// Materials that a part of the deck names.
+pub(super) fn named_materials(deck: &Deck) -> HashSet<&str> {
+    let beams = deck.beams.iter().map(|beam| &beam.material);
+    let bars = deck.bars.iter().map(|bar| &bar.material);
+    let shells = deck.shells.iter().map(|shell| &shell.material);
+    beams.chain(bars).chain(shells).flatten().map(|name| name.as_str()).collect()
+}
+
+/// Sections that a beam of the deck names.
+pub(super) fn named_sections(deck: &Deck) -> HashSet<&str> {
+    deck.beams.iter().filter_map(|beam| beam.section.as_ref()).map(|name| name.as_str()).collect()
+}
+
+/// Amplitudes that a load or a motion of the deck names.
+pub(super) fn named_amplitudes(deck: &Deck) -> HashSet<&str> {
+    let loads = deck.loads.iter().map(|load| &load.amplitude);
+    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
+        let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
+        all.into_iter().flatten().map(|motion| &motion.amplitude)
+    });
+    let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
+    let profiles = deck.initial.iter().filter_map(|initial| initial.profile.as_ref()).flat_map(|at| &at.value);
+    let named = loads.chain(motions).chain(ground.map(|base| &base.amplitude));
+    named.chain(profiles.map(|profile| &profile.amplitude)).flatten().map(|name| name.as_str()).collect()
+}

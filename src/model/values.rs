@@ -1,0 +1,36 @@
+//! Values of the deck as the model takes them.
+
+use super::DIRECTIONS;
+use crate::deck::words::{Maybe, Vector};
+use crate::diagnostic::Span;
+use crate::math::Vec3;
+use crate::names::joined;
+
+pub(super) fn vec3(value: &Vector) -> Vec3 {
+    Vec3::from(value.0)
+}
+
+pub(super) fn vec3_or_zero(value: &Maybe<Vector>) -> Vec3 {
+    value.as_ref().map_or_else(Vec3::zeros, |value| vec3(value))
+}
+
+/// Where the value of a key stands, if it is given.
+pub(super) fn span<T>(value: &Maybe<T>) -> Option<&Span> {
+    value.as_ref().map(|value| &value.span)
+}
+
+/// The word of a key that takes one of a few, or its default.
+pub(super) fn chosen<T: Copy + Default>(value: &Maybe<T>) -> T {
+    value.as_ref().map_or_else(T::default, |value| value.value)
+}
+
+/// A switch, or its default if it is not given.
+pub(super) fn flag(value: &Maybe<bool>, default: bool) -> bool {
+    value.as_ref().map_or(default, |value| value.value)
+}
+
+/// Directions in prose: "ux, uy and rz".
+pub(super) fn directions(dofs: impl IntoIterator<Item = usize>) -> String {
+    let words: Vec<&str> = dofs.into_iter().map(|dof| DIRECTIONS[dof]).collect();
+    joined(&words)
+}
