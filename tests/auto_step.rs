@@ -1,11 +1,9 @@
 //! `time_step = "auto"`: the error lands where it was asked for, at about the cost of the best step of one length.
 
-mod support;
-
+use crate::support::{Done, error, node, read, run_to_the_end};
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::solve::Frame;
-use support::{Done, error, node, read, run_to_the_end};
 
 type Probe = dyn Fn(&Model, &Frame) -> Vec<f64>;
 

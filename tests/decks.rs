@@ -3,8 +3,7 @@
 //!   # says: WORDS        of the failure
 //!   # warns: WORDS       of what is said when the deck is read
 
-mod support;
-
+use crate::support;
 use rdsolve::solve::Outcome;
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,7 @@
 //! Explicit schemes through the whole program: order in the step, limit of stability, invariants, the same answers as implicit
 //! schemes, and what they cannot do. `-- --nocapture --test-threads 1` shows the tables.
 
-mod support;
-
+use crate::support::{self, Done, body_omega, error, node, position, read, reference, run_to_the_end, slope};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use rdsolve::diagnostic::{Diagnostic, Source};
 use rdsolve::model::{self, Cadence, Model};
@@ -11,7 +10,6 @@ use rdsolve::solve::{Failure, Frame, Outcome, Run, Wanted};
 use rdsolve::system::System;
 use rdsolve::system::energy::Balance;
 use std::sync::atomic::AtomicBool;
-use support::{Done, body_omega, error, node, position, read, reference, run_to_the_end, slope};
 
 const CENTRAL: &str = "integrator={scheme=\"central-difference\"}";
 const EIGHT: &str = "integrator={scheme=\"runge-kutta\"}";

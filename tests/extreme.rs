@@ -1,14 +1,12 @@
 //! The extreme set: variants of the decks in decks/extreme, compared with each other as numbers. (`tests/decks.rs` holds the decks to
 //! the values they carry.)
 
-mod support;
-
+use crate::support::{self, node, read, run_to_the_end};
 use rdsolve::diagnostic::Source;
 use rdsolve::math::Vec3;
 use rdsolve::model::{Cadence, Model};
 use std::process::Command;
 use std::time::{Duration, Instant};
-use support::{node, read, run_to_the_end};
 
 fn owned(sets: &[&str]) -> Vec<String> {
     sets.iter().map(|set| (*set).to_owned()).collect()

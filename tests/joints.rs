@@ -1,7 +1,6 @@
 //! Joints: their equations against differences, what they hold and what they leave free, against elimination, and over time.
 
-mod support;
-
+use crate::support::{self, error, node, position, read, reference, run_to_the_end, slope};
 use rdsolve::constraints::joint::{Row, rotations};
 use rdsolve::diagnostic::Source;
 use rdsolve::linear::Factorization;
@@ -13,7 +12,6 @@ use rdsolve::state::Node;
 use rdsolve::system::System;
 use rdsolve::system::energy::Energy;
 use std::cell::RefCell;
-use support::{error, node, position, read, reference, run_to_the_end, slope};
 
 /// Numbers from −1 to 1 that are the same in every run.
 struct Random(u64);

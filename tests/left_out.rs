@@ -1,10 +1,8 @@
 //! What a scene does without, and what that saves.
 
-mod support;
-
+use crate::support::{node, read};
 use rdsolve::plan::Plan;
 use rdsolve::system::System;
-use support::{node, read};
 
 fn savings(name: &str, sets: &[&str]) -> (usize, Vec<String>) {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();

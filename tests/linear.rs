@@ -1,10 +1,8 @@
 //! Both factorisations against a dense one, over structures of every shape.
 
-mod structures;
-
+use crate::structures::{Random, Values, chain, cliques, entries, fill, frame, quadratic_chain, sheet, slots, tree};
 use nalgebra::{DMatrix, DVector};
 use rdsolve::linear::{Factorization, Solver, Structure};
-use structures::{Random, Values, chain, cliques, entries, fill, frame, quadratic_chain, sheet, slots, tree};
 
 fn shapes(random: &mut Random) -> Vec<Structure> {
     let mut shapes = vec![

@@ -1,11 +1,9 @@
 //! Order of convergence, measured: error against references over ladders of time steps and of element sizes.
 //! `cargo test --test order -- --nocapture --test-threads 1` shows the tables.
 
-mod support;
-
+use crate::support::{self, body_omega, error, node, position, read, reference, run_to_the_end, slope};
 use rdsolve::model::Model;
 use rdsolve::solve::Frame;
-use support::{body_omega, error, node, position, read, reference, run_to_the_end, slope};
 
 type Probe = Box<dyn FnMut(&Frame) -> Vec<f64>>;
 

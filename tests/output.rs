@@ -1,7 +1,6 @@
 //! The files of the output folder, read back.
 
-mod scene;
-
+use crate::scene;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use rdsolve::model::{Expect, ExpectAt, Model, Tolerance, When};
 use rdsolve::output::Files;

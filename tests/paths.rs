@@ -1,13 +1,9 @@
 //! Paths of equilibria by arc length: limit points, snap-through and snap-back.
 
-#![allow(non_snake_case)]
-
-mod support;
-
+use crate::support::{self, Done, node};
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::solve::{Frame, Outcome};
-use support::{Done, node};
 
 fn read(text: &str) -> Model {
     let source = Source::new("path.toml", text, &[]);

@@ -1,8 +1,7 @@
 //! Structures that yield: energy balance, agreement of the methods of iteration, cut and rejected steps, threads.
 //! `cargo test --test plasticity -- --nocapture --test-threads 1` shows the figures.
 
-mod support;
-
+use crate::support::{Done, error, position, read, run_to_the_end, slope};
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::output::wanted;
@@ -15,7 +14,6 @@ use std::fmt::Write;
 use std::io;
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
-use support::{Done, error, position, read, run_to_the_end, slope};
 
 fn sets(of: &[&str]) -> Vec<String> {
     of.iter().map(|set| (*set).to_owned()).collect()

@@ -1,8 +1,7 @@
 //! The tractor of decks/safety_cab: each blow until the cab has sprung back from it. Whole runs, finer meshes and the balance
 //! of energies are the business of scripts/safety_cab.py.
 
-mod support;
-
+use crate::support;
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::output::expect::Verdict;

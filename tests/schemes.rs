@@ -1,8 +1,6 @@
 //! Time integration schemes through the whole program: digits of each on a stiff chain, order in the step, joints, jumps.
 
-mod support;
-
-use support::{body_omega, error, node, position, read, reference, run_to_the_end, slope};
+use crate::support::{body_omega, error, node, position, read, reference, run_to_the_end, slope};
 
 /// The schemes as the deck writes them.
 const SCHEMES: [(&str, &str); 8] = [

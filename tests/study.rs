@@ -1,7 +1,6 @@
 //! `rdsolve study`: orders against exact answers, the bar of its own reference, what failed, what it writes.
 
-mod support;
-
+use crate::support;
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;

@@ -1,6 +1,6 @@
 //! Curved surfaces, rims, landings that a step hardly sees, and every scheme.
 
-use crate::{go, read};
+use super::{go, read};
 use rdsolve::solve::Frame;
 
 fn energies(frame: &Frame) -> Vec<f64> {

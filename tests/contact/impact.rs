@@ -1,7 +1,7 @@
 //! What falls, flies and lands: restitution, energies, momenta, and surfaces that hold whatever the step.
 
+use super::{go, read};
 use crate::support::slope;
-use crate::{go, read};
 use rdsolve::model::Contact;
 use rdsolve::solve::Frame;
 

@@ -1,6 +1,6 @@
 //! Friction: what rolls, slides and sticks; and what is pressed on surfaces of every shape.
 
-use crate::go;
+use super::go;
 use crate::support::slope;
 use rdsolve::solve::Frame;
 

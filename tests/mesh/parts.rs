@@ -1,7 +1,7 @@
 //! Parts and sets of a mesh against the same patches and paths in the deck.
 
-use super::support::{self, node};
 use super::{Folder, Plate, displacements, positions};
+use crate::support::{self, node};
 use rdsolve::math::Vec3;
 use rdsolve::model::{Link, Model, PartKind, Shell};
 

@@ -1,7 +1,7 @@
 //! Rigid parts: their mass, and the same part deformable and ever stiffer.
 
-use super::support::node;
 use super::{Folder, Plate, positions};
+use crate::support::node;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{Model, Shape};
 use rdsolve::output::{energy_csv, wanted};

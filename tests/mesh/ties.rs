@@ -1,7 +1,7 @@
 //! Nodes of shells on bodies and on beams, at the end of rigid arms.
 
-use super::support::{self, node};
 use super::{Folder, displacements};
+use crate::support::{self, node};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::Model;
 

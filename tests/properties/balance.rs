@@ -1,6 +1,6 @@
 //! Momentum of what flies free, and reactions of what is held.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;

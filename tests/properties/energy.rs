@@ -1,6 +1,6 @@
 //! The balance of energies, and the dissipation of a damper against its closed form.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::link::Law;

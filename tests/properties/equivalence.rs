@@ -1,6 +1,6 @@
 //! One scene, told or solved in two ways: one answer.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::linear;

@@ -1,6 +1,6 @@
 //! Motion that is given: the three ways to tell it, moving supports against a moving frame, and a driven hub.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;

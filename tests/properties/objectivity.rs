@@ -1,6 +1,6 @@
 //! Turn a whole scene and the answer turns with it; shift it and the answer shifts.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Vec3, rotation};

@@ -1,6 +1,6 @@
 //! What the plan leaves out must not move: causes that reach a mass by way of riders, given motion and inertia.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;

@@ -1,6 +1,6 @@
 //! A step that is given up leaves nothing behind: not in the motion, not in what the material remembers.
 
-use crate::scene::*;
+use super::scene::*;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{AnalysisKind, Expect, ExpectAt, MassKind, Model, Tolerance, Update, When};
 use rdsolve::plan::Plan;

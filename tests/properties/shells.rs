@@ -1,6 +1,6 @@
 //! Shells with bodies: free flight, the balance of energies, scenes that turn.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Mat3, Vec3};

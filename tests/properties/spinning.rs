@@ -1,6 +1,6 @@
 //! Thousands of turns: rigid arms keep their length, rotations stay orthonormal, whole turns lead back.
 
-use crate::scene::*;
+use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;

@@ -1,6 +1,6 @@
 //! The assembled matrix is the derivative of the assembled residual with respect to the increments of the step.
 
-use crate::scene::*;
+use super::scene::*;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand::rngs::StdRng;

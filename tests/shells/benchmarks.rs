@@ -1,6 +1,6 @@
 //! Statics at large rotations against the tables of Sze, Liu & Lo (Finite Elem. Anal. Des. 40, 2004), and linear ones.
 
-use super::support;
+use crate::support;
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model, Shell};
 use rdsolve::state::Node;

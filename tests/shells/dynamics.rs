@@ -1,7 +1,7 @@
 //! Shells in motion, elastic and plastic, against converged solutions with the same strains (a director shell of high order).
 
 use super::benchmarks::read;
-use super::support;
+use crate::support;
 use rdsolve::elements::shell::faces;
 use rdsolve::math::Vec3;
 use rdsolve::model::{Load, Model, PartType, Shell};

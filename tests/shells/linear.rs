@@ -2,7 +2,7 @@
 //! answers scaled back; errors of some meshes, which fall, and within 2 % at the last.
 
 use super::benchmarks::{deck, displacements, fix, load, point, quarter_cylinder, read, shell};
-use super::support;
+use crate::support;
 use rdsolve::elements::shell::shares;
 use rdsolve::math::Vec3;
 use rdsolve::model::{Load, PartType, Shell};

@@ -3,7 +3,7 @@
 //! Numer. Meth. Engrg. 24, 1987), and so do triangles: what is wanted is that finer meshes cure it, and how fine they are.
 
 use super::benchmarks::{deck, displacements, fix, load, point, read, shell};
-use super::support;
+use crate::support;
 use rdsolve::math::Vec3;
 use rdsolve::model::{Load, Model, Update};
 use std::f64::consts::PI;

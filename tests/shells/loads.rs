@@ -1,7 +1,7 @@
 //! Loads spread over shells that keep their direction, what a deck can say of them, and scenes of one element.
 
 use super::benchmarks::read;
-use super::support;
+use crate::support;
 use rdsolve::math::Vec3;
 use rdsolve::model::Model;
 

@@ -1,7 +1,7 @@
 //! Pressure that follows: faces by themselves, then scenes with exact solutions.
 
 use super::benchmarks::{displacements, read};
-use super::support;
+use crate::support;
 use nalgebra::DMatrix;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -1,7 +1,7 @@
 //! Stress resultants, von Mises stress and layers: against given states, statics and published stresses.
 
 use super::benchmarks::read;
-use super::support;
+use crate::support;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{

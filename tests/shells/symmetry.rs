@@ -2,7 +2,7 @@
 //! a mirror, how the scene stands in space; and the order in the time step.
 
 use super::benchmarks::{displacements, read};
-use super::support;
+use crate::support;
 use rdsolve::math::{Mat3, Vec3, rotation};
 
 /// The outer layers at the clamp go some ten times as far as where they yield.

@@ -1,19 +1,13 @@
 //! Meshes from files: what is read, what is refused, and parts made of them against patches of the deck.
 
-#[path = "mesh/command.rs"]
 mod command;
-#[path = "mesh/messages.rs"]
 mod messages;
-#[path = "mesh/parts.rs"]
 mod parts;
-#[path = "mesh/read.rs"]
 mod read;
-#[path = "mesh/rigid.rs"]
 mod rigid;
-mod support;
-#[path = "mesh/ties.rs"]
 mod ties;
 
+use crate::support;
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::state::Node;

@@ -1,34 +1,8 @@
 //! Factor and solve allocate nothing once each road has been taken.
 
-mod structures;
-
+use super::allocations;
+use crate::structures::{Random, Values, chain, entries, fill, frame, slots};
 use rdsolve::linear::{Factorization, Solver};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-use structures::{Random, Values, chain, entries, fill, frame, slots};
-
-struct Counting;
-
-thread_local! {
-    // Of the test's own thread: that of the harness allocates when it comes to run. Constant and without a destructor, so
-    // that the allocator may use it at any time.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: passes every call on to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn nothing_is_allocated_after_the_first_time() {
@@ -49,9 +23,9 @@ fn nothing_is_allocated_after_the_first_time() {
                 }
             };
             round();
-            let before = ALLOCATIONS.get();
+            let before = allocations();
             round();
-            assert_eq!(ALLOCATIONS.get() - before, 0, "{kind:?}");
+            assert_eq!(allocations() - before, 0, "{kind:?}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What must hold for whole scenes, whatever they are made of: the matrix is the derivative of the residual, answers turn
 //! with the scene, what is conserved stays, and one scene described in two ways has one answer.
 
-mod scene;
+pub mod scene;
 
 mod balance;
 mod energy;

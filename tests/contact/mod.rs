@@ -1,18 +1,14 @@
 //! Unilateral contact against closed forms.
 
-#![allow(non_snake_case)]
-
 mod edges;
 mod element;
 mod impact;
 mod rubbing;
-#[path = "../support/mod.rs"]
-mod support;
 
+use crate::support::{Done, run_to_the_end};
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::solve::Frame;
-use support::{Done, run_to_the_end};
 
 /// The model of a deck.
 pub fn read(text: &str) -> Model {

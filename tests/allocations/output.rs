@@ -1,36 +1,12 @@
 //! Rows are written without allocating. Counted on the thread of the test alone: the harness, which waits beside it, allocates
 //! when it comes to run, on a busy machine in the middle of the count.
 
-mod scene;
-
+use super::allocations;
+use crate::scene;
 use rdsolve::output::Files;
 use rdsolve::output::expect::Expectations;
 use rdsolve::output::progress::Progress;
 use rdsolve::solve::Observer;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-struct Counting;
-
-thread_local! {
-    // Constant and without a destructor: the allocator may use it at any time.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: passes every call on to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn nothing_is_allocated_per_row() {
@@ -50,7 +26,7 @@ fn nothing_is_allocated_per_row() {
         }
     };
     round(0..2);
-    let before = ALLOCATIONS.get();
+    let before = allocations();
     round(2..2000);
-    assert_eq!(ALLOCATIONS.get() - before, 0);
+    assert_eq!(allocations() - before, 0);
 }

@@ -1,11 +1,7 @@
 //! Once the first step is taken, the march allocates nothing.
 
-#![allow(non_snake_case)]
-
-#[allow(dead_code)]
-#[path = "properties/scene.rs"]
-mod scene;
-
+use super::allocations;
+use crate::properties::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::diagnostic::Source;
@@ -18,38 +14,7 @@ use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::state::State;
 use rdsolve::system::System;
-use scene::*;
-use std::alloc::{GlobalAlloc, Layout};
-use std::cell::Cell;
 use std::sync::atomic::AtomicBool;
-
-struct Counting;
-
-thread_local! {
-    // Of the test's own thread: that of the harness allocates when it comes to run. Constant and without a destructor, so
-    // that the allocator may use it at any time.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: passes every call on to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { std::alloc::System.alloc(layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { std::alloc::System.realloc(pointer, layout, size) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { std::alloc::System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Allocations made so far, by step, and whether the step was cut; room for them is there beforehand.
 struct Counts(Vec<(usize, bool)>);
@@ -57,7 +22,7 @@ struct Counts(Vec<(usize, bool)>);
 impl Observer for Counts {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         assert!(self.0.len() < self.0.capacity());
-        self.0.push((ALLOCATIONS.get(), frame.cuts > 0));
+        self.0.push((allocations(), frame.cuts > 0));
         Ok(())
     }
 }
@@ -107,7 +72,9 @@ fn no_step_after_the_first_allocates() {
             assert!(state.work.material.plastic > 0.1, "{:?}", state.work);
         }
     }
-    for deck in [include_str!("../decks/lees_frame/deck.toml"), include_str!("../decks/hinged_roof/thin/deck.toml")] {
+    for deck in
+        [include_str!("../../decks/lees_frame/deck.toml"), include_str!("../../decks/hinged_roof/thin/deck.toml")]
+    {
         let source = Source::new("deck.toml", deck, &["analysis.growth=1.0".to_string()]);
         let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
         let StepLength::ArcLength(path) = &mut model.analysis.step_length else { panic!("no path") };
@@ -126,10 +93,10 @@ fn no_step_after_the_first_allocates() {
 #[test]
 fn explicit_steps_allocate_nothing_either() {
     let decks = [
-        include_str!("../decks/two_bodies_on_springs/deck.toml"),
-        include_str!("../decks/four_bar/deck.toml"),
-        include_str!("../decks/bouncing_ball/deck.toml"),
-        include_str!("../decks/flying_beam/deck.toml"),
+        include_str!("../../decks/two_bodies_on_springs/deck.toml"),
+        include_str!("../../decks/four_bar/deck.toml"),
+        include_str!("../../decks/bouncing_ball/deck.toml"),
+        include_str!("../../decks/flying_beam/deck.toml"),
     ];
     for (deck, end) in decks.into_iter().zip([0.5, 0.5, 0.06, 0.4]) {
         for scheme in ["central-difference", "runge-kutta"] {
@@ -142,7 +109,7 @@ fn explicit_steps_allocate_nothing_either() {
             assert_none(&model, rdsolve::linear::Factorization::BlockLu);
         }
     }
-    let deck = include_str!("../decks/portal_and_block/deck.toml");
+    let deck = include_str!("../../decks/portal_and_block/deck.toml");
     let sets = ["integrator.scheme=\"central-difference\"", "beams.portal.elements=3", "beams.portal.order=1"];
     let source = Source::new("deck.toml", deck, &sets.map(str::to_string));
     let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
@@ -154,7 +121,7 @@ fn explicit_steps_allocate_nothing_either() {
 
 /// A ball that rolls on a floor, lands on a beam and leaves it.
 fn contacts_neither() {
-    let deck = include_str!("contact/beam_and_ball.toml");
+    let deck = include_str!("../contact/beam_and_ball.toml");
     let model = rdsolve::model::read(&Source::new("deck.toml", deck, &[])).0.expect("a sound deck");
     for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
         let state = assert_none(&model, kind);
@@ -164,7 +131,7 @@ fn contacts_neither() {
 
 /// A closed loop of hinges with rows that say the same twice, by every kind of scheme.
 fn joints_neither() {
-    let deck = include_str!("../decks/four_bar/deck.toml");
+    let deck = include_str!("../../decks/four_bar/deck.toml");
     for scheme in ["wilson-theta", "newmark", "generalized-alpha", "bathe"] {
         let source = Source::new("deck.toml", deck, &[format!("integrator.scheme=\"{scheme}\"")]);
         let mut model = rdsolve::model::read(&source).0.expect("a sound deck");

@@ -1,0 +1,3 @@
+//! The architecture of src, held by reading it.
+
+mod rows;

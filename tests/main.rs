@@ -1,0 +1,36 @@
+//! All tests of the crate in one program: each idea is a module, and generic code of the crate is compiled once for all.
+//!
+//! `cargo test --test all explicit::` runs one module. Who may import whom is held by `architecture`, a program of its own.
+
+mod allocations;
+mod auto_step;
+mod cli;
+mod compare;
+mod contact;
+mod decks;
+mod determinism;
+mod edges;
+mod elements;
+mod explicit;
+mod extreme;
+mod joints;
+mod left_out;
+mod linear;
+mod materials;
+mod mesh;
+mod messages;
+mod model;
+mod order;
+mod output;
+mod paths;
+mod plasticity;
+mod properties;
+mod report;
+mod safety_cab;
+mod schemes;
+mod shells;
+mod study;
+
+mod scene;
+mod structures;
+mod support;

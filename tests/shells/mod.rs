@@ -1,0 +1,12 @@
+//! Shells: what every element must do, and the benchmarks of Sze, Liu & Lo (2004) and MacNeal & Harder (1985).
+
+mod benchmarks;
+mod dynamics;
+mod element;
+mod frequencies;
+mod linear;
+mod linear_beams;
+mod loads;
+mod pressure;
+mod results;
+mod symmetry;
