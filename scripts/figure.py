@@ -113,8 +113,10 @@ def main() -> None:
         text(24, 28, "A block of 120 kg at 4 m/s meets a cab on rubber mounts", size=14),
         text(24, 388, "at rest", "#7d8790"),
         text(74, 388, f"t = {peak:.3f} s, displacements x {LARGER:g}", BLUE),
+        text(290, 388, "cab 1.5 x 1.2 x 1.6 m", "#7d8790"),
         plot(60, "struck corner, displacement along the blow, mm", sway, [-50, 0, 50, 100], BLUE, times[-1]),
         plot(228, "block, velocity, m/s", speed, [-4, -2, 0, 2, 4], RED, times[-1]),
+        text(694, 204, "time, s", INK, "middle", 12),
         text(694, 378, "time, s", INK, "middle", 12),
         "</svg>",
     ]

@@ -33,7 +33,7 @@ PANELS = [
     Panel("C4: steel portal hit by a block", "portal_and_block", ["--schemes", "wilson-theta,generalized-alpha,bathe"], [(0.12, 1e-2), (0.83, 1e-3)]),
 ]
 COLOURS = {"wilson-theta": "#3b7dd8", "newmark": "#b38a12", "generalized-alpha": "#2f9e63", "bathe": "#b058c4", "runge-kutta": "#1f9aa8"}
-WIDTH, HEIGHT, LEFT, TOP = 360.0, 250.0, 62.0, 34.0
+WIDTH, HEIGHT, LEFT, TOP, BELOW = 360.0, 250.0, 62.0, 34.0, 52.0
 
 
 def study(panel: Panel, folder: Path) -> list[dict]:
@@ -61,6 +61,15 @@ class Axis:
         return [10.0**k for k in range(math.ceil(self.low), math.floor(self.high) + 1)]
 
 
+def titles(left: float, top: float) -> list[str]:
+    """What the axes are; errors have no unit."""
+    middle, side = top + HEIGHT / 2, left - 48
+    return [
+        f'<text x="{left + WIDTH / 2:.1f}" y="{top + HEIGHT + 32:.1f}" text-anchor="middle">time of the loop, s</text>',
+        f'<text x="{side:.1f}" y="{middle:.1f}" text-anchor="middle" transform="rotate(-90 {side:.1f} {middle:.1f})">error, rms / largest value</text>',
+    ]
+
+
 def draw(panel: Panel, rows: list[dict], left: float, top: float) -> str:
     times = [float(row["loop_s"]) for row in rows] + [time for time, _ in panel.marks]
     errors = [float(row["error"]) for row in rows] + [error for _, error in panel.marks]
@@ -69,12 +78,13 @@ def draw(panel: Panel, rows: list[dict], left: float, top: float) -> str:
     for value in x.decades():
         at = x.at(value)
         out.append(f'<line class="rule" x1="{at:.1f}" y1="{top}" x2="{at:.1f}" y2="{top + HEIGHT}"/>')
-        out.append(f'<text x="{at:.1f}" y="{top + HEIGHT + 16}" text-anchor="middle">{value:g} s</text>')
+        out.append(f'<text x="{at:.1f}" y="{top + HEIGHT + 16}" text-anchor="middle">{value:g}</text>')
     for value in y.decades():
         at = y.at(value)
         out.append(f'<line class="rule" x1="{left}" y1="{at:.1f}" x2="{left + WIDTH}" y2="{at:.1f}"/>')
         out.append(f'<text x="{left - 6}" y="{at + 4:.1f}" text-anchor="end">{value:.0e}</text>')
     out.append(f'<rect class="edge" x="{left}" y="{top}" width="{WIDTH}" height="{HEIGHT}"/>')
+    out += titles(left, top)
     lines: dict = {}
     for row in rows:
         lines.setdefault((row["scheme"], bool(row["error_tolerance"])), []).append((float(row["loop_s"]), float(row["error"])))
@@ -92,7 +102,7 @@ def draw(panel: Panel, rows: list[dict], left: float, top: float) -> str:
 
 
 def picture(panels: list[tuple[Panel, list[dict]]]) -> str:
-    step_x, step_y = WIDTH + LEFT + 24, HEIGHT + TOP + 36
+    step_x, step_y = WIDTH + LEFT + 24, HEIGHT + TOP + BELOW
     parts = [draw(panel, rows, LEFT + (k % 2) * step_x, TOP + (k // 2) * step_y) for k, (panel, rows) in enumerate(panels)]
     whole, tall = 2 * step_x + 10, 2 * step_y + 40
     foot = tall + 6
