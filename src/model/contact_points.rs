@@ -147,8 +147,8 @@ impl<'d> Finder<'_, 'd> {
         let radius = given.unwrap_or(touch.radius);
         // A point without rotation cannot be turned by friction.
         let turns = touch.nodes.iter().all(|&(node, _)| self.topology.turns(self.topology.root(node)));
-        let lever = if friction && turns { radius } else { 0.0 };
-        Point { nodes, weights, count: touch.nodes.len(), radius, lever }
+        let rolling_radius = if friction && turns { radius } else { 0.0 };
+        Point { nodes, weights, count: touch.nodes.len(), radius, rolling_radius }
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {

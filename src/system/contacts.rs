@@ -37,7 +37,7 @@ impl System {
     /// ahead would not resolve.
     pub fn hurried_contact(&self, state: &State, since: f64) -> Option<usize> {
         let hurried = |(group, block): &(&Group, &Contacts)| {
-            since > block.longest(&state.history[group.history.clone()]) * (1.0 + 1e-9)
+            since > contact::longest_step(block, &state.history[group.history.clone()]) * (1.0 + 1e-9)
         };
         self.contact_groups().find(hurried).map(|(group, _)| group.part)
     }
@@ -45,7 +45,9 @@ impl System {
     /// The contact, by its place in [`Model::parts`], through whose surface a step from `start` to `now` would go, or into
     /// whose impact without resolving it.
     pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
-        self.contact_groups().find(|(group, block)| block.misses(start, &group.share(now))).map(|(group, _)| group.part)
+        self.contact_groups()
+            .find(|(group, block)| contact::misses(block, start, &group.share(now)))
+            .map(|(group, _)| group.part)
     }
 
     /// States of all contacts in deck order.
@@ -56,7 +58,7 @@ impl System {
             let gap = contact::least_gap(&contact.surface, contact.node, &contact.points, now.nodes);
             let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
             for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
-                let sum = block.resultant(&group.share(now));
+                let sum = contact::resultant(block, &group.share(now));
                 state.touching += sum.touching;
                 state.f += sum.f;
                 state.m += sum.m;

@@ -47,7 +47,7 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
     (0..count).for_each(|k| weights[k] = parts[k] / sum);
     let mut of = [1; MOST_NODES];
     (0..count).for_each(|k| of[k] = 1 + k);
-    let point = Point { nodes: of, weights, count, radius, lever: radius };
+    let point = Point { nodes: of, weights, count, radius, rolling_radius: radius };
 
     // The carrier anywhere, the point a little inside the surface.
     let mut nodes = vec![Node::at_rest(vector(rng, 1.0)); count + 1];

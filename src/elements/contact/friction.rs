@@ -6,15 +6,15 @@
 //! the way of its material at the contact, p − r φ × n, where φ is the rotation relative to the surface since the rotation
 //! that the history keeps.
 
-use super::surface::Near;
+use super::surface::ClosestPoint;
 use crate::math::{Mat3, Vec3, skew};
 
 /// Tangential force at an instant, in the frame of the surface.
 #[derive(Debug, Clone, Copy)]
-pub struct Drag {
+pub struct FrictionForce {
     /// On the surface, along the slip.
     pub T: Vec3,
-    /// What of the stretch the anchor is dragged along.
+    /// How far the anchor is dragged along.
     pub slip: Vec3,
     /// ∂T/∂p at fixed N, ∂T/∂N, ∂T/∂φ.
     pub by_p: Mat3,
@@ -24,8 +24,16 @@ pub struct Drag {
 
 /// The stretch s = P e, e = p − a − r φ×n, and its way to the force. `N`: the normal force.
 #[inline]
-pub fn drag(stiffness: f64, mu: f64, N: f64, near: &Near, from_anchor: &Vec3, radius: f64, phi: &Vec3) -> Drag {
-    let Near { n, H, .. } = near;
+pub fn friction_force(
+    stiffness: f64,
+    mu: f64,
+    N: f64,
+    closest: &ClosestPoint,
+    from_anchor: &Vec3,
+    radius: f64,
+    phi: &Vec3,
+) -> FrictionForce {
+    let ClosestPoint { n, H, .. } = closest;
     let e = from_anchor - radius * phi.cross(n);
     let across = n.dot(&e);
     let s = e - across * n;
@@ -37,9 +45,21 @@ pub fn drag(stiffness: f64, mu: f64, N: f64, near: &Near, from_anchor: &Vec3, ra
     let limit = mu * N;
     if stiffness * length <= limit {
         let k = stiffness;
-        return Drag { T: k * s, slip: Vec3::zeros(), by_p: k * by_p, by_N: Vec3::zeros(), by_phi: k * by_phi };
+        return FrictionForce {
+            T: k * s,
+            slip: Vec3::zeros(),
+            by_p: k * by_p,
+            by_N: Vec3::zeros(),
+            by_phi: k * by_phi,
+        };
     }
     let t = s / length;
     let turn = limit / length * (Mat3::identity() - t * t.transpose());
-    Drag { T: limit * t, slip: s - limit / stiffness * t, by_p: turn * by_p, by_N: mu * t, by_phi: turn * by_phi }
+    FrictionForce {
+        T: limit * t,
+        slip: s - limit / stiffness * t,
+        by_p: turn * by_p,
+        by_N: mu * t,
+        by_phi: turn * by_phi,
+    }
 }

@@ -22,7 +22,7 @@ pub enum Loss {
 
 /// A normal force and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Push {
+pub struct NormalForce {
     pub force: f64,
     /// ∂f/∂δ.
     pub by_depth: f64,
@@ -54,21 +54,21 @@ pub fn number(e: f64) -> f64 {
 
 /// At depth δ > 0 and rate δ̇, after an approach at `speed`.
 #[inline]
-pub fn push(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f64) -> Push {
+pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f64) -> NormalForce {
     let spring = stiffness * depth;
-    let push = match *loss {
-        Loss::None => Push { force: spring, by_depth: stiffness, by_rate: 0.0 },
+    let force = match *loss {
+        Loss::None => NormalForce { force: spring, by_depth: stiffness, by_rate: 0.0 },
         Loss::Restitution { number, floor } => {
             let speed = speed.max(floor);
             let d = if speed > 0.0 { number / speed } else { 0.0 };
             // At the fastest yet d falls as the rate rises, and their product stays.
             let by_rate = if rate < speed { spring * d } else { 0.0 };
-            Push { force: spring * (1.0 + d * rate), by_depth: stiffness * (1.0 + d * rate), by_rate }
+            NormalForce { force: spring * (1.0 + d * rate), by_depth: stiffness * (1.0 + d * rate), by_rate }
         }
-        Loss::Damping(c) => Push { force: spring + c * rate, by_depth: stiffness, by_rate: c },
+        Loss::Damping(c) => NormalForce { force: spring + c * rate, by_depth: stiffness, by_rate: c },
     };
     // At depth 0 there is no force yet, but stiffness.
-    if push.force > 0.0 || push.force == 0.0 && push.by_depth > 0.0 { push } else { Push::default() }
+    if force.force > 0.0 || force.force == 0.0 && force.by_depth > 0.0 { force } else { NormalForce::default() }
 }
 
 #[cfg(test)]
@@ -86,7 +86,7 @@ mod tests {
             (0.9999, 1.0, 1.0, 1.0),
         ] {
             let loss = Loss::Restitution { number: number(e), floor: 0.0 };
-            let slope = |[x, v]: [f64; 2]| [v, -push(k, &loss, x.max(0.0), v, v0).force / m];
+            let slope = |[x, v]: [f64; 2]| [v, -normal_force(k, &loss, x.max(0.0), v, v0).force / m];
             let plus = |a: [f64; 2], s: f64, b: [f64; 2]| [a[0] + s * b[0], a[1] + s * b[1]];
             let h = (m / k).sqrt() * 1e-3 * if e < 0.1 { 0.1 } else { 1.0 };
             let mut y = [0.0, v0];

@@ -1,6 +1,9 @@
 //! What is shown of a contact: the resultant of its points and its least gap.
 
-use super::{Contacts, Point, Surface};
+use super::force::touch;
+use super::kinematics::Contacts;
+use super::point::Point;
+use super::surface::Surface;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
@@ -20,19 +23,16 @@ impl Default for Resultant {
     }
 }
 
-impl Contacts {
-    /// What the points at hand do to the surface.
-    pub fn resultant(&self, now: &Configuration) -> Resultant {
-        let mut sum = Resultant::default();
-        for e in 0..self.points.len() {
-            let Some((meeting, action)) = self.touch(e, now) else { continue };
-            let f = meeting.R * action.F;
-            sum.touching += 1;
-            sum.f -= f;
-            sum.m -= meeting.d.cross(&f) + meeting.R * action.M;
-        }
-        sum
+/// What the points at hand do to the surface.
+pub fn resultant(contacts: &Contacts, now: &Configuration) -> Resultant {
+    let mut sum = Resultant::default();
+    for (at, acting) in (0..contacts.points.len()).filter_map(|e| touch(contacts, e, now)) {
+        let f = at.R * acting.F;
+        sum.touching += 1;
+        sum.f -= f;
+        sum.m -= at.d.cross(&f) + at.R * acting.M;
     }
+    sum
 }
 
 /// Least distance of points from a surface; infinite where there are none.

@@ -1,10 +1,11 @@
 //! How long steps may be: none takes a point through the surface, and an impact is resolved.
 
-use super::{Contacts, past};
+use super::history::{self, PointHistory};
+use super::kinematics::Contacts;
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node};
 
-/// Of the surface, at the start of a step and ahead.
+/// Rotations of the surface at the start of a step and at its instant of equilibrium.
 struct Frames {
     start: Mat3,
     now: Mat3,
@@ -12,73 +13,71 @@ struct Frames {
     turn: f64,
 }
 
-impl Contacts {
-    /// True where a step from `start` to `now` must be shorter: see [`Law::resolution`].
-    pub fn misses(&self, start: &[Node], now: &Configuration) -> bool {
-        let (a, b) = (&start[self.carrier], &now.nodes[self.carrier]);
-        let turn = 2.0 * (b.q - a.q).norm().min((b.q + a.q).norm());
-        let frames = Frames { start: a.R(), now: b.R(), turn };
-        (0..self.points.len()).any(|e| self.is_missed(e, start, now, &frames))
-    }
+/// True where a step from `start` to `now` must be shorter: see [`super::Law::resolution`].
+pub fn misses(contacts: &Contacts, start: &[Node], now: &Configuration) -> bool {
+    let (a, b) = (&start[contacts.carrier], &now.nodes[contacts.carrier]);
+    let turn = 2.0 * (b.q - a.q).norm().min((b.q + a.q).norm());
+    let frames = Frames { start: a.R(), now: b.R(), turn };
+    (0..contacts.points.len()).any(|e| is_missed(contacts, e, start, now, &frames))
+}
 
-    /// Longest time ahead at which equilibrium may be written next, with what is remembered of the last state.
-    pub fn longest(&self, past: &[f64]) -> f64 {
-        let law = &self.law;
-        let in_impact = |past: &[f64]| {
-            past[past::KNOWN] > 0.0 && past[past::SPEED] > 3.0 * law.floor && past[past::AGE] < law.duration
-        };
-        let any = law.resolution < f64::INFINITY && past.chunks_exact(self.stride()).any(in_impact);
-        if any { law.resolution } else { f64::INFINITY }
-    }
+/// Longest time ahead at which equilibrium may be written next, given the history of the block.
+pub fn longest_step(contacts: &Contacts, history: &[f64]) -> f64 {
+    let law = &contacts.law;
+    let in_impact =
+        |old: PointHistory| old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
+    let any = law.resolution < f64::INFINITY && history::each(contacts, history).any(in_impact);
+    if any { law.resolution } else { f64::INFINITY }
+}
 
-    /// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not
-    /// resolve.
-    fn is_missed(&self, e: usize, start: &[Node], now: &Configuration, frames: &Frames) -> bool {
-        let (point, past) = (&self.points[e], self.share(e, now.history));
-        let [from, to] = [start, now.nodes].map(|nodes| point.relative_position(&nodes[self.carrier], nodes));
-        let far = from.norm();
-        if far - self.reach() - point.radius > (to - from).norm() + frames.turn * far {
-            return false;
-        }
-        let (p0, p1) = (frames.start.tr_mul(&from), frames.now.tr_mul(&to));
-        let (way, gap) = (p1 - p0, |p: &Vec3| self.surface.distance(p) - point.radius);
-        let (length, first, last) = (way.norm(), gap(&p0), gap(&p1));
-        if first > length {
-            return false;
-        }
-        if last < 0.0 && now.dt < past[past::SAFE] {
-            return true;
-        }
-        let normal = |p: &Vec3| self.surface.near(p).n;
-        // Nothing lies nearer than the distance: along the way by it, from either end, until the surface is reached.
-        let reached = |at: &dyn Fn(f64) -> Vec3| {
-            let mut t = 0.0;
-            while t < 1.0 {
-                let g = gap(&at(t));
-                if g < 1e-3 * length {
-                    return Some(t);
-                }
-                t += g / length;
+/// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not
+/// resolve.
+fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration, frames: &Frames) -> bool {
+    let point = &contacts.points[e];
+    let old = || history::of(contacts, e, now.history);
+    let [from, to] = [start, now.nodes].map(|nodes| point.relative_position(&nodes[contacts.carrier], nodes));
+    let far = from.norm();
+    if far - contacts.reach() - point.radius > (to - from).norm() + frames.turn * far {
+        return false;
+    }
+    let (p0, p1) = (frames.start.tr_mul(&from), frames.now.tr_mul(&to));
+    let (way, gap) = (p1 - p0, |p: &Vec3| contacts.surface.distance(p) - point.radius);
+    let (length, first, last) = (way.norm(), gap(&p0), gap(&p1));
+    if first > length {
+        return false;
+    }
+    if last < 0.0 && now.dt < old().safe_time() {
+        return true;
+    }
+    let normal = |p: &Vec3| contacts.surface.closest_point(p).n;
+    // Nothing lies nearer than the distance: along the way by it, from either end, until the surface is reached.
+    let reached = |at: &dyn Fn(f64) -> Vec3| {
+        let mut t = 0.0;
+        while t < 1.0 {
+            let g = gap(&at(t));
+            if g < 1e-3 * length {
+                return Some(t);
             }
-            None
-        };
-        let Some(t0) = (if first > 0.0 { reached(&|t| p0 + t * way) } else { Some(0.0) }) else { return false };
-        let entry = normal(&(p0 + t0 * way));
-        // By the other side; or by another side from far inside, and not just round an edge.
-        let strayed = |n: &Vec3, depth: f64, length: f64| {
-            let along = entry.dot(n);
-            along < -0.5 && depth < 0.0 || along < 0.5 && depth < first.min(0.0) - 0.02 * length
-        };
-        if last < 0.0 {
-            let depth = last.min(gap(&(p0 + 0.5 * (1.0 + t0) * way)));
-            let fast = 3.0 * self.law.floor;
-            let landing = first > 0.0
-                && (past[past::KNOWN] == 0.0 || past[past::RATE] > fast || -depth > fast * 2.0 * self.law.resolution);
-            return strayed(&normal(&p1), depth, length) || landing && now.dt > self.law.resolution;
+            t += g / length;
         }
-        // In at one place and out at another; a shallow pass along one side is left alone.
-        let Some(t1) = reached(&|t| p1 - t * way).map(|t| 1.0 - t) else { return false };
-        let (depth, chord) = (gap(&(p0 + 0.5 * (t0 + t1) * way)), (t1 - t0) * length);
-        first > 0.0 && depth < -0.02 * chord || strayed(&normal(&(p0 + t1 * way)), depth, chord)
+        None
+    };
+    let Some(t0) = (if first > 0.0 { reached(&|t| p0 + t * way) } else { Some(0.0) }) else { return false };
+    let entry = normal(&(p0 + t0 * way));
+    // By the other side; or by another side from far inside, and not just round an edge.
+    let strayed = |n: &Vec3, depth: f64, length: f64| {
+        let along = entry.dot(n);
+        along < -0.5 && depth < 0.0 || along < 0.5 && depth < first.min(0.0) - 0.02 * length
+    };
+    if last < 0.0 {
+        let depth = last.min(gap(&(p0 + 0.5 * (1.0 + t0) * way)));
+        let fast = 3.0 * contacts.law.floor;
+        let landing =
+            first > 0.0 && (!old().is_known() || old().rate() > fast || -depth > fast * 2.0 * contacts.law.resolution);
+        return strayed(&normal(&p1), depth, length) || landing && now.dt > contacts.law.resolution;
     }
+    // In at one place and out at another; a shallow pass along one side is left alone.
+    let Some(t1) = reached(&|t| p1 - t * way).map(|t| 1.0 - t) else { return false };
+    let (depth, chord) = (gap(&(p0 + 0.5 * (t0 + t1) * way)), (t1 - t0) * length);
+    first > 0.0 && depth < -0.02 * chord || strayed(&normal(&(p0 + t1 * way)), depth, chord)
 }

@@ -39,9 +39,9 @@ pub enum Shape {
     },
 }
 
-/// Of a point.
+/// The point of a surface closest to a given one, as far as forces need it; in the frame of that.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Near {
+pub struct ClosestPoint {
     pub distance: f64,
     /// Outward, away from the surface.
     pub n: Vec3,
@@ -50,12 +50,16 @@ pub struct Near {
 }
 
 impl Surface {
-    /// Of a point p given in the frame of the node.
+    /// The closest point to p, given in the frame of the node.
     #[inline]
-    pub fn near(&self, p: &Vec3) -> Near {
+    pub fn closest_point(&self, p: &Vec3) -> ClosestPoint {
         let y = self.axes.tr_mul(&(p - self.center));
-        let local = self.shape.near(&y);
-        Near { distance: local.distance, n: self.axes * local.n, H: self.axes * local.H * self.axes.transpose() }
+        let local = self.shape.closest_point(&y);
+        ClosestPoint {
+            distance: local.distance,
+            n: self.axes * local.n,
+            H: self.axes * local.H * self.axes.transpose(),
+        }
     }
 
     /// The distance alone.
@@ -107,9 +111,9 @@ impl Shape {
         }
     }
 
-    fn near(&self, y: &Vec3) -> Near {
+    fn closest_point(&self, y: &Vec3) -> ClosestPoint {
         match *self {
-            Shape::Plane => Near { distance: y.z, n: Vec3::z(), H: Mat3::zeros() },
+            Shape::Plane => ClosestPoint { distance: y.z, n: Vec3::z(), H: Mat3::zeros() },
             Shape::Sphere { radius } => round(y, radius, &Mat3::identity()),
             Shape::Capsule { radius, half } if y.z.abs() < half => {
                 round(&Vec3::new(y.x, y.y, 0.0), radius, &Mat3::from_diagonal(&Vec3::new(1.0, 1.0, 0.0)))
@@ -124,17 +128,17 @@ impl Shape {
 }
 
 /// Around a centre (or a line, with `free` the projection across it).
-fn round(y: &Vec3, radius: f64, free: &Mat3) -> Near {
+fn round(y: &Vec3, radius: f64, free: &Mat3) -> ClosestPoint {
     let rho = y.norm();
     // In the middle any direction leads out.
     if rho <= f64::MIN_POSITIVE {
-        return Near { distance: -radius, n: Vec3::x(), H: Mat3::zeros() };
+        return ClosestPoint { distance: -radius, n: Vec3::x(), H: Mat3::zeros() };
     }
     let n = y / rho;
-    Near { distance: rho - radius, n, H: (free - n * n.transpose()) / rho }
+    ClosestPoint { distance: rho - radius, n, H: (free - n * n.transpose()) / rho }
 }
 
-fn cylinder(y: &Vec3, radius: f64, half: f64) -> Near {
+fn cylinder(y: &Vec3, radius: f64, half: f64) -> ClosestPoint {
     let rho = y.x.hypot(y.y);
     let out = if rho > f64::MIN_POSITIVE { Vec3::new(y.x / rho, y.y / rho, 0.0) } else { Vec3::x() };
     let end = Vec3::new(0.0, 0.0, 1f64.copysign(y.z));
@@ -146,22 +150,22 @@ fn cylinder(y: &Vec3, radius: f64, half: f64) -> Near {
         let d = a.hypot(b);
         let n = (a * out + b * end) / d;
         let across = (b * out - a * end) / d;
-        Near { distance: d, n, H: across * across.transpose() / d + a / d * bend }
+        ClosestPoint { distance: d, n, H: across * across.transpose() / d + a / d * bend }
     } else if a > b {
-        Near { distance: a, n: out, H: bend }
+        ClosestPoint { distance: a, n: out, H: bend }
     } else {
-        Near { distance: b, n: end, H: Mat3::zeros() }
+        ClosestPoint { distance: b, n: end, H: Mat3::zeros() }
     }
 }
 
-fn cuboid(y: &Vec3, half: &[f64; 3]) -> Near {
+fn cuboid(y: &Vec3, half: &[f64; 3]) -> ClosestPoint {
     let q = y.abs() - Vec3::from(*half);
     let side = |i: usize| Vec3::ith(i, 1f64.copysign(y[i]));
     let outside = (0..3).filter(|&i| q[i] > 0.0).count();
     if outside < 2 {
         // One face, from out or in.
         let i = q.imax();
-        return Near { distance: q[i], n: side(i), H: Mat3::zeros() };
+        return ClosestPoint { distance: q[i], n: side(i), H: Mat3::zeros() };
     }
     let mut n = Vec3::zeros();
     let mut free = Mat3::zeros();
@@ -171,7 +175,7 @@ fn cuboid(y: &Vec3, half: &[f64; 3]) -> Near {
     }
     let d = n.norm();
     n /= d;
-    Near { distance: d, n, H: (free - n * n.transpose()) / d }
+    ClosestPoint { distance: d, n, H: (free - n * n.transpose()) / d }
 }
 
 #[cfg(test)]
@@ -240,7 +244,7 @@ mod tests {
             for _ in 0..40 {
                 let y = Vec3::from_fn(|_, _| rng.random_range(-1.0..1.0));
                 let nearest = points.iter().map(|p| (p - y).norm()).fold(f64::INFINITY, f64::min);
-                let near = shape.near(&y);
+                let near = shape.closest_point(&y);
                 // 200,000 points on a surface of some square units stand about 0.005 apart, 0.03 near the ends of the samples.
                 assert!((near.distance.abs() - nearest).abs() < 0.03, "{shape:?} at {y}: {} {nearest}", near.distance);
                 assert!((near.distance - shape.distance(&y)).abs() < 1e-15);
@@ -256,9 +260,9 @@ mod tests {
             let surface = Surface { center: Vec3::new(0.1, 0.2, -0.3), axes: turn, shape };
             for _ in 0..100 {
                 let p = Vec3::from_fn(|_, _| rng.random_range(-1.5..1.5));
-                let near = surface.near(&p);
+                let near = surface.closest_point(&p);
                 let h = 1e-5;
-                let at = |i: usize, s: f64| surface.near(&(p + s * Vec3::ith(i, h)));
+                let at = |i: usize, s: f64| surface.closest_point(&(p + s * Vec3::ith(i, h)));
                 // Not where a step crosses from one part of the surface to another.
                 if (0..3).any(|i| (at(i, 1.0).n - at(i, -1.0).n).norm() > 1e-2) {
                     continue;

@@ -1,0 +1,80 @@
+//! What acts on a point that touches: the normal force and the friction force.
+
+use super::friction::{FrictionForce, friction_force};
+use super::history::{self, PointHistory};
+use super::kinematics::{ContactKinematics, Contacts};
+use super::point::Point;
+use super::restitution::{NormalForce, normal_force};
+use crate::math::Vec3;
+use crate::state::{Configuration, Node};
+
+/// What acts on a point, in the frame of the surface.
+pub(super) struct ContactForce {
+    pub normal: NormalForce,
+    /// `None`: there is no friction, or the point was not looked at in the last state.
+    pub friction: Option<FrictionForce>,
+    /// Force and moment on the point.
+    pub F: Vec3,
+    pub M: Vec3,
+}
+
+/// The force on a point that lies at `at`.
+pub(super) fn contact_force(
+    contacts: &Contacts,
+    point: &Point,
+    at: &ContactKinematics,
+    old: PointHistory,
+    nodes: &[Node],
+) -> ContactForce {
+    let (known, law) = (old.is_known(), &contacts.law);
+    let rate = at.rate();
+    let speed = match known {
+        true if old.gap() <= 0.0 => old.impact_speed().max(rate),
+        // The point is faster now than in the last state where something presses from rest.
+        true => old.rate().max(rate),
+        false => rate,
+    };
+    let normal = normal_force(law.stiffness, &law.loss, -at.gap, rate, speed);
+    let n = &at.closest.n;
+    if law.friction == 0.0 || !known {
+        return ContactForce { normal, friction: None, F: normal.force * n, M: Vec3::zeros() };
+    }
+    let mut phi = Vec3::zeros();
+    if point.rolling_radius > 0.0 {
+        for k in 0..contacts.count {
+            phi += point.weights[k] * history::rotation_since(contacts, point, k, old, nodes);
+        }
+    }
+    let from_anchor = at.p - old.anchor();
+    let friction = friction_force(
+        law.stiffness,
+        law.friction,
+        normal.force,
+        &at.closest,
+        &from_anchor,
+        point.rolling_radius,
+        &phi,
+    );
+    ContactForce {
+        normal,
+        F: normal.force * n - friction.T,
+        M: point.rolling_radius * n.cross(&friction.T),
+        friction: Some(friction),
+    }
+}
+
+/// How point `e` lies and what acts on it; `None` where it does not touch or is known to be far.
+#[inline]
+pub(super) fn touch(contacts: &Contacts, e: usize, now: &Configuration) -> Option<(ContactKinematics, ContactForce)> {
+    let old = history::of(contacts, e, now.history);
+    if now.dt < old.safe_time() {
+        return None;
+    }
+    let at = contacts.kinematics(&contacts.points[e], now.nodes);
+    // At a gap of zero there is no force yet, but stiffness.
+    if at.gap > 0.0 {
+        return None;
+    }
+    let force = contact_force(contacts, &contacts.points[e], &at, old, now.nodes);
+    Some((at, force))
+}

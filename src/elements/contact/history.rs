@@ -1,0 +1,163 @@
+//! What a point remembers of the last accepted state: a typed view of its numbers in [`crate::state::State::history`]. All
+//! points of a block have the same count of them: those of the normal force, then those of friction where there is any, then
+//! the rotations of the point's nodes where friction turns them.
+
+use super::kinematics::Contacts;
+use super::point::Point;
+use crate::math::Vec3;
+use crate::math::rotation::{log, renormalise};
+use crate::state::Node;
+use nalgebra::Quaternion;
+
+const SAFE_TIME: usize = 0;
+const IS_KNOWN: usize = 1;
+const GAP: usize = 2;
+const RATE: usize = 3;
+const IMPACT_SPEED: usize = 4;
+const AGE: usize = 5;
+const DAMPING_POWER: usize = 6;
+/// Here friction begins.
+const FRICTION_FORCE: usize = 7;
+const ANCHOR: usize = 8;
+/// Here the rotations of nodes begin, four numbers each.
+const ROTATIONS: usize = 11;
+
+/// The history of one point.
+#[derive(Clone, Copy)]
+pub(super) struct PointHistory<'a>(&'a [f64]);
+
+impl<'a> PointHistory<'a> {
+    /// The point need not be looked at before this time after the last state.
+    #[inline]
+    pub fn safe_time(self) -> f64 {
+        self.0[SAFE_TIME]
+    }
+
+    /// False where the last state did not look at the point: all but the safe time then means nothing.
+    #[inline]
+    pub fn is_known(self) -> bool {
+        self.0[IS_KNOWN] > 0.0
+    }
+
+    #[inline]
+    pub fn gap(self) -> f64 {
+        self.0[GAP]
+    }
+
+    /// Approach speed δ̇.
+    #[inline]
+    pub fn rate(self) -> f64 {
+        self.0[RATE]
+    }
+
+    /// Approach speed at which the impact began; 0 again some time after the point has lifted off.
+    #[inline]
+    pub fn impact_speed(self) -> f64 {
+        self.0[IMPACT_SPEED]
+    }
+
+    /// Time since the point landed or lifted off.
+    #[inline]
+    pub fn age(self) -> f64 {
+        self.0[AGE]
+    }
+
+    /// Power that the damping of the impact takes.
+    #[inline]
+    pub fn damping_power(self) -> f64 {
+        self.0[DAMPING_POWER]
+    }
+
+    /// |T|. With friction alone.
+    #[inline]
+    pub fn friction_force(self) -> f64 {
+        self.0[FRICTION_FORCE]
+    }
+
+    /// Where the spring of friction is held, in the frame of the surface. With friction alone.
+    #[inline]
+    pub fn anchor(self) -> Vec3 {
+        Vec3::from_column_slice(&self.0[ANCHOR..ROTATIONS])
+    }
+
+    /// Rotation of the k-th node relative to the surface. Where friction turns nodes.
+    #[inline]
+    pub fn rotation(self, k: usize) -> Quaternion<f64> {
+        let q = &self.0[ROTATIONS + 4 * k..];
+        Quaternion::new(q[0], q[1], q[2], q[3])
+    }
+}
+
+/// The history of one point, to be written.
+pub(super) struct PointHistoryMut<'a>(&'a mut [f64]);
+
+impl<'a> PointHistoryMut<'a> {
+    pub fn new(numbers: &'a mut [f64]) -> Self {
+        PointHistoryMut(numbers)
+    }
+
+    pub fn read(&self) -> PointHistory<'_> {
+        PointHistory(self.0)
+    }
+
+    /// Forgets all but that the point is far for a while.
+    pub fn set_far(&mut self, safe_time: f64) {
+        self.0.fill(0.0);
+        self.0[SAFE_TIME] = safe_time;
+    }
+
+    /// The motion normal to the surface, which is then known.
+    pub fn set_motion(&mut self, gap: f64, rate: f64, safe_time: f64) {
+        self.0[IS_KNOWN] = 1.0;
+        self.0[GAP] = gap;
+        self.0[RATE] = rate;
+        self.0[SAFE_TIME] = safe_time;
+    }
+
+    pub fn set_impact(&mut self, (impact_speed, age): (f64, f64)) {
+        self.0[IMPACT_SPEED] = impact_speed;
+        self.0[AGE] = age;
+    }
+
+    pub fn set_damping_power(&mut self, power: f64) {
+        self.0[DAMPING_POWER] = power;
+    }
+
+    pub fn set_friction_force(&mut self, force: f64) {
+        self.0[FRICTION_FORCE] = force;
+    }
+
+    pub fn set_anchor(&mut self, anchor: &Vec3) {
+        self.0[ANCHOR..ROTATIONS].copy_from_slice(anchor.as_slice());
+    }
+
+    pub fn set_rotation(&mut self, k: usize, q: &Quaternion<f64>) {
+        self.0[ROTATIONS + 4 * k..ROTATIONS + 4 * k + 4].copy_from_slice(&[q.w, q.i, q.j, q.k]);
+    }
+}
+
+/// Numbers that a point remembers.
+pub(super) fn width(contacts: &Contacts) -> usize {
+    match (contacts.law.friction > 0.0, contacts.rolls) {
+        (false, _) => FRICTION_FORCE,
+        (true, false) => ROTATIONS,
+        (true, true) => ROTATIONS + 4 * contacts.count,
+    }
+}
+
+/// The history of point `e` in that of its block, which must not be empty.
+#[inline]
+pub(super) fn of<'a>(contacts: &Contacts, e: usize, history: &'a [f64]) -> PointHistory<'a> {
+    let width = width(contacts);
+    PointHistory(&history[e * width..(e + 1) * width])
+}
+
+/// The histories of all points in that of their block.
+pub(super) fn each<'a>(contacts: &Contacts, history: &'a [f64]) -> impl Iterator<Item = PointHistory<'a>> {
+    history.chunks_exact(width(contacts)).map(PointHistory)
+}
+
+/// Rotation vector of the k-th node of a point relative to the surface, from the remembered rotation to the present one.
+pub(super) fn rotation_since(contacts: &Contacts, point: &Point, k: usize, old: PointHistory, nodes: &[Node]) -> Vec3 {
+    log(&renormalise(&(contacts.relative_rotation(point.nodes[k], nodes) * old.rotation(k).conjugate())))
+}

@@ -1,0 +1,93 @@
+//! Points against a surface, and how one of them lies and moves against it.
+
+use super::law::Law;
+use super::point::{MOST_NODES, Point};
+use super::surface::{ClosestPoint, Surface};
+use crate::math::{Mat3, Vec3};
+use crate::state::Node;
+use nalgebra::Quaternion;
+
+/// Points with equally many nodes against one surface.
+pub struct Contacts {
+    pub(super) law: Law,
+    pub(super) surface: Surface,
+    /// The node that carries the surface.
+    pub(super) carrier: usize,
+    pub(super) points: Vec<Point>,
+    /// Nodes of each point, then the carrier.
+    pub(super) nodes: Vec<[usize; MOST_NODES + 1]>,
+    /// Nodes that carry a point.
+    pub(super) count: usize,
+    /// Friction turns nodes: their rotations belong to the history.
+    pub(super) rolls: bool,
+}
+
+/// A point against the surface at an instant.
+pub(super) struct ContactKinematics {
+    /// Rotation of the carrier.
+    pub R: Mat3,
+    /// x − x_s, global components.
+    pub d: Vec3,
+    /// R ṗ: the velocity relative to the surface, global components.
+    pub w: Vec3,
+    /// The point in the frame of the carrier.
+    pub p: Vec3,
+    pub closest: ClosestPoint,
+    /// Distance of the ball around the point from the surface, negative inside.
+    pub gap: f64,
+}
+
+impl ContactKinematics {
+    /// Approach speed δ̇.
+    pub fn rate(&self) -> f64 {
+        -(self.R * self.closest.n).dot(&self.w)
+    }
+}
+
+impl Contacts {
+    /// `points` have equally many nodes, one or more.
+    pub fn new(law: Law, surface: Surface, carrier: usize, points: Vec<Point>) -> Self {
+        let count = points.first().map_or(1, |point| point.count);
+        let rolls = law.friction > 0.0 && points.iter().any(|point| point.rolling_radius > 0.0);
+        let nodes = points
+            .iter()
+            .map(|point| {
+                let mut nodes = [carrier; MOST_NODES + 1];
+                nodes[..count].copy_from_slice(point.nodes());
+                nodes
+            })
+            .collect();
+        Contacts { law, surface, carrier, points, nodes, count, rolls }
+    }
+
+    /// Position and velocity relative to the carrier, global components.
+    #[inline]
+    pub(super) fn relative(&self, point: &Point, nodes: &[Node]) -> (Vec3, Vec3) {
+        let carrier = &nodes[self.carrier];
+        let (mut d, mut v) = (Vec3::zeros(), Vec3::zeros());
+        for (node, weight) in point.parts() {
+            d += weight * nodes[node].relative_position(carrier);
+            v += weight * nodes[node].v;
+        }
+        (d, v - carrier.v - carrier.omega.cross(&d))
+    }
+
+    #[inline]
+    pub(super) fn kinematics(&self, point: &Point, nodes: &[Node]) -> ContactKinematics {
+        let (d, w) = self.relative(point, nodes);
+        let R = nodes[self.carrier].R();
+        let p = R.tr_mul(&d);
+        let closest = self.surface.closest_point(&p);
+        ContactKinematics { R, d, w, p, gap: closest.distance - point.radius, closest }
+    }
+
+    /// Rotation of a node relative to the surface.
+    pub(super) fn relative_rotation(&self, node: usize, nodes: &[Node]) -> Quaternion<f64> {
+        nodes[self.carrier].q.conjugate() * nodes[node].q
+    }
+
+    /// A distance from the carrier beyond which nothing touches.
+    pub(super) fn reach(&self) -> f64 {
+        self.surface.center.norm() + self.surface.reach()
+    }
+}

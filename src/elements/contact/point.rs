@@ -1,0 +1,38 @@
+//! A point that may touch a surface.
+
+use crate::math::Vec3;
+use crate::state::Node;
+
+/// Nodes that a touching point may lie between.
+pub const MOST_NODES: usize = 5;
+
+/// A point that may touch: a weighted sum of nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The first `count` of them carry it.
+    pub nodes: [usize; MOST_NODES],
+    /// Share of each node in the point's position; their sum is 1.
+    pub weights: [f64; MOST_NODES],
+    pub count: usize,
+    /// Radius of the ball around the point that touches.
+    pub radius: f64,
+    /// The radius at which friction turns the nodes; 0 where they have no rotation.
+    pub rolling_radius: f64,
+}
+
+impl Point {
+    /// The nodes that carry the point.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes[..self.count]
+    }
+
+    /// Nodes and their weights.
+    pub(super) fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.nodes.iter().copied().zip(self.weights).take(self.count)
+    }
+
+    /// Where the point lies as seen from a node, global components.
+    pub(super) fn relative_position(&self, carrier: &Node, nodes: &[Node]) -> Vec3 {
+        self.parts().map(|(node, w)| w * nodes[node].relative_position(carrier)).sum()
+    }
+}
