@@ -49,3 +49,4 @@ pub mod solve;
 pub mod state;
 pub mod study;
 pub mod system;
+pub mod words;

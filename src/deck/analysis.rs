@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::words::kinds::Kinds;
 use super::words::{Maybe, NumberOrAuto, Table};
+use crate::integrators::SCHEMES;
+use crate::integrators::scheme::{Make, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 
 /// What is computed and over what time.
@@ -89,44 +92,23 @@ pub enum Plane {
     Off,
 }
 
-/// The time integration scheme.
+/// The time integration scheme, with its parameters beside it.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Integrator {
-    /// Default: "wilson-theta".
-    pub scheme: Maybe<Scheme>,
-    /// Equilibrium is written at t + theta * time_step. Default: 1.4; unconditionally stable from 1.366 on. wilson-theta.
-    pub theta: Maybe<f64>,
-    /// Default: 0.5. newmark.
-    pub gamma: Maybe<f64>,
-    /// Default: (gamma + 0.5)^2 / 4. newmark.
-    pub beta: Maybe<f64>,
-    /// From -1/3 to 0. Default: -0.05. hht-alpha.
-    pub alpha: Maybe<f64>,
-    /// What is left after a step of motion it does not resolve, from 0 to 1. Default: 0.8. generalized-alpha.
-    pub spectral_radius: Maybe<f64>,
-    /// The part of the step that the first stage covers. Default: 0.585786437626905, which lets one matrix serve both. bathe.
-    pub split: Maybe<f64>,
-    /// 5 or 8. Default: 8. runge-kutta.
-    pub order: Maybe<u64>,
-    /// How rotations follow from their increments. Default: "exponential", which is exact.
+    /// How rotations follow from their increments in a step. Default: "exponential", which is exact. Not with runge-kutta.
     pub rotation_update: Maybe<RotationUpdate>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scheme {
-    WilsonTheta,
-    Newmark,
-    HhtAlpha,
-    GeneralizedAlpha,
-    /// The trapezoidal rule, then backward differences: two stages.
-    Bathe,
-    /// Explicit, of second order: no matrix but the masses; steps shorter than the fastest mode of the scene asks for. "auto"
-    /// takes 0.8 of the longest step that is stable, 0.5 where contacts or links may stiffen.
-    CentralDifference,
-    /// Explicit, of high order: for scenes that are not stiff.
-    RungeKutta,
+impl Kinds for Integrator {
+    const CHOOSER: &'static str = "scheme";
+    const ABOUT: &'static str = "The scheme that integrates the motion in time. Default: \"wilson-theta\".";
+    const REQUIRED: bool = false;
+    type Make = Make;
+
+    fn list() -> &'static [&'static SchemeKind] {
+        &SCHEMES
+    }
 }
 
 /// How the equations of a step are solved.

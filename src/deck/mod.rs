@@ -24,14 +24,15 @@ pub mod set;
 pub mod shells;
 pub mod study;
 pub mod supports;
-pub mod words;
 
+pub use crate::words;
 pub use read::read;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::diagnostic::{At, Span};
+use words::kinds::OneOf;
 use words::{Maybe, Named, Names, Table, Vector};
 
 /// A deck of rdsolve: one scene and how to compute it. Units are SI or any consistent set.
@@ -44,7 +45,7 @@ pub struct Deck {
     pub units: Maybe<output::Units>,
     #[schemars(required)]
     pub analysis: Maybe<Table<analysis::Analysis>>,
-    pub integrator: Maybe<Table<analysis::Integrator>>,
+    pub integrator: Maybe<OneOf<analysis::Integrator>>,
     pub iteration: Maybe<Table<analysis::Iteration>>,
     /// Materials by name.
     #[serde(default)]

@@ -9,7 +9,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::analysis::{Integrator, Method};
 use super::set;
-use super::words::{Maybe, Named, Names, OneOrMany, Table};
+use super::words::kinds::OneOf;
+use super::words::{Maybe, Named, Names, OneOrMany};
 use crate::diagnostic::{At, Diagnostic, Span};
 
 /// What `rdsolve study` goes over: time steps, schemes, iteration methods, meshes.
@@ -41,7 +42,7 @@ pub struct Study {
     /// deck's own. A scheme without parameters has those of `[integrator]` where that names it too.
     #[serde(default)]
     #[schemars(with = "Vec<Written>")]
-    pub schemes: Vec<At<Table<Integrator>>>,
+    pub schemes: Vec<At<OneOf<Integrator>>>,
     /// Methods of `[iteration]`. Default: the deck's own.
     #[serde(default)]
     pub methods: Vec<At<Method>>,
@@ -57,7 +58,7 @@ pub struct Study {
 #[allow(dead_code)] // only its schema is used
 enum Written {
     Word(String),
-    Table(Box<Integrator>),
+    Table(Box<OneOf<Integrator>>),
 }
 
 /// A scheme written as a word, at a place of `study.schemes`.

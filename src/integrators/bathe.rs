@@ -3,7 +3,34 @@
 //! order, unconditionally stable, twice the work a step. With γ = 2 − √2 one matrix serves both stages (TR-BDF2).
 //! K. J. Bathe, M. M. I. Baig, Comput. Struct. 83 (2005); R. E. Bank et al., IEEE Trans. CAD 4 (1985).
 
-use super::{Coefficients, RotationUpdate, newmark};
+use std::sync::Arc;
+
+use super::coefficients::Coefficients;
+use super::newmark::Newmark;
+use super::scheme::{Backward, Make, Scheme, SchemeKind, Stepping, TwoStages};
+use crate::math::rotation::RotationUpdate;
+use crate::names::short;
+use crate::words::kinds::{Form, Key};
+
+pub static KIND: SchemeKind = SchemeKind {
+    word: "bathe",
+    aliases: &["tr-bdf2"],
+    about: "The trapezoidal rule, then backward differences: two stages. Implicit, second order, unconditionally stable; it \
+            removes what the step does not resolve.",
+    keys: &[Key {
+        name: "split",
+        form: Form::Number,
+        about: "Part of the step that the first stage covers, 0.05 to 0.95. Default: 2 - sqrt(2) = 0.585786437626905, with which \
+                both stages have the same matrix.",
+    }],
+    make: Make {
+        scheme: |given, rotation| {
+            let split = given.between("split", [0.05, 0.95], 2.0 - 2.0_f64.sqrt());
+            Arc::new(Bathe { split, rotation })
+        },
+        rotation_update: true,
+    },
+};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bathe {
@@ -12,27 +39,35 @@ pub struct Bathe {
     pub rotation: RotationUpdate,
 }
 
-/// Derivative at the end of the second stage from values at the start of the step, between the stages, and at the end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Backward {
-    pub start: f64,
-    pub between: f64,
-    pub end: f64,
-}
-
-impl Bathe {
-    pub fn first(&self, dt: f64) -> Coefficients {
-        newmark(0.5, 0.25, self.rotation).coefficients(self.split * dt)
+impl Scheme for Bathe {
+    fn word(&self) -> &'static str {
+        KIND.word
     }
 
-    pub fn backward(&self, dt: f64) -> Backward {
+    fn in_words(&self) -> String {
+        format!("{} split at {}", KIND.word, short(self.split))
+    }
+
+    fn stepping(&self) -> Stepping<'_> {
+        Stepping::Composite(self)
+    }
+
+    fn coefficients(&self, dt: f64) -> Coefficients {
+        Newmark { gamma: 0.5, beta: 0.25, rotation: self.rotation }.coefficients(self.split * dt)
+    }
+}
+
+impl TwoStages for Bathe {
+    fn split(&self) -> f64 {
+        self.split
+    }
+
+    fn backward(&self, dt: f64) -> Backward {
         let (h1, h2) = (self.split * dt, (1.0 - self.split) * dt);
         Backward { start: h2 / (h1 * dt), between: -dt / (h1 * h2), end: (h1 + 2.0 * h2) / (h2 * dt) }
     }
 
-    /// The second stage, from the motion between the stages. In place of v and a it takes b₀ q₀ and b₀ v₀ + b₁ v, with q₀ the
-    /// increment of the first stage, v₀ the velocity it began with, v the one it ended with, b of [`Bathe::backward`].
-    pub fn second(&self, dt: f64) -> Coefficients {
+    fn second(&self, dt: f64) -> Coefficients {
         let b = self.backward(dt).end;
         let h2 = (1.0 - self.split) * dt;
         // q̇ = b q − b₀ q₀ (q is counted from between the stages), q̈ = b q̇ + b₀ v₀ + b₁ v

@@ -5,7 +5,32 @@
 //! step, and of all schemes with that damping the low modes least; second order, unconditionally stable.
 //! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993); M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007).
 
-use super::{Coefficients, RotationUpdate};
+use std::sync::Arc;
+
+use super::coefficients::Coefficients;
+use super::scheme::{Make, Scheme, SchemeKind};
+use crate::math::rotation::RotationUpdate;
+use crate::names::short;
+use crate::words::kinds::{Form, Key};
+
+pub static KIND: SchemeKind = SchemeKind {
+    word: "generalized-alpha",
+    aliases: &[],
+    about: "Chung and Hulbert: of all one-stage schemes with a given damping of high modes the one that damps low modes least. \
+            Implicit, of second order, unconditionally stable.",
+    keys: &[Key {
+        name: "spectral_radius",
+        form: Form::Number,
+        about: "What a step leaves of motion that it does not resolve, from 0 (nothing) to 1 (all: no damping). Default: 0.8.",
+    }],
+    make: Make {
+        scheme: |given, rotation| {
+            let radius = given.between("spectral_radius", [0.0, 1.0], 0.8);
+            Arc::new(GeneralizedAlpha::new(radius, rotation))
+        },
+        rotation_update: true,
+    },
+};
 
 /// Newmark's scheme and HHT-α are members of the family.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,9 +50,19 @@ impl GeneralizedAlpha {
         let beta = 0.25 * (1.0 - alpha_m + alpha_f).powi(2);
         GeneralizedAlpha { alpha_m, alpha_f, gamma, beta, rotation }
     }
+}
+
+impl Scheme for GeneralizedAlpha {
+    fn word(&self) -> &'static str {
+        KIND.word
+    }
+
+    fn in_words(&self) -> String {
+        format!("{} with a spectral radius of {}", KIND.word, short(self.alpha_f / (1.0 - self.alpha_f)))
+    }
 
     /// Of (q, v, a, q̈ at the start).
-    pub fn coefficients(&self, dt: f64) -> Coefficients {
+    fn coefficients(&self, dt: f64) -> Coefficients {
         let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta, rotation } = *self;
         let (m, f) = ((1.0 - alpha_m) / (1.0 - alpha_f), 1.0 - alpha_f);
         // a₁ = q/(β Δt²) − v/(β Δt) − (1/2β − 1) a, v₁ = v + Δt ((1 − γ) a + γ a₁)
@@ -43,10 +78,30 @@ impl GeneralizedAlpha {
         }
     }
 
-    /// What a₁ is made of: (a, q̈ at the start, q̈₁). `None`: it is q̈₁.
-    pub fn follower(&self) -> Option<[f64; 3]> {
+    /// `None` where a₁ is q̈₁.
+    fn follower(&self) -> Option<[f64; 3]> {
         let m = 1.0 - self.alpha_m;
         let follows = self.alpha_m != 0.0 || self.alpha_f != 0.0;
         follows.then(|| [-self.alpha_m / m, self.alpha_f / m, (1.0 - self.alpha_f) / m])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    /// Newmark's formulas hold between the ends of a step with the acceleration that follows.
+    #[test]
+    fn the_follower_is_newmarks_acceleration() {
+        let scheme = GeneralizedAlpha::new(0.6, RotationUpdate::Exponential);
+        let (dt, v, a, b, q) = (0.1, 0.7, -2.0, -1.5, 0.05);
+        let c = scheme.coefficients(dt);
+        let rate = c.rate[0] * q + c.rate[1] * v + c.rate[2] * a;
+        let [c1, c2, c3, c4] = c.acceleration;
+        let acceleration = c1 * q + c2 * v + c3 * a + c4 * b;
+        let [of_a, of_start, of_end] = scheme.follower().expect("it is not equilibrium's");
+        let a1 = of_a * a + of_start * b + of_end * acceleration;
+        let (beta, gamma) = (scheme.beta, scheme.gamma);
+        assert!((dt * v + dt * dt * ((0.5 - beta) * a + beta * a1) - q).abs() < 1e-15);
+        assert!((v + dt * ((1.0 - gamma) * a + gamma * a1) - rate).abs() < 1e-14);
     }
 }

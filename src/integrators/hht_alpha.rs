@@ -1,10 +1,60 @@
 //! HHT-α: inertia at t + Δt, all other forces at t + (1 + α)Δt where the system is linear, −1/3 ≤ α ≤ 0: generalized-α with α_m = 0.
 //! H. M. Hilber, T. J. R. Hughes, R. L. Taylor, Earthquake Eng. Struct. Dyn. 5 (1977).
 
-use super::{GeneralizedAlpha, RotationUpdate};
+use std::sync::Arc;
+
+use super::coefficients::Coefficients;
+use super::generalized_alpha::GeneralizedAlpha;
+use super::scheme::{Make, Scheme, SchemeKind};
+use crate::math::rotation::RotationUpdate;
+use crate::words::kinds::{Form, Key};
+
+pub static KIND: SchemeKind = SchemeKind {
+    word: "hht-alpha",
+    aliases: &["hht"],
+    about: "Hilber, Hughes and Taylor: damps high modes and is of second order. Implicit, unconditionally stable.",
+    keys: &[Key {
+        name: "alpha",
+        form: Form::Number,
+        about: "From -1/3, the most damping, to 0, none. Default: -0.05.",
+    }],
+    make: Make {
+        scheme: |given, rotation| {
+            let alpha = given.between("alpha", [-1.0 / 3.0, 0.0], -0.05);
+            Arc::new(HhtAlpha { alpha, rotation })
+        },
+        rotation_update: true,
+    },
+};
 
 /// Second order and unconditionally stable for α from −1/3 to 0.
-pub fn hht_alpha(alpha: f64, rotation: RotationUpdate) -> GeneralizedAlpha {
-    let (gamma, beta) = (0.5 - alpha, 0.25 * (1.0 - alpha).powi(2));
-    GeneralizedAlpha { alpha_m: 0.0, alpha_f: -alpha, gamma, beta, rotation }
+#[derive(Debug, Clone, PartialEq)]
+pub struct HhtAlpha {
+    pub alpha: f64,
+    pub rotation: RotationUpdate,
+}
+
+impl HhtAlpha {
+    fn family(&self) -> GeneralizedAlpha {
+        let (gamma, beta) = (0.5 - self.alpha, 0.25 * (1.0 - self.alpha).powi(2));
+        GeneralizedAlpha { alpha_m: 0.0, alpha_f: -self.alpha, gamma, beta, rotation: self.rotation }
+    }
+}
+
+impl Scheme for HhtAlpha {
+    fn word(&self) -> &'static str {
+        KIND.word
+    }
+
+    fn in_words(&self) -> String {
+        format!("{} with alpha = {}", KIND.word, self.alpha)
+    }
+
+    fn coefficients(&self, dt: f64) -> Coefficients {
+        self.family().coefficients(dt)
+    }
+
+    fn follower(&self) -> Option<[f64; 3]> {
+        self.family().follower()
+    }
 }

@@ -1,6 +1,7 @@
 //! Load stepping: a static analysis is the scheme without rates.
 
-use super::{Coefficients, RotationUpdate};
+use super::coefficients::Coefficients;
+use crate::math::rotation::RotationUpdate;
 
 pub fn coefficients() -> Coefficients {
     Coefficients {

@@ -2,8 +2,95 @@
 //! trapezoidal rule: second order, no damping at all. With γ > ½ it damps, and is of first order. Unconditionally stable for
 //! 2β ≥ γ ≥ ½. N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959).
 
-use super::{GeneralizedAlpha, RotationUpdate};
+use std::sync::Arc;
 
-pub fn newmark(gamma: f64, beta: f64, rotation: RotationUpdate) -> GeneralizedAlpha {
-    GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.0, gamma, beta, rotation }
+use super::coefficients::Coefficients;
+use super::generalized_alpha::GeneralizedAlpha;
+use super::scheme::{Make, Scheme, SchemeKind};
+use crate::math::rotation::RotationUpdate;
+use crate::words::kinds::{Form, Given, Key};
+
+pub static KIND: SchemeKind = SchemeKind {
+    word: "newmark",
+    aliases: &[],
+    about: "Newmark's family; by default the trapezoidal rule, which damps nothing. Implicit; second order with gamma = 0.5, \
+            else first.",
+    keys: &[
+        Key {
+            name: "gamma",
+            form: Form::Number,
+            about: "Weight of the new acceleration in the velocity, 0.5 or more; above 0.5 the scheme damps and is of first \
+                    order. Default: 0.5.",
+        },
+        Key {
+            name: "beta",
+            form: Form::Number,
+            about: "Weight of the new acceleration in the displacement, above 0; unconditionally stable from gamma / 2 on. Default: \
+                    (gamma + 0.5)^2 / 4.",
+        },
+    ],
+    make: Make {
+        scheme: |given, rotation| {
+            let gamma = given.number("gamma").unwrap_or(0.5);
+            let beta = given.number("beta").unwrap_or(0.25 * (gamma + 0.5).powi(2));
+            check(given, gamma, beta);
+            Arc::new(Newmark { gamma, beta, rotation })
+        },
+        rotation_update: true,
+    },
+};
+
+/// Says what is not of second order or not unconditionally stable.
+fn check(given: &mut Given, gamma: f64, beta: f64) {
+    if gamma < 0.5 {
+        given.error_with::<()>("gamma", "`gamma` must be at least 0.5", "below, every motion grows");
+    } else if gamma > 0.5 {
+        let text = format!("Newmark with gamma = {gamma} is of first order");
+        given.warn("gamma", text, "\"generalized-alpha\" damps as well and is of second order");
+    }
+    if !given.has("beta") {
+        return;
+    }
+    if beta <= 0.0 {
+        given.error_with::<()>("beta", "`beta` must be above zero", "at zero the scheme is explicit");
+    } else if 2.0 * beta < gamma {
+        let text = format!("Newmark with beta = {beta} is not unconditionally stable");
+        given.warn("beta", text, format!("below {} long steps may grow without bound", 0.5 * gamma));
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Newmark {
+    pub gamma: f64,
+    pub beta: f64,
+    pub rotation: RotationUpdate,
+}
+
+impl Scheme for Newmark {
+    fn word(&self) -> &'static str {
+        KIND.word
+    }
+
+    fn in_words(&self) -> String {
+        format!("{} with gamma = {}, beta = {}", KIND.word, self.gamma, self.beta)
+    }
+
+    fn note(&self) -> Option<&'static str> {
+        Some(match self.order() {
+            2 => {
+                "the trapezoidal rule damps nothing: modes that no step resolves go on ringing in velocities, accelerations and \
+                 reactions"
+            }
+            _ => "with gamma above 0.5 the scheme is of first order and damps low modes too",
+        })
+    }
+
+    fn order(&self) -> usize {
+        if self.gamma == 0.5 { 2 } else { 1 }
+    }
+
+    fn coefficients(&self, dt: f64) -> Coefficients {
+        let Newmark { gamma, beta, rotation } = *self;
+        GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.0, gamma, beta, rotation }.coefficients(dt)
+    }
 }

@@ -6,8 +6,36 @@
 
 #![allow(clippy::excessive_precision)] // as published
 
-/// Members of a sum over stages that are not nil: (stage, weight).
-pub type Weights = &'static [(usize, f64)];
+use std::sync::Arc;
+
+use super::central_difference::CentralDifference;
+use super::coefficients::Coefficients;
+use super::scheme::{Make, Scheme, SchemeKind, Stepping};
+use super::tableau::Tableau;
+use crate::math::rotation::RotationUpdate;
+use crate::words::kinds::{Form, Key};
+
+pub static KIND: SchemeKind = SchemeKind {
+    word: "runge-kutta",
+    aliases: &[],
+    about: "Dormand and Prince, explicit, of high order: for scenes that are not stiff. It does not take material that yields.",
+    keys: &[Key {
+        name: "order",
+        form: Form::Count,
+        about: "Order of the error in the time step, 5 or 8. Default: 8.",
+    }],
+    make: Make {
+        scheme: |given, _| {
+            let order = given.number("order").unwrap_or(8.0);
+            let scheme = RungeKutta::of_order(order as usize);
+            if scheme.is_none() {
+                given.error_with::<()>("order", format!("there is no Runge-Kutta scheme of order {order}"), "5 or 8");
+            }
+            Arc::new(scheme.unwrap_or_default())
+        },
+        rotation_update: false,
+    },
+};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct RungeKutta {
@@ -28,27 +56,29 @@ impl Default for RungeKutta {
     }
 }
 
-/// The numbers of a scheme. Stages count from 0, at the start of the step; the last is the end of the step, which the next
-/// one begins with.
-#[derive(Debug, PartialEq)]
-pub struct Tableau {
-    pub order: usize,
-    /// When the stages after the first are, as parts of the step.
-    pub c: &'static [f64],
-    /// What their motion is made of.
-    pub a: &'static [Weights],
-    /// What the end of the step is made of.
-    pub b: Weights,
-    /// Differences to the embedded schemes; where there are two, e₁²/√(e₁² + e₂²/100) is the error.
-    pub errors: &'static [Weights],
-    /// The error of a step falls with this power of its length.
-    pub error_order: f64,
-}
+impl Scheme for RungeKutta {
+    fn word(&self) -> &'static str {
+        KIND.word
+    }
 
-impl Tableau {
-    /// Of one step, those at its end included.
-    pub fn stages(&self) -> usize {
-        self.c.len() + 2
+    fn in_words(&self) -> String {
+        format!("{} of order {}", KIND.word, self.tableau.order)
+    }
+
+    fn note(&self) -> Option<&'static str> {
+        Some("explicit: stiff scenes need very short steps, and implicit schemes less time")
+    }
+
+    fn order(&self) -> usize {
+        self.tableau.order
+    }
+
+    fn stepping(&self) -> Stepping<'_> {
+        Stepping::RungeKutta(self.tableau)
+    }
+
+    fn coefficients(&self, dt: f64) -> Coefficients {
+        CentralDifference { rotation: RotationUpdate::Exponential }.coefficients(dt)
     }
 }
 
@@ -194,6 +224,7 @@ pub static DORMAND_PRINCE_5: Tableau = Tableau {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::integrators::tableau::Weights;
 
     /// A rooted tree by its branches, biggest first.
     #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]

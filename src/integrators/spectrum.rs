@@ -1,19 +1,20 @@
-//! What a scheme makes of a free oscillator: eigenvalues of a step.
+//! The numerical damping and period elongation of a scheme: the eigenvalues of its step of a free oscillator.
 
-use super::{Coefficients, Scheme};
+use super::coefficients::Coefficients;
+use super::scheme::{Scheme, Stepping};
 use nalgebra::{Complex, Matrix4};
 
-/// Of motion at one ratio of step to period.
+/// What a scheme does to motion at one ratio of step to period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spectrum {
-    /// Of the period, relative.
+    /// By how much the period comes out too long, relative.
     pub elongation: f64,
     /// Damping ratio.
     pub damping: f64,
 }
 
-/// Of a free oscillator with ω Δt = `turn`, below the limit of stability.
-pub fn spectrum(scheme: &Scheme, turn: f64) -> Spectrum {
+/// The spectrum for a free oscillator with ω Δt = `turn`, below the limit of stability.
+pub fn spectrum(scheme: &dyn Scheme, turn: f64) -> Spectrum {
     let principal = principal(scheme, turn);
     let phase = principal.arg();
     let log = -principal.norm().ln();
@@ -21,13 +22,13 @@ pub fn spectrum(scheme: &Scheme, turn: f64) -> Spectrum {
 }
 
 /// c, for a scheme of second order: in a step of a smooth motion a displacement goes wrong by c Δt³ |q‴|.
-pub fn error_constant(scheme: &Scheme) -> f64 {
+pub fn error_constant(scheme: &dyn Scheme) -> f64 {
     const TURN: f64 = 0.1; // small, and far above the rounding of eigenvalues
     (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(3)
 }
 
 /// The eigenvalue that stands for e^{iωΔt}.
-fn principal(scheme: &Scheme, turn: f64) -> Complex<f64> {
+fn principal(scheme: &dyn Scheme, turn: f64) -> Complex<f64> {
     let unit = |j: usize| std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
     let columns = [0, 1, 2, 3].map(|j| step(scheme, turn, unit(j)));
     let A = Matrix4::from_fn(|i, j| columns[j][i]);
@@ -35,7 +36,7 @@ fn principal(scheme: &Scheme, turn: f64) -> Complex<f64> {
 }
 
 /// A step of length 1 from (u, v, a, q̈), where a is what the scheme runs on.
-fn step(scheme: &Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
+fn step(scheme: &dyn Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
     let omega2 = turn * turn;
     if scheme.is_explicit() {
         return explicit(&scheme.coefficients(1.0), omega2, start);
@@ -44,9 +45,9 @@ fn step(scheme: &Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
     if let Some([of_a, of_start, of_end]) = scheme.follower() {
         end[2] = of_a * start[2] + of_start * start[3] + of_end * end[3];
     }
-    let Scheme::Bathe(bathe) = scheme else { return end };
-    let b = bathe.backward(1.0);
-    stage(&bathe.second(1.0), omega2, end, [b.start * q0, b.start * start[1] + b.between * end[1]]).0
+    let Stepping::Composite(stages) = scheme.stepping() else { return end };
+    let b = stages.backward(1.0);
+    stage(&stages.second(1.0), omega2, end, [b.start * q0, b.start * start[1] + b.between * end[1]]).0
 }
 
 /// One stage for q̈ = −ω² u from (u, v, a, q̈) with `slots` in place of (v, a); returns the increment too.
@@ -72,20 +73,21 @@ fn explicit(c: &Coefficients, omega2: f64, [u, v, a, _]: [f64; 4]) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::integrators::{
-        Bathe, CentralDifference, GeneralizedAlpha, RotationUpdate, WilsonTheta, hht_alpha, newmark,
+        Bathe, CentralDifference, GeneralizedAlpha, HhtAlpha, Newmark, RotationUpdate, WilsonTheta,
     };
     use std::f64::consts::TAU;
+    use std::sync::Arc;
 
     /// The schemes are what their names say: eigenvalues of the amplification matrix by their definitions, for Δt/T = 0.05, 0.1
     /// and 0.2, to the digits given.
     #[test]
     fn spectra_of_the_free_oscillator() {
         let exact = RotationUpdate::Exponential;
-        let radius = |radius| Scheme::GeneralizedAlpha(GeneralizedAlpha::new(radius, exact));
-        let hht = |alpha| Scheme::HhtAlpha(hht_alpha(alpha, exact));
-        let wilson = |theta| Scheme::WilsonTheta(WilsonTheta { theta, rotation: exact });
-        let newmark = |gamma, beta| Scheme::Newmark(newmark(gamma, beta, exact));
-        let cases = [
+        let radius = |radius| -> Arc<dyn Scheme> { Arc::new(GeneralizedAlpha::new(radius, exact)) };
+        let hht = |alpha| Arc::new(HhtAlpha { alpha, rotation: exact });
+        let wilson = |theta| Arc::new(WilsonTheta { theta, rotation: exact });
+        let newmark = |gamma, beta| Arc::new(Newmark { gamma, beta, rotation: exact });
+        let cases: [(Arc<dyn Scheme>, _); 10] = [
             (wilson(1.4), [(1.71063, 0.0023165), (6.14622, 0.0139794), (19.36534, 0.0558601)]),
             (wilson(1.37), [(1.59122, 0.0020432), (5.75237, 0.0125216), (18.25189, 0.0512614)]),
             (newmark(0.5, 0.25), [(0.81712, 0.0), (3.20749, 0.0), (12.00331, 0.0)]),
@@ -96,17 +98,17 @@ mod tests {
             (radius(0.5), [(1.21566, 0.000545), (4.67153, 0.00378), (16.53643, 0.0195094)]),
             (radius(0.0), [(3.90844, 0.0116254), (12.32057, 0.054905), (34.36675, 0.166553)]),
             (
-                Scheme::Bathe(Bathe { split: 0.5, rotation: exact }),
+                Arc::new(Bathe { split: 0.5, rotation: exact }),
                 [(0.40950, 0.0001063), (1.61794, 0.0008187), (6.18705, 0.0057035)],
             ),
         ];
         // cos Ω = 1 − (ω Δt)²/2 at Ω = ω' Δt: periods come out short, and nothing is damped.
         let exactly = |dt: f64| (100.0 * (TAU * dt / (1.0 - 0.5 * (TAU * dt).powi(2)).acos() - 1.0), 0.0);
-        let central = Scheme::CentralDifference(CentralDifference { rotation: exact });
+        let central: Arc<dyn Scheme> = Arc::new(CentralDifference { rotation: exact });
         let cases = cases.into_iter().chain([(central, [0.05, 0.1, 0.2].map(exactly))]);
         for (scheme, rows) in cases {
             for (dt, (elongation, damping)) in [0.05, 0.1, 0.2].into_iter().zip(rows) {
-                let got = spectrum(&scheme, TAU * dt);
+                let got = spectrum(&*scheme, TAU * dt);
                 assert!((100.0 * got.elongation - elongation).abs() < 1e-5, "{scheme:?} at {dt}: {got:?}");
                 // The table rounds damping to four digits or to 1e-7, whichever is coarser.
                 assert!((got.damping - damping).abs() < 1e-7_f64.max(6e-4 * damping), "{scheme:?} at {dt}: {got:?}");
@@ -117,7 +119,7 @@ mod tests {
     /// By the textbook: 1/12 for the trapezoidal rule, whose only error is one of phase.
     #[test]
     fn error_of_the_trapezoidal_rule() {
-        let c = error_constant(&Scheme::Newmark(newmark(0.5, 0.25, RotationUpdate::Exponential)));
+        let c = error_constant(&Newmark { gamma: 0.5, beta: 0.25, rotation: RotationUpdate::Exponential });
         // The next term of the series is (ωΔt)² = 1e-2 times as large.
         assert!((c - 1.0 / 12.0).abs() < 1e-2 / 12.0, "{c}");
     }

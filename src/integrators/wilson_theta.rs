@@ -3,10 +3,40 @@
 //! as much as the trapezoidal rule, overshoots, and leaves equilibrium unsatisfied at t + Δt.
 //! E. L. Wilson, I. Farhoomand, K. J. Bathe, Earthquake Eng. Struct. Dyn. 1 (1973).
 
-use super::{Coefficients, RotationUpdate};
+use std::sync::Arc;
+
+use super::coefficients::Coefficients;
+use super::scheme::{Make, Scheme, SchemeKind};
+use crate::math::rotation::RotationUpdate;
+use crate::words::kinds::{Form, Key};
 
 /// Below this the scheme is only conditionally stable.
-pub const STABLE_THETA: f64 = 1.366;
+const STABLE_THETA: f64 = 1.366;
+
+pub static KIND: SchemeKind = SchemeKind {
+    word: "wilson-theta",
+    aliases: &["wilson"],
+    about: "Linear acceleration over theta steps, with equilibrium at the end of these. Implicit, of second order; damps high modes.",
+    keys: &[Key {
+        name: "theta",
+        form: Form::Number,
+        about: "Equilibrium is written at t + theta * time_step; 1 or more, unconditionally stable from 1.366 on. Default: 1.4.",
+    }],
+    make: Make {
+        scheme: |given, rotation| {
+            let theta = given.number("theta").unwrap_or(1.4);
+            if theta < 1.0 {
+                given.error::<()>("theta", "`theta` must be at least 1");
+            } else if theta < STABLE_THETA {
+                let limit = format!("below {STABLE_THETA} long steps may grow without bound");
+                let message = format!("Wilson-theta with theta = {theta} is not unconditionally stable");
+                given.warn("theta", message, limit);
+            }
+            Arc::new(WilsonTheta { theta, rotation })
+        },
+        rotation_update: true,
+    },
+};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct WilsonTheta {
@@ -15,8 +45,23 @@ pub struct WilsonTheta {
     pub rotation: RotationUpdate,
 }
 
-impl WilsonTheta {
-    pub fn coefficients(&self, dt: f64) -> Coefficients {
+impl Scheme for WilsonTheta {
+    fn word(&self) -> &'static str {
+        KIND.word
+    }
+
+    fn in_words(&self) -> String {
+        format!("{} with theta = {}", KIND.word, self.theta)
+    }
+
+    fn note(&self) -> Option<&'static str> {
+        Some(
+            "Wilson-theta damps modes shorter than about 10 steps a period and overshoots their accelerations and \
+             velocities in the first steps; equilibrium holds at t + theta dt, reactions are taken there",
+        )
+    }
+
+    fn coefficients(&self, dt: f64) -> Coefficients {
         let theta = self.theta;
         let tau = theta * dt;
         // q = τ v + τ²/6 (2 a + a_τ), q̇_τ = v + τ/2 (a + a_τ), solved for a_τ.

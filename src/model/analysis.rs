@@ -7,13 +7,12 @@ use super::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Par
 use crate::deck::Deck;
 use crate::deck::analysis as words;
 use crate::deck::read::ROOT;
-use crate::deck::words::{Maybe, NumberOrAuto, Table};
+use crate::deck::words::kinds::OneOf;
+use crate::deck::words::{NumberOrAuto, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
-use crate::integrators::wilson_theta::STABLE_THETA;
-use crate::integrators::{
-    Bathe, CentralDifference, GeneralizedAlpha, RotationUpdate, RungeKutta, Scheme, WilsonTheta, hht_alpha, newmark,
-};
+use crate::integrators::{SCHEMES, Scheme, Stepping, default_scheme};
 use crate::names::short;
+use std::sync::Arc;
 
 /// A step is halved at most so many times, unless the deck says otherwise.
 const HALVINGS: i32 = 20;
@@ -25,7 +24,7 @@ const STEPS: f64 = 20.0;
 /// How a scene is computed, before the supports say what leads it on.
 pub(super) struct Procedure {
     pub analysis: Analysis,
-    pub scheme: Scheme,
+    pub scheme: Arc<dyn Scheme>,
     pub iteration: Iteration,
 }
 
@@ -46,10 +45,9 @@ pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure
             }
         }
     };
-    let default = || Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential });
-    let scheme = deck.integrator.as_ref().map_or_else(default, |integrator| self::scheme(integrator, report));
+    let scheme = deck.integrator.as_ref().map_or_else(default_scheme, |integrator| self::scheme(integrator, report));
     if let (StepLength::ErrorControlled { tolerance, .. }, Some(table)) = (&analysis.step_length, &deck.analysis) {
-        check_error_control(*tolerance, table, &scheme, report);
+        check_error_control(*tolerance, table, &*scheme, report);
     }
     Procedure { analysis, scheme, iteration: iteration(deck.iteration.as_ref(), report) }
 }
@@ -133,13 +131,12 @@ fn time_step<'d>(
 }
 
 /// What an error is estimated by holds for schemes of second order, and digits bound how small it can be.
-fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &Scheme, report: &mut Report) {
-    if let Scheme::Newmark(GeneralizedAlpha { gamma, .. }) = scheme
-        && *gamma != 0.5
+fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &dyn Scheme, report: &mut Report) {
+    if scheme.order() < 2
         && let Some(at) = &table.time_step
     {
-        let message = format!("`time_step` is \"auto\", but Newmark with gamma = {gamma} is of first order");
-        report.error_with::<()>(&at.span, message, "leave gamma at 0.5, or use \"generalized-alpha\"");
+        let message = format!("`time_step` is \"auto\", but {} is of first order", scheme.in_words());
+        report.error_with::<()>(&at.span, message, "take a scheme of second order, such as \"generalized-alpha\"");
     }
     if let Some(at) = &table.error_tolerance {
         can_be_kept("error_tolerance", tolerance, scheme, &at.span, report);
@@ -148,7 +145,7 @@ fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &Scheme,
 
 /// Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p), the sum may be more than the tolerance. (A mass on
 /// a spring ends at 7e-11, whatever is asked of a scheme of second order.)
-pub(super) fn can_be_kept(key: &str, tolerance: f64, scheme: &Scheme, place: &Span, report: &mut Report) {
+pub(super) fn can_be_kept(key: &str, tolerance: f64, scheme: &dyn Scheme, place: &Span, report: &mut Report) {
     let order = scheme.order() as f64;
     let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
     if tolerance > 0.0 && tolerance < least {
@@ -158,108 +155,35 @@ pub(super) fn can_be_kept(key: &str, tolerance: f64, scheme: &Scheme, place: &Sp
     }
 }
 
-pub(super) fn scheme<'d>(integrator: &'d words::Integrator, report: &mut Report<'d>) -> Scheme {
+/// The scheme that a table like `[integrator]` asks for.
+pub(super) fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Report<'d>) -> Arc<dyn Scheme> {
+    let kind = integrator.kind.as_ref().map_or(SCHEMES[0], |kind| kind.value);
+    let owner = Owner::new(format!("the scheme \"{}\"", kind.word), &integrator.span);
+    if !kind.make.rotation_update {
+        report.reject_unused(&owner.what, &[("rotation_update", span(&integrator.rotation_update))]);
+    }
     let rotation = chosen(&integrator.rotation_update);
-    let word = integrator.scheme.as_ref().map_or(words::Scheme::WilsonTheta, |scheme| scheme.value);
-    let keys = [
-        ("theta", &integrator.theta, words::Scheme::WilsonTheta),
-        ("gamma", &integrator.gamma, words::Scheme::Newmark),
-        ("beta", &integrator.beta, words::Scheme::Newmark),
-        ("alpha", &integrator.alpha, words::Scheme::HhtAlpha),
-        ("spectral_radius", &integrator.spectral_radius, words::Scheme::GeneralizedAlpha),
-        ("split", &integrator.split, words::Scheme::Bathe),
-    ];
-    let unused = keys.iter().filter(|(.., of)| *of != word).map(|(key, value, _)| (*key, span(value)));
-    let mut unused: Vec<_> = unused.collect();
-    if word == words::Scheme::RungeKutta {
-        unused.push(("rotation_update", span(&integrator.rotation_update)));
-    } else {
-        unused.push(("order", span(&integrator.order)));
-    }
-    let scheme = match word {
-        words::Scheme::WilsonTheta => {
-            let theta = theta(integrator, report);
-            Scheme::WilsonTheta(WilsonTheta { theta, rotation })
-        }
-        words::Scheme::Newmark => {
-            let (gamma, beta) = gamma_and_beta(integrator, report);
-            Scheme::Newmark(newmark(gamma, beta, rotation))
-        }
-        words::Scheme::HhtAlpha => {
-            let alpha = between("alpha", &integrator.alpha, [-1.0 / 3.0, 0.0], -0.05, report);
-            Scheme::HhtAlpha(hht_alpha(alpha, rotation))
-        }
-        words::Scheme::GeneralizedAlpha => {
-            let radius = between("spectral_radius", &integrator.spectral_radius, [0.0, 1.0], 0.8, report);
-            Scheme::GeneralizedAlpha(GeneralizedAlpha::new(radius, rotation))
-        }
-        words::Scheme::Bathe => {
-            let split = between("split", &integrator.split, [0.05, 0.95], 2.0 - 2.0_f64.sqrt(), report);
-            Scheme::Bathe(Bathe { split, rotation })
-        }
-        words::Scheme::CentralDifference => Scheme::CentralDifference(CentralDifference { rotation }),
-        words::Scheme::RungeKutta => Scheme::RungeKutta(runge_kutta(integrator, report)),
-    };
-    report.reject_unused(&format!("the scheme \"{}\"", scheme.word()), &unused);
-    scheme
-}
-
-fn theta(integrator: &words::Integrator, report: &mut Report) -> f64 {
-    let theta = integrator.theta.as_ref().map_or(1.4, |theta| theta.value);
-    if let Some(at) = &integrator.theta {
-        if theta < 1.0 {
-            report.error::<()>(&at.span, "`theta` must be at least 1");
-        } else if theta < STABLE_THETA {
-            let limit = format!("below {STABLE_THETA} long steps may grow without bound");
-            report.warn(&at.span, format!("Wilson-theta with theta = {theta} is not unconditionally stable"), limit);
-        }
-    }
-    theta
-}
-
-/// γ and β; what is not second order or not unconditionally stable is said.
-fn gamma_and_beta(integrator: &words::Integrator, report: &mut Report) -> (f64, f64) {
-    let gamma = integrator.gamma.as_ref().map_or(0.5, |gamma| gamma.value);
-    let beta = integrator.beta.as_ref().map_or(0.25 * (gamma + 0.5).powi(2), |beta| beta.value);
-    if let Some(at) = &integrator.gamma {
-        if gamma < 0.5 {
-            report.error_with::<()>(&at.span, "`gamma` must be at least 0.5", "below, every motion grows");
-        } else if gamma > 0.5 {
-            let text = format!("Newmark with gamma = {gamma} is of first order");
-            report.warn(&at.span, text, "\"generalized-alpha\" damps as well and is of second order");
-        }
-    }
-    if let Some(at) = &integrator.beta {
-        if beta <= 0.0 {
-            report.error_with::<()>(&at.span, "`beta` must be above zero", "at zero the scheme is explicit");
-        } else if 2.0 * beta < gamma {
-            let text = format!("Newmark with beta = {beta} is not unconditionally stable");
-            report.warn(&at.span, text, format!("below {} long steps may grow without bound", 0.5 * gamma));
-        }
-    }
-    (gamma, beta)
-}
-
-fn runge_kutta(integrator: &words::Integrator, report: &mut Report) -> RungeKutta {
-    let order = integrator.order.as_ref().map_or(8, |order| order.value);
-    let scheme = usize::try_from(order).ok().and_then(RungeKutta::of_order);
-    if let (None, Some(at)) = (&scheme, &integrator.order) {
-        report.error_with::<()>(&at.span, format!("there is no Runge-Kutta scheme of order {order}"), "5 or 8");
-    }
-    scheme.unwrap_or_default()
+    report.read(&owner, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))
 }
 
 /// Whether a scheme, named at `place`, goes with material that yields.
-pub(super) fn check_yielding(scheme: &Scheme, place: &Span, yields: bool, report: &mut Report) {
-    if yields && matches!(scheme, Scheme::RungeKutta(_)) {
+pub(super) fn check_yielding(scheme: &dyn Scheme, place: &Span, yields: bool, report: &mut Report) {
+    if yields && matches!(scheme.stepping(), Stepping::RungeKutta(_)) {
         let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
-        report.error_with::<()>(place, "\"runge-kutta\" does not go with material that yields", hint);
+        let message = format!("\"{}\" does not go with material that yields", scheme.word());
+        report.error_with::<()>(place, message, hint);
     }
 }
 
 /// Reports what an explicit scheme cannot do, once all parts are known.
-pub(super) fn check_explicit(deck: &Deck, kind: AnalysisKind, scheme: &Scheme, parts: &[Part], report: &mut Report) {
-    let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.scheme.as_ref()) else { return };
+pub(super) fn check_explicit(
+    deck: &Deck,
+    kind: AnalysisKind,
+    scheme: &dyn Scheme,
+    parts: &[Part],
+    report: &mut Report,
+) {
+    let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.kind.as_ref()) else { return };
     if kind == AnalysisKind::Static || !scheme.is_explicit() {
         return;
     }
@@ -269,21 +193,9 @@ pub(super) fn check_explicit(deck: &Deck, kind: AnalysisKind, scheme: &Scheme, p
         report.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
     }
     let tolerance = deck.analysis.as_ref().and_then(|analysis| analysis.error_tolerance.as_ref());
-    if let (Scheme::CentralDifference(_), Some(tolerance)) = (scheme, tolerance) {
-        let message = "`error_tolerance` means nothing for the scheme \"central-difference\"";
+    if let (Stepping::Verlet, Some(tolerance)) = (scheme.stepping(), tolerance) {
+        let message = format!("`error_tolerance` means nothing for the scheme \"{}\"", scheme.word());
         report.error_with::<()>(&tolerance.span, message, "its steps are as long as is stable");
-    }
-}
-
-fn between(key: &str, value: &Maybe<f64>, [low, high]: [f64; 2], default: f64, report: &mut Report) -> f64 {
-    match value {
-        Some(at) if !(low..=high).contains(&at.value) => {
-            let range = format!("from {} to {}", short(low), short(high));
-            report.error_with::<()>(&at.span, format!("`{key}` lies out of its range"), range);
-            default
-        }
-        Some(at) => at.value,
-        None => default,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Deck → model, all errors together: the tables in the order in which each needs what the ones before it have made.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::amplitudes::amplitudes;
 use super::analysis::{Procedure, analysis, check_explicit};
@@ -45,7 +46,7 @@ use super::{
 };
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Source};
-use crate::integrators::Scheme;
+use crate::integrators::{Scheme, Stepping};
 
 /// Reads a deck and builds its model; everything there is to say about it, in the order of the deck.
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
@@ -175,7 +176,7 @@ fn points(deck: &Deck, nodes: &mut Nodes) {
 /// Looks for what is odd about the whole; returns what to record of the mesh.
 fn check(
     scene: &Scene,
-    scheme: &Scheme,
+    scheme: &Arc<dyn Scheme>,
     groups: Groups,
     topology: &Topology,
     joints: &[Joint],
@@ -193,7 +194,7 @@ fn check(
     if kind == AnalysisKind::Static {
         check_static(deck, report);
     }
-    check_explicit(deck, kind, scheme, &parts.list, report);
+    check_explicit(deck, kind, &**scheme, &parts.list, report);
     if let Some(units) = &deck.units {
         check_units(deck, units.value, report);
     }
@@ -218,7 +219,7 @@ fn lead_on(
 
 /// What can be told of the whole model alone: stable steps, nodes that nothing needs, and the list of all that are left.
 fn finish(model: &mut Model, all_nodes: bool) {
-    if model.analysis.step_length.is_automatic() && matches!(model.scheme, Scheme::CentralDifference(_)) {
+    if model.analysis.step_length.is_automatic() && matches!(model.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: stable_fraction(model) };
     }
     drop_unused(model);

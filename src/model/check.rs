@@ -51,10 +51,7 @@ pub(super) fn check_static(deck: &Deck, report: &mut Report) {
     }
     // Rotations are updated in load steps too.
     let Some(integrator) = &deck.integrator else { return };
-    let numbers = [&integrator.theta, &integrator.gamma, &integrator.beta, &integrator.alpha];
-    let numbers = numbers.into_iter().chain([&integrator.spectral_radius, &integrator.split]).filter_map(span);
-    let words = [span(&integrator.scheme), span(&integrator.order)].into_iter().flatten();
-    for place in words.chain(numbers) {
+    for place in span(&integrator.kind).into_iter().chain(integrator.values.places()) {
         report.warn(place, "this has no effect in a static analysis", "load steps take no scheme in time");
     }
 }

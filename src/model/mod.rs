@@ -73,6 +73,7 @@ use crate::elements::pressure::Face;
 use crate::integrators::Scheme;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
+use std::sync::Arc;
 
 /// A scene, checked and ready to be planned.
 #[derive(Debug, Clone)]
@@ -81,7 +82,7 @@ pub struct Model {
     /// Label of the unit system, for output only.
     pub units: Option<String>,
     pub analysis: Analysis,
-    pub scheme: Scheme,
+    pub scheme: Arc<dyn Scheme>,
     pub iteration: Iteration,
     pub nodes: Vec<Node>,
     pub bodies: Vec<Body>,

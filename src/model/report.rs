@@ -4,6 +4,7 @@
 
 use crate::deck::Deck;
 use crate::deck::read::ROOT;
+use crate::deck::words::kinds::{Given, Kind, Values};
 use crate::deck::words::{Maybe, Named, Numbers, Vector};
 use crate::diagnostic::{At, Diagnostic, Span};
 use crate::math::Vec3;
@@ -186,6 +187,24 @@ impl<'d> Report<'d> {
                 self.error::<()>(place, format!("`{key}` means nothing for {what}"));
             }
         }
+    }
+
+    /// Reads a table that is one of several kinds by `read`, and reports what is wrong; keys of other kinds are an error.
+    pub fn read<M, T>(
+        &mut self,
+        owner: &Owner<'d>,
+        values: &'d Values,
+        kind: &Kind<M>,
+        read: impl FnOnce(&mut Given) -> T,
+    ) -> T {
+        let spoiled = &self.deck.spoiled;
+        let here = |table: &Option<Span>| table.as_ref().is_none_or(|table| table == owner.span);
+        let unreadable = spoiled.iter().filter(|entry| here(&entry.table)).map(|entry| entry.key.as_str());
+        let mut given = Given::new(&owner.what, owner.span, values, unreadable.collect());
+        given.reject_others(kind);
+        let value = read(&mut given);
+        self.problems.extend(given.problems);
+        value
     }
 
     /// The entry of a table of names; `what` is one of them, in singular.

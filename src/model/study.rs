@@ -8,13 +8,15 @@ use super::scene::Scene;
 use super::{Method, Node, Part};
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
+use crate::deck::words::kinds::OneOf;
 use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::{At, Span};
-use crate::integrators::Scheme;
+use crate::integrators::{SCHEMES, Scheme};
 use crate::names::nearest;
+use std::sync::Arc;
 
 /// What is gone over, and what errors are measured on.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Study {
     /// Empty: displacements of all nodes in nodes.csv and of all bodies.
     pub quantities: Vec<Quantity>,
@@ -61,11 +63,11 @@ impl Quantity {
 }
 
 /// A scheme with its parameters.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Choice {
     /// "newmark:gamma=0.6".
     pub label: String,
-    pub scheme: Scheme,
+    pub scheme: Arc<dyn Scheme>,
     /// The table `[integrator]` that asks for it, in line.
     pub table: String,
 }
@@ -81,7 +83,12 @@ const MOST_RUNGS: usize = 60;
 const MOST_SAMPLES: u64 = 1_000_000;
 
 /// Checks `[study]` of a deck whose own scheme is known.
-pub(super) fn study<'d>(scene: &Scene<'d>, scheme: &Scheme, nodes: &[Node], report: &mut Report<'d>) -> Option<Study> {
+pub(super) fn study<'d>(
+    scene: &Scene<'d>,
+    scheme: &Arc<dyn Scheme>,
+    nodes: &[Node],
+    report: &mut Report<'d>,
+) -> Option<Study> {
     let table = scene.deck.study.as_ref()?;
     Some(Reader { scene, scheme, nodes, report }.study(table))
 }
@@ -89,7 +96,7 @@ pub(super) fn study<'d>(scene: &Scene<'d>, scheme: &Scheme, nodes: &[Node], repo
 struct Reader<'a, 'd> {
     scene: &'a Scene<'d>,
     /// The deck's own.
-    scheme: &'a Scheme,
+    scheme: &'a Arc<dyn Scheme>,
     nodes: &'a [Node],
     report: &'a mut Report<'d>,
 }
@@ -122,10 +129,10 @@ impl<'d> Reader<'_, 'd> {
         let finest = study.finest.as_ref().is_some_and(|finest| finest.value);
         let schemes = self.schemes(study);
         if let (Some(at), Some(&least)) = (&study.error_tolerances, error_tolerances.last()) {
-            let listed: Vec<Scheme> = schemes.iter().map(|choice| choice.scheme.clone()).collect();
+            let listed: Vec<Arc<dyn Scheme>> = schemes.iter().map(|choice| choice.scheme.clone()).collect();
             let all = if listed.is_empty() { vec![self.scheme.clone()] } else { listed };
             for scheme in &all {
-                can_be_kept("error_tolerances", least, scheme, &at.span, self.report);
+                can_be_kept("error_tolerances", least, &**scheme, &at.span, self.report);
             }
         }
         let methods = self.methods(&study.methods);
@@ -255,17 +262,16 @@ impl<'d> Reader<'_, 'd> {
         let yields = self.scene.parts.list.iter().any(Part::yields);
         let mut choices: Vec<Choice> = Vec::new();
         for at in &study.schemes {
-            let integrator: &'d deck::Integrator = at;
             let owner = Owner::new("a scheme of `schemes`", &at.span);
-            if self.report.require(&owner, "scheme", &integrator.scheme).is_none() {
+            if self.report.require(&owner, "scheme", &at.kind).is_none() {
                 continue;
             }
             // Errors are said in the words of `[integrator]`; what a scheme is warned of, a study shows.
             let mark = self.report.mark();
-            let mut scheme = read_scheme(integrator, self.report);
+            let mut scheme = read_scheme(at, self.report);
             self.report.forget_warnings_since(mark);
             let word = scheme.word();
-            let mut entries = entries(integrator);
+            let mut entries = entries(at);
             let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| update.value.word());
             if word == self.scheme.word()
                 && entries.is_empty()
@@ -278,7 +284,7 @@ impl<'d> Reader<'_, 'd> {
             {
                 entries.push(("rotation_update", format!("\"{rotation}\"")));
             }
-            check_yielding(&scheme, &at.span, yields, self.report);
+            check_yielding(&*scheme, &at.span, yields, self.report);
             let choice = choice(&scheme, &entries);
             if choices.iter().any(|other| other.label == choice.label) {
                 self.report.error::<()>(&at.span, format!("`{}` is listed twice", choice.label));
@@ -308,30 +314,17 @@ pub fn obstacle(model: &super::Model) -> Option<&'static str> {
 }
 
 /// What an integrator says besides its scheme, as TOML.
-fn entries(integrator: &deck::Integrator) -> Vec<(&'static str, String)> {
-    // Named one by one, so that none is forgotten.
-    let deck::Integrator { scheme: _, theta, gamma, beta, alpha, spectral_radius, split, order, rotation_update } =
-        integrator;
-    let numbers = [
-        ("theta", theta),
-        ("gamma", gamma),
-        ("beta", beta),
-        ("alpha", alpha),
-        ("spectral_radius", spectral_radius),
-        ("split", split),
-    ];
+fn entries(integrator: &OneOf<deck::Integrator>) -> Vec<(&'static str, String)> {
+    let keys = SCHEMES.iter().flat_map(|kind| kind.keys);
     let mut entries: Vec<(&'static str, String)> =
-        numbers.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?.value.to_string()))).collect();
-    if let Some(order) = order {
-        entries.push(("order", order.value.to_string()));
-    }
-    if let Some(update) = rotation_update {
+        keys.filter_map(|key| Some((key.name, integrator.values.numbers(key.name).first()?.to_string()))).collect();
+    if let Some(update) = &integrator.rotation_update {
         entries.push(("rotation_update", format!("\"{}\"", update.value.word())));
     }
     entries
 }
 
-fn choice(scheme: &Scheme, entries: &[(&'static str, String)]) -> Choice {
+fn choice(scheme: &Arc<dyn Scheme>, entries: &[(&'static str, String)]) -> Choice {
     let word = scheme.word();
     let (mut label, mut table) = (word.to_owned(), format!("{{ scheme = \"{word}\""));
     for (key, value) in entries {

@@ -3,7 +3,6 @@
 use super::Plan;
 use crate::elements::beam::IntegrationRule;
 use crate::elements::contact::Shape;
-use crate::integrators::Scheme;
 use crate::linear::Factorization;
 use crate::model::{
     AnalysisKind, Bar, Beam, Contact, DIRECTIONS, Gyroscopic, MassKind, MeshFile, Method, Model, Part, PartKind,
@@ -11,42 +10,6 @@ use crate::model::{
 };
 use crate::names::{joined, short};
 use std::fmt::Write;
-
-/// The scheme with its parameters.
-fn words(scheme: &Scheme) -> String {
-    let word = scheme.word();
-    match scheme {
-        Scheme::WilsonTheta(scheme) => format!("{word} with theta = {}", scheme.theta),
-        Scheme::Newmark(scheme) => format!("{word} with gamma = {}, beta = {}", scheme.gamma, scheme.beta),
-        Scheme::HhtAlpha(scheme) => format!("{word} with alpha = {}", -scheme.alpha_f),
-        Scheme::GeneralizedAlpha(scheme) => {
-            format!("{word} with a spectral radius of {}", short(scheme.alpha_f / (1.0 - scheme.alpha_f)))
-        }
-        Scheme::Bathe(scheme) => format!("{word} split at {}", short(scheme.split)),
-        Scheme::CentralDifference(_) => word.to_string(),
-        Scheme::RungeKutta(scheme) => format!("{word} of order {}", scheme.tableau.order),
-    }
-}
-
-/// What the reader of a result must know of a scheme.
-fn note(scheme: &Scheme) -> Option<&'static str> {
-    match scheme {
-        Scheme::WilsonTheta(_) => Some(
-            "Wilson-theta damps modes shorter than about 10 steps a period and overshoots their accelerations and \
-             velocities in the first steps; equilibrium holds at t + theta dt, reactions are taken there",
-        ),
-        Scheme::Newmark(scheme) if scheme.gamma == 0.5 => Some(
-            "the trapezoidal rule damps nothing: modes that no step resolves go on ringing in velocities, accelerations and \
-             reactions",
-        ),
-        Scheme::Newmark(_) => Some("with gamma above 0.5 the scheme is of first order and damps low modes too"),
-        Scheme::CentralDifference(_) => {
-            Some("explicit: steps that are too long for the fastest mode are cut, whatever the motion that counts")
-        }
-        Scheme::RungeKutta(_) => Some("explicit: stiff scenes need very short steps, and implicit schemes less time"),
-        Scheme::HhtAlpha(_) | Scheme::GeneralizedAlpha(_) | Scheme::Bathe(_) => None,
-    }
-}
 
 /// What touches what, and how.
 fn contact_in_words(model: &Model, contact: &Contact) -> String {
@@ -110,8 +73,8 @@ impl Plan {
                     }
                     _ => format!("in {steps} steps of {}", analysis.nominal_step()),
                 };
-                line("analysis", format!("dynamic, to t = {} {time}, {}", analysis.end_time, words(&model.scheme)));
-                if let Some(note) = note(&model.scheme) {
+                line("analysis", format!("dynamic, to t = {} {time}, {}", analysis.end_time, model.scheme.in_words()));
+                if let Some(note) = model.scheme.note() {
                     line("  note", note.to_string());
                 }
             }

@@ -3,7 +3,7 @@
 use super::Plan;
 use super::place::Why;
 use crate::diagnostic::Diagnostic;
-use crate::integrators::Scheme;
+use crate::integrators::Stepping;
 use crate::model::{DIRECTIONS, Model};
 use crate::system::System;
 use crate::system::masses::Masses;
@@ -75,7 +75,7 @@ impl Plan {
     /// An error for each node that rides in some rotations and turns on its own in others, with Runge-Kutta: rotations of a step
     /// tie it to its master, not rates at its stages, and that is of first order in them.
     pub fn half_turning(&self, model: &Model) -> Vec<Diagnostic> {
-        if !matches!(model.scheme, Scheme::RungeKutta(_)) {
+        if !matches!(model.scheme.stepping(), Stepping::RungeKutta(_)) {
             return Vec::new();
         }
         let master = |node: usize| model.riders.iter().find(|rider| rider.node == node).map(|rider| rider.master);
@@ -92,8 +92,10 @@ impl Plan {
         });
         let error = |rider: &crate::model::Rider| {
             let [node, master] = [rider.node, rider.master].map(|node| &model.nodes[node].label);
-            let message =
-                format!("`{node}` turns with `{master}` about some axes only, which \"runge-kutta\" does not follow");
+            let message = format!(
+                "`{node}` turns with `{master}` about some axes only, which \"{}\" does not follow",
+                model.scheme.word()
+            );
             placed(Diagnostic::error(message).hint("a joint of kind \"hinge\", or another scheme"), rider.place)
         };
         half.take(MOST).map(error).collect()

@@ -3,7 +3,7 @@
 use super::explicit::Explicit;
 use super::failure::Failure;
 use super::step::{Stepper, Taken};
-use crate::integrators::{CentralDifference, Coefficients};
+use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
 use crate::math::{Vec6, bottom, join, top};
 use crate::state::{Configuration, State, Work};
@@ -11,15 +11,10 @@ use crate::system::masses::{CORRECTIONS, Motion};
 
 impl Stepper<'_> {
     /// Takes `state` from its time to `to`. On failure `state` is untouched.
-    pub(super) fn central_difference(
-        &mut self,
-        state: &mut State,
-        to: f64,
-        scheme: &CentralDifference,
-    ) -> Result<Taken, Failure> {
+    pub(super) fn central_difference(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
         let Some(mut explicit) = self.explicit.take() else { return Err(self.not_finite()) };
         let counts = explicit.stable.counts();
-        let result = self.leap(&mut explicit, state, to, &scheme.coefficients(to - state.time));
+        let result = self.leap(&mut explicit, state, to, &self.model.scheme.coefficients(to - state.time));
         if result.is_err() {
             explicit.stable.refused(counts);
         }

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::step::{Stepper, Taken};
-use crate::integrators::Bathe;
+use crate::integrators::TwoStages;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, bottom, join};
 use crate::state::State;
@@ -24,11 +24,11 @@ impl Composite {
 
 impl Stepper<'_> {
     /// Takes `state` from its time to `to`. On failure `state` is untouched.
-    pub(super) fn composite(&mut self, state: &mut State, to: f64, bathe: &Bathe) -> Result<Taken, Failure> {
+    pub(super) fn composite(&mut self, state: &mut State, to: f64, scheme: &dyn TwoStages) -> Result<Taken, Failure> {
         let mut room = self.composite.take().unwrap_or_else(|| Composite::new(state.clone()));
         room.start.copy_from(state);
         let dt = to - state.time;
-        let result = self.stages(state, to, dt, bathe, &mut room);
+        let result = self.stages(state, to, dt, scheme, &mut room);
         if result.is_err() {
             state.copy_from(&room.start);
         }
@@ -41,11 +41,11 @@ impl Stepper<'_> {
         state: &mut State,
         to: f64,
         dt: f64,
-        bathe: &Bathe,
+        scheme: &dyn TwoStages,
         room: &mut Composite,
     ) -> Result<Taken, Failure> {
-        let first = self.stage(state, &bathe.first(dt), state.time + bathe.split * dt)?;
-        let b = bathe.backward(dt);
+        let first = self.stage(state, &self.model.scheme.coefficients(dt), state.time + scheme.split() * dt)?;
+        let b = scheme.backward(dt);
         for &node in &self.movers {
             let (start, between) = (&room.start.nodes[node], &state.nodes[node]);
             // The motion so far, and the velocity at its start in the rotation vector counted from between the stages.
@@ -55,7 +55,7 @@ impl Stepper<'_> {
             room.bases[node] = [q0 * b.start, v0 * b.start + v * b.between];
         }
         self.bases = Some(std::mem::take(&mut room.bases));
-        let second = self.stage(state, &bathe.second(dt), to);
+        let second = self.stage(state, &scheme.second(dt), to);
         room.bases = self.bases.take().unwrap_or_default();
         let second = second?;
         Ok(Taken {

@@ -8,7 +8,7 @@ use super::runge_kutta::Control;
 use super::stable::Stable;
 use super::step::Stepper;
 use crate::elements::Moduli;
-use crate::integrators::Scheme;
+use crate::integrators::Stepping;
 use crate::math::rotation::{exp, inverse_tangent, rates, renormalise};
 use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::{Model, StepLength};
@@ -54,8 +54,8 @@ impl Explicit {
             None => (None, None),
         };
         let alone = masses.is_some();
-        let stages = match &model.scheme {
-            Scheme::RungeKutta(scheme) => scheme.tableau.stages(),
+        let stages = match model.scheme.stepping() {
+            Stepping::RungeKutta(tableau) => tableau.stages(),
             _ => 0,
         };
         let changes = |amplitude: Option<usize>| amplitude.is_some();
@@ -319,7 +319,7 @@ impl Stepper<'_> {
 
     /// At the start and after a jump: energies swing from here.
     pub(super) fn start_swing(&mut self, state: &mut State) {
-        if !matches!(self.model.scheme, Scheme::CentralDifference(_)) {
+        if !matches!(self.model.scheme.stepping(), Stepping::Verlet) {
             return;
         }
         let Some(mut explicit) = self.explicit.take() else { return };
@@ -347,8 +347,8 @@ impl Stepper<'_> {
     /// As for [`Stepper::answer`].
     pub(super) fn proposed(&mut self, state: &State, left: f64) -> Result<f64, Failure> {
         let Some(mut explicit) = self.explicit.take() else { return Ok(left) };
-        let length = match (&self.model.scheme, &explicit.control) {
-            (Scheme::CentralDifference(_), Some(_)) => self.stable_step(&mut explicit, state, left),
+        let length = match (self.model.scheme.stepping(), &explicit.control) {
+            (Stepping::Verlet, Some(_)) => self.stable_step(&mut explicit, state, left),
             (_, Some(control)) => Ok(control.next),
             _ => Ok(left),
         };
@@ -366,7 +366,7 @@ impl Stepper<'_> {
     /// Central differences grow back to what is stable: little by little, since each change of the step makes or takes energy.
     pub(super) fn went_well(&mut self, proposed: f64) {
         const GROWTH: f64 = 1.2;
-        if let (Scheme::CentralDifference(_), Some(explicit)) = (&self.model.scheme, &mut self.explicit)
+        if let (Stepping::Verlet, Some(explicit)) = (self.model.scheme.stepping(), &mut self.explicit)
             && let Some(control) = &mut explicit.control
         {
             control.next = GROWTH * proposed;

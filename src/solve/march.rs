@@ -13,7 +13,7 @@ use super::refresh::Refresh;
 use super::search::Search;
 use super::stations::{Stretch, stretches};
 use super::step::{Stepper, Taken};
-use crate::integrators::Scheme;
+use crate::integrators::Stepping;
 use crate::linear::TooLarge;
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, Cadence, Method, Model, Part, StepLength, Update};
@@ -418,7 +418,7 @@ impl<'a> Run<'a> {
 
 /// Energies are summed whoever wants them: nothing else tells of motion that grows though the scene as it lies is stable.
 fn is_watched(model: &Model) -> bool {
-    matches!(model.scheme, Scheme::CentralDifference(_)) && model.analysis.kind == AnalysisKind::Dynamic
+    matches!(model.scheme.stepping(), Stepping::Verlet) && model.analysis.kind == AnalysisKind::Dynamic
 }
 
 /// Some links store less than nothing where they give way.

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::own_length::OwnLength;
 use super::step::{Stepper, Taken};
 use crate::integrators::spectrum::error_constant;
-use crate::integrators::{RotationUpdate, newmark};
+use crate::integrators::{Newmark, RotationUpdate, Scheme};
 use crate::math::{Vec3, Vec6, bottom, join, top};
 use crate::model::Model;
 use crate::state::State;
@@ -126,7 +126,7 @@ impl Pace {
         let zeros = vec![Vec6::zeros(); state.nodes.len()];
         Pace {
             tolerance,
-            constant: MEAN * error_constant(&model.scheme),
+            constant: MEAN * error_constant(&*model.scheme),
             length: model.analysis.nominal_step(),
             longest: model.analysis.end_time / FEWEST,
             intensity: None,
@@ -246,7 +246,7 @@ impl Stepper<'_> {
         let mut run = self.model.analysis.end_time;
         for part in TRIALS {
             let dt = part * run;
-            let scheme = newmark(0.5, 0.25, RotationUpdate::Exponential).coefficients(dt);
+            let scheme = Newmark { gamma: 0.5, beta: 0.25, rotation: RotationUpdate::Exponential }.coefficients(dt);
             match self.stage(state, &scheme, state.time + dt) {
                 Ok(_) => pace.measure.ahead = pace.measure.with(pace.measure.ahead, self.model, state),
                 Err(_) => run *= 0.1,

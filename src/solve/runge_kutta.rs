@@ -4,8 +4,8 @@ use super::correction::Size;
 use super::explicit::Explicit;
 use super::failure::Failure;
 use super::step::{Stepper, Taken};
-use crate::integrators::runge_kutta::{Tableau, Weights};
-use crate::integrators::{RungeKutta, Scheme};
+use crate::integrators::Stepping;
+use crate::integrators::tableau::{Tableau, Weights};
 use crate::materials::Dissipation;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, bottom, join, top};
@@ -38,7 +38,7 @@ pub struct Control {
 impl Control {
     pub fn new(tolerance: f64, model: &Model) -> Self {
         let (end_time, time_step) = (model.analysis.end_time, model.analysis.nominal_step());
-        let controls = matches!(model.scheme, Scheme::RungeKutta(_));
+        let controls = matches!(model.scheme.stepping(), Stepping::RungeKutta(_));
         let next = if controls { time_step } else { f64::INFINITY };
         Control { tolerance, end_time, next, motion: Size::default() }
     }
@@ -46,10 +46,15 @@ impl Control {
 
 impl Stepper<'_> {
     /// Takes `state` from its time to `to`. On failure `state` is untouched.
-    pub(super) fn runge_kutta(&mut self, state: &mut State, to: f64, scheme: &RungeKutta) -> Result<Taken, Failure> {
+    pub(super) fn runge_kutta(
+        &mut self,
+        state: &mut State,
+        to: f64,
+        tableau: &'static Tableau,
+    ) -> Result<Taken, Failure> {
         let Some(mut explicit) = self.explicit.take() else { return Err(self.not_finite()) };
         let before = explicit.control;
-        let result = self.take(&mut explicit, state, to, scheme.tableau);
+        let result = self.take(&mut explicit, state, to, tableau);
         if let (Err(_), Some(before), Some(control)) = (&result, before, &mut explicit.control) {
             // What contacts or joints refuse has not moved: errors are not to be judged by it.
             control.motion = before.motion;

@@ -10,7 +10,7 @@ use super::joints::Closing;
 use super::refresh::{Advice, Refresh};
 use super::search::Search;
 use crate::elements::Moduli;
-use crate::integrators::{Coefficients, Scheme, load_steps};
+use crate::integrators::{Coefficients, Stepping, load_steps};
 use crate::linear::Solver;
 use crate::math::{Vec3, Vec6};
 use crate::model::{AnalysisKind, Model};
@@ -33,7 +33,7 @@ pub struct Stepper<'a> {
     pub search: Option<Search>,
     /// Where the load is unknown.
     pub path: Option<Path>,
-    /// See [`Scheme::follower`].
+    /// See [`crate::integrators::Scheme::follower`].
     pub follower: Option<[f64; 3]>,
     /// What a second stage takes in place of velocities and accelerations, per node.
     pub bases: Option<Vec<[Vec6; 2]>>,
@@ -91,9 +91,9 @@ pub struct Taken {
 
 impl<'a> Stepper<'a> {
     pub fn coefficients(&self, dt: f64) -> Coefficients {
-        match (self.model.analysis.kind, &self.model.scheme) {
-            (AnalysisKind::Static, _) => load_steps::coefficients(),
-            (AnalysisKind::Dynamic, scheme) => scheme.coefficients(dt),
+        match self.model.analysis.kind {
+            AnalysisKind::Static => load_steps::coefficients(),
+            AnalysisKind::Dynamic => self.model.scheme.coefficients(dt),
         }
     }
 
@@ -102,12 +102,10 @@ impl<'a> Stepper<'a> {
     /// # Errors
     /// See [`Failure`].
     pub fn step(&mut self, state: &mut State, to: f64) -> Result<Taken, Failure> {
-        match (self.model.analysis.kind, &self.model.scheme) {
-            (AnalysisKind::Dynamic, Scheme::Bathe(bathe)) => return self.composite(state, to, bathe),
-            (AnalysisKind::Dynamic, Scheme::CentralDifference(scheme)) => {
-                return self.central_difference(state, to, scheme);
-            }
-            (AnalysisKind::Dynamic, Scheme::RungeKutta(scheme)) => return self.runge_kutta(state, to, scheme),
+        match (self.model.analysis.kind, self.model.scheme.stepping()) {
+            (AnalysisKind::Dynamic, Stepping::Composite(stages)) => return self.composite(state, to, stages),
+            (AnalysisKind::Dynamic, Stepping::Verlet) => return self.central_difference(state, to),
+            (AnalysisKind::Dynamic, Stepping::RungeKutta(tableau)) => return self.runge_kutta(state, to, tableau),
             _ => {}
         }
         let scheme = self.coefficients(to - state.time);

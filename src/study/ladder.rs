@@ -4,9 +4,10 @@ use crate::deck::Deck;
 use crate::deck::analysis::{Analysis, Plane};
 use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::Diagnostic;
-use crate::integrators::Scheme;
+use crate::integrators::{Scheme, Stepping};
 use crate::model::study::{Quantity, Study, obstacle};
 use crate::model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
+use std::sync::Arc;
 
 /// Intervals between samples where nothing says otherwise.
 pub const SAMPLES: usize = 200;
@@ -217,7 +218,7 @@ fn fitting(interval: f64, step: f64) -> f64 {
 fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<Line> {
     let word = model.scheme.word().to_owned();
     let is_static = model.analysis.kind == AnalysisKind::Static;
-    let scheme = |label: &str, scheme: &Scheme, set: Option<String>| (label.to_owned(), scheme.clone(), set);
+    let scheme = |label: &str, scheme: &Arc<dyn Scheme>, set: Option<String>| (label.to_owned(), scheme.clone(), set);
     let schemes: Vec<_> = match study.schemes[..] {
         [] if is_static => vec![scheme("static", &model.scheme, None)],
         [] => vec![scheme(&word, &model.scheme, None)],
@@ -226,7 +227,7 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
         }
     };
     if !is_static && kinds.contains(&true) {
-        problems.extend(schemes.iter().filter_map(|(label, scheme, _)| no_tolerance(label, scheme)));
+        problems.extend(schemes.iter().filter_map(|(label, scheme, _)| no_tolerance(label, &**scheme)));
     }
     let methods: Vec<_> = match study.methods[..] {
         [] => vec![(model.iteration.method.word(), None)],
@@ -264,15 +265,15 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
 }
 
 /// Why a scheme cannot be studied over tolerances; `None`: it can.
-fn no_tolerance(label: &str, scheme: &Scheme) -> Option<Diagnostic> {
-    let (message, hint) = match scheme {
-        Scheme::CentralDifference(_) => (
+fn no_tolerance(label: &str, scheme: &dyn Scheme) -> Option<Diagnostic> {
+    let (message, hint) = match scheme.stepping() {
+        Stepping::Verlet => (
             format!("`{label}` has no error tolerance to go over: its automatic steps are as long as is stable"),
             "give time steps (--time-steps): those too long to be stable are cut",
         ),
-        Scheme::Newmark(_) if scheme.order() == 1 => (
+        _ if scheme.order() < 2 => (
             format!("`{label}` is of first order, and automatic steps want second"),
-            "leave gamma at 0.5, use \"generalized-alpha\", or give time steps (--time-steps)",
+            "use a scheme of second order, such as \"generalized-alpha\", or give time steps (--time-steps)",
         ),
         _ => return None,
     };

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 /// Rows from the bottom up; siblings do not know each other.
-const ROWS: [&[&str]; 10] = [
+const ROWS: [&[&str]; 11] = [
     &["math", "names", "diagnostic"],
+    &["words"],
     &["state", "sections", "materials", "amplitude", "linear", "mesh"],
     &["elements", "constraints", "integrators"],
     &["deck"],

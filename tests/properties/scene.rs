@@ -7,7 +7,7 @@ use rdsolve::elements::beam::{IntegrationRule, Yielding};
 use rdsolve::elements::link::Law;
 use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
-use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::linear;
 use rdsolve::materials::{Hardening, Law as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
@@ -18,6 +18,7 @@ use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::state::State;
 use rdsolve::system::System;
 use rdsolve::system::energy::Energy;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 pub type Quat = nalgebra::Quaternion<f64>;
@@ -53,7 +54,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             least_step: time_step * 1e-3,
             plane: false,
         },
-        scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+        scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration {
             method: Method::TangentStiffness,
             update: Update::Auto,

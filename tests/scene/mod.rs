@@ -4,12 +4,13 @@ use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use rdsolve::elements::Point;
 use rdsolve::elements::contact::{self, Surface};
 use rdsolve::elements::link::Law;
-use rdsolve::integrators::{RotationUpdate, Scheme, WilsonTheta};
+use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
 use rdsolve::solve::{ContactState, Frame, LinkState, SectionPoint, ShellState};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
+use std::sync::Arc;
 
 /// A cubic beam on nodes 0-3, a beam of two straight elements on 3-5, a bar, a link, and a body of every shape on 6-9.
 pub fn model() -> Model {
@@ -53,7 +54,7 @@ pub fn model() -> Model {
             least_step: 1e-6,
             plane: false,
         },
-        scheme: Scheme::WilsonTheta(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+        scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
         iteration: Iteration {
             method: Method::TangentStiffness,
             update: Update::Auto,

@@ -1,0 +1,28 @@
+//! The numbers of an explicit Runge-Kutta scheme.
+
+/// The terms of a sum over stages that are not zero: (stage, weight).
+pub type Weights = &'static [(usize, f64)];
+
+/// The numbers of a scheme. Stages count from 0, at the start of the step; the last is the end of the step, which the next
+/// one begins with.
+#[derive(Debug, PartialEq)]
+pub struct Tableau {
+    pub order: usize,
+    /// When the stages after the first are, as parts of the step.
+    pub c: &'static [f64],
+    /// What their motion is made of.
+    pub a: &'static [Weights],
+    /// What the end of the step is made of.
+    pub b: Weights,
+    /// Differences to the embedded schemes; where there are two, e₁²/√(e₁² + e₂²/100) is the error.
+    pub errors: &'static [Weights],
+    /// The error of a step falls with this power of its length.
+    pub error_order: f64,
+}
+
+impl Tableau {
+    /// Evaluations of a step, the one at its end included.
+    pub fn stages(&self) -> usize {
+        self.c.len() + 2
+    }
+}
