@@ -572,7 +572,7 @@ def run_all(blows: list[str]) -> None:
               f" at {of['at']:.3f} s | {of['set'] * 1e3:.0f} mm | {of['gap'] * 1e3:.0f} mm"
               f" | {of['force'] / 1e3:.0f} kN | {mounts} kN |")  # fmt: skip
     print("\nJoule, at the end; what is stored, less that at the start:\n")
-    lost, kept = ["plastic", "viscous", "friction", "impact"], ["strain", "links", "contact"]
+    lost, kept = ["plastic", "viscoplastic", "friction", "impact"], ["strain", "links", "contact"]
     dampers_of = ["mounts", "chains", "prop"]
     words = lost + [f"dampers of {word}" for word in dampers_of] + ["the block moves on", "kinetic, the rest", *kept, "work of gravity"]
     print(f"| blow | energy | {' | '.join(words)} | numerical, largest |")

@@ -44,6 +44,7 @@ pub mod model;
 pub mod names;
 pub mod output;
 pub mod plan;
+pub mod quantities;
 pub mod sections;
 pub mod solve;
 pub mod state;

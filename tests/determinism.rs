@@ -3,7 +3,7 @@
 use rdsolve::diagnostic::Source;
 use rdsolve::materials::Dissipation;
 use rdsolve::model::{self, Model, Part};
-use rdsolve::output::energy_csv;
+use rdsolve::output::tables::energy;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{ContactState, Frame, JointState, Observer, Outcome, Run, Wanted};
 use rdsolve::state::{Node, State, Work};
@@ -321,12 +321,12 @@ struct Steps(Vec<Step>);
 
 impl Observer for Steps {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
-        let mut sums: Vec<f64> = frame.energy.map_or(Vec::new(), |energy| energy_csv::values(energy).to_vec());
+        let mut sums: Vec<f64> = frame.derived.energy.map_or(Vec::new(), |of| energy::values(&of).to_vec());
         let mut touching = Vec::new();
-        for JointState { f, m } in frame.joints {
+        for JointState { f, m } in &frame.derived.joints {
             sums.extend(f.iter().chain(m));
         }
-        for ContactState { touching: points, gap, f, m } in frame.contacts {
+        for ContactState { touching: points, gap, f, m } in &frame.derived.contacts {
             touching.push(*points);
             sums.push(*gap);
             sums.extend(f.iter().chain(m));

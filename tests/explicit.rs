@@ -256,8 +256,8 @@ velocity = [2.0, 0.0, 0.0]
     let mut totals = Vec::new();
     let done = run_to_the_end(&model, &mut |frame| {
         let energy = system.energy(frame.state, None, 1);
-        totals.push(energy.total);
-        vec![energy.total]
+        totals.push(energy.mechanical);
+        vec![energy.mechanical]
     });
     println!("{} cuts, energy {:?} to {:?}", done.counts.cuts, totals[0], totals[totals.len() - 1]);
     // The stop has ω = 54.8: a step of 0.05 is 2.7 of it.
@@ -274,8 +274,8 @@ fn invariants() {
         let model = deck(name, sets);
         let mut rows = Vec::new();
         run_to_the_end(&model, &mut |frame| {
-            let e = frame.energy.unwrap();
-            rows.push([e.total, e.numerical, e.p.x, e.p.y, e.p.z, e.l.x, e.l.y, e.l.z, e.damping]);
+            let e = frame.derived.energy.unwrap();
+            rows.push([e.mechanical, e.numerical, e.p.x, e.p.y, e.p.z, e.l.x, e.l.y, e.l.z, e.damping]);
             Vec::new()
         });
         rows
@@ -354,7 +354,7 @@ gravity = [0.0, 0.0, -9.81]
         let model = scene(text, &[scheme]);
         let (mut worst, mut most) = (0.0f64, 0.0f64);
         run_to_the_end(&model, &mut |frame| {
-            let energy = frame.energy.unwrap();
+            let energy = frame.derived.energy.unwrap();
             worst = worst.max(energy.numerical.abs());
             most = most.max(energy.kinetic);
             Vec::new()
@@ -415,7 +415,7 @@ fn yielding_steel_as_by_wilson() {
         let at = ["knee_left", "block"].map(|name| node(&model, name));
         let mut plastic = 0.0;
         let done = run_to_the_end(&model, &mut |frame| {
-            plastic = frame.energy.unwrap().plastic;
+            plastic = frame.derived.energy.unwrap().plastic;
             at.map(|n| frame.state.nodes[n].x.x).to_vec()
         });
         (done.rows, plastic)
@@ -702,7 +702,7 @@ fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
     let limit = (7800.0 / 200e9_f64).sqrt() / f64::from(count);
     let mut plastic = 0.0;
     let done = run_to_the_end(&scene(&text, &[]), &mut |frame| {
-        plastic = frame.energy.unwrap().plastic;
+        plastic = frame.derived.energy.unwrap().plastic;
         vec![frame.dt / limit]
     });
     let steps: Vec<f64> = done.rows.into_iter().skip(1).map(|row| row[0]).collect();
@@ -954,7 +954,7 @@ fn what_swings_is_not_made_from_nothing() {
     let (mut balance, mut swing) = (Balance::default(), 0.0f64);
     let mut last = None;
     run_to_the_end(&model, &mut |frame| {
-        let energy = *frame.energy.unwrap();
+        let energy = frame.derived.energy.unwrap();
         balance.see(&energy);
         swing = swing.max(-energy.numerical);
         last = Some(energy);
@@ -967,16 +967,16 @@ fn what_swings_is_not_made_from_nothing() {
     assert_eq!(had, 1.0); // 2 · 1²/2
     // A mode beyond the limit: as much as is stored swings, and more than there was moves.
     let mut grown = last.unwrap();
-    for energy in [&mut grown.kinetic, &mut grown.links, &mut grown.total] {
+    for energy in [&mut grown.kinetic, &mut grown.links, &mut grown.mechanical] {
         *energy *= 100.0;
     }
-    (grown.numerical, grown.swing) = (1.0 - grown.total, grown.total - 1.0);
+    (grown.numerical, grown.swing) = (1.0 - grown.mechanical, grown.mechanical - 1.0);
     balance.see(&grown);
     assert_eq!(balance.made, grown.kinetic - 1.0);
     // Others do not swing.
     let sets = ["integrator.scheme=\"newmark\"", "analysis.time_step=0.01"];
     run_to_the_end(&steps_of_row(12, 0.0, &sets), &mut |frame| {
-        assert_eq!(frame.energy.unwrap().swing, 0.0);
+        assert_eq!(frame.derived.energy.unwrap().swing, 0.0);
         Vec::new()
     });
 }
@@ -1019,7 +1019,7 @@ kind = "step"
 fn balance_of(model: &Model) -> Balance {
     let mut balance = Balance::default();
     run_to_the_end(model, &mut |frame| {
-        balance.see(frame.energy.unwrap());
+        balance.see(&frame.derived.energy.unwrap());
         Vec::new()
     });
     balance
@@ -1111,8 +1111,8 @@ fn blows_neither_make_energy_nor_keep_steps_short() {
     let run = |text: &str| {
         let mut rows = Vec::new();
         let done = run_to_the_end(&scene(text, &[]), &mut |frame| {
-            let energy = frame.energy.unwrap();
-            rows.push([energy.total, energy.total - energy.swing, frame.dt]);
+            let energy = frame.derived.energy.unwrap();
+            rows.push([energy.mechanical, energy.mechanical - energy.swing, frame.dt]);
             Vec::new()
         });
         let [most, kept] = [0, 1].map(|k| rows.iter().map(|row| row[k]).fold(0.0, f64::max));

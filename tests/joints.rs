@@ -144,7 +144,7 @@ fn watch(model: &Model, probe: impl Fn(&Frame) -> Vec<f64>) -> Watched {
             system.gaps(&frame.state.nodes, derivative, &mut buffer);
             *gap = gap.max(system.largest_gap(&buffer, 1.0));
         }
-        energies.extend(frame.energy.copied());
+        energies.extend(frame.derived.energy);
         probe(frame)
     });
     let (gaps, energies) = state.into_inner();
@@ -218,7 +218,7 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
         let (first, last) = (&seen.energies[0], seen.energies.last().expect("a row"));
         assert!((last.p - first.p).norm() < 1e-12 * first.p.norm(), "{kind}: p");
         let spin = (last.l - first.l).norm() / first.l.norm();
-        let energy = (last.total / first.total - 1.0).abs();
+        let energy = (last.mechanical / first.mechanical - 1.0).abs();
         println!(
             "{kind:10} gaps {:.1e} {:.1e} {:.1e}  L {spin:.1e}  energy {energy:.1e}",
             seen.gaps[0], seen.gaps[1], seen.gaps[2]
@@ -442,7 +442,7 @@ fn a_four_bar_linkage_turns_a_hundred_times_and_stays_closed() {
         vec![]
     });
     let turned = turns.borrow().0.abs() / std::f64::consts::TAU;
-    let (first, last) = (seen.energies[0].total, seen.energies.last().expect("a row").total);
+    let (first, last) = (seen.energies[0].mechanical, seen.energies.last().expect("a row").mechanical);
     println!("{turned:.1} turns, gaps {:?}, energy {:.2e}", seen.gaps, last / first - 1.0);
     assert!(turned > 100.0, "{turned}");
     assert!(seen.gaps[0] < 1e-12, "{:?}", seen.gaps); // positions of 4 m, to rounding
@@ -478,7 +478,7 @@ fn hinges_that_say_the_same_share_the_weight() {
     let plan = Plan::new(&model, &system, 1);
     assert_eq!(plan.repeated.as_deref().map(<[usize]>::len), Some(10), "{:?}", plan.repeated(&model, &system));
     assert!(support::run(&model, &mut |_| vec![]).verdicts[0].passed);
-    let seen = watch(&model, |frame| frame.joints.iter().flat_map(|j| [j.f.x, j.f.y, j.f.z, j.m.y]).collect());
+    let seen = watch(&model, |frame| frame.derived.joints.iter().flat_map(|j| [j.f.x, j.f.y, j.f.z, j.m.y]).collect());
     println!("{:?}\n{:?}", seen.rows[0], seen.rows.last());
     // Increments are least in norm, not the whole: as the door turns they let the shares differ by parts of 1e-5 or so.
     let rounding = 1e-4 * 300.0;

@@ -35,16 +35,16 @@ fn headers_are_those_of_the_interface() {
     let dir = tempfile::tempdir().unwrap();
     run(dir.path(), &scene::model());
     for (name, header) in [
-        ("nodes.csv", "step,time,node,x,y,z,ux,uy,uz,rx,ry,rz,vx,vy,vz,wx,wy,wz,ax,ay,az,bx,by,bz"),
-        ("bodies.csv", "step,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,bx,by,bz"),
+        ("nodes.csv", "step,time,node,x,y,z,ux,uy,uz,rx,ry,rz,vx,vy,vz,wx,wy,wz,ax,ay,az,alphax,alphay,alphaz"),
+        ("bodies.csv", "step,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,alphax,alphay,alphaz"),
         (
             "energy.csv",
-            "step,time,kinetic,strain,plastic,viscous,damping,links,external,numerical,total,px,py,pz,lx,ly,lz,contact,friction,impact",
+            "step,time,kinetic,strain,plastic,viscoplastic,damping,links,contact,friction,impact,external,numerical,mechanical,px,py,pz,lx,ly,lz",
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
         ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),
-        ("sections.csv", "step,time,beam,element,point,s,N,Qy,Qz,T,My,Mz,plastic_strain"),
+        ("sections.csv", "step,time,beam,element,point,s,N,Vy,Vz,T,My,Mz,plastic_strain"),
         ("steps.csv", "step,time,dt,iterations,refactorizations,residual,cuts"),
     ] {
         let text = fs::read_to_string(dir.path().join(name)).unwrap();
@@ -73,7 +73,7 @@ fn rows_are_the_frames_to_the_last_bit() {
             (["vx", "vy", "vz"], now.v),
             (["wx", "wy", "wz"], now.omega),
             (["ax", "ay", "az"], now.a),
-            (["bx", "by", "bz"], now.alpha),
+            (["alphax", "alphay", "alphaz"], now.alpha),
         ] {
             assert!((0..3).all(|k| value(names[k]).to_bits() == vector[k].to_bits()), "{names:?} at step {step}");
         }

@@ -120,8 +120,8 @@ velocity = [6.0, 3.0, -1.0]
 /// [numerical, plastic, viscous, the largest of all shares] at every step.
 fn energies(model: &Model) -> Vec<[f64; 4]> {
     let done = run_to_the_end(model, &mut |frame| {
-        let e = frame.energy.expect("energy is wanted");
-        vec![e.numerical, e.plastic, e.viscous, e.kinetic.max(e.plastic + e.viscous)]
+        let e = frame.derived.energy.expect("energy is wanted");
+        vec![e.numerical, e.plastic, e.viscoplastic, e.kinetic.max(e.plastic + e.viscoplastic)]
     });
     done.rows.iter().map(|row| [row[0], row[1], row[2], row[3]]).collect()
 }

@@ -158,9 +158,9 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
                 say(format!("{name}: {} has {times}, {}", names[side], counted(*all_rows as usize, "row")));
             }
         }
-        for (name_of, torn) in names.iter().zip(table.torn) {
-            if torn && !quiet {
-                say(format!("{name}: the last line in {name_of} is torn off, and was left out"));
+        for (name_of, truncated) in names.iter().zip(table.truncated) {
+            if truncated && !quiet {
+                say(format!("{name}: the last line in {name_of} is incomplete and was left out"));
             }
         }
         for (side, columns) in table.only.iter().enumerate() {

@@ -18,7 +18,7 @@ use crate::diagnostic::{At, Diagnostic, Span};
 #[serde(deny_unknown_fields)]
 pub struct Study {
     /// What errors are measured on, as name.quantity of points and bodies: x y z, ux uy uz, rx ry rz (not of bodies), vx vy vz,
-    /// wx wy wz, ax ay az, bx by bz, body_wx body_wy body_wz (in axes that turn with it), r11 to r33 (rotation matrix).
+    /// wx wy wz, ax ay az, alphax alphay alphaz, body_wx body_wy body_wz (in axes that turn with it), r11 to r33 (rotation matrix).
     /// Default: those of `columns`; else ux, uy, uz of all points in nodes.csv and of all bodies.
     pub quantities: Maybe<Names>,
     /// CSV file beside the deck: the time, then one column for each quantity. Default: the finest runs, extrapolated.

@@ -10,36 +10,8 @@ use super::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When};
 use crate::deck::expect as words;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;
+use crate::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, VON_MISES};
 use std::ops::Range;
-
-/// Columns of nodes.csv, apart from displacements and rotations.
-const MOTION: [&str; 15] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx", "by", "bz"];
-const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
-const JOINT: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
-const LINK: [&str; 2] = ["force", "elongation"];
-/// Of a contact: points that touch, the least gap, force and moment on the surface, and the size of the force.
-pub const CONTACT: [&str; 9] = ["touching", "gap", "fx", "fy", "fz", "mx", "my", "mz", "force"];
-/// The energy balance and the momenta.
-pub const ENERGY: [&str; 18] = [
-    "kinetic",
-    "strain",
-    "plastic",
-    "viscous",
-    "damping",
-    "links",
-    "external",
-    "numerical",
-    "total",
-    "px",
-    "py",
-    "pz",
-    "lx",
-    "ly",
-    "lz",
-    "contact",
-    "friction",
-    "impact",
-];
 
 /// What expected values refer to.
 struct Expects<'a, 'd> {
@@ -65,17 +37,18 @@ impl<'d> Expects<'_, 'd> {
         let name = self.report.require(owner, "at", &expect.at);
         let at = name.and_then(|name| self.expect_at(name));
         let quantity = self.report.require(owner, "quantity", &expect.quantity);
+        let mut column = None;
         if let (Some((at, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
-            let strain = quantity.value == "plastic_strain" && !columns.contains(&"plastic_strain");
+            let strain = quantity.value == PLASTIC_STRAIN.name && !columns.contains(&PLASTIC_STRAIN);
             if strain && matches!(at, ExpectAt::Shells(..)) {
                 let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
                 return self.report.error(&quantity.span, message);
             }
-            self.column(columns, quantity, name);
+            column = self.column(columns, quantity, name);
         }
         let when = self.when(owner, expect);
         let judged = self.judged(owner, expect);
-        let ((at, _), quantity, when, (value, tolerance)) = (at?, quantity?, when?, judged?);
+        let ((at, _), quantity, when, (value, tolerance)) = (at?, column?, when?, judged?);
         let moment = match when {
             When::Time(time) => format!("at t = {time}"),
             When::Passing(at) => {
@@ -89,32 +62,34 @@ impl<'d> Expects<'_, 'd> {
         };
         Some(Expect {
             at,
-            quantity: quantity.value.clone(),
+            quantity: quantity.to_owned(),
             when,
             value,
             tolerance,
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
-            label: format!("{} of {} {moment}", quantity.value, name?.value),
+            label: format!("{quantity} of {} {moment}", name?.value),
         })
     }
 
     /// Where, and the columns there are.
-    fn expect_at(&mut self, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
+    fn expect_at(&mut self, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
         if name.value == "energy" {
-            return Some((ExpectAt::Energy, ENERGY.to_vec()));
+            return Some((ExpectAt::Energy, quantities::ENERGY.to_vec()));
         }
         if name.value == "analysis" && self.scene.names.declared("analysis").is_none() {
-            return Some((ExpectAt::Analysis, vec!["time"]));
+            return Some((ExpectAt::Analysis, vec![quantities::TIME]));
         }
         match self.scene.place_or_node(name) {
-            Some(Place::Point(node)) => Some((ExpectAt::Node(node), [&MOTION[..], &DIRECTIONS].concat())),
+            Some(Place::Point(node)) => Some((ExpectAt::Node(node), quantities::MOTION.concat())),
             Some(Place::Body(body)) => {
-                let columns = [&MOTION[..], &DIRECTIONS, &QUATERNION].concat();
+                let columns = [&quantities::MOTION.concat()[..], &QUATERNION].concat();
                 Some((ExpectAt::Node(self.scene.names.body_node(body)), columns))
             }
-            Some(Place::Link(link)) => Some((ExpectAt::Link(link), LINK.to_vec())),
-            Some(Place::Joint(joint)) => Some((ExpectAt::Joint(joint), JOINT.to_vec())),
-            Some(Place::Contact(contact)) => Some((ExpectAt::Contact(contact), CONTACT.to_vec())),
+            Some(Place::Link(link)) => Some((ExpectAt::Link(link), quantities::LINK.to_vec())),
+            Some(Place::Joint(joint)) => Some((ExpectAt::Joint(joint), quantities::JOINT.to_vec())),
+            Some(Place::Contact(contact)) => {
+                Some((ExpectAt::Contact(contact), [&quantities::CONTACT[..], &[quantities::CONTACT_FORCE]].concat()))
+            },
             Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
             // Where a shell has errors, these have been said.
             Some(Place::Shell(shell)) if !self.scene.parts.shells[shell].range.is_empty() => {
@@ -124,7 +99,7 @@ impl<'d> Expects<'_, 'd> {
                     return self.report.error(&name.span, message);
                 }
                 let yields = self.scene.parts.list[start].yields();
-                let columns = if yields { vec!["von_mises", "plastic_strain"] } else { vec!["von_mises"] };
+                let columns = if yields { vec![VON_MISES, PLASTIC_STRAIN] } else { vec![VON_MISES] };
                 Some((ExpectAt::Shells(start, end), columns))
             }
             Some(Place::Shell(_)) => None,
@@ -146,7 +121,7 @@ impl<'d> Expects<'_, 'd> {
     }
 
     /// A part that yields; counted as [`ExpectAt::Elements`] counts.
-    fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<&'static str>)> {
+    fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
         // Where a part has errors, these have been said, and the count is off.
         if self.scene.parts.beams.iter().chain(&self.scene.parts.bars).any(|entry| entry.range.is_empty()) {
             return None;
@@ -165,22 +140,25 @@ impl<'d> Expects<'_, 'd> {
             let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
             return self.report.error(&name.span, message);
         }
-        Some((ExpectAt::Elements(from, from + count), vec!["plastic_strain"]))
+        Some((ExpectAt::Elements(from, from + count), vec![PLASTIC_STRAIN]))
     }
 
-    fn column(&mut self, columns: &[&str], quantity: &At<String>, name: &At<String>) {
-        if columns.contains(&quantity.as_str()) {
-            return;
+    /// The name of the column that a word stands for.
+    fn column(&mut self, columns: &[Column], quantity: &At<String>, name: &At<String>) -> Option<&'static str> {
+        if let Some(column) = columns.iter().find(|column| column.answers_to(quantity)) {
+            return Some(column.name);
         }
+        let known: Vec<&str> = columns.iter().map(|column| column.name).collect();
         let message = format!("there is no quantity `{}` at `{}`", quantity.value, name.value);
         let diagnostic = Diagnostic::error(message).at(&quantity.span);
-        self.report.push(match nearest(quantity, columns.iter().copied()) {
+        self.report.push(match nearest(quantity, known.iter().copied()) {
             Some(near) if quantity.chars().count() > 2 => diagnostic.hint(format!("did you mean `{near}`?")),
             _ => {
-                let there = if columns.len() == 1 { "there is" } else { "there are" };
-                diagnostic.hint("not a column").hint(format!("{there} {}", columns.join(", ")))
+                let there = if known.len() == 1 { "there is" } else { "there are" };
+                diagnostic.hint("not a column").hint(format!("{there} {}", known.join(", ")))
             }
         });
+        None
     }
 
     fn when(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<When> {

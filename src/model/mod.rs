@@ -59,7 +59,6 @@ pub use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
 pub use crate::deck::beams::MassKind;
 pub use crate::deck::supports::History;
 pub use build::{build, read};
-pub use expects::{CONTACT, ENERGY};
 pub use mesh_file::Input;
 pub use part::{
     Bar, Beam, BeamElement, Contact, Drawing, Link, LinkKind, Part, PartKind, PartType, Shell, ShellElement,

@@ -13,6 +13,7 @@ use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::{At, Span};
 use crate::integrators::{SCHEMES, Scheme};
 use crate::names::nearest;
+use crate::quantities::{self, MOTION};
 use std::sync::Arc;
 
 /// What is gone over, and what errors are measured on.
@@ -51,7 +52,7 @@ pub struct Quantity {
     pub label: String,
     /// In bodies.csv.
     pub body: bool,
-    /// A word of [`QUANTITIES`].
+    /// A column of [`MOTION`], or one of [`DERIVED`].
     pub column: &'static str,
 }
 
@@ -72,11 +73,9 @@ pub struct Choice {
     pub table: String,
 }
 
-/// What can be asked of a node or body.
-pub const QUANTITIES: [&str; 33] = [
-    "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "bx",
-    "by", "bz", "body_wx", "body_wy", "body_wz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33",
-];
+/// What can be asked of a node or body besides its motion: angular velocity in axes that turn with it, and its rotation matrix.
+const DERIVED: [&str; 12] =
+    ["body_wx", "body_wy", "body_wz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 
 /// More are a slip of the keyboard.
 const MOST_RUNGS: usize = 60;
@@ -209,9 +208,10 @@ impl<'d> Reader<'_, 'd> {
                 return self.scene.names.unknown("point or body", &name, known, self.report);
             }
         };
-        let known: Vec<&'static str> =
-            QUANTITIES.into_iter().filter(|word| !(body && ["rx", "ry", "rz"].contains(word))).collect();
-        match known.iter().find(|known| **known == column) {
+        let motion = quantities::names(&MOTION).into_iter().filter(|word| !(body && ["rx", "ry", "rz"].contains(word)));
+        let known: Vec<&'static str> = motion.chain(DERIVED).collect();
+        let asked = quantities::named(&MOTION, column).unwrap_or(column);
+        match known.iter().find(|known| **known == asked) {
             Some(&column) => Some(Quantity { name: name.value, label, body, column }),
             None => {
                 let message = format!("there is no quantity `{column}` at `{}`", name.value);

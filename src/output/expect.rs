@@ -2,28 +2,28 @@
 //!
 //! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
 
-use super::{bodies_csv, contacts_csv, energy_csv, links_csv, nodes_csv, reactions_csv, shells_csv};
+use super::tables::{bodies, contacts, energy, links, nodes, reactions, shells};
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
+use crate::quantities::{
+    CONTACT, CONTACT_FORCE, ENERGY, JOINT, LINK, MOTION, PLASTIC_STRAIN, QUATERNION, TIME, VON_MISES, names,
+};
 use crate::solve::{Frame, Observer};
 use serde::Serialize;
 use std::io;
 
-/// The names `quantity` may take, in the order of the columns they are.
+/// The names `quantity` may take, in the order in which their values are taken.
 pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Analysis => vec!["time"],
-        ExpectAt::Node(_) => [&nodes_csv::COLUMNS[..], &bodies_csv::COLUMNS[QUATERNION]].concat(),
-        ExpectAt::Energy => energy_csv::COLUMNS.to_vec(),
-        ExpectAt::Link(_) => links_csv::COLUMNS.to_vec(),
-        ExpectAt::Joint(_) => reactions_csv::OF_JOINTS.to_vec(),
-        ExpectAt::Contact(_) => contacts_csv::QUANTITIES.to_vec(),
-        ExpectAt::Elements(..) => vec!["plastic_strain"],
-        ExpectAt::Shells(..) => vec!["von_mises", "plastic_strain"],
+        ExpectAt::Analysis => vec![TIME.name],
+        ExpectAt::Node(_) => [names(&MOTION), names(&[&QUATERNION])].concat(),
+        ExpectAt::Energy => names(&[&ENERGY]),
+        ExpectAt::Link(_) => names(&[&LINK]),
+        ExpectAt::Joint(_) => names(&[&JOINT]),
+        ExpectAt::Contact(_) => names(&[&CONTACT, &[CONTACT_FORCE]]),
+        ExpectAt::Elements(..) => vec![PLASTIC_STRAIN.name],
+        ExpectAt::Shells(..) => vec![VON_MISES.name, PLASTIC_STRAIN.name],
     }
 }
-
-/// Columns of bodies.csv that nodes.csv has not.
-const QUATERNION: std::ops::Range<usize> = 3..7;
 
 /// How one expectation went.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -110,24 +110,23 @@ impl Observer for Expectations {
 
 /// The value of a column now, where this frame has it.
 fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
+    let derived = frame.derived;
     match at {
         ExpectAt::Node(i) => {
             let now = frame.state.nodes.get(i)?;
-            match column.checked_sub(nodes_csv::COLUMNS.len()) {
-                None => Some(nodes_csv::values(&frame.model.nodes[i], now)[column]),
-                Some(column) => Some(bodies_csv::values(now)[QUATERNION][column]),
-            }
+            let motion = nodes::values(&frame.model.nodes[i], now);
+            Some(motion.get(column).copied().unwrap_or_else(|| bodies::quaternion(now)[column - motion.len()]))
         }
         ExpectAt::Analysis => Some(frame.state.time),
-        ExpectAt::Energy => frame.energy.map(|energy| energy_csv::values(energy)[column]),
-        ExpectAt::Link(i) => frame.links.get(i).map(|link| links_csv::values(link)[column]),
-        ExpectAt::Joint(i) => frame.joints.get(i).map(|joint| reactions_csv::of_joint(joint)[column]),
-        ExpectAt::Contact(i) => frame.contacts.get(i).map(|contact| contacts_csv::values(contact)[column]),
+        ExpectAt::Energy => derived.energy.as_ref().map(|of| energy::values(of)[column]),
+        ExpectAt::Link(i) => derived.links.get(i).map(|link| links::values(link)[column]),
+        ExpectAt::Joint(i) => derived.joints.get(i).map(|joint| reactions::of_joint(joint)[column]),
+        ExpectAt::Contact(i) => derived.contacts.get(i).map(|contact| contacts::values(contact)[column]),
         ExpectAt::Shells(from, to) => {
-            let of = [shells_csv::von_mises, shells_csv::plastic_strain][column];
-            frame.shells.iter().filter(|state| (from..to).contains(&state.part)).map(of).reduce(f64::max)
+            let of = [shells::von_mises, shells::plastic_strain][column];
+            derived.shells.iter().filter(|state| (from..to).contains(&state.part)).map(of).reduce(f64::max)
         }
-        ExpectAt::Elements(from, to) => frame.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
+        ExpectAt::Elements(from, to) => derived.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
     }
 }
 

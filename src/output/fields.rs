@@ -7,9 +7,10 @@
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
 //! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
+use super::disk::{at, replace};
 use super::shape::Surface;
+use super::tables::shells;
 use super::vtu::{self, Cell};
-use super::{at, replace, shells_csv};
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::{Drawing, Model, Part, PartKind};
 use crate::solve::{Frame, ShellState};
@@ -126,6 +127,11 @@ fn names(model: &Model) -> csv::Result<Vec<u8>> {
     table.into_inner().map_err(|e| e.into_error().into())
 }
 
+/// Whether a file of this name is one of these.
+pub fn is_file(name: &str) -> bool {
+    ["fields.csv", "fields.pvd"].contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu"))
+}
+
 pub struct Fields {
     dir: PathBuf,
     every: usize,
@@ -210,16 +216,17 @@ impl Fields {
         text.push_str("</Points>\n");
         text.push_str("<CellData>\n");
         text.push_str(&self.parts);
-        if !frame.plastic_strains.is_empty() {
+        if !frame.derived.plastic_strains.is_empty() {
             // Cells of beams, bars and shells come first; links and bodies do not yield.
-            let strains = frame.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
+            let strains = frame.derived.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
             vtu::array(text, bytes, "plastic_strain", 1, strains);
         }
         if let Some(before) = self.before {
-            let (count, after) = (self.count, self.count - before - frame.shells.len().min(self.count - before));
+            let (count, after) =
+                (self.count, self.count - before - frame.derived.shells.len().min(self.count - before));
             let mut cells = |name: &str, components: usize, of: &dyn Fn(&ShellState, usize) -> f64| {
                 let zeros = |cells: usize| std::iter::repeat_n(0.0, components * cells);
-                let shells = frame.shells.iter().flat_map(|state| (0..components).map(move |i| of(state, i)));
+                let shells = frame.derived.shells.iter().flat_map(|state| (0..components).map(move |i| of(state, i)));
                 let all = zeros(before).chain(shells).chain(zeros(after)).take(components * count);
                 vtu::array(text, bytes, name, components, all);
             };
@@ -227,8 +234,8 @@ impl Fields {
             cells("membrane_force", 3, &|state, i| state.at.N[i]);
             cells("bending_moment", 3, &|state, i| state.at.M[i]);
             cells("shear_force", 2, &|state, i| state.at.Q[i]);
-            cells("von_mises_bottom", 1, &|state, _| shells_csv::outer(state)[0]);
-            cells("von_mises_top", 1, &|state, _| shells_csv::outer(state)[1]);
+            cells("von_mises_bottom", 1, &|state, _| shells::outer(state)[0]);
+            cells("von_mises_top", 1, &|state, _| shells::outer(state)[1]);
         }
         text.push_str("</CellData>\n");
         text.push_str(&self.cells);

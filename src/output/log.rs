@@ -1,6 +1,6 @@
 //! run.log: what happened, in plain lines. Timings are welcome here, as they are not in the tables.
 
-use super::at;
+use super::disk::at;
 use crate::solve::{Frame, Observer};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};

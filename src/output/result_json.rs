@@ -1,10 +1,12 @@
 //! result.json: how the run ended, in one object a script can read.
 
+use super::disk::{at, replace};
 use super::expect::Verdict;
-use super::{at, replace};
 use serde::Serialize;
 use std::io;
 use std::path::Path;
+
+pub const NAME: &str = "result.json";
 
 /// Why the run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -82,7 +84,7 @@ pub struct Timings {
 impl Report {
     /// Writes `result.json` whole or not at all.
     pub fn write(&self, dir: &Path) -> io::Result<()> {
-        let path = dir.join("result.json");
+        let path = dir.join(NAME);
         let mut text = serde_json::to_vec_pretty(self).map_err(|e| at(&path, e.into()))?;
         text.push(b'\n');
         replace(&path, &text)

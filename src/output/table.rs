@@ -1,181 +1,40 @@
-//! A comma separated file that grows by whole rows, without allocating.
-//!
-//! Rows collect in memory and reach the file complete, so a killed run leaves no half row; numbers are the shortest text
-//! that reads back to the same double. The csv crate is for readers: its writer hands over whatever fills its buffer.
+//! What a table of results is: its file, its columns and how a frame becomes rows. Whatever lists, writes, compares or
+//! describes tables reads this and nothing else of them.
 
-use super::at;
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Seek, Write};
-use std::path::{Path, PathBuf};
+use super::table_file::TableFile;
+use crate::model::Model;
+use crate::quantities::{Column, STEP, TIME};
+use crate::solve::{Frame, Wanted};
+use std::io;
 
-/// Bytes of finished rows that are not left waiting for the next flush.
-const ENOUGH: usize = 1 << 16;
+/// Writes the rows of one frame. Made once a run, so that it may hold what a scene fixes for good.
+pub type WriteRows = Box<dyn Fn(&mut TableFile, &Frame) -> io::Result<()>>;
 
-pub struct Table {
-    path: PathBuf,
-    file: File,
-    rows: Vec<u8>,
-    digits: ryu::Buffer,
+/// A kind of table. One constant in a file of its own, and one line of [`super::TABLES`].
+pub struct TableKind {
+    /// Name in the output folder.
+    pub file: &'static str,
+    /// What a row is about and when the table is written, in whole sentences.
+    pub about: &'static str,
+    /// Columns behind `step` and `time`.
+    pub columns: &'static [&'static [Column]],
+    /// Whether the deck asks for it and the scene has something to put in.
+    pub wanted: fn(&Model) -> bool,
+    /// What the solver must compute for it.
+    pub needs: Wanted,
+    /// Of every accepted step, whatever the cadence of output.
+    pub every_step: bool,
+    pub rows: fn(&Model) -> WriteRows,
 }
 
-impl Table {
-    /// A new file with its header row; or, with `keep_to`, an old one cut after the rows of that step (the first column).
-    pub fn open(dir: &Path, name: &str, header: &str, keep_to: Option<usize>) -> io::Result<Table> {
-        let path = dir.join(name);
-        let file = match keep_to {
-            None => File::create(&path).and_then(|mut file| writeln!(file, "{header}").map(|()| file)),
-            Some(step) => reopen(&path, step),
-        };
-        let file = file.map_err(|e| at(&path, e))?;
-        Ok(Table { path, file, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new() })
+impl TableKind {
+    /// All columns in their order.
+    pub fn columns(&self) -> impl Iterator<Item = Column> {
+        [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
     }
 
-    /// Begins a row with the two columns that every table has.
-    pub fn row(&mut self, step: usize, time: f64) -> &mut Table {
-        let _ = write!(self.rows, "{step}"); // a Vec takes every byte
-        self.number(time)
-    }
-
-    pub fn count(&mut self, value: usize) -> &mut Table {
-        let _ = write!(self.rows, ",{value}");
-        self
-    }
-
-    /// A field that stays empty where there is no finite number.
-    pub fn number(&mut self, value: f64) -> &mut Table {
-        self.rows.push(b',');
-        if value.is_finite() {
-            self.rows.extend_from_slice(self.digits.format_finite(value).as_bytes());
-        }
-        self
-    }
-
-    pub fn numbers(&mut self, values: &[f64]) -> &mut Table {
-        for value in values {
-            self.number(*value);
-        }
-        self
-    }
-
-    /// Text, quoted where it must be (RFC 4180).
-    pub fn text(&mut self, text: &str) -> &mut Table {
-        self.rows.push(b',');
-        if text.contains([',', '"', '\n', '\r']) {
-            let _ = write!(self.rows, "\"{}\"", text.replace('"', "\"\""));
-        } else {
-            self.rows.extend_from_slice(text.as_bytes());
-        }
-        self
-    }
-
-    /// Ends a row.
-    pub fn end(&mut self) -> io::Result<()> {
-        self.rows.push(b'\n');
-        if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
-    }
-
-    /// Hands the finished rows to the file.
-    pub fn flush(&mut self) -> io::Result<()> {
-        let written = self.file.write_all(&self.rows);
-        self.rows.clear();
-        written.map_err(|e| at(&self.path, e))
-    }
-}
-
-/// Opens a table for more rows, without what was written after `step`.
-fn reopen(path: &Path, step: usize) -> io::Result<File> {
-    let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-    let (mut end, mut line) = (0, Vec::new());
-    let mut reader = BufReader::new(&file);
-    loop {
-        line.clear();
-        reader.read_until(b'\n', &mut line)?;
-        // A quoted label with a line break continues its row on a line that does not begin with a number.
-        let number =
-            line.split(|b| *b == b',').next().and_then(|first| std::str::from_utf8(first).ok()?.parse::<usize>().ok());
-        if !line.ends_with(b"\n") || number.is_some_and(|number| number > step) {
-            break;
-        }
-        end += line.len() as u64;
-    }
-    file.set_len(end)?;
-    file.seek(io::SeekFrom::End(0))?;
-    Ok(file)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rand::{Rng, SeedableRng, rngs::SmallRng};
-
-    fn read(path: &Path) -> Vec<Vec<String>> {
-        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(path).unwrap();
-        reader.records().map(|record| record.unwrap().iter().map(String::from).collect()).collect()
-    }
-
-    #[test]
-    fn numbers_read_back_bit_for_bit() {
-        let dir = tempfile::tempdir().unwrap();
-        let mut random = SmallRng::seed_from_u64(5);
-        let mut values = vec![0.0, -0.0, 0.1, 1e-3, 1e300, f64::MIN_POSITIVE, 5e-324, f64::MAX, -1.0 / 3.0];
-        values.extend((0..20_000).map(|_| f64::from_bits(random.next_u64())).filter(|x| x.is_finite()));
-        let mut table = Table::open(dir.path(), "t.csv", "step,time,value", None).unwrap();
-        for (i, value) in values.iter().enumerate() {
-            table.row(i, *value).number(-value).end().unwrap();
-        }
-        table.flush().unwrap();
-        let rows = read(&dir.path().join("t.csv"));
-        assert_eq!(rows.len(), values.len() + 1);
-        for (row, value) in rows[1..].iter().zip(&values) {
-            assert_eq!(row[1].parse::<f64>().unwrap().to_bits(), value.to_bits());
-            assert_eq!(row[2].parse::<f64>().unwrap().to_bits(), (-value).to_bits());
-        }
-    }
-
-    #[test]
-    fn text_survives_commas_and_quotes() {
-        let dir = tempfile::tempdir().unwrap();
-        let mut table = Table::open(dir.path(), "t.csv", "step,time,name,none", None).unwrap();
-        let names = ["portal[3]", "a, b", "the \"elbow\"", "two\nlines", "Träger"];
-        for name in names {
-            table.row(0, 0.0).text(name).number(f64::NAN).end().unwrap();
-        }
-        table.flush().unwrap();
-        let rows = read(&dir.path().join("t.csv"));
-        assert!(rows[1..].iter().zip(names).all(|(row, name)| row[2] == name && row[3].is_empty()));
-    }
-
-    #[test]
-    fn a_resumed_table_ends_where_the_checkpoint_was() {
-        let dir = tempfile::tempdir().unwrap();
-        let mut table = Table::open(dir.path(), "t.csv", "step,time,name", None).unwrap();
-        for step in 0..5 {
-            table.row(step, 0.5).text("first\nline").end().unwrap();
-            table.row(step, 0.5).text("b").end().unwrap();
-        }
-        table.flush().unwrap();
-        let path = dir.path().join("t.csv");
-        OpenOptions::new().append(true).open(&path).unwrap().write_all(b"5,0.").unwrap(); // torn off
-        let mut table = Table::open(dir.path(), "t.csv", "step,time,name", Some(2)).unwrap();
-        table.row(3, 0.25).text("c").end().unwrap();
-        table.flush().unwrap();
-        let rows = read(&path);
-        assert_eq!(rows.len(), 1 + 2 * 3 + 1);
-        assert_eq!(rows[6], ["2", "0.5", "b"]);
-        assert_eq!(rows[7], ["3", "0.25", "c"]);
-    }
-
-    #[test]
-    fn a_full_disk_is_an_error() {
-        if !Path::new("/dev/full").exists() {
-            return;
-        }
-        let mut table = Table::open(Path::new("/dev"), "null", "step,time", None).unwrap();
-        table.path = PathBuf::from("/dev/full");
-        table.file = OpenOptions::new().write(true).open(&table.path).unwrap();
-        table.row(0, 0.0).end().unwrap();
-        let error = table.flush().unwrap_err();
-        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-        assert!(error.to_string().starts_with("/dev/full: "), "{error}");
+    /// The header row.
+    pub fn header(&self) -> String {
+        self.columns().map(|column| column.name).collect::<Vec<_>>().join(",")
     }
 }

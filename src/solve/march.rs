@@ -1,12 +1,12 @@
 //! From 0 to the end time: steps land on the times asked for, are cut where they fail and grow again.
 
 use super::accelerate::Anderson;
+use super::derived::{Derived, Request, Wanted};
 use super::explicit::Explicit;
 use super::failure::Failure;
 use super::frame::{Frame, Observer};
 use super::joints::{self, Closing};
 use super::motion::extent;
-use super::outputs::{Outputs, Request, Wanted};
 use super::own_length::{Free, OwnLength};
 use super::pace::Pace;
 use super::refresh::Refresh;
@@ -66,7 +66,7 @@ pub struct Run<'a> {
     pub short_of_stop: Option<f64>,
     /// Steps in a row cut into many pieces, and those pieces.
     crawling: [usize; 2],
-    outputs: Outputs,
+    derived: Derived,
 }
 
 /// A step as it is shown.
@@ -159,8 +159,8 @@ impl<'a> Run<'a> {
             movers,
             explicit,
             leading: joints::leading(model, system),
-            wants_forces: wanted.reactions || wanted.energy || watched,
-            wants_energy: wanted.energy,
+            wants_forces: wanted.has(Wanted::REACTIONS) || wanted.has(Wanted::ENERGY) || watched,
+            wants_energy: wanted.has(Wanted::ENERGY),
             mass_weight: 0.0,
             factorizations: 0,
             solves: 0,
@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
             balance: Balance::default(),
             short_of_stop: None,
             crawling: [0; 2],
-            outputs: Outputs::new(model),
+            derived: Derived::new(model),
         })
     }
 
@@ -218,9 +218,9 @@ impl<'a> Run<'a> {
     }
 
     fn march(&mut self, state: &mut State, observer: &mut dyn Observer) -> Result<(), Outcome> {
-        let initial = (self.wanted.energy || is_watched(self.stepper.model))
+        let initial = (self.wanted.has(Wanted::ENERGY) || is_watched(self.stepper.model))
             .then(|| self.stepper.system.energy(state, None, self.stepper.plan.threads));
-        let balance = initial.map(|e| e.total);
+        let balance = initial.map(|e| e.mechanical);
         let still = Taken { iterations: 0, refactorizations: 0, residual: 0.0, to: 0.0 };
         let first = Step { dt: 0.0, taken: &still, cuts: 0, due: true, last: false, passed: &[] };
         if let StepLength::ArcLength(control) = &self.stepper.model.analysis.step_length {
@@ -356,10 +356,11 @@ impl<'a> Run<'a> {
         // Fields are drawn by steps, and at the end.
         let drawn = model.output.fields.is_some_and(|every| self.counts.steps.is_multiple_of(every.max(1)) || last);
         // Two looks at the clock are a twentieth of a step of two bodies.
-        let began = (due || drawn || self.wanted.steps).then(Instant::now);
-        let (system, threads, watched) = (self.stepper.system, self.stepper.plan.threads, is_watched(model));
-        let request = Request { model, system, state, due, drawn, balance, watched, threads };
-        self.outputs.compute(&self.wanted, &request);
+        let began = (due || drawn || self.wanted.has(Wanted::EVERY_STEP)).then(Instant::now);
+        let (system, threads) = (self.stepper.system, self.stepper.plan.threads);
+        let watched = if is_watched(model) { Wanted::ENERGY } else { Wanted::NOTHING };
+        let request = Request { model, system, state, due, drawn, balance, threads };
+        self.derived.compute(self.wanted | watched, &request);
         let failure = self.watch(state, balance, last);
         let frame = Frame {
             model,
@@ -372,15 +373,8 @@ impl<'a> Run<'a> {
             cuts,
             due,
             last,
-            energy: self.outputs.energy.as_ref().filter(|_| self.wanted.energy),
-            reactions: if due && self.wanted.reactions { &state.reactions } else { &[] },
-            joints: &self.outputs.joints,
-            links: &self.outputs.links,
-            contacts: &self.outputs.contacts,
-            plastic_strains: &self.outputs.plastic_strains,
-            sections: &self.outputs.sections,
-            parts: &self.outputs.parts,
-            shells: &self.outputs.shells,
+            reactions: if due && self.wanted.has(Wanted::REACTIONS) { &state.reactions } else { &[] },
+            derived: &self.derived,
             passed,
             // Each multiplier brings one of its own.
             negative_pivots: (self.stepper.path.as_ref())
@@ -405,7 +399,7 @@ impl<'a> Run<'a> {
         self.balance.work(state.work.external);
         let letting_go =
             || (is_watched(model) && may_let_go(model)).then(|| system.energy(state, balance, plan.threads));
-        self.balance.see(&self.outputs.energy.or_else(letting_go)?);
+        self.balance.see(&self.derived.energy.or_else(letting_go)?);
         let Balance { made, had, plastic, .. } = self.balance;
         // What plastic flow takes too much of does not move.
         let most = if last && made > plastic { had } else { FAR * had };

@@ -4,7 +4,7 @@ use crate::math::{Mat3, Vec3, rotation};
 use crate::model::Model;
 use crate::model::study::{Quantity, Study};
 use crate::output::at;
-use crate::output::rows::{Rows, fields, number, text};
+use crate::output::table_reader::{TableReader, fields, number, text};
 use nalgebra::Quaternion;
 use std::collections::HashMap;
 use std::io;
@@ -101,7 +101,7 @@ fn read_table(
     for (i, quantity) in quantities.iter().enumerate().filter(|(_, quantity)| quantity.body == body) {
         of.entry(&quantity.label).or_default().push(i);
     }
-    let mut rows = Rows::open(path)?;
+    let mut rows = TableReader::open(path)?;
     let column: HashMap<String, usize> = rows.header.iter().enumerate().map(|(i, name)| (name.clone(), i)).collect();
     let columns = (rows.column("time"), rows.column(if body { "body" } else { "node" }));
     let (Some(time_at), Some(name_at)) = columns else {

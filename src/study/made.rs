@@ -1,7 +1,7 @@
 //! What a study has written into its folder, in a file of its own there: nothing else is taken away or written over.
 
 use super::runs::RUNS;
-use crate::output::{at, remove, remove_empty, remove_run, replace, run_files};
+use crate::output::{at, holds_run, remove, remove_empty, remove_run, replace};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -90,7 +90,7 @@ fn is_link(path: &Path) -> bool {
 /// True where a run would write over something.
 fn holds_results(path: &Path) -> io::Result<bool> {
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => run_files(path),
+        Ok(found) if found.is_dir() => holds_run(path),
         Ok(_) => Ok(true),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(is_link(path)),
         Err(error) => Err(at(path, error)),

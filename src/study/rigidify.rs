@@ -13,7 +13,7 @@ use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::model::study::{Quantity, obstacle};
-use crate::output::rows::{Rows, fields, number, text};
+use crate::output::table_reader::{TableReader, fields, number, text};
 use std::collections::HashMap;
 use std::io;
 use std::path::Path;
@@ -197,7 +197,7 @@ fn candidates(deck: &Deck) -> Vec<Candidate> {
 
 /// By kind and name: the largest energy, and that over all times, each of that of all parts.
 fn read_shares(path: &Path) -> io::Result<HashMap<(String, String), [f64; 2]>> {
-    let mut rows = Rows::open(path)?;
+    let mut rows = TableReader::open(path)?;
     let mut peaks: HashMap<(String, String), [f64; 2]> = HashMap::new();
     // Of the time at hand, its energy, the largest so far, the sum.
     let (mut step, mut now, mut largest, mut sum) = (Vec::new(), 0.0, 0.0f64, 0.0);

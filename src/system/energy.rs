@@ -14,7 +14,7 @@ pub struct Energy {
     /// Dissipated so far by plastic flow.
     pub plastic: f64,
     /// Dissipated so far by viscous flow.
-    pub viscous: f64,
+    pub viscoplastic: f64,
     /// Dissipated so far by dampers, nodal and Rayleigh damping.
     pub damping: f64,
     /// Stored in links.
@@ -24,7 +24,7 @@ pub struct Energy {
     /// What the time integration has taken: initial energy + external − dissipated − stored.
     pub numerical: f64,
     /// kinetic + strain + links + contact.
-    pub total: f64,
+    pub mechanical: f64,
     /// Linear momentum.
     pub p: Vec3,
     /// Angular momentum about the origin.
@@ -87,7 +87,7 @@ impl Balance {
         // A mode beyond the limit of stability may keep what central differences keep, and grow: then what moves tells.
         self.made = self.made.max(-taken).max(energy.kinetic - self.had);
         // Where the total is zero by chance, or external work, the motion is not.
-        self.most = self.most.max(energy.total.abs()).max(energy.kinetic).max(sizes);
+        self.most = self.most.max(energy.mechanical.abs()).max(energy.kinetic).max(sizes);
     }
 }
 
@@ -151,23 +151,23 @@ impl System {
         if !self.dynamic {
             (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
         }
-        let total = kinetic + strain + links + contact;
+        let mechanical = kinetic + strain + links + contact;
         Energy {
             kinetic,
             strain,
             plastic: work.material.plastic,
-            viscous: work.material.viscous,
+            viscoplastic: work.material.viscous,
             damping: work.damping,
             links,
             external: work.external,
-            numerical: initial.unwrap_or(total) + work.external
+            numerical: initial.unwrap_or(mechanical) + work.external
                 - work.damping
                 - work.material.plastic
                 - work.material.viscous
                 - work.material.friction
                 - work.material.impact
-                - total,
-            total,
+                - mechanical,
+            mechanical,
             p,
             l,
             contact,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 11] = [
-    &["math", "names", "diagnostic"],
+    &["math", "names", "quantities", "diagnostic"],
     &["words"],
     &["state", "sections", "materials", "amplitude", "linear", "mesh"],
     &["elements", "constraints", "integrators"],

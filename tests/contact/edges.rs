@@ -4,8 +4,8 @@ use super::{go, read};
 use rdsolve::solve::Frame;
 
 fn energies(frame: &Frame) -> Vec<f64> {
-    let e = frame.energy.expect("energies");
-    vec![e.total, e.numerical, e.friction, e.impact, frame.state.nodes[0].x.z]
+    let e = frame.derived.energy.expect("energies");
+    vec![e.mechanical, e.numerical, e.friction, e.impact, frame.state.nodes[0].x.z]
 }
 
 /// A wheel of radius 0.1 rides on a driven drum of radius 0.5 whose rims move at 5 m/s: it keeps turning at −50 rad/s for 80 turns.

@@ -23,7 +23,7 @@ fn rolling(dt: f64, velocity: f64, spin: f64) -> String {
 }
 
 fn motion(frame: &Frame) -> Vec<f64> {
-    let (node, e) = (&frame.state.nodes[0], frame.energy.expect("energies"));
+    let (node, e) = (&frame.state.nodes[0], frame.derived.energy.expect("energies"));
     vec![frame.state.time, node.x.x, node.v.x, node.omega.y, e.friction, e.numerical]
 }
 
@@ -242,8 +242,9 @@ fn a_beam_over_a_sphere_between_its_nodes() {
             points = {points}
             "#
         );
-        let done =
-            go(&text, &mut |frame| frame.contacts.iter().flat_map(|c| [c.f.z, c.gap, c.touching as f64]).collect());
+        let done = go(&text, &mut |frame| {
+            frame.derived.contacts.iter().flat_map(|c| [c.f.z, c.gap, c.touching as f64]).collect()
+        });
         let [f, gap, touching] = done.rows.last().unwrap()[..] else { panic!("one contact") };
         let (EI, EA, L, a) = (2e9 * 0.02f64.powi(4) / 12.0, 2e9 * 4e-4, 1.0, x);
         let b = L - a;
@@ -281,7 +282,7 @@ fn friction_holds_in_statics_too() {
         friction = 0.5
     "#;
     let done = go(text, &mut |frame| {
-        let e = frame.energy.expect("energies");
+        let e = frame.derived.energy.expect("energies");
         vec![frame.state.nodes[0].x.x, e.friction, e.numerical]
     });
     let [x, friction, numerical] = done.rows.last().unwrap()[..] else { panic!("three numbers") };
@@ -309,7 +310,7 @@ fn a_die_comes_to_rest_on_a_face() {
         friction = 0.4
     "#;
     let done = go(text, &mut |frame| {
-        let e = frame.energy.expect("energies");
+        let e = frame.derived.energy.expect("energies");
         vec![frame.state.nodes[0].x.z, e.numerical, e.friction + e.impact, e.kinetic]
     });
     let least = done.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);

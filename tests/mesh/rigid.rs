@@ -4,7 +4,7 @@ use super::{Folder, Plate, positions};
 use crate::support::node;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{Model, Shape};
-use rdsolve::output::{energy_csv, wanted};
+use rdsolve::output::wanted;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::system::System;
@@ -233,7 +233,7 @@ fn energy_of_rigid_parts() {
         assert_eq!(plan.dofs.of(at).count(), 6);
         let mut watch = Energies::default();
         let stop = AtomicBool::new(false);
-        let wanted = Wanted { energy: true, ..wanted(&model) };
+        let wanted = wanted(&model) | Wanted::ENERGY;
         let (outcome, _) = Run::new(&model, &system, &plan, wanted, &stop).unwrap().run(&mut watch);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
         watch.numerical / watch.kinetic
@@ -252,11 +252,9 @@ struct Energies {
 
 impl Observer for Energies {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
-        let Some(energy) = frame.energy else { return Ok(()) };
-        let values = energy_csv::values(energy);
-        let at = |name: &str| values[energy_csv::COLUMNS.iter().position(|column| *column == name).unwrap()].abs();
-        self.numerical = self.numerical.max(at("numerical"));
-        self.kinetic = self.kinetic.max(at("kinetic"));
+        let Some(energy) = frame.derived.energy else { return Ok(()) };
+        self.numerical = self.numerical.max(energy.numerical.abs());
+        self.kinetic = self.kinetic.max(energy.kinetic.abs());
         Ok(())
     }
 }

@@ -206,8 +206,7 @@ reactions = true
 fn an_edge_of_a_shell_on_a_body() {
     let straight = model(&bolted(&Mat3::identity()));
     let foot = node(&straight, "foot");
-    let mut wanted = rdsolve::output::wanted(&straight);
-    wanted.reactions = true;
+    let wanted = rdsolve::output::wanted(&straight) | rdsolve::solve::Wanted::REACTIONS;
     let system = rdsolve::system::System::new(&straight).unwrap();
     let plan = rdsolve::plan::Plan::new(&straight, &system, 1);
     let stop = std::sync::atomic::AtomicBool::new(false);

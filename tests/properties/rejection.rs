@@ -48,7 +48,7 @@ fn steps(m: &Model) -> (Steps, State, Counts, Outcome) {
     let system = System::new(m).unwrap();
     let plan = Plan::new(m, &system, 1);
     let stop = AtomicBool::new(false);
-    let wanted = Wanted { energy: true, reactions: true, ..Wanted::default() };
+    let wanted = Wanted::ENERGY | Wanted::REACTIONS;
     let mut run = Run::new(m, &system, &plan, wanted, &stop).unwrap();
     let mut steps = Steps { times: vec![], last: None };
     let (outcome, state) = run.run(&mut steps);

@@ -367,7 +367,7 @@ impl Observer for Record {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         if frame.due {
             self.states.push(frame.state.clone());
-            self.energies.extend(frame.energy);
+            self.energies.extend(frame.derived.energy);
         }
         Ok(())
     }
@@ -385,7 +385,7 @@ pub fn run_with(m: &Model, solver: Option<linear::Factorization>) -> Record {
     let mut plan = Plan::new(&m, &system, 1);
     plan.kind = solver.unwrap_or(plan.kind);
     let stop = AtomicBool::new(false);
-    let wanted = Wanted { energy: true, reactions: true, ..Wanted::default() };
+    let wanted = Wanted::ENERGY | Wanted::REACTIONS;
     let mut run = Run::new(&m, &system, &plan, wanted, &stop).unwrap();
     let mut record = Record { states: vec![], energies: vec![], counts: Counts::default() };
     let (outcome, _) = run.run(&mut record);

@@ -39,7 +39,7 @@ fn free_flight() {
                 [
                     most(&|e| (e.p - first.p).norm()) / p,
                     most(&|e| (e.l - first.l).norm()) / l,
-                    most(&|e| e.numerical.abs()) / last.total,
+                    most(&|e| e.numerical.abs()) / last.mechanical,
                 ]
             })
             .collect();
@@ -66,7 +66,7 @@ fn the_balance_closes_with_damping_and_pressure() {
             let record = run(&m);
             let last = record.energies.last().unwrap();
             assert!(last.damping > 0.05 * last.kinetic && last.external.abs() > 0.05 * last.kinetic, "{last:?}");
-            record.energies.iter().map(|e| e.numerical.abs()).fold(0.0, f64::max) / last.total
+            record.energies.iter().map(|e| e.numerical.abs()).fold(0.0, f64::max) / last.mechanical
         })
         .collect();
     eprintln!("balance {e:?}");

@@ -7,7 +7,7 @@ use rdsolve::elements::link::Law;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
-use rdsolve::solve::{ContactState, Frame, LinkState, SectionPoint, ShellState};
+use rdsolve::solve::{ContactState, Derived, Frame, LinkState, SectionPoint};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
 use std::sync::Arc;
@@ -149,12 +149,8 @@ pub fn state(model: &Model, time: f64) -> State {
 
 /// What goes with a state in a frame.
 pub struct Extras {
-    energy: Energy,
     reactions: [f64; 2],
-    links: [LinkState; 1],
-    contacts: [ContactState; 1],
-    sections: [SectionPoint; 2],
-    shells: Vec<ShellState>,
+    derived: Derived,
 }
 
 impl Extras {
@@ -166,30 +162,30 @@ impl Extras {
             point,
             at: Point { s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0], plastic_strain: 0.25 },
         };
-        Extras {
-            energy: Energy {
+        let derived = Derived {
+            energy: Some(Energy {
                 kinetic: time * time,
                 strain: 0.1,
                 plastic: 0.0,
-                viscous: 0.0,
+                viscoplastic: 0.0,
                 damping: 1e-20,
                 links: 0.3,
                 external: 1e20,
                 numerical: -0.0,
-                total: time,
+                mechanical: time,
                 p,
                 l: -p,
                 contact: 0.5,
                 friction: 0.25,
                 impact: 0.125,
                 swing: 0.0,
-            },
-            reactions: [time, -1.0],
-            links: [LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
-            contacts: [ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
-            sections: [point(0), point(1)],
-            shells: vec![],
-        }
+            }),
+            links: vec![LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
+            contacts: vec![ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
+            sections: vec![point(0), point(1)],
+            ..Derived::default()
+        };
+        Extras { reactions: [time, -1.0], derived }
     }
 
     pub fn frame<'a>(&'a self, model: &'a Model, state: &'a State, step: usize) -> Frame<'a> {
@@ -204,15 +200,8 @@ impl Extras {
             cuts: step % 2,
             due: step.is_multiple_of(2) || step == 10,
             last: step == 10,
-            energy: Some(&self.energy),
             reactions: &self.reactions,
-            joints: &[],
-            links: &self.links,
-            contacts: &self.contacts,
-            plastic_strains: &[],
-            sections: &self.sections,
-            shells: &self.shells,
-            parts: &[],
+            derived: &self.derived,
             passed: &[],
             negative_pivots: None,
         }

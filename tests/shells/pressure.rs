@@ -317,7 +317,7 @@ fn the_balance_of_energy_holds_the_work_of_pressure() {
                 + "[amplitudes.push]\nkind = \"sine-squared\"\nfrequency = 20.0\n";
             let model = read(&deck);
             let done = support::run_to_the_end(&model, &mut |frame| {
-                let energy = frame.energy.unwrap();
+                let energy = frame.derived.energy.unwrap();
                 vec![energy.numerical, energy.external, energy.kinetic]
             });
             let largest = |k: usize| done.rows.iter().map(|row| row[k].abs()).fold(0.0, f64::max);

@@ -144,7 +144,7 @@ fn last(model: &Model) -> Vec<ShellState> {
     model.output.sections = true;
     let mut states = Vec::new();
     support::run_to_the_end(&model, &mut |frame| {
-        states = frame.shells.to_vec();
+        states = frame.derived.shells.to_vec();
         Vec::new()
     });
     states

@@ -1,6 +1,6 @@
 //! Rows of two tables side by side: those of one time belong together, and among them those of one name.
 
-use super::ahead::Cursor;
+use super::prefetch::Cursor;
 use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 use std::io;
@@ -125,20 +125,20 @@ fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::R
         alone.rows += 1;
         alone.first.get_or_insert_with(|| (time, key.to_vec()));
     };
-    // What the other side lacks because its file was torn off here is not missing.
-    let a_torn = a.done && a.summary.torn;
+    // What the other side lacks because its file was truncated off here is not missing.
+    let a_truncated = a.done && a.summary.truncated;
     while b.is_in(both[1]) {
         match waiting.get_mut(b.key()).and_then(VecDeque::pop_front) {
             Some((_, values)) => {
                 joined.rows += 1;
                 tally(&mut joined.worst, &values, b.values(), time, b.key());
             }
-            None if !a_torn => miss(&mut joined.alone[1], b.key()),
+            None if !a_truncated => miss(&mut joined.alone[1], b.key()),
             None => {}
         }
         b.advance()?;
     }
-    if !(b.done && b.summary.torn) {
+    if !(b.done && b.summary.truncated) {
         let mut left: Vec<(usize, Vec<u8>)> = waiting
             .into_iter()
             .flat_map(|(key, rows)| rows.into_iter().map(move |(at, _)| (at, key.clone())))

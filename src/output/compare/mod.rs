@@ -3,18 +3,18 @@
 //! Tables are read once, side by side, and never held. Left out: the grids of the fields, `run.log`, and of `result.json` all but
 //! the status. `steps.csv` is compared and shown but not judged unless one of its columns is named: it says what the way cost.
 
-mod ahead;
 mod join;
+mod prefetch;
 mod scale;
 mod select;
 
-pub use ahead::shown;
 pub use join::{Alone, Worst};
+pub use prefetch::shown;
 pub use select::{Selector, Tolerance, size};
 
-use super::at;
-use super::rows::{KEYS, Rows, fields, number};
-use ahead::{Pick, read};
+use super::disk::at;
+use super::table_reader::{TableReader, fields, is_key, number};
+use prefetch::{Pick, read};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
@@ -70,7 +70,7 @@ pub struct Table {
     pub all_rows: [u64; 2],
     /// Last times, where one side goes on without the other.
     pub ends: Option<[f64; 2]>,
-    pub torn: [bool; 2],
+    pub truncated: [bool; 2],
     /// By step instead of time.
     pub by_step: bool,
     /// Rows that do not match are a fault too.
@@ -119,12 +119,12 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
         }
     }
     let all: BTreeSet<&String> = names.iter().flatten().collect();
-    let heads = |name: &str| folders.map(|folder| Rows::open(&folder.join(name)));
+    let heads = |name: &str| folders.map(|folder| TableReader::open(&folder.join(name)));
     let mut known = BTreeSet::new();
     for &name in &all {
         for (side, folder) in folders.into_iter().enumerate() {
             if names[side].contains(name) {
-                let rows = Rows::open(&folder.join(name))?;
+                let rows = TableReader::open(&folder.join(name))?;
                 known.extend(rows.header.iter().map(|column| format!("{name}:{column}")));
             }
         }
@@ -175,7 +175,7 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
 
 fn table(
     name: &str,
-    rows: [Rows; 2],
+    rows: [TableReader; 2],
     settings: &Settings,
     by_step: bool,
     chosen: &dyn Fn(&str, &str) -> bool,
@@ -186,7 +186,7 @@ fn table(
         let missing = rows[side].header.iter().filter(|column| rows[1 - side].column(column).is_none());
         missing.filter(|column| chosen(name, column)).cloned().collect()
     });
-    let is_key = |column: &str| KEYS.contains(&column);
+    let is_key = |column: &str| is_key(name, column);
     let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
     let has_time = shared.iter().any(|column| column == "time");
     let by_step = by_step && shared.iter().any(|column| column == "step");
@@ -208,7 +208,7 @@ fn table(
         io::Result::Ok((joined, sides.map(|side| side.summary), all_rows))
     })?;
 
-    let scales = scale::scales(&values, [&summaries[0].ranges, &summaries[1].ranges]);
+    let scales = scale::scales(name, &values, [&summaries[0].ranges, &summaries[1].ranges]);
     let named = |column: &str| {
         let by = |selector: &Selector| *selector != Selector::default() && selector.takes(name, column);
         settings.columns.iter().chain(settings.tolerances.iter().map(|tolerance| &tolerance.of)).any(by)
@@ -222,7 +222,7 @@ fn table(
             Column { name: column.into(), worst, scale, tolerance, judged, passed: near || !judged }
         })
         .collect();
-    let torn = summaries.map(|summary| summary.torn);
+    let truncated = summaries.map(|summary| summary.truncated);
     let judged = name != COST || columns.iter().any(|column| column.judged);
     Ok(Table {
         name: name.into(),
@@ -231,8 +231,8 @@ fn table(
         rows: joined.rows,
         frames: joined.frames,
         all_rows,
-        ends: apart(joined.ends, torn),
-        torn,
+        ends: apart(joined.ends, truncated),
+        truncated,
         by_step,
         columns,
         judged,
@@ -240,13 +240,13 @@ fn table(
 }
 
 /// The last times, where one side goes on for more than one and a half of the other's last step.
-fn apart(ends: [Option<(f64, f64)>; 2], torn: [bool; 2]) -> Option<[f64; 2]> {
+fn apart(ends: [Option<(f64, f64)>; 2], truncated: [bool; 2]) -> Option<[f64; 2]> {
     let [Some(a), Some(b)] = ends else { return None };
     let shorter = usize::from(b.0 < a.0);
     let (end, before) = if shorter == 0 { a } else { b };
     let step = if before.is_nan() { 0.0 } else { (end - before).abs() };
     let digits = 4.0 * f64::EPSILON * a.0.abs().max(b.0.abs());
-    ((a.0 - b.0).abs() > (1.5 * step).max(digits) && !torn[shorter]).then_some([a.0, b.0])
+    ((a.0 - b.0).abs() > (1.5 * step).max(digits) && !truncated[shorter]).then_some([a.0, b.0])
 }
 
 /// Names of the tables of a folder.
@@ -279,7 +279,7 @@ fn turns(folder: &Path) -> io::Result<bool> {
     if !path.is_file() {
         return Ok(false);
     }
-    let mut rows = Rows::open(&path)?;
+    let mut rows = TableReader::open(&path)?;
     let Some(dt) = rows.column("dt") else { return Ok(false) };
     while let Some(row) = rows.next()? {
         if fields(row).nth(dt).is_some_and(|field| number(field) < 0.0) {

@@ -14,9 +14,13 @@ const places = base64 => new Uint32Array(bytes(base64).buffer);
 /** A table over time: `line(name, column)` is one number a time. */
 class History {
   constructor(from) {
-    Object.assign(this, { file: from.file, names: from.names, columns: from.columns });
+    Object.assign(this, { file: from.file, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels });
     this.times = floats(from.times);
     this.values = floats(from.values);
+  }
+  /** What a column is, with its unit, for an axis. */
+  label(column) {
+    return this.labels[this.columns.indexOf(column)] ?? column;
   }
   line(name, column) {
     const { names, columns, values } = this;

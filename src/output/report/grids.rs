@@ -2,7 +2,7 @@
 
 use super::{Scene, numbers};
 use crate::output::at;
-use crate::output::rows::{Rows, fields, text};
+use crate::output::table_reader::{TableReader, fields, text};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use std::collections::HashSet;
 use std::fs;
@@ -89,7 +89,7 @@ fn kinds(path: &Path) -> io::Result<Vec<u8>> {
     if !path.is_file() {
         return Ok(Vec::new());
     }
-    let mut rows = Rows::open(path)?;
+    let mut rows = TableReader::open(path)?;
     let mut kinds = Vec::new();
     while let Some(row) = rows.next()? {
         let kind = fields(row).nth(1).map(text).unwrap_or_default();

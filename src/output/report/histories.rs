@@ -1,7 +1,9 @@
 //! What tables say over time, thinned to what a page can carry: every so many times, and of too many names some, evenly.
 
 use super::numbers;
-use crate::output::rows::{KEYS, Rows, fields, number, text};
+use crate::output::table_reader::{TableReader, fields, is_key, number, text};
+use crate::output::tables;
+use crate::quantities::Column;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::io;
@@ -33,8 +35,8 @@ struct Places {
 }
 
 impl Places {
-    fn of(rows: &Rows) -> Places {
-        let is = |place: &usize, wanted: bool| KEYS.contains(&rows.header[*place].as_str()) == wanted;
+    fn of(file: &str, rows: &TableReader) -> Places {
+        let is = |place: &usize, wanted: bool| is_key(file, &rows.header[*place]) == wanted;
         let when = [rows.column("step"), rows.column("time")];
         let all = 0..rows.header.len();
         let keys = all.clone().filter(|place| is(place, true)).collect();
@@ -48,7 +50,7 @@ impl Places {
 }
 
 /// Shows every whole row with the number of its frame, from 0.
-fn each(rows: &mut Rows, places: &Places, see: &mut dyn FnMut(usize, &[&[u8]])) -> io::Result<usize> {
+fn each(rows: &mut TableReader, places: &Places, see: &mut dyn FnMut(usize, &[&[u8]])) -> io::Result<usize> {
     let columns = rows.header.len();
     let (mut frames, mut before) = (0, Vec::new());
     let mut wrong = None;
@@ -71,8 +73,8 @@ impl History {
     /// None where a table has no times.
     pub fn read(folder: &Path, file: &str) -> io::Result<Option<History>> {
         let path = folder.join(file);
-        let mut rows = Rows::open(&path)?;
-        let places = Places::of(&rows);
+        let mut rows = TableReader::open(&path)?;
+        let places = Places::of(file, &rows);
         let Some(time) = places.when[1] else { return Ok(None) };
         let mut names: Vec<String> = Vec::new();
         let mut known: HashMap<String, usize> = HashMap::new();
@@ -94,7 +96,7 @@ impl History {
             names.into_iter().zip(&slots).filter(|(_, slot)| slot.is_some()).map(|(n, _)| n).collect();
         let shown = |frame: usize| frame.is_multiple_of(every) || frame + 1 == frames;
 
-        let mut rows = Rows::open(&path)?;
+        let mut rows = TableReader::open(&path)?;
         let (mut at, mut values) = (Vec::new(), Vec::new());
         let mut last = None;
         each(&mut rows, &places, &mut |frame, row| {
@@ -140,9 +142,24 @@ impl History {
             "file": self.file,
             "names": self.names,
             "columns": self.columns,
+            "kinds": self.columns.iter().map(|column| described(&self.file, column).map(|known| known.kind)).collect::<Vec<_>>(),
+            "labels": self.columns.iter().map(|column| label(&self.file, column)).collect::<Vec<_>>(),
             "times": numbers(&self.times),
             "values": numbers(&self.values),
         })
+    }
+}
+
+/// A column as its table describes it; none of a table that is not one of ours.
+fn described(file: &str, column: &str) -> Option<Column> {
+    tables::of_file(file)?.columns().find(|known| known.name == column)
+}
+
+/// A column with its unit, for an axis.
+fn label(file: &str, column: &str) -> String {
+    match described(file, column) {
+        Some(known) => format!("{column} ({})", known.unit),
+        None => column.to_owned(),
     }
 }
 

@@ -20,10 +20,9 @@ function choice(parent, text, options, value, change) {
 }
 
 function energy(history) {
-  const others = ["step", "px", "py", "pz", "lx", "ly", "lz"];
-  const names = history.columns.filter(name => !others.includes(name) && history.line(0, name).some(x => x !== 0));
+  const names = history.columns.filter(name => history.kinds[history.columns.indexOf(name)] === "energy" && history.line(0, name).some(x => x !== 0));
   const parent = byId("energy-plot"), [plot, whole] = plotWith(parent);
-  const kept = ["kinetic", "strain", "links", "contact"], spent = ["plastic", "viscous", "damping", "friction", "impact"];
+  const kept = ["kinetic", "strain", "links", "contact"], spent = ["plastic", "viscoplastic", "damping", "friction", "impact"];
   let [ticked, stacked] = [[], false];
   const series = i => ({ name: names[i], colour: colour(i), x: history.times, y: history.line(0, names[i]) });
   const draw = () => {
@@ -36,9 +35,9 @@ function energy(history) {
       base = y;
       return area;
     });
-    plot.show(drawn, { x: "time", y: stacked ? "energy, stored and spent upon each other" : "energy" });
+    plot.show(drawn, { x: "time", y: stacked ? "energy, stored and dissipated, stacked (force·length)" : "energy (force·length)" });
   };
-  keys(whole, names, i => names[i] !== "total", chosen => ((ticked = chosen), draw()));
+  keys(whole, names, i => names[i] !== "mechanical", chosen => ((ticked = chosen), draw()));
   const controls = make("div", { className: "controls" }), box = make("input", { type: "checkbox" });
   box.addEventListener("change", () => ((stacked = box.checked), draw()));
   controls.append(make("label", {}, box, " stacked"));
@@ -69,7 +68,7 @@ function browse(all) {
         x: x === "time" ? history.times : history.line(i, x),
         y: y === "time" ? history.times : history.line(i, y),
       }));
-      plot.show(series, { x, y });
+      plot.show(series, { x: history.label(x), y: history.label(y) });
     };
     selects = [
       choice(controls, "Column", [...columns, "time"], y, value => ((y = value), draw())),
@@ -88,7 +87,7 @@ function steps(history) {
   const falls = history.times.some((t, i) => i > 0 && t < history.times[i - 1]);
   const over = falls && history.columns.includes("step") ? "step" : "time";
   const x = over === "step" ? history.line(0, "step") : history.times;
-  const show = i => plot.show([{ name: columns[i], colour: colour(i), x, y: history.line(0, columns[i]) }], { x: over, y: columns[i] });
+  const show = i => plot.show([{ name: columns[i], colour: colour(i), x, y: history.line(0, columns[i]) }], { x: history.label(over), y: history.label(columns[i]) });
   const list = make("div", { className: "keys" });
   columns.forEach((name, i) => {
     const pick = make("input", { type: "radio", name: "steps", checked: name === "iterations" });

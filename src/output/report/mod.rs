@@ -9,7 +9,9 @@ pub(crate) mod html;
 mod points;
 mod result;
 
-use super::at;
+use super::disk::at;
+use super::tables::{self, TABLES};
+use crate::quantities::{ENERGY, Unit};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use histories::History;
 use html::{data, escaped};
@@ -55,7 +57,7 @@ struct Scene {
 
 /// The page of a folder; an error names what cannot be read.
 pub fn page(folder: &Path) -> io::Result<String> {
-    let files = tables(folder)?;
+    let files = table_files(folder)?;
     let json = result_json(&folder.join("result.json"))?;
     if json.is_null() && files.iter().any(|file| file == "study.csv") {
         return Err(at(folder, io::Error::other("a study, whose page is study.html there")));
@@ -126,8 +128,10 @@ fn filled(page: &str, parts: &[(&str, String)]) -> String {
 
 /// Energies at the start, at the end and at their largest, and what the time integration made of the balance.
 fn energy(histories: &[History]) -> String {
-    let Some(history) = histories.iter().find(|history| history.file == "energy.csv") else { return String::new() };
-    let is_energy = |name: &&String| !["step", "px", "py", "pz", "lx", "ly", "lz"].contains(&name.as_str());
+    let Some(history) = histories.iter().find(|history| history.file == tables::energy::TABLE.file) else {
+        return String::new();
+    };
+    let is_energy = |name: &&String| ENERGY.iter().any(|known| known.unit == Unit::Energy && known.answers_to(name));
     let number = |value: f32| crate::names::short(f64::from(value));
     let mut largest = 0.0_f32;
     let mut lost = 0.0_f32;
@@ -148,20 +152,20 @@ fn energy(histories: &[History]) -> String {
     let part = if largest > 0.0 { format!("{:.2} %", 100.0 * lost / largest) } else { "0".into() };
     let table = html::table(&["energy", "first", "last", "largest in size"], &rows);
     format!(
-        "{table}<p class=\"note\">Balance: what the steps took or gave (numerical) is at most {part} of the largest energy, at the \
-         times shown.</p>\n"
+        "{table}<p class=\"note\">Energy balance: the algorithmic dissipation (`numerical`, the remainder of the balance) is at most {part} of the largest \
+         energy, at the times shown.</p>\n"
     )
 }
 
 /// Tables of the folder, in the order a reader looks for them.
-fn tables(folder: &Path) -> io::Result<Vec<String>> {
-    const FIRST: [&str; 2] = ["nodes.csv", "bodies.csv"];
+fn table_files(folder: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {
         let name = entry.map_err(|e| at(folder, e))?.file_name();
         names.extend(name.to_str().filter(|name| name.ends_with(".csv")).map(String::from));
     }
-    names.sort_by_key(|name| (FIRST.iter().position(|first| first == name).unwrap_or(FIRST.len()), name.clone()));
+    let place = |name: &str| TABLES.iter().position(|table| table.file == name).unwrap_or(TABLES.len());
+    names.sort_by_key(|name| (place(name), name.clone()));
     Ok(names)
 }
 

@@ -1,34 +1,30 @@
-//! Tables of an output folder read back row by row, never held whole. A last line without its end was torn off when a run was
+//! Tables of an output folder read back row by row, never held whole. A last line without its end was truncated when a run was
 //! killed: it is left out, and said.
 
-use super::at;
+use super::disk::at;
+use super::table::TableKind;
+use super::tables::{self, TABLES};
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-/// Columns that say what a row is about, in the order in which files have them.
-pub const KEYS: [&str; 14] = [
-    "node",
-    "body",
-    "link",
-    "contact",
-    "joint",
-    "beam",
-    "shell",
-    "element",
-    "point",
-    "layer",
-    "direction",
-    "part",
-    "kind",
-    "name",
-];
+/// Whether a column says what a row is about. Of a table that is not one of ours, such as that of a study, its name tells.
+pub fn is_key(file: &str, column: &str) -> bool {
+    match tables::of_file(file) {
+        Some(table) => table.columns().any(|known| known.name == column && known.is_key()),
+        None => {
+            const OF_OTHERS: [&str; 2] = ["joint", "name"];
+            let is_known = |table: &TableKind| table.columns().any(|known| known.name == column && known.is_key());
+            OF_OTHERS.contains(&column) || TABLES.into_iter().any(is_known)
+        }
+    }
+}
 
 /// Bytes asked for at a time.
 const CHUNK: usize = 1 << 18;
 
-pub struct Rows {
+pub struct TableReader {
     path: PathBuf,
     reader: BufReader<File>,
     line: Vec<u8>,
@@ -37,16 +33,16 @@ pub struct Rows {
     /// Rows so far, without the header.
     pub count: usize,
     /// The last line had no end; known when the rows have come to theirs.
-    pub torn: bool,
+    pub truncated: bool,
 }
 
-impl Rows {
+impl TableReader {
     /// Opens a table and reads its header.
-    pub fn open(path: &Path) -> io::Result<Rows> {
+    pub fn open(path: &Path) -> io::Result<TableReader> {
         let file = File::open(path).map_err(|e| at(path, e))?;
         let reader = BufReader::with_capacity(CHUNK, file);
         let (path, line) = (path.to_owned(), Vec::new());
-        let mut rows = Rows { path, reader, line, header: Vec::new(), count: 0, torn: false };
+        let mut rows = TableReader { path, reader, line, header: Vec::new(), count: 0, truncated: false };
         rows.read()?;
         rows.header = fields(&rows.line).map(|field| text(field).into_owned()).collect();
         Ok(rows)
@@ -66,7 +62,7 @@ impl Rows {
         loop {
             let more = self.reader.read_until(b'\n', &mut self.line).map_err(|e| at(&self.path, e))?;
             if self.line.last() != Some(&b'\n') {
-                self.torn |= !self.line.is_empty();
+                self.truncated |= !self.line.is_empty();
                 self.line.clear();
                 return Ok(false);
             }
@@ -140,15 +136,15 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("t.csv");
         std::fs::write(&path, "step,name,x\n0,\"a, \"\"b\"\"\nc\",1.5\r\n1,d,\n2,e,3").unwrap();
-        let mut rows = Rows::open(&path).unwrap();
+        let mut rows = TableReader::open(&path).unwrap();
         assert_eq!(rows.header, ["step", "name", "x"]);
         let read: Vec<String> = fields(rows.next().unwrap().unwrap()).map(|field| text(field).into_owned()).collect();
         assert_eq!(read, ["0", "a, \"b\"\nc", "1.5"]);
         assert!(number(fields(rows.next().unwrap().unwrap()).nth(2).unwrap()).is_nan());
         assert!(rows.next().unwrap().is_none());
-        assert!(rows.torn && rows.count == 2);
+        assert!(rows.truncated && rows.count == 2);
         std::fs::write(&path, "step\n").unwrap();
-        assert!(!Rows::open(&path).unwrap().torn);
+        assert!(!TableReader::open(&path).unwrap().truncated);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A table read and parsed on a thread of its own, ahead of whoever looks at its rows.
 
-use crate::output::rows::{Rows, fields, number, text};
+use crate::output::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{Scope, ScopedJoinHandle};
@@ -59,7 +59,7 @@ impl Range {
 pub struct Summary {
     /// Of each picked column, over the whole table.
     pub ranges: Vec<Range>,
-    pub torn: bool,
+    pub truncated: bool,
 }
 
 enum Message {
@@ -86,7 +86,7 @@ pub struct Cursor {
 }
 
 /// Starts reading the rows of a table.
-pub fn read<'s>(scope: &'s Scope<'s, '_>, mut rows: Rows, pick: Pick) -> (Cursor, ScopedJoinHandle<'s, ()>) {
+pub fn read<'s>(scope: &'s Scope<'s, '_>, mut rows: TableReader, pick: Pick) -> (Cursor, ScopedJoinHandle<'s, ()>) {
     let (sender, blocks) = sync_channel(WAITING);
     let width = pick.values.len();
     let thread = scope.spawn(move || {
@@ -125,7 +125,7 @@ fn roles(pick: &Pick, columns: usize) -> Vec<Role> {
     roles
 }
 
-fn send(rows: &mut Rows, pick: &Pick, sender: &SyncSender<Message>) -> io::Result<Summary> {
+fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io::Result<Summary> {
     let (columns, width) = (rows.header.len(), pick.values.len());
     let roles = roles(pick, columns);
     let mut ranges = vec![Range::NONE; width];
@@ -167,7 +167,7 @@ fn send(rows: &mut Rows, pick: &Pick, sender: &SyncSender<Message>) -> io::Resul
         }
     }
     let _ = sender.send(Message::Rows(block));
-    Ok(Summary { ranges, torn: rows.torn })
+    Ok(Summary { ranges, truncated: rows.truncated })
 }
 
 impl Cursor {

@@ -1,0 +1,89 @@
+//! The files that grow with a run: those the deck asks for are opened, and every accepted step is shown to each.
+
+use super::disk::at;
+use super::fields::Fields;
+use super::folder::remove_stale;
+use super::table::{TableKind, WriteRows};
+use super::table_file::TableFile;
+use super::tables::TABLES;
+use crate::model::{ExpectAt, Model, PartKind};
+use crate::solve::{Frame, Observer, Wanted};
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Finished rows reach their files at least this often, and at [`Files::finish`].
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// A table that is being written.
+struct OpenTable {
+    kind: &'static TableKind,
+    file: TableFile,
+    write: WriteRows,
+}
+
+/// Writes what the deck asks for. [`Files::finish`] ends the run however it went.
+pub struct Files {
+    tables: Vec<OpenTable>,
+    fields: Option<Fields>,
+    flushed: Instant,
+}
+
+impl Files {
+    /// Creates the folder and its files; with `keep_to`, goes on with those of a run interrupted after that step.
+    pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Files> {
+        fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
+        if keep_to.is_none() {
+            remove_stale(dir)?;
+        }
+        let open = |kind: &'static TableKind| {
+            let file = TableFile::open(dir, kind.file, &kind.header(), keep_to)?;
+            Ok(OpenTable { kind, file, write: (kind.rows)(model) })
+        };
+        let wanted = TABLES.into_iter().filter(|kind| (kind.wanted)(model));
+        let tables = wanted.map(open).collect::<io::Result<_>>()?;
+        let fields = model.output.fields.map(|every| Fields::open(dir, model, every, keep_to)).transpose()?;
+        Ok(Files { tables, fields, flushed: Instant::now() })
+    }
+
+    /// Hands over the rows still waiting: at the end of a run, and before a checkpoint.
+    pub fn finish(&mut self) -> io::Result<()> {
+        self.flushed = Instant::now();
+        self.tables.iter_mut().try_for_each(|table| table.file.flush())
+    }
+}
+
+impl Observer for Files {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        for OpenTable { kind, file, write } in &mut self.tables {
+            if frame.due || kind.every_step {
+                write(file, frame)?;
+            }
+        }
+        if let Some(fields) = &mut self.fields {
+            fields.on_step(frame)?;
+        }
+        // The clock is looked at where there is something to write.
+        let writes = frame.due || frame.step.is_multiple_of(64);
+        if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
+    }
+}
+
+/// What the tables, fields and expectations of a model need to be computed.
+pub fn wanted(model: &Model) -> Wanted {
+    let tables = TABLES.into_iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
+    let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS);
+    let expects = model.expects.iter().map(|expect| match expect.at {
+        ExpectAt::Analysis | ExpectAt::Node(_) => Wanted::NOTHING,
+        ExpectAt::Energy => Wanted::ENERGY,
+        ExpectAt::Link(_) => Wanted::LINKS,
+        ExpectAt::Joint(_) => Wanted::REACTIONS,
+        ExpectAt::Contact(_) => Wanted::CONTACTS,
+        ExpectAt::Elements(..) => Wanted::PLASTIC_STRAINS,
+        ExpectAt::Shells(..) => Wanted::SHELLS,
+    });
+    let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
+    let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
+    if model.has(PartKind::Shell) { all } else { all.without(Wanted::SHELLS) }
+}

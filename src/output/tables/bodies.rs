@@ -1,0 +1,50 @@
+//! bodies.csv: the motion of the rigid bodies at their centres of mass, global components.
+
+use crate::output::table::TableKind;
+use crate::output::table_file::TableFile;
+use crate::quantities::{ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, POSITION, QUATERNION, VELOCITY};
+use crate::solve::{Frame, Wanted};
+use crate::state::Node;
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "bodies.csv",
+    about: "One row for each rigid body, at its centre of mass. Written where there are bodies.",
+    columns: &[
+        &[Column::key("body", "name of the body")],
+        &POSITION,
+        &QUATERNION,
+        &VELOCITY,
+        &ANGULAR_VELOCITY,
+        &ACCELERATION,
+        &ANGULAR_ACCELERATION,
+    ],
+    wanted: |model| !model.bodies.is_empty(),
+    needs: Wanted::NOTHING,
+    every_step: false,
+    rows: |_| Box::new(write),
+};
+
+/// The motion of one body. Of the two quaternions of its rotation the one with qw ≥ 0.
+pub fn values(now: &Node) -> [f64; 19] {
+    let q = quaternion(now);
+    let vectors = [now.v, now.omega, now.a, now.alpha];
+    std::array::from_fn(|i| match i {
+        0..3 => now.x[i],
+        3..7 => q[i - 3],
+        _ => vectors[(i - 7) / 3][(i - 7) % 3],
+    })
+}
+
+/// Its columns `qw qx qy qz`.
+pub fn quaternion(now: &Node) -> [f64; 4] {
+    let q = if now.q.w < 0.0 { -now.q } else { now.q };
+    [q.w, q.i, q.j, q.k]
+}
+
+fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+    frame.model.bodies.iter().try_for_each(|body| {
+        table.row(frame.step, frame.state.time).text(&body.name);
+        table.numbers(&values(&frame.state.nodes[body.node])).end()
+    })
+}

@@ -1,0 +1,30 @@
+//! links.csv: elongations and forces of the links.
+
+use crate::model::{Link, PartKind};
+use crate::output::table::TableKind;
+use crate::output::table_file::TableFile;
+use crate::quantities::{Column, LINK};
+use crate::solve::{Frame, LinkState, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "links.csv",
+    about: "One row for each link. Written where there are links, unless `[output] links = false`.",
+    columns: &[&[Column::key("link", "name of the link")], &LINK],
+    wanted: |model| model.output.links && model.has(PartKind::Link),
+    needs: Wanted::LINKS,
+    every_step: false,
+    rows: |_| Box::new(write),
+};
+
+/// The columns of one link.
+pub fn values(link: &LinkState) -> [f64; 9] {
+    let LinkState { elongation, rate, force, f, m } = *link;
+    [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z]
+}
+
+fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+    frame.model.each::<Link>().zip(&frame.derived.links).try_for_each(|(link, state)| {
+        table.row(frame.step, frame.state.time).text(&link.name).numbers(&values(state)).end()
+    })
+}

@@ -1,0 +1,54 @@
+//! The tables of results, a file each. One more is one more file and one line of [`TABLES`].
+
+pub mod bodies;
+pub mod contacts;
+pub mod energy;
+mod layers;
+pub mod links;
+pub mod nodes;
+mod parts;
+pub mod reactions;
+mod sections;
+mod shell_order;
+pub mod shells;
+mod steps;
+
+use super::table::TableKind;
+
+/// In the order in which a reader looks for them.
+pub static TABLES: [&TableKind; 11] = [
+    &nodes::TABLE,
+    &bodies::TABLE,
+    &energy::TABLE,
+    &links::TABLE,
+    &contacts::TABLE,
+    &reactions::TABLE,
+    &sections::TABLE,
+    &shells::TABLE,
+    &layers::TABLE,
+    &parts::TABLE,
+    &steps::TABLE,
+];
+
+/// The table of a file, if it is one of these.
+pub fn of_file(name: &str) -> Option<&'static TableKind> {
+    TABLES.into_iter().find(|table| table.file == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn every_column_is_described_once() {
+        let files: HashSet<&str> = TABLES.iter().map(|table| table.file).collect();
+        assert_eq!(files.len(), TABLES.len());
+        for table in TABLES {
+            let names: HashSet<&str> = table.columns().map(|column| column.name).collect();
+            assert_eq!(names.len(), table.columns().count(), "{}", table.file);
+            assert!(table.about.ends_with('.'), "{}", table.file);
+            assert!(table.columns().all(|column| !column.meaning.is_empty()), "{}", table.file);
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! nodes.csv: the motion of the chosen nodes, global components.
+
+use crate::math::rotation;
+use crate::model;
+use crate::output::table::TableKind;
+use crate::output::table_file::TableFile;
+use crate::quantities::{
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, POSITION, ROTATION, VELOCITY,
+};
+use crate::solve::{Frame, Wanted};
+use crate::state;
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "nodes.csv",
+    about: "One row for each node that `[output] nodes` chooses, named points unless it says otherwise.",
+    columns: &[
+        &[Column::key("node", "name of the node; nodes between named points as `part[number]`")],
+        &POSITION,
+        &DISPLACEMENT,
+        &ROTATION,
+        &VELOCITY,
+        &ANGULAR_VELOCITY,
+        &ACCELERATION,
+        &ANGULAR_ACCELERATION,
+    ],
+    wanted: |model| !model.output.nodes.is_empty(),
+    needs: Wanted::NOTHING,
+    every_step: false,
+    rows: |_| Box::new(write),
+};
+
+/// The motion of one node, in the order of [`crate::quantities::MOTION`]. The rotation vector is the shortest, of length at most π.
+pub fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
+    let vectors = [now.x, now.moved(&start.x), rotation::log(&now.q), now.v, now.omega, now.a, now.alpha];
+    std::array::from_fn(|i| vectors[i / 3][i % 3])
+}
+
+fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+    frame.model.output.nodes.iter().try_for_each(|&i| {
+        let node = &frame.model.nodes[i];
+        table.row(frame.step, frame.state.time).text(&node.label);
+        table.numbers(&values(node, &frame.state.nodes[i])).end()
+    })
+}

@@ -1,0 +1,48 @@
+//! reactions.csv: force or moment on the structure in every restrained direction, and on the first part of every joint.
+
+use crate::model::DIRECTIONS;
+use crate::output::table::TableKind;
+use crate::output::table_file::TableFile;
+use crate::quantities::{Axes, Column, Unit};
+use crate::solve::{Frame, JointState, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "reactions.csv",
+    about: "One row for each restrained or prescribed degree of freedom, and six rows for each joint between two parts: what the \
+            joint exerts on its first part (`from`), at that end. Written if `[output] reactions = true`.",
+    columns: &[&[
+        Column::key("node", "name of the supported node, or of the joint"),
+        Column::key("direction", "`ux uy uz` for forces, `rx ry rz` for moments; global"),
+        Column::scalar(
+            "value",
+            "reaction: force or moment on the structure, or on the joint's first part",
+            Unit::ForceOrMoment,
+        )
+        .in_axes(Axes::Global),
+    ]],
+    wanted: |model| model.output.reactions,
+    needs: Wanted::REACTIONS,
+    every_step: false,
+    rows: |_| Box::new(write),
+};
+
+/// What a joint exerts on its first part, in the order of [`crate::quantities::JOINT`].
+pub fn of_joint(joint: &JointState) -> [f64; 6] {
+    let [f, m] = [joint.f, joint.m];
+    [f.x, f.y, f.z, m.x, m.y, m.z]
+}
+
+fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+    let Frame { model, step, state, derived, .. } = *frame;
+    model.held.iter().zip(frame.reactions).try_for_each(|(held, value)| {
+        let node = &model.nodes[held.node];
+        table.row(step, state.time).text(&node.label).text(DIRECTIONS[held.dof]).number(*value).end()
+    })?;
+    // A joint that holds a node to its support carries what the support does.
+    model.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(|(joint, state_of)| {
+        DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
+            table.row(step, state.time).text(&joint.name).text(direction).number(value).end()
+        })
+    })
+}

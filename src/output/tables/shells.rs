@@ -1,0 +1,86 @@
+//! shells.csv: stress resultants of the shells' elements.
+
+use super::shell_order::ShellOrder;
+use crate::model::PartKind;
+use crate::output::table::TableKind;
+use crate::output::table_file::TableFile;
+use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit};
+use crate::solve::{Frame, ShellState, Wanted};
+use std::io;
+
+const fn membrane(name: &'static str) -> Column {
+    Column::scalar(name, "membrane force per length", Unit::ForcePerLength)
+        .kind("membrane force")
+        .in_axes(Axes::Shell)
+        .positive("tension")
+}
+
+const fn bending(name: &'static str) -> Column {
+    Column::scalar(name, "bending moment per length", Unit::MomentPerLength)
+        .kind("bending moment")
+        .in_axes(Axes::Shell)
+        .positive("tension at the top, the side of the normal")
+}
+
+const fn shear(name: &'static str) -> Column {
+    Column::scalar(name, "transverse shear force per length", Unit::ForcePerLength)
+        .kind("shear force")
+        .in_axes(Axes::Shell)
+        .positive("∂M11/∂1 + ∂M12/∂2 = Q1")
+}
+
+const fn surface_stress(name: &'static str, meaning: &'static str) -> Column {
+    Column::scalar(name, meaning, Unit::Stress).kind("surface stress")
+}
+
+pub static TABLE: TableKind = TableKind {
+    file: "shells.csv",
+    about: "One row for each shell element: means over the element, per length in the initial state, in axes that turn with the \
+            surface (`axis_1` of the fields). Written if `[output] sections = true` and there are shells.",
+    columns: &[&[
+        Column::key("shell", "name of the shell"),
+        Column::key("element", "number of the element in its part, from 0"),
+        membrane("N11"),
+        membrane("N22"),
+        membrane("N12"),
+        bending("M11"),
+        bending("M22"),
+        bending("M12"),
+        shear("Q1"),
+        shear("Q2"),
+        surface_stress("von_mises_bottom", "von Mises stress in the lowest layer; of an elastic shell, at the surface"),
+        surface_stress("von_mises_top", "von Mises stress in the highest layer; of an elastic shell, at the surface"),
+        PLASTIC_STRAIN,
+    ]],
+    wanted: |model| model.output.sections && model.has(PartKind::Shell),
+    needs: Wanted::SHELLS,
+    every_step: false,
+    rows: |model| {
+        let order = ShellOrder::of(model);
+        Box::new(move |table, frame| write(table, &order, frame))
+    },
+};
+
+fn write(table: &mut TableFile, order: &ShellOrder, frame: &Frame) -> io::Result<()> {
+    order.states(frame).try_for_each(|state| {
+        let at = &state.at;
+        table.row(frame.step, frame.state.time).text(frame.model.parts[state.part].name()).count(state.element);
+        table.numbers(&at.N).numbers(&at.M).numbers(&at.Q).numbers(&outer(state)).number(plastic_strain(state)).end()
+    })
+}
+
+/// Von Mises stress in the lowest layer and in the highest.
+pub fn outer(state: &ShellState) -> [f64; 2] {
+    let layers = state.at.layers();
+    [layers.first(), layers.last()].map(|layer| layer.map_or(0.0, |layer| layer.von_mises()))
+}
+
+/// Von Mises stress, the largest over the layers.
+pub fn von_mises(state: &ShellState) -> f64 {
+    state.at.layers().iter().map(|layer| layer.von_mises()).fold(0.0, f64::max)
+}
+
+/// Accumulated plastic strain, the largest over the layers.
+pub fn plastic_strain(state: &ShellState) -> f64 {
+    state.at.layers().iter().map(|layer| layer.plastic_strain).fold(0.0, f64::max)
+}

@@ -1,0 +1,297 @@
+//! The quantities that results are told in: what a column means, in which unit and axes, and with which sign.
+//!
+//! Decks, files, comparisons and the generated page of results all read these lists, so a name has one meaning. A table of
+//! results is a row of such lists; what only one table has stands with that table.
+
+use std::fmt;
+
+/// In any consistent system of units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// A name or a number that says what a row is about.
+    Label,
+    Count,
+    /// Without dimension.
+    One,
+    Radian,
+    Time,
+    Length,
+    Velocity,
+    AngularVelocity,
+    Acceleration,
+    AngularAcceleration,
+    Force,
+    Moment,
+    /// A force in rows of translations, a moment in rows of rotations.
+    ForceOrMoment,
+    ForcePerLength,
+    MomentPerLength,
+    Stress,
+    Energy,
+    Momentum,
+    AngularMomentum,
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Unit::Label => "",
+            Unit::Count => "count",
+            Unit::One => "1",
+            Unit::Radian => "rad",
+            Unit::Time => "time",
+            Unit::Length => "length",
+            Unit::Velocity => "length/time",
+            Unit::AngularVelocity => "rad/time",
+            Unit::Acceleration => "length/time²",
+            Unit::AngularAcceleration => "rad/time²",
+            Unit::Force => "force",
+            Unit::Moment => "force·length",
+            Unit::ForceOrMoment => "force, or force·length",
+            Unit::ForcePerLength => "force/length",
+            Unit::MomentPerLength => "force·length/length",
+            Unit::Stress => "force/length²",
+            Unit::Energy => "force·length",
+            Unit::Momentum => "mass·length/time",
+            Unit::AngularMomentum => "mass·length²/time",
+        })
+    }
+}
+
+/// The axes that components refer to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axes {
+    /// A scalar.
+    None,
+    Global,
+    /// Beam axis x and the section's local y and z, turning with the section.
+    Section,
+    /// Axis 1, axis 2 and the normal of a shell element, turning with its surface.
+    Shell,
+}
+
+impl fmt::Display for Axes {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Axes::None => "",
+            Axes::Global => "global",
+            Axes::Section => "section",
+            Axes::Shell => "shell",
+        })
+    }
+}
+
+/// A column of a table of results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    pub name: &'static str,
+    /// What it is. Components of one vector share these words.
+    pub meaning: &'static str,
+    pub unit: Unit,
+    pub axes: Axes,
+    /// What a positive number says, where that is not plain.
+    pub sign: &'static str,
+    /// Columns of one kind are components of one thing, or amounts that are exchanged with each other; one that does not vary
+    /// is measured against the largest of its kind.
+    pub kind: &'static str,
+    /// A name that the column had in earlier versions.
+    pub old_name: Option<&'static str>,
+}
+
+impl Column {
+    /// A column that says what a row is about.
+    pub const fn key(name: &'static str, meaning: &'static str) -> Column {
+        Column::scalar(name, meaning, Unit::Label)
+    }
+
+    /// A number without axes, of a kind of its own.
+    pub const fn scalar(name: &'static str, meaning: &'static str, unit: Unit) -> Column {
+        Column { name, meaning, unit, axes: Axes::None, sign: "", kind: name, old_name: None }
+    }
+
+    pub const fn positive(self, sign: &'static str) -> Column {
+        Column { sign, ..self }
+    }
+
+    pub const fn kind(self, kind: &'static str) -> Column {
+        Column { kind, ..self }
+    }
+
+    pub const fn in_axes(self, axes: Axes) -> Column {
+        Column { axes, ..self }
+    }
+
+    pub const fn formerly(self, name: &'static str) -> Column {
+        Column { old_name: Some(name), ..self }
+    }
+
+    pub fn is_key(&self) -> bool {
+        self.unit == Unit::Label
+    }
+
+    /// Whether a deck may mean this column by a word.
+    pub fn answers_to(&self, word: &str) -> bool {
+        self.name == word || self.old_name == Some(word)
+    }
+}
+
+/// Global components of a vector.
+const fn vector(names: [&'static str; 3], meaning: &'static str, unit: Unit) -> [Column; 3] {
+    let [x, y, z] = names;
+    [
+        Column::scalar(x, meaning, unit).kind(meaning).in_axes(Axes::Global),
+        Column::scalar(y, meaning, unit).kind(meaning).in_axes(Axes::Global),
+        Column::scalar(z, meaning, unit).kind(meaning).in_axes(Axes::Global),
+    ]
+}
+
+const fn energy(name: &'static str, meaning: &'static str) -> Column {
+    Column::scalar(name, meaning, Unit::Energy).kind("energy")
+}
+
+pub const STEP: Column = Column::scalar("step", "number of accepted steps so far; 0 is the initial state", Unit::Count);
+pub const TIME: Column =
+    Column::scalar("time", "time at the end of the step; of a path by arc length, the load factor", Unit::Time);
+
+pub const POSITION: [Column; 3] = vector(["x", "y", "z"], "position", Unit::Length);
+pub const DISPLACEMENT: [Column; 3] = vector(["ux", "uy", "uz"], "displacement since the initial state", Unit::Length);
+pub const ROTATION: [Column; 3] = {
+    let [x, y, z] = vector(
+        ["rx", "ry", "rz"],
+        "rotation vector since the initial state: the shortest one, of length at most π",
+        Unit::Radian,
+    );
+    [x.positive("right-handed"), y.positive("right-handed"), z.positive("right-handed")]
+};
+pub const QUATERNION: [Column; 4] = {
+    const fn component(name: &'static str) -> Column {
+        Column::scalar(name, "unit quaternion that turns body axes into global axes; `qw` is never negative", Unit::One)
+            .kind("quaternion")
+            .in_axes(Axes::Global)
+    }
+    [component("qw"), component("qx"), component("qy"), component("qz")]
+};
+pub const VELOCITY: [Column; 3] = vector(["vx", "vy", "vz"], "velocity", Unit::Velocity);
+pub const ANGULAR_VELOCITY: [Column; 3] = vector(["wx", "wy", "wz"], "angular velocity", Unit::AngularVelocity);
+pub const ACCELERATION: [Column; 3] = vector(["ax", "ay", "az"], "acceleration", Unit::Acceleration);
+pub const ANGULAR_ACCELERATION: [Column; 3] = {
+    let [x, y, z] = vector(["alphax", "alphay", "alphaz"], "angular acceleration", Unit::AngularAcceleration);
+    [x.formerly("bx"), y.formerly("by"), z.formerly("bz")]
+};
+
+/// Force and moment of a joint on its first part; also the columns of a contact and a link, with meanings of their own.
+pub const JOINT: [Column; 6] =
+    wrench("force of the joint on its first part", "moment of the joint on its first part, about that end");
+
+pub const LINK: [Column; 9] = {
+    let [fx, fy, fz, mx, my, mz] =
+        wrench("force of the link on its first end", "moment of the link on its first end (bushings only)");
+    [
+        Column::scalar("elongation", "length beyond the free length; of a bushing, along its first axis", Unit::Length)
+            .positive("longer"),
+        Column::scalar("rate", "rate of the elongation", Unit::Velocity).positive("growing longer"),
+        Column::scalar(
+            "force",
+            "force along the line of the link, dampers included; of a bushing, along its first axis",
+            Unit::Force,
+        )
+        .kind("force")
+        .positive("tension"),
+        fx,
+        fy,
+        fz,
+        mx,
+        my,
+        mz,
+    ]
+};
+
+pub const CONTACT: [Column; 8] = {
+    let [fx, fy, fz, mx, my, mz] = wrench(
+        "force on the surface",
+        "moment on the surface, about the centre of mass of the body that carries it, or about the ground surface's own point",
+    );
+    [
+        Column::scalar("touching", "number of points in contact", Unit::Count),
+        Column::scalar("gap", "least clearance of all points", Unit::Length)
+            .positive("clear of each other; negative: penetration"),
+        fx,
+        fy,
+        fz,
+        mx,
+        my,
+        mz,
+    ]
+};
+/// Of a contact, what only `[[expect]]` asks for.
+pub const CONTACT_FORCE: Column =
+    Column::scalar("force", "magnitude of the force on the surface", Unit::Force).kind("force");
+
+pub const ENERGY: [Column; 18] = {
+    let [px, py, pz] = vector(["px", "py", "pz"], "linear momentum", Unit::Momentum);
+    let [lx, ly, lz] = vector(["lx", "ly", "lz"], "angular momentum about the origin", Unit::AngularMomentum);
+    [
+        energy("kinetic", "kinetic energy"),
+        energy("strain", "elastic energy of beams, bars and shells, and what kinematic hardening stores"),
+        energy("plastic", "dissipated so far by rate-independent plastic flow").positive("dissipated"),
+        energy("viscoplastic", "dissipated so far by the overstress of viscoplastic flow")
+            .positive("dissipated")
+            .formerly("viscous"),
+        energy("damping", "dissipated so far by dampers, nodal and Rayleigh damping").positive("dissipated"),
+        energy("links", "stored in links"),
+        energy("contact", "stored in contacts"),
+        energy("friction", "dissipated so far by friction in contacts").positive("dissipated"),
+        energy("impact", "dissipated so far in impacts, by contact damping and restitution").positive("dissipated"),
+        energy("external", "work done so far by loads, gravity and prescribed motion").positive("put in"),
+        energy(
+            "numerical",
+            "algorithmic dissipation, the remainder of the balance: initial + external − dissipated − `mechanical`",
+        )
+        .positive("taken by the time integration; negative: energy growth"),
+        energy("mechanical", "kinetic + strain + links + contact").formerly("total"),
+        px,
+        py,
+        pz,
+        lx,
+        ly,
+        lz,
+    ]
+};
+
+pub const PLASTIC_STRAIN: Column = Column::scalar("plastic_strain", "largest accumulated plastic strain", Unit::One);
+/// Of a shell, what only `[[expect]]` asks for.
+pub const VON_MISES: Column = Column::scalar("von_mises", "von Mises stress", Unit::Stress).kind("stress");
+
+/// Global components of a force and a moment.
+const fn wrench(force: &'static str, moment: &'static str) -> [Column; 6] {
+    let [fx, fy, fz] = vector(["fx", "fy", "fz"], force, Unit::Force);
+    let [mx, my, mz] = vector(["mx", "my", "mz"], moment, Unit::Moment);
+    [fx.kind("force"), fy.kind("force"), fz.kind("force"), mx.kind("moment"), my.kind("moment"), mz.kind("moment")]
+}
+
+/// The motion of a node, in the order of nodes.csv.
+pub const MOTION: [&[Column]; 7] =
+    [&POSITION, &DISPLACEMENT, &ROTATION, &VELOCITY, &ANGULAR_VELOCITY, &ACCELERATION, &ANGULAR_ACCELERATION];
+
+/// Names of columns, in their order.
+pub fn names(groups: &[&'static [Column]]) -> Vec<&'static str> {
+    groups.iter().copied().flatten().map(|column| column.name).collect()
+}
+
+/// The name that a word of a deck stands for among these columns, today's or an earlier one.
+pub fn named(groups: &[&'static [Column]], word: &str) -> Option<&'static str> {
+    groups.iter().copied().flatten().find(|column| column.answers_to(word)).map(|column| column.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn earlier_names_are_understood() {
+        assert_eq!(named(&[&ENERGY], "total"), Some("mechanical"));
+        assert_eq!(named(&[&ENERGY], "mechanical"), Some("mechanical"));
+        assert_eq!(named(&MOTION, "by"), Some("alphay"));
+        assert_eq!(named(&MOTION, "qw"), None);
+    }
+}
