@@ -89,7 +89,7 @@ impl<'d> Expects<'_, 'd> {
             Some(Place::Joint(joint)) => Some((ExpectAt::Joint(joint), quantities::JOINT.to_vec())),
             Some(Place::Contact(contact)) => {
                 Some((ExpectAt::Contact(contact), [&quantities::CONTACT[..], &[quantities::CONTACT_FORCE]].concat()))
-            },
+            }
             Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
             // Where a shell has errors, these have been said.
             Some(Place::Shell(shell)) if !self.scene.parts.shells[shell].range.is_empty() => {
