@@ -3,10 +3,11 @@
 use serde_json::Value;
 
 use super::Exit;
-use crate::deck::Deck;
+use crate::deck::{Deck, aliases};
 
 pub(super) fn schema() -> Result<(), Exit> {
     let mut schema = schemars::schema_for!(Deck).to_value();
+    aliases::describe(&mut schema);
     without_null(&mut schema);
     let text = serde_json::to_string_pretty(&schema).map_err(|_| Exit::Internal)?;
     super::print(&format!("{text}\n"))

@@ -3,6 +3,7 @@
 //! Every key may be left out here; what is needed is decided where it is used, so that a missing key is one more
 //! diagnostic and not the end of reading.
 
+pub mod aliases;
 pub mod amplitudes;
 pub mod analysis;
 pub mod attachments;
@@ -11,6 +12,7 @@ pub mod bodies;
 pub mod contacts;
 pub mod environment;
 pub mod expect;
+mod hints;
 pub mod initial;
 pub mod joints;
 pub mod links;

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::{Deck, Spoiled, set, study};
+use super::{Deck, Spoiled, aliases, hints, set, study};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::nearest;
 
@@ -27,6 +27,7 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     for error in &syntax {
         reader.syntax(&source.text, error);
     }
+    reader.problems.extend(aliases::unify(&mut root));
     for ((offset, text), argument) in source.sets.iter().zip(&arguments) {
         if let Err(problem) = set::merge(&mut root, argument, *offset, text) {
             reader.problems.push(problem);
@@ -118,6 +119,29 @@ impl Reader {
         Some(entry)
     }
 
+    /// A key that its table does not have, with the one that may be meant.
+    fn unknown_key(&mut self, entry: &Entry, known: &[&str]) -> Diagnostic {
+        let key = entry.key.as_str();
+        let diagnostic = Diagnostic::error(format!("there is no key `{key}` here"));
+        // The key it was meant to be is then not missing.
+        let mut spoil =
+            |meant: &str| self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: meant.to_owned() });
+        if let Some(ours) = hints::key(key, known) {
+            spoil(ours);
+            return diagnostic.hint(format!("that is `{ours}` here"));
+        }
+        if let Some(hint) = hints::elsewhere(key) {
+            return diagnostic.hint(hint);
+        }
+        match nearest(key, known.iter().copied()) {
+            Some(near) => {
+                spoil(near);
+                diagnostic.hint(format!("did you mean `{near}`?"))
+            }
+            None => diagnostic.hint("not a key of this table").hint(format!("the keys are {}", known.join(", "))),
+        }
+    }
+
     /// Serde's message in the deck's words.
     fn wrong(&mut self, entry: &Entry, message: &str) -> Diagnostic {
         let key = &entry.key;
@@ -125,20 +149,15 @@ impl Reader {
         let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
         let words: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
         if problem.starts_with("unknown field") {
-            let diagnostic = Diagnostic::error(format!("there is no key `{key}` here"));
-            return match nearest(key, words.iter().copied()) {
-                Some(near) => {
-                    // The key it was meant to be is then not missing.
-                    self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: near.to_owned() });
-                    diagnostic.hint(format!("did you mean `{near}`?"))
-                }
-                None => diagnostic.hint("not a key of this table").hint(format!("the keys are {}", words.join(", "))),
-            };
+            return self.unknown_key(entry, &words);
         }
         if problem.starts_with("unknown variant") {
             let word = problem.split('`').nth(1).unwrap_or_default();
             let known = crate::names::quoted(words.iter().copied());
             let diagnostic = Diagnostic::error(format!("{subject} cannot be `{word}`"));
+            if let Some(hint) = hints::value(word, &words) {
+                return diagnostic.hint(hint);
+            }
             return match nearest(word, words.iter().copied()) {
                 Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
                 None => diagnostic.hint(format!("known: {known}")),

@@ -61,6 +61,9 @@ pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argumen
             diagnostic.at(&error.span().unwrap_or(all.clone())).hint("text with blanks or signs needs quotes")
         })?
         .into_inner();
+    if let Some(problem) = super::aliases::unify(&mut table).pop() {
+        return Err(problem);
+    }
     // Down the dotted key; a table behind the sign is the value itself.
     let mut path = Vec::new();
     let value = loop {

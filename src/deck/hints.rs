@@ -1,0 +1,249 @@
+//! Words that other programs have for what ours has another word for. A user who guesses one is told ours.
+//!
+//! A row is only used where one of our words is known in the table at hand, so that the same guess may mean `area` in a section
+//! and nothing elsewhere. What stands in another place of the deck has a sentence of its own.
+
+/// Guessed words, and ours: the first that is known where the guess stands.
+type Row = (&'static [&'static str], &'static [&'static str]);
+
+const KEYS: &[Row] = &[
+    (&["type", "kind", "shape", "model", "law", "class"], &["kind", "shape", "model", "law", "scheme", "format"]),
+    (&["dt", "h", "step", "timestep", "delta_t", "step_size", "increment"], &["time_step", "interval"]),
+    (&["tend", "t_end", "tmax", "t_max", "duration", "total_time", "final_time", "stop_time"], &["end_time"]),
+    (&["dtmin", "dt_min", "min_step", "minimum_step", "min_time_step"], &["least_step"]),
+    (&["tol", "rtol", "epsilon"], &["tolerance", "error_tolerance"]),
+    (&["max_iterations", "max_iter", "maxiter", "iterations"], &["limit"]),
+    (&["algorithm", "integrator", "solver"], &["scheme", "method"]),
+    (&["rho_inf", "rhoinf", "rho_infinity"], &["spectral_radius"]),
+    (&["young", "youngs", "young_modulus", "elastic_modulus", "modulus", "Ex"], &["youngs_modulus"]),
+    (&["poisson", "poissons_ratio", "PRXY", "prxy"], &["poisson_ratio"]),
+    (&["mass_density", "DENS", "dens"], &["density"]),
+    (&["fy", "Fy", "sigma_y", "SIGY", "yield", "yield_strength", "sigy"], &["yield_stress"]),
+    (&["tangent_modulus", "ETAN", "etan", "plastic_modulus", "H"], &["hardening_modulus"]),
+    (&["plastic", "hardening_curve", "stress_strain"], &["hardening"]),
+    (&["cowper_symonds", "cowper-symonds", "perzyna", "rate_dependent"], &["viscosity"]),
+    (&["D"], &["rate", "diameter"]),
+    (&["q", "n", "m"], &["exponent"]),
+    (&["A", "cross_section_area"], &["area"]),
+    (&["Iy", "Iz", "I", "Iyy", "Izz", "second_moments"], &["moments"]),
+    (&["Iyz"], &["product_moment"]),
+    (&["J", "It", "Ip", "Jxx"], &["torsion_constant", "inertia"]),
+    (&["Ay", "Az", "Avy", "Avz"], &["shear_areas"]),
+    (&["EA"], &["axial_stiffness"]),
+    (&["EI", "EIy", "EIz"], &["bending_stiffness"]),
+    (&["GA", "GAy", "GAz"], &["shear_stiffness"]),
+    (&["GJ", "GIt"], &["torsional_stiffness"]),
+    (&["b", "B", "breadth"], &["width"]),
+    (&["h", "depth"], &["height"]),
+    (&["d", "outer_diameter"], &["diameter", "damping"]),
+    (&["r", "R", "outer_radius"], &["radius"]),
+    (&["t", "wall", "wall_thickness", "thick"], &["thickness"]),
+    (&["tw"], &["web_thickness"]),
+    (&["tf"], &["flange_thickness"]),
+    (&["position", "pos", "cog", "cg", "com", "centre", "origin", "location", "center_of_mass"], &["center", "point"]),
+    (&["omega", "rotational_velocity", "spin"], &["angular_velocity"]),
+    (&["initial_velocity", "v", "v0"], &["velocity"]),
+    (&["geometry"], &["shape"]),
+    (&["node", "nodes", "point", "on", "set"], &["at", "nodes", "with", "path"]),
+    (&["fixed", "dof", "dofs", "constrain", "restrain", "boundary"], &["fix"]),
+    (&["displacement", "prescribed", "imposed"], &["motion"]),
+    (&["torque", "couple", "moments"], &["moment"]),
+    (&["value", "magnitude", "f", "F"], &["force"]),
+    (&["function", "curve", "time_series", "time_function", "drive", "tsTag"], &["amplitude"]),
+    (&["factor"], &["scale"]),
+    (&["values", "data", "table", "file", "csv", "path"], &["points"]),
+    (&["freq", "f"], &["frequency"]),
+    (&["k", "K", "spring", "rate", "penalty", "contact_stiffness"], &["stiffness"]),
+    (&["c", "C", "damper", "viscous"], &["damping"]),
+    (&["rest_length", "natural_length", "unstretched_length", "l0", "L0", "length"], &["free_length"]),
+    (&["prestress", "pretension", "prestrain", "preload"], &["preload", "free_length"]),
+    (&["clearance", "slack", "initial_gap"], &["gap"]),
+    (&["body1", "body_1", "body_a", "body_i", "bodyA", "parent", "node1", "node_i", "start"], &["from"]),
+    (&["body2", "body_2", "body_b", "body_j", "bodyB", "child", "node2", "node_j", "end"], &["to"]),
+    (&["mu", "coulomb", "friction_coefficient"], &["friction"]),
+    (&["cor", "e", "bounce"], &["restitution"]),
+    (&["slave", "secondary", "points"], &["with"]),
+    (&["master", "primary", "target"], &["surface"]),
+    (&["master", "rigid_body", "reference"], &["body"]),
+    (&["n", "divisions", "mesh", "num_elements", "n_elements", "nel"], &["elements"]),
+    (&["mat", "material_name"], &["material"]),
+    (&["profile", "cross_section", "sec"], &["section"]),
+    (&["up", "n1", "y_axis", "local_y", "vecxz"], &["orientation"]),
+    (&["degree", "p"], &["order"]),
+    (&["frequency", "stride", "freq"], &["every"]),
+    (&["g", "acceleration"], &["gravity"]),
+    (&["rayleigh"], &["mass_factor"]),
+    (&["alphaM", "a0", "alpha_m"], &["mass_factor"]),
+    (&["betaK", "a1", "beta_k", "beta_R"], &["stiffness_factor"]),
+    (&["nodes", "node", "coordinates", "vertices"], &["points"]),
+    (&["truss", "trusses", "cables", "rods", "ropes"], &["bars"]),
+    (&["frames", "frame", "members"], &["beams"]),
+    (&["plates", "membranes", "plate"], &["shells"]),
+    (&["rigid_bodies", "rigid", "body"], &["bodies"]),
+    (&["boundary", "boundaries", "bc", "bcs", "constraints", "spc", "fixes", "boundary_conditions"], &["supports"]),
+    (&["springs", "spring", "dampers", "bushings", "connectors", "gaps"], &["links"]),
+    (&["forces", "force", "cload", "pressures"], &["loads"]),
+    (&["curves", "functions", "time_series", "drives", "amplitude"], &["amplitudes"]),
+    (&["groups", "nset", "elset"], &["sets"]),
+    (&["mpc", "rbe2", "equaldof", "couplings", "tie", "ties"], &["attachments"]),
+    (&["contact_pairs", "collisions", "interactions"], &["contacts"]),
+    (&["initial_conditions", "initial_velocity"], &["initial"]),
+    (&["step", "steps", "simulation", "control", "time"], &["analysis"]),
+    (&["solver", "newton", "nonlinear"], &["iteration"]),
+    (&["results", "recorder", "recorders", "history"], &["output"]),
+    (&["assertions", "tests", "checks"], &["expect"]),
+];
+
+/// Guesses at the top of the deck, or anywhere, for what stands elsewhere.
+const ELSEWHERE: &[(&[&str], &str)] = &[
+    (&["gravity"], "gravity stands in [environment]"),
+    (&["rayleigh"], "Rayleigh damping is [damping] with `alpha` (mass_factor) and `beta` (stiffness_factor)"),
+    (&["extends", "include", "import", "base"], "a deck is one file; variants of it are made with --set KEY=VALUE"),
+    (&["file"], "values stand in the deck itself; only [mesh] and [study] name a file"),
+    (&["elements"], "elements are [[beams]], [[bars]] and [[shells]]"),
+    (&["modes", "frequencies", "eigenvalues"], "there is no modal analysis"),
+    (&["temperature", "thermal"], "there are no temperatures"),
+];
+
+const VALUES: &[Row] = &[
+    (&["transient", "time-history", "time_history", "explicit", "implicit", "dynamics"], &["dynamic"]),
+    (&["quasi-static", "quasistatic", "statics", "load-stepping"], &["static"]),
+    (&["riks", "arclength", "arc_length"], &["arc-length"]),
+    (&["newton", "newton-raphson", "full-newton"], &["tangent-stiffness", "iteration"]),
+    (&["modified-newton", "modified_newton"], &["step", "initial-load"]),
+    (&["initial-stiffness", "elastic"], &["initial-load", "elastic"]),
+    (&["trapezoidal", "average-acceleration", "constant-average-acceleration"], &["newmark"]),
+    (&["hilber-hughes-taylor", "hht", "HHT"], &["hht-alpha"]),
+    (&["chung-hulbert", "generalised-alpha", "gen-alpha"], &["generalized-alpha"]),
+    (&["verlet", "leapfrog", "leap-frog", "explicit"], &["central-difference"]),
+    (&["rk4", "rk45", "dopri5", "dopri853", "dormand-prince", "ode45"], &["runge-kutta"]),
+    (&["linear-elastic", "isotropic", "linear"], &["elastic"]),
+    (
+        &["plastic", "j2", "von-mises", "bilinear", "elastoplastic", "perfectly-plastic", "Steel01"],
+        &["elastic-plastic"],
+    ),
+    (&["perzyna", "viscoplastic", "rate-dependent", "cowper-symonds"], &["elastic-viscoplastic", "power"]),
+    (&["rect", "solid", "rectangular", "square"], &["rectangle"]),
+    (&["pipe", "circle", "circular", "round", "hollow-circle", "cylinder"], &["tube"]),
+    (&["rhs", "shs", "hollow", "rectangular-hollow"], &["box"]),
+    (&["i-beam", "h", "h-beam", "wide-flange", "ipe", "w"], &["i"]),
+    (&["channel", "u", "upn"], &["c"]),
+    (&["angle"], &["l"]),
+    (&["arbitrary", "numbers", "user"], &["general"]),
+    (&["pin", "pinned", "rotational"], &["hinge", "translations", "revolute"]),
+    (&["translational", "sliding"], &["slider", "prismatic"]),
+    (&["weld", "welded", "clamp", "rigid", "lock"], &["fixed"]),
+    (&["cardan", "hooke", "u-joint"], &["universal"]),
+    (&["rod", "rigid-link"], &["distance"]),
+    (&["fixed", "encastre", "clamped", "fully-fixed", "built-in"], &["all"]),
+    (&["simply-supported", "displacements", "xyz"], &["translations"]),
+    (&["halfspace", "half-space", "floor", "wall"], &["plane"]),
+    (&["cuboid", "cube", "block", "brick"], &["box"]),
+    (&["ball"], &["sphere"]),
+    (&["pill"], &["capsule"]),
+    (&["quad", "quad4", "S4", "shell4", "mitc4"], &["quadrilateral"]),
+    (&["tri", "tri3", "S3", "shell3"], &["triangle"]),
+    (&["tabular", "series", "piecewise-linear", "points"], &["table"]),
+    (&["sin", "harmonic", "cos", "cosine", "periodic"], &["sine"]),
+    (&["heaviside", "rectangular", "pulse"], &["step"]),
+    (&["nonlinear", "multilinear"], &["table"]),
+    (&["gap", "compression", "no-tension"], &["compression-only"]),
+    (&["cable", "tension", "no-compression", "hook"], &["tension-only"]),
+    (&["diagonal"], &["lumped"]),
+    (&["multiplier", "lagrange", "penalty"], &["multipliers"]),
+    (&["eliminate", "transformation"], &["elimination"]),
+    (&["vtk", "paraview", "pvd"], &["vtu"]),
+    (&["U1", "u1", "1", "x", "dx", "UX"], &["ux"]),
+    (&["U2", "u2", "2", "y", "dy", "UY"], &["uy"]),
+    (&["U3", "u3", "3", "z", "dz", "UZ"], &["uz"]),
+    (&["UR1", "ur1", "4", "rotx", "RX"], &["rx"]),
+    (&["UR2", "ur2", "5", "roty", "RY"], &["ry"]),
+    (&["UR3", "ur3", "6", "rotz", "RZ"], &["rz"]),
+];
+
+/// Values that no word of ours stands for.
+const NO_VALUES: &[(&[&str], &str)] = &[
+    (&["modal", "frequency", "eigen", "buckling"], "there is no modal or buckling analysis"),
+    (&["hex", "hexahedron", "hex8", "tet", "tetrahedron", "C3D8", "wedge"], "there are no solid elements"),
+    (&["johnson-cook", "hyperelastic", "concrete"], "the material models are elastic and J2 plasticity"),
+];
+
+/// Our word for a guessed one among those known here.
+fn ours(rows: &[Row], guess: &str, known: &[&str]) -> Option<&'static str> {
+    let of = rows.iter().filter(|(guesses, _)| guesses.contains(&guess)).flat_map(|(_, ours)| ours.iter());
+    of.copied().find(|word| *word != guess && known.contains(word))
+}
+
+/// The key of a table that a guessed one is meant to be.
+pub fn key(guess: &str, known: &[&str]) -> Option<&'static str> {
+    ours(KEYS, guess, known)
+}
+
+/// Where to say what a guessed key says, if not in this table.
+pub fn elsewhere(guess: &str) -> Option<&'static str> {
+    ELSEWHERE.iter().find(|(guesses, _)| guesses.contains(&guess)).map(|(_, hint)| *hint)
+}
+
+/// What a guessed value should be.
+pub fn value(guess: &str, known: &[&str]) -> Option<String> {
+    if guess == "cowper-symonds" && known.contains(&"power") {
+        return Some("Cowper-Symonds is the law \"power\", with rate = D and exponent = q".to_owned());
+    }
+    let word = ours(VALUES, guess, known).map(|word| format!("that is `{word}` here"));
+    word.or_else(|| NO_VALUES.iter().find(|(guesses, _)| guesses.contains(&guess)).map(|(_, hint)| (*hint).to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    /// Keys and words that the schema knows.
+    fn known() -> (HashSet<String>, HashSet<String>) {
+        fn collect(value: &serde_json::Value, keys: &mut HashSet<String>, words: &mut HashSet<String>) {
+            match value {
+                serde_json::Value::Object(entries) => {
+                    for (name, value) in entries {
+                        if let ("properties", Some(properties)) = (name.as_str(), value.as_object()) {
+                            keys.extend(properties.keys().cloned());
+                        }
+                        if let ("const", Some(word)) = (name.as_str(), value.as_str()) {
+                            words.insert(word.to_owned());
+                        }
+                        if let ("enum", Some(list)) = (name.as_str(), value.as_array()) {
+                            words.extend(list.iter().filter_map(|word| word.as_str().map(str::to_owned)));
+                        }
+                        collect(value, keys, words);
+                    }
+                }
+                serde_json::Value::Array(list) => list.iter().for_each(|value| collect(value, keys, words)),
+                _ => {}
+            }
+        }
+        let (mut keys, mut words) = Default::default();
+        collect(schemars::schema_for!(crate::deck::Deck).as_value(), &mut keys, &mut words);
+        (keys, words)
+    }
+
+    #[test]
+    fn every_hint_names_a_word_of_the_deck() {
+        let (keys, words) = known();
+        for (_, ours) in KEYS {
+            ours.iter().for_each(|word| assert!(keys.contains(*word), "there is no key `{word}`"));
+        }
+        for (_, ours) in VALUES {
+            ours.iter().for_each(|word| assert!(words.contains(*word), "there is no word `{word}`"));
+        }
+    }
+
+    #[test]
+    fn a_guess_is_answered_where_our_word_is_known() {
+        assert_eq!(key("torque", &["force", "moment"]), Some("moment"));
+        assert_eq!(key("torque", &["axis"]), None);
+        assert_eq!(key("dt", &["end_time", "time_step"]), Some("time_step"));
+        assert_eq!(value("encastre", &["all", "translations"]).unwrap(), "that is `all` here");
+        assert!(value("cowper-symonds", &["power", "linear"]).unwrap().contains("exponent = q"));
+        assert!(value("hex", &["quadrilateral"]).unwrap().contains("no solid elements"));
+        assert!(elsewhere("extends").unwrap().contains("--set"));
+    }
+}
