@@ -1,46 +1,36 @@
-//! `[[joints]]`: what holds two bodies or points together and lets them move in the rest.
+//! `[[joints]]`: constraints between two bodies or points.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::links::End;
-use super::words::{Maybe, Table, Vector};
+use super::words::kinds::Kinds;
+use super::words::{Maybe, Table};
+use crate::constraints::joints::kind::Make;
+use crate::constraints::joints::{JOINTS, JointKind};
 
-/// Two ends held together by multipliers. Axes turn with the bodies.
+/// Two ends that may move against each other only as the kind of joint allows; Lagrange multipliers hold them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
+    /// Name, for messages, results and `[[expect]]`.
     #[schemars(required)]
     pub name: Maybe<String>,
-    #[schemars(required)]
-    pub kind: Maybe<Kind>,
+    /// The first end.
     #[schemars(required)]
     pub from: Maybe<Table<End>>,
-    /// On a body, without a `point`: where `from` lies.
+    /// The second end. Where it is on a body, its `point` may be left out: it then lies where `from` lies (not with "distance").
     #[schemars(required)]
     pub to: Maybe<Table<End>>,
-    /// About which a hinge turns, along which a slider moves, or both: cylinder; of a universal joint the arm of the cross
-    /// in `from`. Global at t = 0.
-    pub axis: Maybe<Vector>,
-    /// The arm of the cross in `to`, square to `axis`: universal.
-    pub cross_axis: Maybe<Vector>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// Free to turn.
-    Ball,
-    /// Free to turn about `axis`.
-    Hinge,
-    /// Free to move along `axis`.
-    Slider,
-    /// Free to turn about `axis` and to move along it.
-    Cylinder,
-    /// Free to turn about two axes square to one another.
-    Universal,
-    /// Not free at all.
-    Fixed,
-    /// Free but for the distance of the ends: a rod without mass.
-    Distance,
+impl Kinds for Joint {
+    const CHOOSER: &'static str = "kind";
+    const ABOUT: &'static str = "What the joint leaves free.";
+    const REQUIRED: bool = true;
+    type Make = Make;
+
+    fn list() -> &'static [&'static JointKind] {
+        &JOINTS
+    }
 }

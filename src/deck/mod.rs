@@ -77,7 +77,7 @@ pub struct Deck {
     #[serde(default)]
     pub supports: Vec<At<Table<supports::Support>>>,
     #[serde(default)]
-    pub joints: Vec<At<Table<joints::Joint>>>,
+    pub joints: Vec<At<OneOf<joints::Joint>>>,
     #[serde(default)]
     pub links: Vec<At<Table<links::Link>>>,
     #[serde(default)]

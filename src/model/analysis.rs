@@ -163,7 +163,7 @@ pub(super) fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &
         report.reject_unused(&owner.what, &[("rotation_update", span(&integrator.rotation_update))]);
     }
     let rotation = chosen(&integrator.rotation_update);
-    report.read(&owner, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))
+    report.read(&owner, &owner.what, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))
 }
 
 /// Whether a scheme, named at `place`, goes with material that yields.

@@ -189,10 +189,12 @@ impl<'d> Report<'d> {
         }
     }
 
-    /// Reads a table that is one of several kinds by `read`, and reports what is wrong; keys of other kinds are an error.
+    /// Reads a table that is one of several kinds by `read`, and reports what is wrong. Keys that mean nothing for `what`, a thing
+    /// of that kind, are an error.
     pub fn read<M, T>(
         &mut self,
         owner: &Owner<'d>,
+        what: &str,
         values: &'d Values,
         kind: &Kind<M>,
         read: impl FnOnce(&mut Given) -> T,
@@ -201,7 +203,7 @@ impl<'d> Report<'d> {
         let here = |table: &Option<Span>| table.as_ref().is_none_or(|table| table == owner.span);
         let unreadable = spoiled.iter().filter(|entry| here(&entry.table)).map(|entry| entry.key.as_str());
         let mut given = Given::new(&owner.what, owner.span, values, unreadable.collect());
-        given.reject_others(kind);
+        given.reject_others(kind, what);
         let value = read(&mut given);
         self.problems.extend(given.problems);
         value

@@ -96,7 +96,7 @@ impl Plan {
                 "`{node}` turns with `{master}` about some axes only, which \"{}\" does not follow",
                 model.scheme.word()
             );
-            placed(Diagnostic::error(message).hint("a joint of kind \"hinge\", or another scheme"), rider.place)
+            placed(Diagnostic::error(message).hint("a joint of kind \"revolute\", or another scheme"), rider.place)
         };
         half.take(MOST).map(error).collect()
     }

@@ -413,10 +413,10 @@ impl<'t> Given<'t> {
         Given { what, span, values, unreadable, problems: Vec::new() }
     }
 
-    /// Reports keys that `kind` does not take.
-    pub fn reject_others<M>(&mut self, kind: &Kind<M>) {
+    /// Reports keys that `kind` does not take; `what` is a thing of that kind.
+    pub fn reject_others<M>(&mut self, kind: &Kind<M>, what: &str) {
         for value in self.values.0.iter().filter(|value| !kind.takes(value.key)) {
-            let message = format!("`{}` means nothing for {}", value.key, self.what);
+            let message = format!("`{}` means nothing for {what}", value.key);
             self.problems.push(Diagnostic::error(message).at(&value.span));
         }
     }

@@ -1,0 +1,16 @@
+//! The cylindrical joint leaves the rotation about its axis and the displacement along it free.
+
+use super::kind::{AXIS, JointKind, Make, one_axis, sliding};
+use crate::constraints::joint::rotations;
+
+pub static KIND: JointKind = JointKind {
+    word: "cylindrical",
+    aliases: &["cylinder"],
+    about: "The rotation about `axis` and the displacement along it are free. 4 constraint equations.",
+    keys: &[AXIS],
+    make: Make {
+        axes: one_axis,
+        ends_meet: true,
+        rows: |axes, d| sliding(axes, d, rotations([false, true, true], axes)),
+    },
+};

@@ -1,0 +1,12 @@
+//! The distance joint keeps the distance of its ends: a rigid rod without mass between two spherical joints.
+
+use super::kind::{JointKind, Make, no_axis};
+use crate::constraints::joint::Row;
+
+pub static KIND: JointKind = JointKind {
+    word: "distance",
+    aliases: &[],
+    about: "All is free but the distance of the ends: a rigid rod without mass. 1 constraint equation.",
+    keys: &[],
+    make: Make { axes: no_axis, ends_meet: false, rows: |_, d| vec![Row::Distance { length: d.norm() }] },
+};

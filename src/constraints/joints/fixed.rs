@@ -1,0 +1,12 @@
+//! The fixed joint welds the ends together.
+
+use super::kind::{JointKind, Make, meeting, no_axis};
+use crate::constraints::joint::rotations;
+
+pub static KIND: JointKind = JointKind {
+    word: "fixed",
+    aliases: &["weld"],
+    about: "Nothing is free: the ends are welded together. 6 constraint equations.",
+    keys: &[],
+    make: Make { axes: no_axis, ends_meet: true, rows: |axes, d| meeting(d, rotations([true; 3], axes)) },
+};

@@ -1,0 +1,50 @@
+//! What a kind of joint says of itself, and what several kinds share.
+
+use crate::constraints::joint::{Row, translations};
+use crate::math::{Mat3, Vec3};
+use crate::words::kinds::{Form, Given, Key, Kind};
+
+/// A joint that the deck can name.
+pub type JointKind = Kind<Make>;
+
+#[derive(Debug)]
+pub struct Make {
+    /// The joint's axes as columns, global at t = 0; the first is the axis that the deck gives. `None` where a key is wrong.
+    pub axes: fn(&mut Given) -> Option<Mat3>,
+    /// The two ends lie at the same place at t = 0; otherwise they must not.
+    pub ends_meet: bool,
+    /// The constraint equations, from the axes and from x_a − x_b at t = 0.
+    pub rows: fn(&Mat3, &Vec3) -> Vec<Row>,
+}
+
+/// The key of joints with one axis.
+pub const AXIS: Key = Key {
+    name: "axis",
+    form: Form::Vector,
+    about: "Direction about which the ends turn or along which they move against each other, global at t = 0; it goes with the \
+            bodies. Any length.",
+};
+
+/// Joints without an axis.
+pub fn no_axis(_: &mut Given) -> Option<Mat3> {
+    Some(Mat3::identity())
+}
+
+/// Joints with one axis; the other two are any that make a frame with it.
+pub fn one_axis(given: &mut Given) -> Option<Mat3> {
+    let x = given.require_unit("axis")?;
+    // The global axis that is most nearly normal to it: which one is of no consequence.
+    let y = x.cross(&Vec3::ith(x.iamin(), 1.0)).normalize();
+    Some(Mat3::from_columns(&[x, y, x.cross(&y)]))
+}
+
+/// Equations that keep the ends at one place, then others.
+pub fn meeting(d: &Vec3, others: Vec<Row>) -> Vec<Row> {
+    translations([true; 3], d).chain(others).collect()
+}
+
+/// Equations that keep the first end on the first axis through the second, then others.
+pub fn sliding(axes: &Mat3, d: &Vec3, others: Vec<Row>) -> Vec<Row> {
+    let across = (1..3).map(|i| axes.column(i).into_owned()).map(|e| Row::Carried { e, at: d.dot(&e) });
+    across.chain(others).collect()
+}

@@ -1,0 +1,23 @@
+//! The kinds of joints: which constraint equations each sets up between its two ends, and from which axes. One more is a file of
+//! its own and an entry of [`JOINTS`].
+
+pub mod cylindrical;
+pub mod distance;
+pub mod fixed;
+pub mod kind;
+pub mod prismatic;
+pub mod revolute;
+pub mod spherical;
+pub mod universal;
+
+pub use kind::JointKind;
+
+pub static JOINTS: [&JointKind; 7] = [
+    &spherical::KIND,
+    &revolute::KIND,
+    &prismatic::KIND,
+    &cylindrical::KIND,
+    &universal::KIND,
+    &fixed::KIND,
+    &distance::KIND,
+];

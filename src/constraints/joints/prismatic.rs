@@ -1,0 +1,12 @@
+//! The prismatic joint leaves the displacement along its axis free.
+
+use super::kind::{AXIS, JointKind, Make, one_axis, sliding};
+use crate::constraints::joint::rotations;
+
+pub static KIND: JointKind = JointKind {
+    word: "prismatic",
+    aliases: &["slider"],
+    about: "The displacement along `axis` is free. 5 constraint equations.",
+    keys: &[AXIS],
+    make: Make { axes: one_axis, ends_meet: true, rows: |axes, d| sliding(axes, d, rotations([true; 3], axes)) },
+};

@@ -1,0 +1,12 @@
+//! The revolute joint leaves the rotation about its axis free.
+
+use super::kind::{AXIS, JointKind, Make, meeting, one_axis};
+use crate::constraints::joint::rotations;
+
+pub static KIND: JointKind = JointKind {
+    word: "revolute",
+    aliases: &["hinge"],
+    about: "The rotation about `axis` is free. 5 constraint equations.",
+    keys: &[AXIS],
+    make: Make { axes: one_axis, ends_meet: true, rows: |axes, d| meeting(d, rotations([false, true, true], axes)) },
+};

@@ -1,0 +1,11 @@
+//! The spherical joint keeps the ends at one place and leaves all rotations free.
+
+use super::kind::{JointKind, Make, meeting, no_axis};
+
+pub static KIND: JointKind = JointKind {
+    word: "spherical",
+    aliases: &["ball"],
+    about: "Three rotations are free: a ball-and-socket joint. 3 constraint equations.",
+    keys: &[],
+    make: Make { axes: no_axis, ends_meet: true, rows: |_, d| meeting(d, Vec::new()) },
+};
