@@ -1,6 +1,6 @@
 //! Who may import whom: a folder of src uses the rows above its own, and of its own row only what is named here.
 
-use std::path::{Path, PathBuf};
+use super::source::{files, root};
 
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 11] = [
@@ -24,12 +24,9 @@ const NAMED: [(&str, &str); 3] = [("state", "materials"), ("system", "model"), (
 const KINDS: [&str; 6] = ["elements", "constraints", "integrators", "sections", "materials", "amplitude"];
 
 fn row(room: &str) -> usize {
-    ROWS.iter().position(|row| row.contains(&room)).unwrap_or_else(|| panic!("`{room}` has no row in tests/layers.rs"))
-}
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+    ROWS.iter()
+        .position(|row| row.contains(&room))
+        .unwrap_or_else(|| panic!("`{room}` has no row in tests/architecture/rows.rs"))
 }
 
 /// First names after `crate::` in a text without its tests.
@@ -50,7 +47,7 @@ fn imports(text: &str) -> Vec<String> {
 
 #[test]
 fn rooms_use_what_lies_below_them() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let src = root().join("src");
     let mut seen = 0;
     for path in files(&src) {
         let inner = path.strip_prefix(&src).unwrap();

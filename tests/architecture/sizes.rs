@@ -1,0 +1,142 @@
+//! What one can hold in one's head: public fields of a struct, files with methods of a type, lines of a function.
+
+use super::ratchet::{Known, compare};
+use super::source::{File, Source};
+use std::collections::{BTreeMap, BTreeSet};
+use syn::spanned::Spanned;
+use syn::visit::{self, Visit};
+use syn::{Item, Visibility};
+
+/// Structs with more public fields than that are listed.
+const FIELDS: usize = 15;
+/// Types with methods in more files than that are listed.
+const FILES: usize = 3;
+/// Functions with more lines than that are listed.
+const LINES: usize = 60;
+
+/// Plain data: what a deck says or means, and what a step writes to.
+const WIDE: Known = &[
+    ("deck/beams.rs: Beam", 16),
+    ("deck/mod.rs: Deck", 29),
+    ("deck/sections.rs: Section", 24),
+    ("model/mod.rs: Model", 24),
+    ("solve/step.rs: Stepper", 35),
+];
+
+/// Types whose methods stand in many files.
+const SCATTERED: Known = &[
+    ("elements/shell/mod.rs: Shells", 4),
+    ("plan/mod.rs: Plan", 5),
+    ("sections/mod.rs: Section", 4),
+    ("solve/step.rs: Stepper", 14),
+    ("system/mod.rs: System", 6),
+];
+
+/// Tables of formulas, which are read line by line.
+const LONG: Known = &[
+    ("command/run.rs: compute", 82),
+    ("command/study.rs: study", 65),
+    ("elements/beam/tangent.rs: tangent_of", 112),
+    ("elements/shell/geometry.rs: shell", 82),
+    ("math/quadrature.rs: gauss", 132),
+    ("mesh/abaqus.rs: read", 75),
+    ("mesh/gmsh.rs: read", 68),
+    ("model/contact_surface.rs: read_surface", 91),
+    ("model/sections.rs: read_shape", 81),
+    ("output/compare/mod.rs: compare", 62),
+    ("output/compare/mod.rs: table", 65),
+    ("plan/explain.rs: explain", 149),
+    ("solve/central_difference.rs: leap", 75),
+    ("solve/failure.rs: fmt", 83),
+    ("solve/march.rs: advance", 80),
+    ("solve/march.rs: new", 93),
+    ("solve/path.rs: follow", 90),
+    ("solve/runge_kutta.rs: take", 77),
+    ("solve/start.rs: start", 87),
+    ("solve/step.rs: equilibrate", 96),
+    ("study/picture.rs: draw", 80),
+    ("study/reference.rs: rows", 77),
+    ("study/rigidify.rs: rigidify", 107),
+    ("system/assembly.rs: new", 101),
+    ("system/plane.rs: is_plane", 66),
+];
+
+#[test]
+fn structs_have_few_public_fields() {
+    let source = Source::read();
+    let mut found = BTreeMap::new();
+    for file in &source.files {
+        for item in &file.items {
+            if let Item::Struct(item) = item {
+                let public = item.fields.iter().filter(|field| !matches!(field.vis, Visibility::Inherited)).count();
+                if public > FIELDS {
+                    found.insert(format!("{}: {}", file.path, item.ident), public);
+                }
+            }
+        }
+    }
+    compare("public fields", WIDE, &found);
+}
+
+#[test]
+fn methods_of_a_type_stand_together() {
+    let source = Source::read();
+    let mut files = BTreeMap::<String, BTreeSet<&str>>::new();
+    for file in &source.files {
+        for item in &file.items {
+            if let Item::Impl(item) = item
+                && item.trait_.is_none()
+                && let syn::Type::Path(of) = &*item.self_ty
+            {
+                let names: Vec<String> = of.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+                let (home, name) = source.seen_from(&file.module, &names).expect("a type of this crate");
+                files.entry(format!("{}: {name}", source.files[home].path)).or_default().insert(&file.path);
+            }
+        }
+    }
+    files.retain(|_, files| files.len() > FILES);
+    let found = files.into_iter().map(|(name, files)| (name, files.len())).collect();
+    compare("files with methods of a type", SCATTERED, &found);
+}
+
+#[test]
+fn functions_are_short() {
+    let source = Source::read();
+    let mut found = BTreeMap::new();
+    for file in &source.files {
+        let mut functions = Functions { file, long: Vec::new() };
+        file.items.iter().for_each(|item| functions.visit_item(item));
+        for (name, lines) in functions.long {
+            let most = found.entry(name).or_insert(0);
+            *most = lines.max(*most);
+        }
+    }
+    compare("lines of functions", LONG, &found);
+}
+
+/// Functions of a file that are too long.
+struct Functions<'f> {
+    file: &'f File,
+    long: Vec<(String, usize)>,
+}
+
+impl Functions<'_> {
+    fn weigh(&mut self, signature: &syn::Signature, block: &syn::Block) {
+        let lines = block.span().end().line - signature.fn_token.span.start().line + 1;
+        if lines > LINES {
+            self.long.push((format!("{}: {}", self.file.path, signature.ident), lines));
+        }
+    }
+}
+
+impl<'a> Visit<'a> for Functions<'_> {
+    fn visit_item_fn(&mut self, item: &'a syn::ItemFn) {
+        self.weigh(&item.sig, &item.block);
+        visit::visit_item_fn(self, item);
+    }
+
+    fn visit_impl_item_fn(&mut self, item: &'a syn::ImplItemFn) {
+        self.weigh(&item.sig, &item.block);
+        visit::visit_impl_item_fn(self, item);
+    }
+}
