@@ -192,7 +192,7 @@ fn main() {
             let (outcome, state) = run.run(&mut ());
             program = program.min(began.elapsed().as_secs_f64());
             assert!(matches!(outcome, Outcome::Done));
-            (its[0], ends[0]) = (run.counts.iterations, state.expect("an end").nodes[1].x);
+            (its[0], ends[0]) = (run.counts().iterations, state.expect("an end").nodes[1].x);
 
             let mut scene = ByHand::new();
             let began = Instant::now();

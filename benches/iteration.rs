@@ -81,9 +81,9 @@ fn run(model: &Model) -> (f64, State) {
         let mut run = Run::new(model, &system, &plan, Wanted::default(), &stop).unwrap();
         let start = Instant::now();
         let (outcome, state) = run.run(&mut ());
-        let seconds = (start.elapsed() - run.observing).as_secs_f64();
+        let seconds = (start.elapsed() - run.observing()).as_secs_f64();
         assert!(matches!(outcome, Outcome::Done), "{}: {outcome:?}", model.title);
-        least = least.min(seconds / run.counts.iterations as f64);
+        least = least.min(seconds / run.counts().iterations as f64);
         end = state;
     }
     (least, end.expect("a state"))

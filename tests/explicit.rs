@@ -517,7 +517,7 @@ fn steps_factorise_nothing() {
             let stop = AtomicBool::new(false);
             let mut run = Run::new(&model, &system, &plan, Wanted::default(), &stop).unwrap();
             run.run(&mut ());
-            assert_eq!(run.counts.factorizations, 1, "{name}");
+            assert_eq!(run.counts().factorizations, 1, "{name}");
         }
     }
 }
@@ -1286,7 +1286,7 @@ interval = {}
             let (outcome, _) = run.run(&mut ());
             assert!(matches!(outcome, Outcome::Done), "{step}, {end}, {outputs} outputs: {outcome:?}");
             // m g h is 20 J, and the floor gives way by v √(m/k), 0.014: 0.28 J more.
-            let most = run.balance.most;
+            let most = run.balance().most;
             assert!((most / 20.28 - 1.0).abs() < 0.01, "{step}, {end}, {outputs} outputs: {most}");
         }
     }

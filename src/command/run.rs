@@ -84,8 +84,8 @@ fn compute(
     let looping = Instant::now();
     let (outcome, end) = run.run(&mut watchers);
     let whole = looping.elapsed();
-    timings.loop_s = whole.saturating_sub(run.observing).as_secs_f64();
-    timings.write_s = run.observing.as_secs_f64();
+    timings.loop_s = whole.saturating_sub(run.observing()).as_secs_f64();
+    timings.write_s = run.observing().as_secs_f64();
     watchers.progress.finish();
     watchers.files.finish()?;
 
@@ -101,7 +101,7 @@ fn compute(
         }
         warnings.push(text);
     }
-    if let Some(text) = imbalance(&run.balance, model) {
+    if let Some(text) = imbalance(run.balance(), model) {
         if !quiet {
             show(&[Diagnostic::warning(&text)], &loaded.source);
         }
@@ -117,7 +117,7 @@ fn compute(
         (Status::Done, reason) => format!("done: {reason}"),
         (_, reason) => reason.to_owned(),
     })?;
-    let counts = run.counts;
+    let counts = run.counts();
     timings.total_s = began.elapsed().as_secs_f64();
     let report = Report {
         status,
@@ -201,13 +201,13 @@ fn judge(outcome: Outcome, expectations: &[Verdict]) -> io::Result<(Status, Stri
 /// A path that ended before its `stop`, in a sentence.
 fn short_of_stop(model: &Model, run: &Run, end: &Option<State>) -> Option<String> {
     let (StepLength::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
-        (&model.analysis.step_length, run.short_of_stop)
+        (&model.analysis.step_length, run.short_of_stop())
     else {
         return None;
     };
     let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
     let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
-    let (time, steps) = (end.as_ref()?.time, run.counts.steps);
+    let (time, steps) = (end.as_ref()?.time, run.counts().steps);
     Some(format!(
         "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {value} at the end, t = {time}, \
          after {steps} steps",

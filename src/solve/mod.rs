@@ -1,33 +1,37 @@
 //! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
+//!
+//! From the bottom up: what a run reads ([`context`]) and what a step writes ([`workspace`]), both plain data; the parts of a step
+//! that all schemes share; the implicit and the explicit schemes; the controllers that give steps their lengths; the run on top.
 
-mod accelerate;
-mod accept;
-mod arc;
-mod central_difference;
-mod composite;
-mod convergence;
-mod correction;
+mod commit;
+mod contacts;
+mod context;
+mod control;
 mod derived;
+mod energy_growth;
 mod explicit;
 mod failure;
 mod frame;
+mod implicit;
 mod joints;
+mod linear_system;
 mod march;
 mod motion;
-mod own_length;
-mod pace;
-mod path;
-mod refresh;
-mod runge_kutta;
-mod search;
-mod stable;
+mod outcome;
+mod projection;
+mod recorder;
+mod report;
+mod residual;
+mod run;
+mod size;
 mod start;
-mod stations;
-mod step;
+mod time_stepper;
+mod workspace;
 
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 pub use crate::system::{ContactState, JointState};
 pub use derived::{Derived, Wanted};
 pub use failure::{Failure, Largest};
 pub use frame::{Frame, Observer};
-pub use march::{Counts, Outcome, Run};
+pub use outcome::{Counts, Outcome};
+pub use run::Run;

@@ -1,123 +1,135 @@
-//! The motion of a step: what is given, the first guess, the trial motion from the increments, and where they end.
+//! The motion of a step: what is prescribed, the first guess, the trial motion from the increments, and where they end.
 
-use super::step::Stepper;
+use super::context::Context;
+use super::workspace::Workspace;
 use crate::integrators::Coefficients;
-use crate::math::{Vec3, Vec6, join};
+use crate::math::{Vec6, join};
 use crate::state::{Increment, Node, State};
 use crate::system::{Prescribed, Side, between};
 
-impl Stepper<'_> {
-    /// What stands in place of a node's velocity and acceleration at the start of a step.
+/// How a stage of a step relates displacements, velocities and accelerations.
+#[derive(Clone, Copy)]
+pub struct Stage<'s> {
+    pub scheme: &'s Coefficients,
+    /// What the scheme takes in place of the velocity and the acceleration at the start, by node: where a second stage looks back
+    /// beyond it.
+    pub start_rates: Option<&'s [[Vec6; 2]]>,
+}
+
+impl<'s> From<&'s Coefficients> for Stage<'s> {
+    /// A stage that starts from the state alone.
+    fn from(scheme: &'s Coefficients) -> Stage<'s> {
+        Stage { scheme, start_rates: None }
+    }
+}
+
+impl Stage<'_> {
+    /// What stands in place of a node's own velocity and acceleration at the start of the step.
     #[inline]
-    pub(super) fn bases(&self, state: &State, node: usize, own: [Vec6; 2]) -> [Vec6; 2] {
-        if let Some(bases) = &self.bases {
-            bases[node]
-        } else if self.follower.is_some() {
+    pub fn start_rates(&self, cx: &Context, state: &State, node: usize, own: [Vec6; 2]) -> [Vec6; 2] {
+        if let Some(rates) = self.start_rates {
+            rates[node]
+        } else if cx.algorithmic_acceleration.is_some() {
             [own[0], state.followers[node]]
         } else {
             own
         }
     }
+}
 
-    /// Loads and held motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
-    pub(super) fn give(&mut self, from: f64, to: f64, instant: f64) {
-        let [start, end, at] = &mut self.given;
-        self.drive.loading(from, Side::After, start);
-        self.drive.loading(to, Side::Before, end);
-        between(start, end, instant, at);
-        let [start, end, at] = &mut self.held;
-        self.drive.held(from, start);
-        self.drive.held(to, end);
-        at.clear();
-        at.extend(start.iter().zip(end.iter()).map(|(a, b)| Prescribed {
-            u: instant * (b.u - a.u),
-            v: a.v + instant * (b.v - a.v),
-            a: a.a + instant * (b.a - a.a),
-        }));
-        if instant > 1.0 {
-            // What joints tie to a given motion takes its acceleration from positions: they must belong to one another. Past the
-            // end of the step a straight line of positions would leave six sevenths of it out.
-            let tau = instant * (to - from);
-            for &i in &self.leading {
-                let (start, now) = (&start[i], &mut at[i]);
-                now.u = tau * start.v + tau * tau / 6.0 * (2.0 * start.a + now.a);
-            }
+/// Velocity and acceleration of a node, translations first.
+#[inline]
+pub fn rates_of(node: &Node) -> [Vec6; 2] {
+    [join(&node.v, &node.omega), join(&node.a, &node.alpha)]
+}
+
+/// Evaluates loads and prescribed motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
+pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64) {
+    let loads = &mut ws.loads;
+    cx.excitation.loading(from, Side::After, &mut loads.start);
+    cx.excitation.loading(to, Side::Before, &mut loads.end);
+    between(&loads.start, &loads.end, instant, &mut loads.instant);
+    let prescribed = &mut ws.prescribed;
+    cx.excitation.held(from, &mut prescribed.start);
+    cx.excitation.held(to, &mut prescribed.end);
+    prescribed.instant.clear();
+    prescribed.instant.extend(prescribed.start.iter().zip(&prescribed.end).map(|(a, b)| Prescribed {
+        u: instant * (b.u - a.u),
+        v: a.v + instant * (b.v - a.v),
+        a: a.a + instant * (b.a - a.a),
+    }));
+    if instant > 1.0 {
+        // What joints tie to a prescribed motion takes its acceleration from positions: they must belong to one another. Past the
+        // end of the step a straight line of positions would leave six sevenths of it out.
+        let tau = instant * (to - from);
+        for &i in &cx.driving {
+            let (start, now) = (&prescribed.start[i], &mut prescribed.instant[i]);
+            now.u = tau * start.v + tau * tau / 6.0 * (2.0 * start.a + now.a);
         }
     }
+}
 
-    pub(super) fn predict(&mut self, state: &State, scheme: &Coefficients) {
-        self.forget_corrections();
-        for &node in &self.movers {
-            let start = &state.nodes[node];
-            let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
-            self.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
-        }
-        self.measure_reach(state);
-        self.forces.multipliers.values.copy_from_slice(&state.multipliers);
+/// Writes the first guess of the increments and of the multipliers.
+pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
+    for &node in &cx.independent_nodes {
+        let [v, a] = rates_of(&state.nodes[node]);
+        ws.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
     }
+    measure_reach(cx, ws, state);
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+}
 
-    pub(super) fn measure_reach(&mut self, state: &State) {
-        let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - self.origin).amax());
-        self.reach = self.movers.iter().fold(self.length, farthest);
+pub fn measure_reach(cx: &Context, ws: &mut Workspace, state: &State) {
+    let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
+    ws.reach = cx.independent_nodes.iter().fold(cx.length, farthest);
+}
+
+/// Writes the rates of the increments by the scheme.
+pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
+    for &node in &cx.independent_nodes {
+        let [own_v, own_a] = rates_of(&state.nodes[node]);
+        let [v, a] = stage.start_rates(cx, state, node, [own_v, own_a]);
+        stage.scheme.differentiate(&mut ws.increments[node], &v, &a, &own_a);
     }
+}
 
-    /// Rates of the increments, by the scheme.
-    pub(super) fn differentiate(&mut self, state: &State, scheme: &Coefficients) {
-        for &node in &self.movers {
-            let start = &state.nodes[node];
-            let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
-            let start_a = a;
-            let [v, a] = self.bases(state, node, [v, a]);
-            scheme.differentiate(&mut self.increments[node], &v, &a, &start_a);
-        }
+/// Writes the trial motion from the increments: rates by the scheme, prescribed directions as given, dependent nodes after their
+/// masters.
+pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
+    differentiate(cx, ws, state, stage);
+    for (held, given) in cx.model.held.iter().zip(&ws.prescribed.instant) {
+        prescribe(&mut ws.increments[held.node], held.dof, given);
     }
-
-    /// The trial motion from the increments: rates by the scheme, held directions as given, riders after their masters.
-    pub(super) fn move_trial(&mut self, state: &State, scheme: &Coefficients) {
-        self.differentiate(state, scheme);
-        for (held, given) in self.model.held.iter().zip(&self.held[2]) {
-            set(&mut self.increments[held.node], held.dof, given);
-        }
-        for &node in &self.movers {
-            let drift = self.trial[node].advance(&state.nodes[node], &self.increments[node], scheme.rotation);
-            self.drift = self.drift.max(drift);
-        }
-        for rider in &self.system.attachments {
-            rider.follow(&mut self.trial, &mut self.increments, &state.nodes[rider.node]);
-        }
+    for &node in &cx.independent_nodes {
+        let drift = ws.trial[node].advance(&state.nodes[node], &ws.increments[node], stage.scheme.rotation);
+        ws.rotation_drift = ws.rotation_drift.max(drift);
     }
+    update_dependent_nodes(cx, ws, &state.nodes);
+}
 
-    /// The trial motion from the increments at the end of the step: held directions as given, riders after their masters.
-    pub(super) fn arrive(&mut self, state: &State, scheme: &Coefficients) {
-        for (i, held) in self.model.held.iter().enumerate() {
-            let (from, to) = (&self.held[0][i], &self.held[1][i]);
-            set(&mut self.increments[held.node], held.dof, &Prescribed { u: to.u - from.u, ..*to });
-        }
-        for &node in &self.movers {
-            let start = &state.nodes[node];
-            let end = &mut self.trial[node];
-            end.advance(start, &self.increments[node], scheme.rotation);
-        }
-        self.carry_riders(&state.nodes);
+/// Writes the trial motion from the increments at the end of the step: prescribed directions as given, dependent nodes after
+/// their masters.
+pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
+    for (i, held) in cx.model.held.iter().enumerate() {
+        let (from, to) = (&ws.prescribed.start[i], &ws.prescribed.end[i]);
+        prescribe(&mut ws.increments[held.node], held.dof, &Prescribed { u: to.u - from.u, ..*to });
     }
+    for &node in &cx.independent_nodes {
+        ws.trial[node].advance(&state.nodes[node], &ws.increments[node], scheme.rotation);
+    }
+    update_dependent_nodes(cx, ws, &state.nodes);
+}
 
-    pub(super) fn carry_riders(&mut self, start: &[Node]) {
-        for rider in &self.system.attachments {
-            rider.follow(&mut self.trial, &mut self.increments, &start[rider.node]);
-        }
+/// Moves dependent nodes after their masters, from where they were at `start`.
+pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) {
+    for link in &cx.system.attachments {
+        link.follow(&mut ws.trial, &mut ws.increments, &start[link.node]);
     }
 }
 
 #[inline]
-fn set(increment: &mut Increment, dof: usize, given: &Prescribed) {
+fn prescribe(increment: &mut Increment, dof: usize, given: &Prescribed) {
     increment.q[dof] = given.u;
     increment.d[dof] = given.v;
     increment.dd[dof] = given.a;
-}
-
-/// Largest distance of a node from the first, or 1 for a single point.
-pub fn extent(nodes: &[Node]) -> f64 {
-    let first = nodes.first().map_or(Vec3::zeros(), |n| n.x);
-    let extent = nodes.iter().map(|n| (n.x - first).norm()).fold(0.0, f64::max);
-    if extent > 0.0 { extent } else { 1.0 }
 }

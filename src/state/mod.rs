@@ -157,7 +157,7 @@ impl<'a> Configuration<'a> {
 }
 
 /// Time and nodes at the end of an accepted step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct State {
     pub time: f64,
     pub nodes: Vec<Node>,

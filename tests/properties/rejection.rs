@@ -52,7 +52,7 @@ fn steps(m: &Model) -> (Steps, State, Counts, Outcome) {
     let mut run = Run::new(m, &system, &plan, wanted, &stop).unwrap();
     let mut steps = Steps { times: vec![], last: None };
     let (outcome, state) = run.run(&mut steps);
-    (steps, state.expect("a start"), run.counts, outcome)
+    (steps, state.expect("a start"), run.counts(), outcome)
 }
 
 /// Expectations at given times, so that steps land there.

@@ -389,7 +389,7 @@ pub fn run_with(m: &Model, solver: Option<linear::Factorization>) -> Record {
     let mut run = Run::new(&m, &system, &plan, wanted, &stop).unwrap();
     let mut record = Record { states: vec![], energies: vec![], counts: Counts::default() };
     let (outcome, _) = run.run(&mut record);
-    record.counts = run.counts;
+    record.counts = run.counts();
     match outcome {
         Outcome::Done => record,
         Outcome::Failed { time, failure } => panic!("failed at t = {time}: {failure}"),

@@ -91,8 +91,8 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
     let (outcome, _) = run.run(&mut watchers);
     Done {
         outcome,
-        seconds: (began.elapsed() - run.observing).as_secs_f64(),
-        counts: run.counts,
+        seconds: (began.elapsed() - run.observing()).as_secs_f64(),
+        counts: run.counts(),
         unknowns: plan.unknowns,
         verdicts: watchers.expectations.verdicts(),
         rows: watchers.rows,

@@ -1,10 +1,27 @@
-//! The times that steps must land on.
+//! The output times and events that steps must end at, and the intervals between them.
 
 use crate::model::{Cadence, Model, When};
+use crate::solve::context::Context;
+use crate::solve::march::March;
+use crate::solve::outcome::Outcome;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
 
-/// A stretch of equal steps.
+/// What leads a stepper through time.
+pub trait CoverInterval {
+    /// A run starts from this state, or goes on from it after a jump of the loads.
+    fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
+
+    /// Takes the state of a run to the end of an interval.
+    ///
+    /// # Errors
+    /// What ends the run early.
+    fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome>;
+}
+
+/// An interval that is covered in equal steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct Interval {
     pub from: f64,
     pub to: f64,
     pub steps: usize,
@@ -14,26 +31,26 @@ pub struct Stretch {
     pub jump: bool,
 }
 
-impl Stretch {
+impl Interval {
     /// End of the k-th step, k = 1..=steps; the last lands on `to` exactly.
     pub fn time(&self, k: usize) -> f64 {
         if k == self.steps { self.to } else { self.from + (self.to - self.from) * (k as f64 / self.steps as f64) }
     }
 }
 
-/// Cuts [0, end] at output times, at the times of expectations and where loads jump, each stretch into steps no longer than the deck's.
-pub fn stretches(model: &Model) -> Vec<Stretch> {
+/// Cuts [0, end] at output times, at the times of expectations and where loads jump, each interval into steps no longer than the deck's.
+pub fn intervals(model: &Model) -> Vec<Interval> {
     let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
-    let station = |to: f64, due: bool, jump: bool| Stretch { from: 0.0, to, steps: 0, due, jump };
-    let mut out = vec![station(end, true, false)];
+    let ending = |to: f64, due: bool, jump: bool| Interval { from: 0.0, to, steps: 0, due, jump };
+    let mut out = vec![ending(end, true, false)];
     if let Cadence::Interval(interval) = model.output.cadence {
         let count = (end / interval + 1e-9).floor() as usize;
-        out.extend((1..=count).map(|k| station(multiple(k, interval), true, false)));
+        out.extend((1..=count).map(|k| ending(multiple(k, interval), true, false)));
     }
     for expect in &model.expects {
         if let When::Time(t) = expect.when {
-            out.push(station(t, true, false));
+            out.push(ending(t, true, false));
         }
     }
     let driving = || {
@@ -42,13 +59,13 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
         loads.chain(pressures).chain(model.base_accelerations.iter().map(|base| base.amplitude))
     };
     for amplitude in driving() {
-        out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| station(jump.time, false, true)));
+        out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| ending(jump.time, false, true)));
     }
     if model.analysis.step_length.is_automatic() {
         // Nothing that begins and ends within a step may be missed, and errors are those of smooth motion.
         let motions = model.held.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
-            out.extend(model.amplitudes[amplitude].kinks().into_iter().map(|time| station(time, false, false)));
+            out.extend(model.amplitudes[amplitude].kinks().into_iter().map(|time| ending(time, false, false)));
         }
     }
     out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));
@@ -65,12 +82,12 @@ pub fn stretches(model: &Model) -> Vec<Stretch> {
         last.to = end;
     }
     let mut from = 0.0;
-    for stretch in &mut out {
+    for interval in &mut out {
         // A rounding error beyond a whole number of steps asks for no extra step.
-        let steps = (stretch.to - from) / dt - 1e-9 * (stretch.to / dt).max(1.0);
-        stretch.steps = steps.ceil().max(1.0) as usize;
-        stretch.from = from;
-        from = stretch.to;
+        let steps = (interval.to - from) / dt - 1e-9 * (interval.to / dt).max(1.0);
+        interval.steps = steps.ceil().max(1.0) as usize;
+        interval.from = from;
+        from = interval.to;
     }
     out
 }

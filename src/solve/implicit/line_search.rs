@@ -11,7 +11,7 @@ const LEFT: f64 = 0.8;
 const TRIES: usize = 5;
 
 /// The last correction of a step. Allocated once.
-pub struct Search {
+pub struct LineSearch {
     /// Residual before it, then the correction, per direction. Multipliers do no work as long as joints hold, and are left out.
     residual: Vec<f64>,
     correction: Vec<f64>,
@@ -25,9 +25,9 @@ pub struct Search {
     size: f64,
 }
 
-impl Search {
+impl LineSearch {
     pub fn new(directions: usize, nodes: usize, multipliers: usize) -> Self {
-        Search {
+        LineSearch {
             residual: vec![0.0; directions],
             correction: vec![0.0; directions],
             before: vec![Vec6::zeros(); nodes],

@@ -4,7 +4,7 @@
 
 /// Earlier corrections that are mixed in.
 const DEPTH: usize = 5;
-/// Part of a difference that must be new for it to count.
+/// The part of a difference that must be new for it to count.
 const NEW: f64 = 1e-6;
 
 /// Corrections of a step, and what each did to the next. Allocated once.

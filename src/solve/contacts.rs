@@ -1,0 +1,33 @@
+//! Whether a step is short enough for the contacts it meets.
+
+use super::context::Context;
+use super::failure::Failure;
+use super::workspace::Workspace;
+use crate::state::{Configuration, State};
+
+/// Before any work is done on a step that reaches `ahead`: an impact goes on in steps that resolve it.
+///
+/// # Errors
+/// [`Failure::Contact`] where the step is too long for a contact.
+pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failure> {
+    if !cx.system.has_contacts() {
+        return Ok(());
+    }
+    cx.system.hurried_contact(state, ahead).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
+}
+
+/// Before the motion found at `ahead` of the state is taken: nothing has gone through a surface.
+///
+/// # Errors
+/// [`Failure::Contact`] where something has.
+pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) -> Result<(), Failure> {
+    if !cx.system.has_contacts() {
+        return Ok(());
+    }
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+    cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
+}
+
+fn too_long(cx: &Context, contact: usize) -> Failure {
+    Failure::Contact { name: cx.model.parts[contact].name().to_owned() }
+}

@@ -1,0 +1,98 @@
+//! What a run only reads: the model, its plan, its system, and what follows from them once.
+
+use crate::math::Vec3;
+use crate::model::{AnalysisKind, Held, Model};
+use crate::plan::Plan;
+use crate::state::Node;
+use crate::system::{Drive, System};
+
+/// Everything about a run that no step changes. Built once, borrowed by all that computes.
+pub struct Context<'a> {
+    pub model: &'a Model,
+    pub plan: &'a Plan,
+    pub system: &'a System,
+    /// Loads and prescribed motion as functions of time.
+    pub excitation: Drive<'a>,
+    /// Nodes that move by increments of their own, in ascending order; the others do not move or follow a master.
+    pub independent_nodes: Vec<usize>,
+    /// Prescribed directions, by their place in the model's list, whose motion joints hand on to others.
+    pub driving: Vec<usize>,
+    /// See [`crate::integrators::Scheme::follower`]; `None` also in statics.
+    pub algorithmic_acceleration: Option<[f64; 3]>,
+    /// The largest distance of a node from the first: corrections are judged on it where hardly anything moves.
+    pub length: f64,
+    /// The first node at t = 0, from which distances are measured that rounding is judged against.
+    pub origin: Vec3,
+    /// Reactions or the work of forces are asked for.
+    pub wants_forces: bool,
+    pub wants_energy: bool,
+}
+
+impl<'a> Context<'a> {
+    pub fn new(
+        model: &'a Model,
+        plan: &'a Plan,
+        system: &'a System,
+        wants_forces: bool,
+        wants_energy: bool,
+    ) -> Context<'a> {
+        let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
+        Context {
+            model,
+            plan,
+            system,
+            excitation: Drive::new(model),
+            independent_nodes: independent_nodes(model, plan, system),
+            driving: driving(model, system),
+            algorithmic_acceleration: if dynamic { model.scheme.follower() } else { None },
+            length: extent(model),
+            origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
+            wants_forces,
+            wants_energy,
+        }
+    }
+
+    pub fn is_dynamic(&self) -> bool {
+        self.model.analysis.kind == AnalysisKind::Dynamic
+    }
+
+    /// The number of unknowns that are directions of nodes; the multipliers of joints come after them.
+    pub fn directions(&self) -> usize {
+        self.plan.directions.len()
+    }
+}
+
+/// The nodes of the model where they lie at t = 0, at rest.
+pub fn at_rest(model: &Model) -> Vec<Node> {
+    model.nodes.iter().map(|node| Node::at_rest(node.x)).collect()
+}
+
+/// A node with nothing to move it stays where it is and costs nothing.
+fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> {
+    let n = model.nodes.len();
+    let mut follows = vec![false; n];
+    system.attachments.iter().filter(|link| link.rigid).for_each(|link| follows[link.node] = true);
+    let mut driven = vec![false; n];
+    model.held.iter().for_each(|held| driven[held.node] |= held.motion.is_some());
+    let moves = |i: &usize| !follows[*i] && (driven[*i] || (0..6).any(|dof| plan.is_unknown(*i, dof)));
+    (0..n).filter(moves).collect()
+}
+
+/// Prescribed directions of nodes that are the end of a joint or the master of one.
+fn driving(model: &Model, system: &System) -> Vec<usize> {
+    let mut leads = vec![false; model.nodes.len()];
+    system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
+    // Dependent nodes come after their masters.
+    for link in system.attachments.iter().rev() {
+        leads[link.master] |= leads[link.node];
+    }
+    let moves = |(_, held): &(usize, &Held)| held.motion.is_some() && leads[held.node];
+    model.held.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
+}
+
+/// The largest distance of a node from the first, or 1 for a single point.
+fn extent(model: &Model) -> f64 {
+    let first = model.nodes.first().map_or(Vec3::zeros(), |node| node.x);
+    let extent = model.nodes.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max);
+    if extent > 0.0 { extent } else { 1.0 }
+}

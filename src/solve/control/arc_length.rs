@@ -1,0 +1,251 @@
+//! The march along a path of equilibria by arc length: the first step is one of load and sets the scale, the others are as
+//! long as their iterations allow. Where a step passes something it must end at, the way there is found between its ends.
+
+use super::targets::{Quantity, Targets};
+use crate::integrators::load_steps;
+use crate::model::{ArcLength, Passage};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::implicit::{ArcLengthConstraint, Condition, Newton, StepMotion};
+use crate::solve::march::March;
+use crate::solve::motion::Stage;
+use crate::solve::outcome::Outcome;
+use crate::solve::recorder::AcceptedStep;
+use crate::solve::report::StepReport;
+use crate::solve::residual;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// Iterations a step should take, the first being the prediction: more make it too long for what it costs, fewer too short.
+/// Frames of slender beams take a third fewer iterations in all than with five; with eight roofs leave their path.
+const DESIRED: f64 = 6.0;
+/// A step grows or shrinks from one to the next by at most this.
+const CHANGE: f64 = 2.0;
+/// The cosine of the angle between steps beyond which they grow no more.
+const STRAIGHT: f64 = 0.8;
+/// The cosine below which a step may have left the path for another, and is tried at half the length; but so many times only: where
+/// material begins to yield a path has kinks, which no step is too short for.
+const BENT: f64 = 0.2;
+const TRIES: usize = 3;
+/// Iterations beyond which the first step is tried at half the load.
+const HARD: usize = 12;
+/// More steps are no path that anybody wants, unless the deck asks for them.
+const MOST_STEPS: usize = 100_000;
+/// Landings tried in a step before it is cut: what it passes may lie in another order than between straight lines.
+const LANDINGS: usize = 8;
+
+/// Leads a static analysis along its path.
+pub struct ArcLengthController {
+    newton: Newton,
+    constraint: ArcLengthConstraint,
+    path: ArcLength,
+    targets: Targets,
+    /// The time at which loads or prescribed motion begin to change.
+    begin: f64,
+    /// The length of the first step, once it is known.
+    unit: Option<f64>,
+    /// The length of the next step over that of the first, and the least.
+    size: f64,
+    least: f64,
+    /// Cutbacks before the step at hand, and those of them because it was bent.
+    cuts: usize,
+    bent: usize,
+    /// Where the path ended without coming to its `stop`: the displacement asked for.
+    pub short_of_stop: Option<f64>,
+}
+
+/// An equilibrium that was found: with the target it lies at, if any.
+struct Found {
+    report: StepReport,
+    landed: Option<usize>,
+    motion: StepMotion,
+}
+
+impl ArcLengthController {
+    pub fn new(cx: &Context, ws: &mut Workspace, newton: Newton, path: &ArcLength) -> ArcLengthController {
+        ws.matrix.solver.expect_indefinite();
+        ArcLengthController {
+            newton,
+            constraint: ArcLengthConstraint::new(cx, ws),
+            targets: Targets::new(cx.model, path),
+            begin: cx.excitation.begin(),
+            unit: None,
+            size: 1.0,
+            least: cx.model.analysis.least_step / path.first,
+            cuts: 0,
+            bent: 0,
+            short_of_stop: None,
+            path: path.clone(),
+        }
+    }
+
+    /// Loads that do not begin at zero act at once.
+    ///
+    /// # Errors
+    /// Where no equilibrium is found under them.
+    pub fn settle(&mut self, march: &mut March) -> Result<(), Outcome> {
+        let March { cx, ws, state, .. } = march;
+        let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+        if residual::gather(cx, ws, &scale) > cx.model.iteration.tolerance {
+            let scheme = load_steps::coefficients();
+            let settled = self.newton.stage(cx, ws, state, &Stage::from(&scheme), 0.0);
+            settled.map_err(|failure| march.failed(failure))?;
+        }
+        Ok(())
+    }
+
+    /// Follows the path to the end time, to where the deck stops it, or through its number of steps.
+    ///
+    /// # Errors
+    /// What ends the run early.
+    pub fn follow(&mut self, march: &mut March) -> Result<(), Outcome> {
+        if self.begin >= march.cx.model.analysis.end_time {
+            return Err(march.failed(Failure::Idle { time: march.state.time }));
+        }
+        self.targets.start(march.cx, march.ws, march.state);
+        loop {
+            march.check_stop()?;
+            let Some(found) = self.find_or_cut(march)? else { continue };
+            let dt = found.report.to - march.state.time;
+            self.accept(march, &found)?;
+            let ends = found.landed.is_some_and(|i| self.targets.0[i].ends)
+                || self.path.steps.is_some_and(|steps| march.recorder.counts.steps + 1 >= steps);
+            self.show(march, &found, dt, ends)?;
+            if ends {
+                self.short_of_stop =
+                    self.path.stop.filter(|stop| !self.targets.is_stop(stop, found.landed)).map(
+                        |Passage { node, dof, .. }| march.state.nodes[node].moved(&march.cx.model.nodes[node].x)[dof],
+                    );
+                return Ok(());
+            }
+            let steps = march.recorder.counts.steps;
+            if steps >= self.path.steps.unwrap_or(MOST_STEPS) {
+                return Err(march.failed(Failure::Endless { steps }));
+            }
+            self.choose_size(&found);
+        }
+    }
+
+    /// Finds the next equilibrium; `None` where the step is to be tried again at half the length.
+    ///
+    /// # Errors
+    /// The failure, where no shorter step is left or none would help.
+    fn find_or_cut(&mut self, march: &mut March) -> Result<Option<Found>, Outcome> {
+        let March { cx, ws, state, .. } = march;
+        let (to, condition) = match self.unit {
+            // The first step is one of load, and there is none before.
+            None => (self.begin + self.size * self.path.first, None),
+            Some(unit) => (state.time, Some(Condition::Arc(self.size * unit))),
+        };
+        let found = self.find(cx, ws, state, to, condition);
+        let motion = self.constraint.motion(cx, ws);
+        let may_cut = 0.5 * self.size >= self.least;
+        match found {
+            Ok(_) if motion.cosine < BENT && self.bent < TRIES && may_cut => self.bent += 1,
+            // Nothing tells yet whether a step of load has left the path, but how hard it was to find.
+            Ok((ref report, _)) if self.unit.is_none() && report.iterations > HARD && may_cut => {}
+            Ok((report, landed)) => return Ok(Some(Found { report, landed, motion })),
+            Err(failure) => {
+                let unrestrained =
+                    self.unit.is_none() && cx.system.history == 0 && matches!(failure, Failure::Singular { .. });
+                if !may_cut || unrestrained {
+                    return Err(march.failed(failure));
+                }
+            }
+        }
+        (self.size, self.cuts) = (0.5 * self.size, self.cuts + 1);
+        march.count_cut();
+        Ok(None)
+    }
+
+    /// Finds the equilibrium at `to`, or as far as the condition says; cut short at the first target that the step passes, which is
+    /// returned.
+    fn find(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        to: f64,
+        condition: Option<Condition>,
+    ) -> Result<(StepReport, Option<usize>), Failure> {
+        let scheme = load_steps::coefficients();
+        self.newton.predict(cx, ws, state, &scheme);
+        let mut report = self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?;
+        let mut landed = None;
+        for _ in 0..LANDINGS {
+            let Some((index, part)) = self.targets.first_passed(cx, ws, state, report.to, landed) else {
+                return Ok((report, landed));
+            };
+            let target = &self.targets.0[index];
+            let (from, _) = target.ends_of_motion(cx, ws, state, report.to);
+            let (to, condition) = match target.quantity {
+                Quantity::Time => (target.value, None),
+                Quantity::Displacement { node, dof } => {
+                    let to = state.time + part * (report.to - state.time);
+                    (to, Some(Condition::Motion { node, dof, by: target.value - from }))
+                }
+            };
+            shorten(cx, ws, state, part);
+            report = report.then(self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?);
+            landed = Some(index);
+        }
+        Err(residual::no_equilibrium(cx, ws))
+    }
+
+    fn equilibrate(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+        condition: Option<Condition>,
+    ) -> Result<StepReport, Failure> {
+        let constraint = condition.map(|condition| (&mut self.constraint, condition));
+        self.newton.equilibrate(cx, ws, state, stage, to, constraint)
+    }
+
+    /// Takes the equilibrium that was found.
+    fn accept(&mut self, march: &mut March, found: &Found) -> Result<(), Outcome> {
+        let March { cx, ws, state, .. } = march;
+        let to = found.report.to;
+        self.targets.pass(cx, ws, state, to, found.landed);
+        self.constraint.keep_motion(cx, ws, &found.motion);
+        // A first step may have been cut short where it passed something, even before loads begin.
+        let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
+        let is_one = self.unit.is_some() || to > self.begin;
+        if is_one && *self.unit.get_or_insert(found.motion.length * whole) == 0.0 {
+            let time = state.time;
+            return Err(march.failed(Failure::Idle { time }));
+        }
+        let accepted = self.newton.accept(cx, ws, state, &Stage::from(&load_steps::coefficients()), to);
+        accepted.map_err(|failure| march.failed(failure))
+    }
+
+    fn show(&mut self, march: &mut March, found: &Found, dt: f64, ends: bool) -> Result<(), Outcome> {
+        let passed = found.landed.map_or(&[][..], |i| &self.targets.0[i].expects);
+        let due = found.landed.is_some() || ends;
+        march.notify(&AcceptedStep { dt, report: &found.report, cuts: self.cuts, due, last: ends, passed })
+    }
+
+    /// The size of the step after this one, which was not cut short, by how hard it was to find.
+    fn choose_size(&mut self, found: &Found) {
+        if found.landed.is_none() {
+            let mut change = (DESIRED / found.report.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
+            if self.cuts > 0 || found.motion.cosine < STRAIGHT {
+                change = change.min(1.0);
+            }
+            self.size = (self.size * change).min(self.path.growth);
+        }
+        (self.cuts, self.bent) = (0, 0);
+    }
+}
+
+/// Goes back to a part of the motion that was found, to begin the search for a point on the way.
+fn shorten(cx: &Context, ws: &mut Workspace, state: &State, part: f64) {
+    for &node in &cx.independent_nodes {
+        ws.increments[node].q *= part;
+    }
+    let values = ws.forces.multipliers.values.iter_mut().zip(&state.multipliers);
+    values.for_each(|(value, start)| *value = start + part * (*value - start));
+}

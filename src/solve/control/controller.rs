@@ -1,0 +1,89 @@
+//! All ways of finding the length of steps, each with the stepper that it leads.
+
+use super::arc_length::ArcLengthController;
+use super::embedded_error::EmbeddedErrorController;
+use super::error_controlled::ErrorController;
+use super::fixed::FixedController;
+use super::intervals::{CoverInterval, intervals};
+use super::stability_limited::StabilityController;
+use crate::linear::TooLarge;
+use crate::model::StepLength;
+use crate::solve::context::Context;
+use crate::solve::march::March;
+use crate::solve::outcome::Outcome;
+use crate::solve::start;
+use crate::solve::time_stepper::TimeStepper;
+use crate::solve::workspace::Workspace;
+
+/// What leads a run from 0 to its end: see [`StepLength`].
+pub enum Controller<'a> {
+    Fixed(FixedController<'a>),
+    /// By the error of implicit steps, estimated from the motion.
+    ErrorControlled(ErrorController<'a>),
+    /// By the error that embedded Runge-Kutta schemes tell.
+    EmbeddedError(EmbeddedErrorController),
+    StabilityLimited(StabilityController),
+    ArcLength(ArcLengthController),
+}
+
+impl<'a> Controller<'a> {
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn new(cx: &Context<'a>, ws: &mut Workspace) -> Result<Self, TooLarge> {
+        Ok(match (&cx.model.analysis.step_length, TimeStepper::new(cx)?) {
+            (&StepLength::ErrorControlled { tolerance, first }, TimeStepper::Implicit(stepper)) => {
+                Controller::ErrorControlled(ErrorController::new(cx, stepper, tolerance, first))
+            }
+            (&StepLength::ErrorControlled { tolerance, first }, TimeStepper::RungeKutta(stepper)) => {
+                Controller::EmbeddedError(EmbeddedErrorController::new(stepper, tolerance, first))
+            }
+            (&StepLength::StabilityLimited { fraction }, TimeStepper::CentralDifference(stepper)) => {
+                Controller::StabilityLimited(StabilityController::new(stepper, fraction))
+            }
+            (StepLength::ArcLength(path), TimeStepper::Implicit(stepper)) => {
+                Controller::ArcLength(ArcLengthController::new(cx, ws, stepper.newton, path))
+            }
+            (_, stepper) => Controller::Fixed(FixedController::new(stepper)),
+        })
+    }
+
+    /// Leads the run from its state at t = 0 to its end.
+    ///
+    /// # Errors
+    /// What ends it early.
+    pub fn run(&mut self, march: &mut March) -> Result<(), Outcome> {
+        match self {
+            Controller::Fixed(controller) => through_intervals(controller, march),
+            Controller::ErrorControlled(controller) => through_intervals(controller, march),
+            Controller::EmbeddedError(controller) => through_intervals(controller, march),
+            Controller::StabilityLimited(controller) => through_intervals(controller, march),
+            Controller::ArcLength(controller) => {
+                controller.settle(march)?;
+                march.notify_start()?;
+                controller.follow(march)
+            }
+        }
+    }
+
+    /// Where a path ended that never came to its `stop`: the displacement asked for.
+    pub fn short_of_stop(&self) -> Option<f64> {
+        match self {
+            Controller::ArcLength(controller) => controller.short_of_stop,
+            _ => None,
+        }
+    }
+}
+
+/// Covers one interval after the other, and goes on after a jump of the loads from what it makes of the accelerations.
+fn through_intervals(controller: &mut impl CoverInterval, march: &mut March) -> Result<(), Outcome> {
+    controller.restart(march.cx, march.ws, march.state);
+    march.notify_start()?;
+    for interval in intervals(march.cx.model) {
+        controller.cover(march, &interval)?;
+        if interval.jump && march.cx.is_dynamic() {
+            start::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
+            controller.restart(march.cx, march.ws, march.state);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! Steps of Runge-Kutta schemes by their error, which their embedded schemes tell.
+
+use super::adaptive::StepController;
+use crate::solve::context::Context;
+use crate::solve::explicit::RungeKuttaStepper;
+use crate::solve::failure::Failure;
+use crate::solve::report::StepReport;
+use crate::solve::size::Size;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// The part of a length that would just do.
+const SAFETY: f64 = 0.9;
+/// A step is at least so much of the one before it, and at most so many times as long.
+const GROWTH: [f64; 2] = [0.2, 5.0];
+/// Motion at the largest velocity for this part of the run counts as displacement: at the start there is none.
+const GLANCE: f64 = 1e-3;
+
+/// Leads a Runge-Kutta scheme by the error of its steps.
+pub struct EmbeddedErrorController {
+    stepper: Box<RungeKuttaStepper>,
+    /// The error of the displacements that the whole run is allowed, relative to the largest.
+    tolerance: f64,
+    /// The length of the next step.
+    next: f64,
+    /// The largest displacement and rotation so far.
+    motion: Size,
+}
+
+impl EmbeddedErrorController {
+    pub fn new(stepper: Box<RungeKuttaStepper>, tolerance: f64, first: f64) -> EmbeddedErrorController {
+        EmbeddedErrorController { stepper, tolerance, next: first, motion: Size::default() }
+    }
+
+    /// Notes how long the step after one of `dt` may be, whose trial motion is at hand. Returns the largest motion with it.
+    ///
+    /// # Errors
+    /// [`Failure::Inaccurate`] where this one was too long.
+    fn judge(&mut self, cx: &Context, ws: &Workspace, dt: f64) -> Result<Size, Failure> {
+        let end_time = cx.model.analysis.end_time;
+        let mut motion = self.motion;
+        let (mut speed, mut spin) = (0.0f64, 0.0f64);
+        for &node in &cx.independent_nodes {
+            let (now, first) = (&ws.trial[node], &cx.model.nodes[node]);
+            motion.translation = motion.translation.max((now.x - first.x).norm());
+            motion.rotation = motion.rotation.max(2.0 * now.q.imag().norm());
+            speed = speed.max(now.v.norm());
+            spin = spin.max(now.omega.norm());
+        }
+        let ahead = GLANCE * end_time;
+        let translation = motion.translation.max(ahead * speed);
+        let rotation = motion.rotation.max(ahead * spin).max(translation / cx.length);
+        let error = self.stepper.error(cx, dt);
+        let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
+        let error = part(error.translation, translation).max(part(error.rotation, rotation));
+        // Errors of steps add up: each may take the part of the allowance that its length is of the run.
+        let ratio = error * end_time / (dt * self.tolerance);
+        let [least, most] = GROWTH;
+        let factor = (SAFETY * ratio.powf(-1.0 / (self.stepper.error_order() - 1.0))).clamp(least, most);
+        self.next = dt * if factor.is_nan() { least } else { factor };
+        if ratio > 1.0 || ratio.is_nan() {
+            self.next = self.next.min(SAFETY * dt);
+            return Err(Failure::Inaccurate { dt });
+        }
+        Ok(motion)
+    }
+}
+
+impl StepController for EmbeddedErrorController {
+    fn restart(&mut self, _: &Context, _: &mut Workspace, _: &mut State) {}
+
+    fn propose(&mut self, cx: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
+        // Where a shorter one is asked for, what refuses the least says why.
+        Ok(self.next.max(cx.model.analysis.least_step))
+    }
+
+    fn step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+        _: f64,
+    ) -> Result<Option<StepReport>, Failure> {
+        self.stepper.evaluate_stages(cx, ws, state, to)?;
+        let motion = self.judge(cx, ws, to - state.time)?;
+        let report = self.stepper.accept(cx, ws, state, to)?;
+        // What contacts or joints refuse has not moved: errors are not to be judged by it.
+        self.motion = motion;
+        Ok(Some(report))
+    }
+
+    fn cut_back(&mut self, dt: f64) {
+        self.next = 0.5 * dt;
+    }
+}

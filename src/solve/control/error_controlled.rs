@@ -1,0 +1,265 @@
+//! Implicit steps whose length follows an estimate of their error.
+//!
+//! In a step a scheme of second order puts a smooth motion wrong by c Δt³ |q‴|; for Newmark's that is the estimate of
+//! O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Modes that the step does not resolve have large
+//! accelerations and hardly move, so the estimate e is passed through the matrix of the step, (K + w M)⁻¹ w M e, which
+//! leaves what is resolved as it is (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
+//!
+//! Errors of steps add up: each step may take the part of the allowance that its length is of the run; what lasts of them decides
+//! (see [`LastingError`]).
+
+use super::adaptive::StepController;
+use super::error_measure::ErrorMeasure;
+use super::lasting_error::LastingError;
+use crate::integrators::spectrum::error_constant;
+use crate::integrators::{Newmark, RotationUpdate, Scheme};
+use crate::math::{Vec3, Vec6, join};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::implicit::Implicit;
+use crate::solve::motion::Stage;
+use crate::solve::report::StepReport;
+use crate::solve::size::Size;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// A step that errs by more than so many times what it may, and what steps have erred by lately, is taken back: something has
+/// happened.
+const TOO_MUCH: f64 = 4.0;
+/// The part of a length that would just do: for the next step to be no more than that.
+const SAFETY: f64 = 0.9;
+/// A new length costs a new matrix: steps grow once they may by as much, by no more than twice.
+const WORTH: f64 = 1.4;
+/// Errors swing with the motion, and it is their sum that counts, so lengths follow a mean over this part of the run, ...
+const SPAN: f64 = 0.05;
+/// ... in which the last step has this weight at least.
+const WEIGHT: f64 = 0.002;
+/// What remains of the sum of all errors: steady growth to 1 of an oscillation has a root mean square of 1/√6 over a run; a
+/// little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
+const MEAN: f64 = 0.3;
+/// Steps of a run at least.
+const FEWEST: f64 = 50.0;
+/// Lengths, as parts of a run, of the steps that are tried when things begin to move, to see how far they will; the first are short,
+/// for the sake of blows. They have no common measure, lest all of them end where a vibration passes through its middle.
+const TRIALS: [f64; 6] = [1.7e-4, 7.1e-4, 2.9e-3, 0.011, 0.037, 0.053];
+/// An estimate of which two filters leave less is one of motion that the step does not resolve, a period of four steps or less;
+/// unless there is motion beside it of which a third leaves more than their root.
+const RESOLVED: f64 = 0.3;
+/// Passages that leave nothing of such motion, and most of what has ten steps a period.
+const PASSAGES: usize = 8;
+/// Such motion is left to the damping of the scheme while its amplitude is less than so many tolerances: shorter steps would only
+/// draw it out.
+const SLIGHT: f64 = 2.0;
+
+/// Leads an implicit scheme by the error of its steps. Allocated once.
+pub struct ErrorController<'a> {
+    stepper: Box<Implicit<'a>>,
+    /// The error of the displacements that the whole run is allowed, relative to the largest.
+    tolerance: f64,
+    /// c.
+    constant: f64,
+    /// The length of the next step, and the longest there may be.
+    length: f64,
+    longest: f64,
+    /// What a step would err, over what it may, and over its length squared: means over the last steps, of what lasts and of all.
+    lasting_intensity: Option<f64>,
+    intensity: Option<f64>,
+    /// Largest displacement of a node and turn of a body so far.
+    motion: Size,
+    measure: ErrorMeasure,
+    /// The state at the start of the step, to go back to.
+    start: State,
+    /// The errors of a step per node, and the same after more passages.
+    errors: [Vec<Vec6>; 2],
+    lasting: LastingError,
+}
+
+/// An estimated error relative to the largest motion.
+struct Estimate {
+    error: f64,
+    /// The largest motion with that at the end of the step.
+    motion: Size,
+}
+
+impl<'a> ErrorController<'a> {
+    pub fn new(cx: &Context, stepper: Box<Implicit<'a>>, tolerance: f64, first: f64) -> Self {
+        let nodes = cx.model.nodes.len();
+        ErrorController {
+            stepper,
+            tolerance,
+            constant: MEAN * error_constant(&*cx.model.scheme),
+            length: first,
+            longest: cx.model.analysis.end_time / FEWEST,
+            lasting_intensity: None,
+            intensity: None,
+            motion: Size::default(),
+            measure: ErrorMeasure::new(cx.model, cx.length),
+            start: State::default(),
+            errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
+            lasting: LastingError::new(nodes),
+        }
+    }
+
+    /// Decides whether a step of `dt` to `time` stands. The length of the next follows.
+    fn judge(&mut self, dt: f64, time: f64, end_time: f64, estimate: &Estimate) -> bool {
+        let part = dt / end_time;
+        let ratio = estimate.error / (self.tolerance * part);
+        let all = ratio / (dt * dt);
+        let sudden = self.intensity.is_none_or(|usual| all > TOO_MUCH * usual);
+        if ratio > TOO_MUCH && sudden || !ratio.is_finite() {
+            self.length = dt * if ratio.is_finite() { (SAFETY / ratio).sqrt().max(0.1) } else { 0.1 };
+            self.lasting_intensity = Some(all).filter(|all| all.is_finite());
+            return false;
+        }
+        // Errors so far are the less for what the motion has grown by.
+        let (before, after) = (self.measure.whole(self.motion), self.measure.whole(estimate.motion));
+        let grown = if before > 0.0 { after / before } else { 1.0 };
+        self.motion = estimate.motion;
+        let factor = self.constant * dt.powi(3);
+        let tau = (self.constant * dt * dt * end_time).cbrt();
+        self.lasting.update(&self.errors[0], factor, dt, tau);
+        let lasting = factor * self.measure.relative(self.lasting.value(), self.motion, time);
+        let lasting = lasting / (self.tolerance * part) / (dt * dt);
+        let weight = (part / SPAN).clamp(WEIGHT, 1.0);
+        let update =
+            |mean: Option<f64>, now: f64| mean.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
+        let mean = update(self.lasting_intensity, lasting);
+        self.lasting_intensity = Some(mean);
+        self.intensity = Some(update(self.intensity, all));
+        self.choose_length(dt, 1.0 / mean.sqrt());
+        true
+    }
+
+    /// The length of the step after one of `dt`, where `allowed` is what would just do.
+    fn choose_length(&mut self, dt: f64, allowed: f64) {
+        if allowed < SAFETY * dt {
+            self.length = SAFETY * allowed;
+        } else if allowed > WORTH * dt {
+            // A step may be short because of where it ends.
+            self.length = (SAFETY * allowed).min(2.0 * dt.max(self.length)).min(self.longest);
+        }
+    }
+
+    /// Finds how far things move in a few long steps: errors at the start are small against that, whatever they are against the
+    /// motion so far. By the trapezoidal rule, which does not overshoot. The state goes back to the start of the step.
+    fn look_ahead(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        state.copy_from(&self.start);
+        let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
+        let mut run = cx.model.analysis.end_time;
+        for part in TRIALS {
+            let dt = part * run;
+            let scheme = Newmark { gamma: 0.5, beta: 0.25, rotation: RotationUpdate::Exponential }.coefficients(dt);
+            let to = state.time + dt;
+            match self.stepper.newton.stage(cx, ws, state, &Stage::from(&scheme), to) {
+                Ok(_) => self.measure.look_ahead(cx.model, state),
+                Err(_) => run *= 0.1,
+            }
+        }
+        state.copy_from(&self.start);
+        self.stepper.newton.discard_matrix();
+        (ws.rotation_drift, ws.joint_violation) = (drift, violation);
+        self.measure.begin(state.time);
+    }
+
+    /// Estimates the error of the step of length `dt` that led to `state`.
+    fn estimate(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Estimate {
+        let motion = self.measure.with(self.motion, cx.model, state);
+        self.write_errors(cx, state, dt);
+        let mass_weight = self.stepper.newton.mass_weight;
+        let [errors, again] = &mut self.errors;
+        let relative = |errors: &[Vec6]| self.measure.relative(errors, motion, state.time);
+        let mut passed = [relative(errors); 3];
+        for error in &mut passed[1..] {
+            filter(cx, ws, state, mass_weight, errors);
+            *error = relative(errors);
+        }
+        // What is not resolved comes out of the first passage with about its amplitude.
+        let [raw, amplitude, mut error] = passed;
+        let allowed = self.tolerance * dt / cx.model.analysis.end_time;
+        if amplitude < SLIGHT * self.tolerance && error > allowed && error < RESOLVED * raw {
+            again.copy_from_slice(errors);
+            filter(cx, ws, state, mass_weight, again);
+            if relative(again) < RESOLVED.sqrt() * error {
+                // It is left alone; what else there is has to show.
+                for _ in 0..PASSAGES {
+                    filter(cx, ws, state, mass_weight, again);
+                }
+                error = relative(again);
+                std::mem::swap(errors, again);
+            }
+        }
+        Estimate { error, motion }
+    }
+
+    /// Writes c Δt³ q‴ of the step of length `dt` that led to `state`, per node.
+    fn write_errors(&mut self, cx: &Context, state: &State, dt: f64) {
+        let errors = &mut self.errors[0];
+        errors.fill(Vec6::zeros());
+        let factor = self.constant * dt.powi(3);
+        for &node in &cx.independent_nodes {
+            let rows = cx.plan.dofs.of(node);
+            let (start, end) = (&self.start.nodes[node], &state.nodes[node]);
+            // Of the rotation vector of a step Θ‴ = α̇ − ½ ω×α: a body that spins turns α without changing it.
+            let across = 0.25 * (start.omega.cross(&start.alpha) + end.omega.cross(&end.alpha));
+            let third = state.jerk[node] - join(&Vec3::zeros(), &across);
+            errors[node] = Vec6::from_fn(|i, _| if rows.has(i) { factor * third[i] } else { 0.0 });
+        }
+        cx.system.carry(&state.nodes, errors);
+    }
+}
+
+/// e ← (K + w M)⁻¹ w M e, per node, with w the weight of the masses in the matrix at hand.
+fn filter(cx: &Context, ws: &mut Workspace, state: &State, mass_weight: f64, errors: &mut [Vec6]) {
+    cx.system.weigh(&state.nodes, errors, &mut ws.forces);
+    for (r, &(node, dof)) in ws.r.iter_mut().zip(&cx.plan.directions) {
+        *r = mass_weight * ws.forces.on_nodes[node][dof];
+    }
+    ws.r[cx.directions()..].fill(0.0);
+    ws.matrix.solver.solve(&mut ws.r);
+    ws.solves += 1;
+    for &node in &cx.independent_nodes {
+        let rows = cx.plan.dofs.of(node);
+        errors[node] = rows.gather(&ws.r);
+    }
+    cx.system.carry(&state.nodes, errors);
+}
+
+impl StepController for ErrorController<'_> {
+    fn restart(&mut self, _: &Context, _: &mut Workspace, state: &mut State) {
+        self.stepper.restart(state);
+        self.start.clone_from(state);
+    }
+
+    fn propose(&mut self, _: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
+        Ok(self.length)
+    }
+
+    fn step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+        _: f64,
+    ) -> Result<Option<StepReport>, Failure> {
+        let dt = to - state.time;
+        self.start.copy_from(state);
+        let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
+        let report = self.stepper.step(cx, ws, state, to)?;
+        let estimate = self.estimate(cx, ws, state, dt);
+        if self.measure.is_waiting() && estimate.motion != Size::default() {
+            self.look_ahead(cx, ws, state);
+            return Ok(None);
+        }
+        if self.judge(dt, state.time, cx.model.analysis.end_time, &estimate) {
+            return Ok(Some(report));
+        }
+        state.copy_from(&self.start);
+        (ws.rotation_drift, ws.joint_violation) = (drift, violation);
+        Err(Failure::Inaccurate { dt })
+    }
+
+    fn cut_back(&mut self, dt: f64) {
+        self.length = 0.5 * dt;
+    }
+}

@@ -1,0 +1,15 @@
+//! How long steps are: each way has a controller of its own, which leads its stepper through the run.
+
+mod adaptive;
+mod arc_length;
+mod controller;
+mod embedded_error;
+mod error_controlled;
+mod error_measure;
+mod fixed;
+mod intervals;
+mod lasting_error;
+mod stability_limited;
+mod targets;
+
+pub use controller::Controller;

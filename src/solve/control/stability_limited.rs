@@ -1,0 +1,56 @@
+//! Steps of central differences as long as is stable.
+
+use super::adaptive::StepController;
+use crate::solve::context::Context;
+use crate::solve::explicit::CentralDifferenceStepper;
+use crate::solve::failure::Failure;
+use crate::solve::report::StepReport;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// Steps grow back to what is stable little by little, since each change of the step makes or takes energy.
+const GROWTH: f64 = 1.2;
+
+/// Leads central differences by the critical time step.
+pub struct StabilityController {
+    stepper: Box<CentralDifferenceStepper>,
+    /// The part of the critical time step that is taken.
+    fraction: f64,
+    /// The longest step that the last one allows: a little longer than what went well, half of what did not.
+    longest: f64,
+}
+
+impl StabilityController {
+    pub fn new(stepper: Box<CentralDifferenceStepper>, fraction: f64) -> StabilityController {
+        StabilityController { stepper, fraction, longest: f64::INFINITY }
+    }
+}
+
+impl StepController for StabilityController {
+    fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        self.stepper.restart(cx, ws, state);
+    }
+
+    fn propose(&mut self, cx: &Context, ws: &mut Workspace, state: &State, left: f64) -> Result<f64, Failure> {
+        let stable = self.stepper.propose(cx, ws, state, left, self.fraction)?;
+        // Where a shorter one is asked for, what refuses the least says why.
+        Ok(stable.min(self.longest).max(cx.model.analysis.least_step))
+    }
+
+    fn step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+        length: f64,
+    ) -> Result<Option<StepReport>, Failure> {
+        let report = self.stepper.step(cx, ws, state, to)?;
+        self.longest = GROWTH * length;
+        Ok(Some(report))
+    }
+
+    fn cut_back(&mut self, dt: f64) {
+        self.longest = 0.5 * dt;
+    }
+}

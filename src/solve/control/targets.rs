@@ -1,0 +1,128 @@
+//! The times and displacements that a path must pass through at the end of a step.
+
+use crate::model::{ArcLength, Model, Passage, When};
+use crate::solve::context::Context;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// Something a step must end at.
+pub struct Target {
+    pub quantity: Quantity,
+    pub value: f64,
+    /// Passages to come, of which the last counts.
+    passes: usize,
+    /// Side of the value on which the path is: −1, 1, or 0 where it has not left it.
+    side: f64,
+    /// The path ends there.
+    pub ends: bool,
+    /// The expectations that are due there, by their place in the model's list.
+    pub expects: Vec<usize>,
+}
+
+/// What must come to a value.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Quantity {
+    Time,
+    Displacement { node: usize, dof: usize },
+}
+
+/// All of them.
+pub struct Targets(pub Vec<Target>);
+
+impl Targets {
+    pub fn new(model: &Model, path: &ArcLength) -> Self {
+        let mut all = Targets(Vec::new());
+        all.add(Quantity::Time, model.analysis.end_time, 1).ends = true;
+        if let Some(stop) = path.stop {
+            all.add(Quantity::Displacement { node: stop.node, dof: stop.dof }, stop.value, stop.pass).ends = true;
+        }
+        for (index, expect) in model.expects.iter().enumerate() {
+            match expect.when {
+                When::Time(time) if time > 0.0 => all.add(Quantity::Time, time, 1).expects.push(index),
+                When::Passing(at) => {
+                    let quantity = Quantity::Displacement { node: at.node, dof: at.dof };
+                    all.add(quantity, at.value, at.pass).expects.push(index);
+                }
+                _ => {}
+            }
+        }
+        all
+    }
+
+    /// The target of this description, each kept once.
+    fn add(&mut self, quantity: Quantity, value: f64, passes: usize) -> &mut Target {
+        let same = |t: &Target| t.quantity == quantity && t.value == value && t.passes == passes;
+        let index = self.0.iter().position(same).unwrap_or_else(|| {
+            self.0.push(Target { quantity, value, passes, side: 0.0, ends: false, expects: Vec::new() });
+            self.0.len() - 1
+        });
+        &mut self.0[index]
+    }
+
+    /// Notes on which side of the targets the path starts.
+    pub fn start(&mut self, cx: &Context, ws: &Workspace, state: &State) {
+        for target in &mut self.0 {
+            let (from, _) = target.ends_of_motion(cx, ws, state, state.time);
+            target.side = if from == target.value { 0.0 } else { (from - target.value).signum() };
+        }
+    }
+
+    /// The target that the motion found from `state` passes first, but for one, and at which part of the motion.
+    pub fn first_passed(
+        &self,
+        cx: &Context,
+        ws: &Workspace,
+        state: &State,
+        to: f64,
+        but: Option<usize>,
+    ) -> Option<(usize, f64)> {
+        let part = |target: &Target| {
+            let (from, end) = target.ends_of_motion(cx, ws, state, to);
+            let over = |x: f64| target.side * (x - target.value);
+            let passed = target.passes == 1 && over(from) > 0.0 && over(end) <= 0.0;
+            passed.then(|| (target.value - from) / (end - from))
+        };
+        let others = self.0.iter().enumerate().filter(|(i, _)| Some(*i) != but);
+        let passed = others.filter_map(|(i, target)| part(target).map(|part| (i, part)));
+        passed.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Counts what the accepted motion passes; `landed` is passed by definition, whatever rounding says.
+    pub fn pass(&mut self, cx: &Context, ws: &Workspace, state: &State, to: f64, landed: Option<usize>) {
+        for (i, target) in self.0.iter_mut().enumerate() {
+            let (_, end) = target.ends_of_motion(cx, ws, state, to);
+            let side = match landed == Some(i) {
+                true => -target.side,
+                false if end == target.value => target.side,
+                false => (end - target.value).signum(),
+            };
+            if target.side * side < 0.0 {
+                target.passes = target.passes.saturating_sub(1);
+            }
+            target.side = side;
+        }
+    }
+
+    /// Whether the target that a step landed on is this one.
+    pub fn is_stop(&self, stop: &Passage, landed: Option<usize>) -> bool {
+        let quantity = Quantity::Displacement { node: stop.node, dof: stop.dof };
+        landed.is_some_and(|i| self.0[i].ends && self.0[i].quantity == quantity)
+    }
+}
+
+impl Target {
+    /// The quantity at the ends of the motion found from `state` to the time `to`.
+    pub fn ends_of_motion(&self, cx: &Context, ws: &Workspace, state: &State, to: f64) -> (f64, f64) {
+        match self.quantity {
+            Quantity::Time => (state.time, to),
+            Quantity::Displacement { node, dof } => {
+                let start = &state.nodes[node];
+                let from = start.moved(&cx.model.nodes[node].x)[dof];
+                // Dependent nodes have no increment.
+                let moves = cx.independent_nodes.binary_search(&node).is_ok();
+                let way = if moves { ws.increments[node].q[dof] } else { ws.trial[node].relative_position(start)[dof] };
+                (from, from + way)
+            }
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! What explicit schemes share: accelerations from the residual with the mass alone. Where every moving node is a rigid body of its
+//! own nothing is factorised but the small system of the joints; masses that belong together are formed and factorised at every
+//! evaluation.
+
+use crate::elements::Moduli;
+use crate::integrators::Coefficients;
+use crate::linear::TooLarge;
+use crate::math::rotation::{inverse_tangent, rates};
+use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::joints::apart;
+use crate::solve::projection::ConstraintProjection;
+use crate::solve::workspace::Workspace;
+use crate::state::{Configuration, Increment, State};
+use crate::system::assembly::Weights;
+use crate::system::masses::{Masses, Motion};
+use crate::system::ties::Ties;
+
+/// The masses of a scene and the accelerations that forces cause on them. Allocated once.
+pub struct Accelerations {
+    /// Where each moving node is a rigid body of its own.
+    pub masses: Option<Masses>,
+    /// Where there are such masses and joints.
+    pub ties: Option<Ties>,
+    /// Accelerations beyond those of the trial motion, by node.
+    pub missing: Vec<Vec6>,
+    /// Where masses belong together: motions that the mass is applied to, by node.
+    pub operand: Vec<Vec6>,
+    /// Where masses belong together and there are joints.
+    projection: Option<ConstraintProjection>,
+}
+
+impl Accelerations {
+    /// # Errors
+    /// There is no memory for the projection onto joints.
+    pub fn new(cx: &Context) -> Result<Accelerations, TooLarge> {
+        let nodes = cx.model.nodes.len();
+        let (masses, ties) = match cx.plan.masses(cx.system) {
+            Some(masses) if cx.system.joints.is_empty() => (Some(masses), None),
+            Some(masses) => match Ties::new(cx.system, &masses, cx.plan.shares()) {
+                Some(ties) => (Some(masses), Some(ties)),
+                None => (None, None),
+            },
+            None => (None, None),
+        };
+        let coupled = masses.is_none();
+        Ok(Accelerations {
+            masses,
+            ties,
+            missing: vec![Vec6::zeros(); nodes],
+            operand: vec![Vec6::zeros(); if coupled { nodes } else { 0 }],
+            projection: if coupled { ConstraintProjection::for_motion(cx)? } else { None },
+        })
+    }
+
+    /// Masses of several nodes belong together.
+    pub fn are_coupled(&self) -> bool {
+        self.masses.is_none()
+    }
+
+    pub fn projection(&mut self) -> Option<&mut ConstraintProjection> {
+        self.projection.as_mut()
+    }
+
+    /// Puts the trial motion onto the joints with the matrix of masses and joints, where there are such joints.
+    ///
+    /// # Errors
+    /// [`Failure::Apart`] where they cannot be closed from there.
+    pub fn project(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        self.projection.as_mut().map_or(Ok(()), |projection| projection.project(cx, ws, state, scheme, dt))
+    }
+
+    /// From the forces on the trial motion at hand, which includes some accelerations: writes what is missing of them. With
+    /// `joints`, the accelerations that these allow, and what they carry; without, the part that does not open them.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] or [`Failure::Apart`] where masses or joints leave no answer.
+    pub fn solve(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
+        ws.solves += 1;
+        let Accelerations { masses: Some(masses), ties, missing, .. } = self else {
+            return self.solve_coupled(cx, ws, state, joints);
+        };
+        masses.accelerate(&ws.trial, &ws.forces.on_nodes, missing);
+        if let Some(ties) = ties {
+            if joints {
+                cx.system.gaps(&ws.trial, 2, &mut ties.x);
+            } else {
+                ties.x.fill(0.0);
+            }
+            if !ties.form(cx.system, masses, &ws.trial) {
+                return Err(apart(cx, ws));
+            }
+            ties.add_rates(missing);
+            ties.solve();
+            ties.push(missing);
+            if joints {
+                ws.forces.multipliers.values.copy_from_slice(&ties.x);
+            }
+        }
+        Ok(())
+    }
+
+    /// The same with the matrix of masses and joints.
+    fn solve_coupled(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
+        factor_mass(cx, ws, state)?;
+        for (r, &(node, dof)) in ws.r.iter_mut().zip(&cx.plan.directions) {
+            *r = ws.forces.on_nodes[node][dof];
+        }
+        for &node in &cx.independent_nodes {
+            self.missing[node] = Vec6::zeros();
+        }
+        // Equations that share what they carry leave a part of it to be found: once more is enough.
+        for _ in 0..if cx.system.joints.is_empty() { 1 } else { 2 } {
+            self.add_solution(cx, ws, joints);
+        }
+        // Where a node has some directions of its own, the others go with its master.
+        self.visit_dependent_directions(cx, ws, |missing, now| *missing = now);
+        // The trial motion is left as it was given.
+        for &node in &cx.independent_nodes {
+            ws.trial[node].a -= top(&self.missing[node]);
+            ws.trial[node].alpha -= bottom(&self.missing[node]);
+        }
+        update_dependent_accelerations(cx, ws);
+        self.visit_dependent_directions(cx, ws, |missing, given| *missing -= given);
+        Ok(())
+    }
+
+    /// Solves for what the forces in `r` and the joints ask for, and adds it to the trial motion and to what is missing.
+    fn add_solution(&mut self, cx: &Context, ws: &mut Workspace, joints: bool) {
+        let multipliers = &mut ws.forces.multipliers;
+        if joints {
+            cx.system.gaps(&ws.trial, 2, &mut multipliers.gaps);
+        } else {
+            multipliers.gaps.fill(0.0);
+        }
+        ws.matrix.solve_augmented(multipliers, &mut ws.r);
+        if joints {
+            multipliers.add(&ws.r[cx.directions()..]);
+        }
+        for &node in &cx.independent_nodes {
+            let rows = cx.plan.dofs.of(node);
+            let found = rows.gather(&ws.r);
+            self.missing[node] += found;
+            ws.trial[node].a += top(&found);
+            ws.trial[node].alpha += bottom(&found);
+        }
+        ws.r[..cx.directions()].fill(0.0);
+        update_dependent_accelerations(cx, ws);
+    }
+
+    /// Goes through the directions that depend on a master: what is missing there, beside the acceleration of the trial motion.
+    fn visit_dependent_directions(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
+        for link in &cx.system.attachments {
+            let (missing, node) = (&mut self.missing[link.node], &ws.trial[link.node]);
+            let now = join(&node.a, &node.alpha);
+            (0..6).filter(|&i| link.dofs[i]).for_each(|i| visit(&mut missing[i], now[i]));
+        }
+    }
+
+    /// Writes the forces on prescribed directions once the accelerations at hand are taken: what is left of the residual.
+    pub fn update_reactions(&self, cx: &Context, ws: &mut Workspace, state: &State, ahead: f64) {
+        if let (Some(masses), None) = (&self.masses, &self.ties) {
+            for block in &masses.blocks {
+                let (node, F) = (&ws.trial[block.node], &mut ws.forces.on_nodes[block.node]);
+                block.settle(node, &self.missing[block.node], F);
+            }
+            return;
+        }
+        for &node in &cx.independent_nodes {
+            ws.trial[node].a += top(&self.missing[node]);
+            ws.trial[node].alpha += bottom(&self.missing[node]);
+        }
+        update_dependent_accelerations(cx, ws);
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+    }
+
+    /// True when what was found is made of numbers.
+    pub fn are_finite(&self, cx: &Context, ws: &Workspace) -> bool {
+        let sum = |&node: &usize| self.missing[node].sum() + ws.trial[node].x.sum();
+        cx.independent_nodes.iter().map(sum).sum::<f64>().is_finite()
+    }
+}
+
+/// Forms and factorises the matrix of masses and joints in the trial motion.
+fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
+    let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
+    let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
+    matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
+    ws.factorizations += 1;
+    let factored = matrix.solver.factor();
+    factored.map_err(|singular| Failure::singular(cx.model, cx.plan, cx.system, singular.row))
+}
+
+/// Writes the accelerations of dependent nodes from those of their masters.
+fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
+    for link in &cx.system.attachments {
+        let master = ws.trial[link.master];
+        let S = link.arm(&master);
+        let a = master.a + master.alpha.cross(&S) + master.omega.cross(&master.omega.cross(&S));
+        let node = &mut ws.trial[link.node];
+        for i in 0..3 {
+            if link.dofs[i] {
+                node.a[i] = a[i];
+            }
+            if link.dofs[3 + i] {
+                node.alpha[i] = master.alpha[i];
+            }
+        }
+    }
+}
+
+/// The increment at the end of a step that leads to these velocities and accelerations.
+pub fn set_rates(increment: &mut Increment, motion: &Motion) {
+    let theta = bottom(&increment.q);
+    let d = inverse_tangent(&theta, &motion.omega);
+    // What Ṫ Θ̇ makes of it.
+    let (_, own) = rates(&theta, &d, &Vec3::zeros());
+    increment.d = join(&motion.v, &d);
+    increment.dd = join(&motion.a, &inverse_tangent(&theta, &(motion.alpha - own)));
+}

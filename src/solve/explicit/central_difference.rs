@@ -1,0 +1,239 @@
+//! A step by central differences.
+
+use super::accelerations::{Accelerations, set_rates};
+use super::critical_step::CriticalStep;
+use super::dense_projection::project_onto_constraints;
+use super::inner_product::{aMa_of_nodes, aMa_of_trial};
+use super::stiffening::{change, is_growing, resistance};
+use crate::integrators::Coefficients;
+use crate::linear::TooLarge;
+use crate::math::{Vec6, bottom, join, top};
+use crate::solve::commit::{Account, commit};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{Stage, excite, move_to_step_end, move_trial, predict};
+use crate::solve::report::StepReport;
+use crate::solve::workspace::Workspace;
+use crate::solve::{contacts, joints, residual};
+use crate::state::{Configuration, Node, State, Work};
+use crate::system::masses::{CORRECTIONS, Motion};
+
+/// Central differences, with what they need beside the workspace. Allocated once.
+pub struct CentralDifferenceStepper {
+    accelerations: Accelerations,
+    critical: CriticalStep,
+    /// Steps find their own length: what a failure advises depends on it.
+    automatic: bool,
+}
+
+impl CentralDifferenceStepper {
+    /// # Errors
+    /// There is no memory for the projection onto joints.
+    pub fn new(cx: &Context) -> Result<Self, TooLarge> {
+        Ok(CentralDifferenceStepper {
+            accelerations: Accelerations::new(cx)?,
+            critical: CriticalStep::new(cx.model, cx.plan),
+            automatic: cx.model.analysis.step_length.is_automatic(),
+        })
+    }
+
+    /// A run starts from this state, or goes on from it after a jump of the loads: the energies at steps are offset from here.
+    pub fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        state.work.accelerations = aMa_of_nodes(cx, ws, &mut self.accelerations, &state.nodes);
+        state.work.step = 0.0;
+        // What accelerations were before tells nothing of a mode.
+        state.jerk.fill(Vec6::zeros());
+    }
+
+    /// The critical time step of the state and how fast bodies turn, as the longest step that either allows; see
+    /// [`CriticalStep::propose`].
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] or [`Failure::Apart`] where masses or joints leave no accelerations.
+    pub fn propose(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        left: f64,
+        fraction: f64,
+    ) -> Result<f64, Failure> {
+        self.critical.propose(cx, ws, &mut self.accelerations, state, left, fraction)
+    }
+
+    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let counts = self.critical.counts();
+        let result = self.try_step(cx, ws, state, to);
+        if result.is_err() {
+            self.critical.refused(counts);
+        }
+        result
+    }
+
+    fn try_step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let dt = to - state.time;
+        let scheme = cx.model.scheme.coefficients(dt);
+        contacts::check_length(cx, state, dt)?;
+        self.critical.update_if_due(cx, ws, &mut self.accelerations, state, dt)?;
+        self.check_stability(dt)?;
+        let mut evaluations = self.find_accelerations(cx, ws, state, to, &scheme)?;
+        let (mut aMa, suspicious) = self.suspect(cx, ws, state, dt);
+        if suspicious {
+            self.look_closer(cx, ws, state, dt)?;
+            // It only looked so, and looking closer has left nothing of what was found.
+            evaluations += self.find_accelerations(cx, ws, state, to, &scheme)?;
+            aMa = aMa_of_trial(cx, ws, &mut self.accelerations);
+        }
+        self.set_end_rates(cx, ws, state, dt);
+        let account = self.account(cx, ws, state, dt);
+        move_to_step_end(cx, ws, state, &scheme);
+        if self.accelerations.are_coupled() {
+            self.accelerations.project(cx, ws, state, &scheme, dt)?;
+        } else {
+            project_onto_constraints(cx, ws, &mut self.accelerations, state, dt)?;
+        }
+        contacts::check_passage(cx, ws, state, dt)?;
+        joints::check(cx, ws)?;
+        commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
+        self.critical.took(aMa);
+        offset_energy(&mut state.work, aMa, dt);
+        Ok(StepReport { iterations: evaluations, ..StepReport::begin(to) })
+    }
+
+    /// # Errors
+    /// [`Failure::Unstable`] where a step of `dt` is too long for the limit as it is known.
+    fn check_stability(&self, dt: f64) -> Result<(), Failure> {
+        match self.critical.longest {
+            Some(longest) if dt > longest => Err(Failure::Unstable { dt, longest, automatic: self.automatic }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Finds the trial motion at the end of the step, with predicted velocities, and what is missing of its accelerations; returns
+    /// how many residuals that took.
+    fn find_accelerations(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        to: f64,
+        scheme: &Coefficients,
+    ) -> Result<usize, Failure> {
+        let dt = to - state.time;
+        excite(cx, ws, state.time, to, 1.0);
+        predict(cx, ws, state, scheme);
+        if self.accelerations.ties.is_some() {
+            ws.forces.multipliers.values.fill(0.0);
+        }
+        move_trial(cx, ws, state, &Stage::from(scheme));
+        let mut evaluations = 0;
+        // Where masses belong together: gyroscopic moments of bodies would feed the motion if they met the predicted velocities
+        // alone.
+        let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
+        loop {
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+            cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+            evaluations += 1;
+            self.accelerations.solve(cx, ws, state, true)?;
+            if evaluations > corrections {
+                break;
+            }
+            for &node in &cx.independent_nodes {
+                let trial = &ws.trial[node];
+                let Motion { v, omega, .. } = mean(&state.nodes[node], trial, &self.accelerations.missing[node], dt);
+                let (a, alpha) = (trial.a, trial.alpha);
+                set_rates(&mut ws.increments[node], &Motion { v, omega, a, alpha });
+            }
+            move_to_step_end(cx, ws, state, scheme);
+        }
+        if self.accelerations.are_finite(cx, ws) { Ok(evaluations) } else { Err(residual::not_finite(cx, ws)) }
+    }
+
+    /// aᵀMa of the accelerations found, and whether they or the motion tell that the scene has become stiffer than is known.
+    fn suspect(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> (f64, bool) {
+        let accelerations = &mut self.accelerations;
+        let stiffened = resistance(cx, ws, accelerations, state, dt) > self.critical.known();
+        let aMa = aMa_of_trial(cx, ws, accelerations);
+        let suspicious = stiffened || self.critical.is_struck(aMa) || is_growing(cx, ws, accelerations, state, dt);
+        (aMa, suspicious)
+    }
+
+    /// Measures the critical step in the trial motion, from what accelerations have changed by.
+    ///
+    /// # Errors
+    /// [`Failure::Unstable`] where the step is too long for it.
+    fn look_closer(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Result<(), Failure> {
+        for &node in &cx.independent_nodes {
+            self.critical.hints[node] = change(&self.accelerations.missing, &ws.trial, state, node);
+        }
+        self.critical.measure_ahead(cx, ws, &mut self.accelerations, state, dt)?;
+        self.check_stability(dt)
+    }
+
+    /// Writes the rates at the end of the step: those of bodies that turn freely by their angular momentum, which follows from all
+    /// that acts on them.
+    fn set_end_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) {
+        let Accelerations { masses, ties, missing, .. } = &self.accelerations;
+        if let Some(ties) = ties {
+            ties.pull(&mut ws.forces.on_nodes);
+        }
+        for &node in &cx.independent_nodes {
+            let (start, now) = (&state.nodes[node], &ws.trial[node]);
+            let motion = match masses.as_ref().and_then(|masses| masses.of(node)) {
+                Some(block) => block.verlet(start, now, &ws.forces.on_nodes[node], dt),
+                None => mean(start, now, &missing[node], dt),
+            };
+            set_rates(&mut ws.increments[node], &motion);
+        }
+    }
+
+    /// Evaluates the forces and updates the history of the material in the trial motion.
+    fn account(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Account {
+        let mut account = Account { damping_power: Some(0.0), ..Account::default() };
+        if cx.wants_forces {
+            self.accelerations.update_reactions(cx, ws, state, dt);
+            if cx.system.is_damped() {
+                let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+                account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
+            }
+        }
+        if cx.system.history > 0 {
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+            account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
+        }
+        account
+    }
+}
+
+/// Central differences keep energies that are ⅛ Δt² aᵀMa less than those at steps, each with the step before it: what a change of
+/// the step makes or takes does not count as an offset.
+fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
+    let Work { swing, accelerations: before, step, .. } = work;
+    let last = if *step > 0.0 { *step } else { dt };
+    *swing += 0.125 * (dt * dt * aMa - last * last * *before);
+    (*before, *step) = (aMa, dt);
+}
+
+/// Rates at the end of a step by the mean of the accelerations, with what is missing of them in the trial motion.
+fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> Motion {
+    let (a, alpha) = (now.a + top(missing), now.alpha + bottom(missing));
+    let old = join(&start.a, &start.alpha);
+    let both = (old + join(&a, &alpha)) * (0.5 * dt);
+    Motion { v: start.v + top(&both), omega: start.omega + bottom(&both), a, alpha }
+}

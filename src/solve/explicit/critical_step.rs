@@ -1,0 +1,367 @@
+//! The critical time step of central differences: the fastest mode of a scene as it lies, by power iteration on M⁻¹ times
+//! differences of residuals. No matrix is formed. It comes to the limit from above, by a few per cent at most; the stepper looks at
+//! the motion itself besides.
+
+use super::accelerations::Accelerations;
+use super::inner_product::{apply_mass, times_applied};
+use crate::integrators::central_difference::longest_step;
+use crate::math::rotation::RotationUpdate;
+use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::model::{Model, may_stiffen};
+use crate::plan::Plan;
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{excite, update_dependent_nodes};
+use crate::solve::workspace::Workspace;
+use crate::state::{Configuration, Increment, Node, State};
+
+/// Iterations at the start, and when the limit is looked at again: a residual each, two where there is damping.
+const AT_FIRST: usize = 60;
+const AGAIN: usize = 3;
+/// Steps between two looks: they cost a hundredth of the whole.
+const STEPS: usize = 400;
+/// Change from one iteration to the next that ends them.
+const SETTLED: f64 = 1e-4;
+/// Steps of a run at least, where little or nothing resists: loads are still to be seen.
+const FEWEST: f64 = 50.0;
+/// Radians by which a body turns in a step at most: nothing stiff limits tops and mechanisms, and an error of θ²/24 of the angle, as
+/// central differences have in a swing, is 6.5e-4 in a turn.
+const TURN: f64 = 0.05;
+/// A limit that is longer by so much is another mode's.
+const LONGER: f64 = 1.05;
+/// A limit that is shorter by so much has been cut.
+const SHORTER: f64 = 0.95;
+/// The motion by which residuals are told apart, over the model's length. Over the length of an element it is a strain, and that must
+/// not make steel yield: at a thousand elements this is one of 2e-6. Positions in two parts leave seven digits of it.
+const SMALL: f64 = 1e-9;
+
+/// The critical time step as it is known. Allocated once.
+pub struct CriticalStep {
+    /// The longest stable step, when last looked at.
+    pub longest: Option<f64>,
+    /// The fastest mode so far, by node.
+    mode: Vec<Vec6>,
+    next: Vec<Vec6>,
+    /// Motion in which it may be looked for, by node.
+    pub hints: Vec<Vec6>,
+    /// The motion where it is looked at, by node.
+    place: Vec<Node>,
+    /// Forces there, by node.
+    base: Vec<[f64; 6]>,
+    /// Steps taken since the last look.
+    steps: usize,
+    /// Steps since the limit was last cut, and those after which it may rise again: twice as many from cut to cut, since each change
+    /// of the step makes or takes energy.
+    steps_since_cutback: usize,
+    holdoff: usize,
+    /// Something may be struck; and the largest aᵀMa since the last look.
+    stiffens: bool,
+    max_aMa: f64,
+    /// The largest |ω| of all bodies so far.
+    max_spin: f64,
+    /// The fastest mode has been looked for, with dampers if there are any.
+    met: bool,
+}
+
+impl CriticalStep {
+    /// With a mode of all frequencies to begin with: the same in every run.
+    pub fn new(model: &Model, plan: &Plan) -> Self {
+        let nodes = model.nodes.len();
+        let zeros = vec![Vec6::zeros(); nodes];
+        let mut critical = CriticalStep {
+            longest: None,
+            mode: zeros.clone(),
+            next: zeros.clone(),
+            hints: zeros,
+            place: vec![Node::at_rest(Vec3::zeros()); nodes],
+            base: vec![[0.0; 6]; nodes],
+            steps: 0,
+            steps_since_cutback: 0,
+            holdoff: STEPS,
+            stiffens: may_stiffen(model),
+            max_aMa: 0.0,
+            max_spin: 0.0,
+            met: false,
+        };
+        critical.add_all_frequencies(plan);
+        critical.hints.copy_from_slice(&critical.mode);
+        critical
+    }
+
+    /// Adds a motion of all frequencies to the mode.
+    fn add_all_frequencies(&mut self, plan: &Plan) {
+        let mut seed = 1u64;
+        for &(node, dof) in &plan.directions {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            self.mode[node][dof] += (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        }
+    }
+
+    /// Accelerations have doubled at once, aᵀMa: something may have been struck, though the motion of the whole hides it.
+    pub fn is_struck(&self, aMa: f64) -> bool {
+        self.stiffens && aMa > 4.0 * self.max_aMa
+    }
+
+    /// A step with these accelerations, aᵀMa, was taken.
+    pub fn took(&mut self, aMa: f64) {
+        self.max_aMa = self.max_aMa.max(aMa);
+    }
+
+    /// What counts steps.
+    pub fn counts(&self) -> [usize; 2] {
+        [self.steps, self.steps_since_cutback]
+    }
+
+    /// A step was refused, and was none, but for the look that it may have taken.
+    pub fn refused(&mut self, [steps, since_cutback]: [usize; 2]) {
+        self.steps = self.steps.min(steps);
+        self.steps_since_cutback = self.steps_since_cutback.min(since_cutback);
+    }
+
+    /// ω² that the fastest mode is known to have at most: power iteration comes to it from below.
+    pub fn known(&self) -> f64 {
+        const BELOW: f64 = 1.1;
+        BELOW * self.longest.map_or(0.0, |longest| (2.0 / longest).powi(2))
+    }
+
+    /// Counts a step of `dt`, and measures the limit in the state where that is due.
+    ///
+    /// # Errors
+    /// As for [`Accelerations::solve`].
+    pub fn update_if_due(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        self.steps += 1;
+        self.steps_since_cutback += 1;
+        if self.longest.is_none() || self.steps >= STEPS {
+            self.place.copy_from_slice(&state.nodes);
+            self.measure(cx, ws, accelerations, state, dt)?;
+        }
+        Ok(())
+    }
+
+    /// The length of the next step: a safe `fraction` of the longest that is stable, no body turning by more than [`TURN`], and no
+    /// longer than a fiftieth of the run. `left` is left to where a step must end.
+    ///
+    /// # Errors
+    /// As for [`Accelerations::solve`].
+    pub fn propose(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        left: f64,
+        fraction: f64,
+    ) -> Result<f64, Failure> {
+        if self.longest.is_none() {
+            // What dampers add depends on the step: from the one found without them to that with them.
+            self.place.copy_from_slice(&state.nodes);
+            self.measure(cx, ws, accelerations, state, 0.0)?;
+            if cx.system.is_damped() {
+                let first = self.longest.unwrap_or(left).min(left);
+                // The fastest mode without dampers may know nothing of them: what the search began with does.
+                self.mode.iter_mut().zip(&self.hints).for_each(|(mode, first)| *mode += *first);
+                self.place.copy_from_slice(&state.nodes);
+                self.measure(cx, ws, accelerations, state, first)?;
+            }
+        }
+        let most = cx.model.analysis.end_time / FEWEST;
+        let turning = self.turning_step(cx.model, state);
+        Ok((fraction * self.longest.unwrap_or(left)).min(most).min(turning))
+    }
+
+    /// The step in which no body turns by more than [`TURN`]: as fast as the fastest has ever been, since each change of the step
+    /// makes or takes energy, and with the accelerations there are.
+    fn turning_step(&mut self, model: &Model, state: &State) -> f64 {
+        let nodes = || model.bodies.iter().map(|body| &state.nodes[body.node]);
+        self.max_spin = nodes().map(|node| node.omega.norm()).fold(self.max_spin, f64::max);
+        let (rate, acceleration) = (self.max_spin, nodes().map(|node| node.alpha.norm()).fold(0.0, f64::max));
+        // ω Δt + ½ α Δt², without a difference of like numbers.
+        2.0 * TURN / (rate + (rate * rate + 2.0 * acceleration * TURN).sqrt())
+    }
+
+    /// Measures the limit where the trial motion has come to, of which nothing is left then.
+    ///
+    /// # Errors
+    /// As for [`Accelerations::solve`].
+    pub fn measure_ahead(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        self.place.copy_from_slice(&ws.trial);
+        // What has just met more resistance tells where that is.
+        let [of_mode, of_hints] = [&self.mode, &self.hints].map(|motion| largest(cx, motion));
+        if of_mode > 0.0 && of_hints > 0.0 && of_hints.is_finite() {
+            // One must not undo the other.
+            let (mode, hints) = (&mut self.mode, &self.hints);
+            let dot: f64 = mode.iter().zip(hints).map(|(mode, hint)| mode.dot(hint)).sum();
+            let sign = if dot < 0.0 { -1.0 } else { 1.0 };
+            mode.iter_mut().zip(hints).for_each(|(mode, hint)| *mode = *mode / of_mode + sign * *hint / of_hints);
+        }
+        self.measure(cx, ws, accelerations, state, dt)
+    }
+
+    /// Measures the limit anew at the place noted, for steps of about `dt`, without dampers where that is zero.
+    fn measure(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        excite(cx, ws, state.time, state.time, 1.0);
+        ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+        self.evaluate(cx, ws, state, [0.0; 2], dt);
+        self.base.copy_from_slice(&ws.forces.on_nodes);
+        let before = self.longest;
+        // What yields now is as stiff as ever when it turns back.
+        let rises = !cx.system.yields() && self.steps_since_cutback >= self.holdoff;
+        let iterations = if self.met { AGAIN } else { AT_FIRST };
+        let mut longest = self.power_iteration(cx, ws, accelerations, state, dt, (iterations, f64::INFINITY))?;
+        if rises && before.is_some_and(|before| longest > LONGER * before) {
+            // What was stiff has let go, and its mode knows little of the others.
+            self.add_all_frequencies(cx.plan);
+            longest = self.power_iteration(cx, ws, accelerations, state, dt, (AT_FIRST, longest))?;
+        }
+        if let Some(before) = before {
+            if longest < SHORTER * before && self.met {
+                (self.steps_since_cutback, self.holdoff) = (0, 2 * self.holdoff);
+            } else if !rises {
+                longest = longest.min(before);
+            }
+        }
+        let met = dt > 0.0 || !cx.system.is_damped();
+        (self.longest, self.steps, self.met) = (Some(longest), 0, met);
+        self.max_aMa = state.work.accelerations;
+        Ok(())
+    }
+
+    /// The longest step by the modes that power iteration comes to, if that is shorter than `longest`.
+    fn power_iteration(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        dt: f64,
+        (iterations, mut longest): (usize, f64),
+    ) -> Result<f64, Failure> {
+        let damped = dt > 0.0 && cx.system.is_damped();
+        let mut last = 0.0;
+        for _ in 0..iterations {
+            let size = largest(cx, &self.mode);
+            if !(size > 0.0 && size.is_finite()) {
+                break;
+            }
+            let small = SMALL * cx.length / size;
+            self.evaluate(cx, ws, state, [small, 0.0], dt);
+            self.solve_difference(cx, ws, accelerations, state, small)?;
+            let [own, cross, square] = self.mass_products(cx, ws, accelerations);
+            // |ψ|/|φ| is never below ψ·φ/φ·φ, and both come from below.
+            let stiffness = (square / own).sqrt().max(cross / own);
+            self.next.copy_from_slice(&accelerations.missing);
+            let mut damping = 0.0;
+            if damped {
+                self.evaluate(cx, ws, state, [0.0, small], dt);
+                damping = self.add_damping(cx, ws, accelerations, state, dt, small)?;
+            }
+            let found = longest_step(stiffness, damping);
+            if !found.is_finite() {
+                break;
+            }
+            longest = longest.min(found);
+            let size = largest(cx, &self.next);
+            if !(size > 0.0 && size.is_finite()) {
+                break;
+            }
+            self.mode.iter_mut().zip(&self.next).for_each(|(mode, next)| *mode = next / size);
+            if (found - last).abs() <= SETTLED * found {
+                break;
+            }
+            last = found;
+        }
+        Ok(longest)
+    }
+
+    /// With the residual of velocities along the mode at hand: its part of the next mode, and of the limit.
+    fn add_damping(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        dt: f64,
+        small: f64,
+    ) -> Result<f64, Failure> {
+        self.next.iter_mut().for_each(|next| *next *= 0.25 * dt);
+        self.solve_difference(cx, ws, accelerations, state, small)?;
+        let [own, cross, _] = self.mass_products(cx, ws, accelerations);
+        self.next.iter_mut().zip(&accelerations.missing).for_each(|(next, answer)| *next += answer);
+        Ok((cross / own).max(0.0))
+    }
+
+    /// Writes the residual where the place is moved along the mode, or its velocities are.
+    fn evaluate(&self, cx: &Context, ws: &mut Workspace, state: &State, [of_place, of_rate]: [f64; 2], dt: f64) {
+        for &node in &cx.independent_nodes {
+            let (start, mode) = (&self.place[node], &self.mode[node]);
+            let d = join(&start.v, &start.omega) + mode * of_rate;
+            ws.increments[node] = Increment { q: mode * of_place, d, dd: Vec6::zeros() };
+            ws.trial[node].advance(start, &ws.increments[node], RotationUpdate::Exponential);
+        }
+        update_dependent_nodes(cx, ws, &self.place);
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+        cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+    }
+
+    /// Solves for accelerations by what the forces have lost since they were noted, over `small`.
+    fn solve_difference(
+        &self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        small: f64,
+    ) -> Result<(), Failure> {
+        for (F, base) in ws.forces.on_nodes.iter_mut().zip(&self.base) {
+            F.iter_mut().zip(base).for_each(|(f, base)| *f = (base - *f) / small);
+        }
+        accelerations.solve(cx, ws, state, false)
+    }
+
+    /// φ·φ, φ·ψ and ψ·ψ in the norm of the masses, φ the mode and ψ the accelerations that answer it.
+    fn mass_products(&self, cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> [f64; 3] {
+        let Accelerations { masses, missing, operand, .. } = accelerations;
+        let (mode, answer) = (&self.mode, &*missing);
+        let Some(masses) = masses else {
+            apply_mass(cx, &ws.trial, operand, &mut ws.forces, |node| mode[node]);
+            let [own, cross] = [mode, answer].map(|other| times_applied(cx, &ws.forces, |node| other[node]));
+            apply_mass(cx, &ws.trial, operand, &mut ws.forces, |node| answer[node]);
+            return [own, cross, times_applied(cx, &ws.forces, |node| answer[node])];
+        };
+        let mut sums = [0.0; 3];
+        for block in &masses.blocks {
+            let (a, b) = (&mode[block.node], &answer[block.node]);
+            for (sum, (a, b)) in sums.iter_mut().zip([(a, a), (a, b), (b, b)]) {
+                *sum += block.weigh(&ws.trial[block.node], a, b);
+            }
+        }
+        sums
+    }
+}
+
+/// The largest motion, rotations over the model's length.
+fn largest(cx: &Context, mode: &[Vec6]) -> f64 {
+    let size = |&node: &usize| top(&mode[node]).amax().max(cx.length * bottom(&mode[node]).amax());
+    cx.independent_nodes.iter().map(size).fold(0.0, f64::max)
+}

@@ -1,0 +1,107 @@
+//! Joints between bodies of their own at the end of an explicit step, by a small dense system: positions, then velocities.
+
+use super::accelerations::Accelerations;
+use crate::math::rotation::{exp, inverse_tangent, renormalise};
+use crate::math::{Vec6, bottom, join, top};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, apart};
+use crate::solve::motion::update_dependent_nodes;
+use crate::solve::workspace::Workspace;
+use crate::state::{Node, State};
+use crate::system::masses::Masses;
+use crate::system::ties::Ties;
+
+/// Projects positions and velocities of the trial motion onto the constraints by the least change in the norm of the masses; the
+/// increments follow, their q̇ as rates of the rotation vector.
+///
+/// # Errors
+/// [`Failure::Apart`] where the joints cannot be closed from there.
+pub fn project_onto_constraints(
+    cx: &Context,
+    ws: &mut Workspace,
+    accelerations: &mut Accelerations,
+    state: &State,
+    dt: f64,
+) -> Result<(), Failure> {
+    let Accelerations { masses: Some(masses), ties: Some(ties), missing: change, .. } = accelerations else {
+        return Ok(());
+    };
+    project_positions(cx, ws, masses, ties, change, state)?;
+    project_velocities(cx, ws, masses, ties, change, state, dt)
+}
+
+fn project_positions(
+    cx: &Context,
+    ws: &mut Workspace,
+    masses: &Masses,
+    ties: &mut Ties,
+    change: &mut [Vec6],
+    state: &State,
+) -> Result<(), Failure> {
+    let mut last = f64::INFINITY;
+    for round in 0.. {
+        cx.system.gaps(&ws.trial, 0, &mut ties.x);
+        let gap = cx.system.largest_gap(&ties.x, ws.reach);
+        if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
+            break;
+        }
+        if round == MOST_CORRECTIONS || !ties.form(cx.system, masses, &ws.trial) || gap.is_nan() {
+            cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
+            return Err(apart(cx, ws));
+        }
+        last = gap;
+        least_change(ties, masses, change);
+        for block in &masses.blocks {
+            let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
+            let node = &mut ws.trial[block.node];
+            let Node { x, low, .. } = *node;
+            node.place(&x, &low, &top(&change));
+            node.q = renormalise(&(exp(&bottom(&change)) * node.q));
+            let turn = inverse_tangent(&bottom(&increment.q), &bottom(&change));
+            increment.q += join(&top(&change), &turn);
+            increment.d = join(&node.v, &inverse_tangent(&bottom(&increment.q), &node.omega));
+        }
+        update_dependent_nodes(cx, ws, &state.nodes);
+    }
+    Ok(())
+}
+
+fn project_velocities(
+    cx: &Context,
+    ws: &mut Workspace,
+    masses: &Masses,
+    ties: &mut Ties,
+    change: &mut [Vec6],
+    state: &State,
+    dt: f64,
+) -> Result<(), Failure> {
+    let mut last = f64::INFINITY;
+    loop {
+        cx.system.gaps(&ws.trial, 1, &mut ties.x);
+        let gap = cx.system.largest_gap(&ties.x, ws.reach);
+        if gap * dt <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
+            return Ok(());
+        }
+        if last == f64::INFINITY && !ties.form(cx.system, masses, &ws.trial) {
+            return Err(apart(cx, ws));
+        }
+        last = gap;
+        least_change(ties, masses, change);
+        for block in &masses.blocks {
+            let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
+            let node = &mut ws.trial[block.node];
+            node.v += top(&change);
+            node.omega += bottom(&change);
+            increment.d = join(&node.v, &inverse_tangent(&bottom(&increment.q), &node.omega));
+        }
+        update_dependent_nodes(cx, ws, &state.nodes);
+    }
+}
+
+/// Writes the least change of motion that closes the gaps at hand, by node.
+fn least_change(ties: &mut Ties, masses: &Masses, change: &mut [Vec6]) {
+    ties.solve();
+    masses.blocks.iter().for_each(|block| change[block.node] = Vec6::zeros());
+    ties.push(change);
+}

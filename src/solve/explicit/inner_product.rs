@@ -1,0 +1,59 @@
+//! Products of motions in the norm of the masses, as explicit schemes need them to judge their steps.
+
+use super::accelerations::Accelerations;
+use crate::math::{Vec6, join};
+use crate::solve::context::Context;
+use crate::solve::workspace::Workspace;
+use crate::state::Node;
+use crate::system::Forces;
+use crate::system::masses::MassBlock;
+
+/// Writes M times small motions of the independent nodes, where masses belong together, in unknown directions alone, into the forces
+/// on nodes, of which nothing is left.
+pub fn apply_mass(
+    cx: &Context,
+    nodes: &[Node],
+    operand: &mut [Vec6],
+    forces: &mut Forces,
+    motion: impl Fn(usize) -> Vec6,
+) {
+    for &node in &cx.independent_nodes {
+        operand[node] = cx.plan.dofs.of(node).mask(&motion(node));
+    }
+    cx.system.weigh(nodes, operand, forces);
+}
+
+/// A motion times what [`apply_mass`] left last.
+pub fn times_applied(cx: &Context, forces: &Forces, motion: impl Fn(usize) -> Vec6) -> f64 {
+    let times = |&node: &usize| cx.plan.dofs.of(node).mask(&motion(node)).dot(&Vec6::from(forces.on_nodes[node]));
+    cx.independent_nodes.iter().map(times).sum()
+}
+
+/// aᵀ M a of the accelerations of the trial motion with what is missing there, in unknown directions.
+pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> f64 {
+    let Accelerations { masses, operand, missing, .. } = accelerations;
+    let trial = &ws.trial;
+    let a = |node: usize| join(&trial[node].a, &trial[node].alpha) + missing[node];
+    let Some(masses) = masses else {
+        apply_mass(cx, trial, operand, &mut ws.forces, a);
+        return times_applied(cx, &ws.forces, a);
+    };
+    let product = |block: &MassBlock| weigh(cx, block, &trial[block.node], &a(block.node));
+    masses.blocks.iter().map(product).sum()
+}
+
+/// aᵀ M a of the accelerations of nodes as they lie, in unknown directions.
+pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, nodes: &[Node]) -> f64 {
+    let a = |node: usize| join(&nodes[node].a, &nodes[node].alpha);
+    let Some(masses) = &accelerations.masses else {
+        apply_mass(cx, nodes, &mut accelerations.operand, &mut ws.forces, a);
+        return times_applied(cx, &ws.forces, a);
+    };
+    let product = |block: &MassBlock| weigh(cx, block, &nodes[block.node], &a(block.node));
+    masses.blocks.iter().map(product).sum()
+}
+
+fn weigh(cx: &Context, block: &MassBlock, node: &Node, a: &Vec6) -> f64 {
+    let a = cx.plan.dofs.of(block.node).mask(a);
+    block.weigh(node, &a, &a)
+}

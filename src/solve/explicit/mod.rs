@@ -1,0 +1,13 @@
+//! Explicit steps: accelerations follow from the forces with the mass alone, no stiffness matrix is formed.
+
+mod accelerations;
+mod central_difference;
+mod critical_step;
+mod dense_projection;
+mod inner_product;
+mod runge_kutta;
+mod stiffening;
+mod work;
+
+pub use central_difference::CentralDifferenceStepper;
+pub use runge_kutta::RungeKuttaStepper;

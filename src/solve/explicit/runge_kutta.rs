@@ -1,0 +1,292 @@
+//! A step by an explicit Runge-Kutta scheme: its stages, and the error that its weights tell of.
+
+use super::accelerations::{Accelerations, set_rates};
+use super::dense_projection::project_onto_constraints;
+use super::work::{WorkQuadrature, weight_of};
+use crate::integrators::tableau::{Tableau, Weights};
+use crate::linear::TooLarge;
+use crate::math::rotation::{exp, inverse_tangent, renormalise};
+use crate::math::{Vec6, bottom, join, top};
+use crate::solve::commit::{Account, commit};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{excite, measure_reach, rates_of, update_dependent_nodes};
+use crate::solve::report::StepReport;
+use crate::solve::size::Size;
+use crate::solve::workspace::Workspace;
+use crate::solve::{contacts, joints, residual};
+use crate::state::{Configuration, Increment, Node, State};
+use crate::system::Side;
+use crate::system::masses::Motion;
+
+/// The square of the longest rotation vector: T⁻¹ is singular at a whole turn.
+const FARTHEST: f64 = 9.0;
+
+/// A Runge-Kutta scheme, with what it needs beside the workspace. Allocated once.
+pub struct RungeKuttaStepper {
+    tableau: &'static Tableau,
+    accelerations: Accelerations,
+    /// Rates of (q, v), by stage, of each independent node.
+    stages: Vec<[Vec6; 2]>,
+    /// Loads change with time.
+    varying: bool,
+    /// Prescribed directions are moved.
+    driven: bool,
+    work: WorkQuadrature,
+}
+
+/// A stage of a step: its number, what it takes of the rates before it, and how far into the step it lies.
+#[derive(Clone, Copy)]
+struct At {
+    stage: usize,
+    weights: Weights,
+    c: f64,
+}
+
+impl RungeKuttaStepper {
+    /// # Errors
+    /// There is no memory for the projection onto joints.
+    pub fn new(cx: &Context, tableau: &'static Tableau) -> Result<Self, TooLarge> {
+        let model = cx.model;
+        let changes = |amplitude: Option<usize>| amplitude.is_some();
+        let varying = model.loads.iter().any(|load| changes(load.amplitude))
+            || model.pressures.iter().any(|load| changes(load.amplitude))
+            || !model.base_accelerations.is_empty();
+        Ok(RungeKuttaStepper {
+            accelerations: Accelerations::new(cx)?,
+            stages: vec![[Vec6::zeros(); 2]; tableau.stages() * cx.independent_nodes.len()],
+            tableau,
+            varying,
+            driven: model.held.iter().any(|held| held.motion.is_some()),
+            work: WorkQuadrature::default(),
+        })
+    }
+
+    /// The order of the estimate of the error in the time step, by which steps find their length.
+    pub fn error_order(&self) -> f64 {
+        self.tableau.error_order
+    }
+
+    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        self.evaluate_stages(cx, ws, state, to)?;
+        self.accept(cx, ws, state, to)
+    }
+
+    /// Evaluates all stages: the trial motion is then that of the end of the step, before it is accepted.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn evaluate_stages(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) -> Result<(), Failure> {
+        let dt = to - state.time;
+        contacts::check_length(cx, state, dt)?;
+        excite(cx, ws, state.time, to, 1.0);
+        if !cx.system.joints.is_empty() {
+            measure_reach(cx, ws, state);
+            ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+        }
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            self.stages[k] = rates_of(&state.nodes[node]);
+        }
+        let tableau = self.tableau;
+        if cx.wants_energy {
+            self.work.begin(cx, ws, state, dt * weight_of(tableau.b, 0));
+        }
+        let inner = tableau.a.iter().zip(tableau.c).enumerate();
+        for (stage, (weights, c)) in inner.map(|(i, of)| (i + 1, of)) {
+            self.move_to(cx, ws, state, At { stage, weights: *weights, c: *c }, to)?;
+            self.evaluate(cx, ws, state, stage, c * dt)?;
+            let weight = dt * weight_of(tableau.b, stage);
+            if cx.wants_energy && weight != 0.0 {
+                if self.driven {
+                    self.accelerations.update_reactions(cx, ws, state, c * dt);
+                    self.work.add_reactions(cx, ws, weight);
+                }
+                self.work.add(cx, ws, state, weight, c * dt);
+            }
+        }
+        let end = tableau.stages() - 1;
+        self.move_to(cx, ws, state, At { stage: end, weights: tableau.b, c: 1.0 }, to)?;
+        project_onto_constraints(cx, ws, &mut self.accelerations, state, dt)?;
+        self.evaluate(cx, ws, state, end, dt)?;
+        if self.accelerations.are_finite(cx, ws) { Ok(()) } else { Err(residual::not_finite(cx, ws)) }
+    }
+
+    /// Takes the motion that [`RungeKuttaStepper::evaluate_stages`] has found. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn accept(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let dt = to - state.time;
+        let end = self.tableau.stages() - 1;
+        if cx.wants_forces {
+            self.accelerations.update_reactions(cx, ws, state, dt);
+        }
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            let [_, rate] = self.stages[end * cx.independent_nodes.len() + k];
+            let trial = &mut ws.trial[node];
+            (trial.a, trial.alpha) = (top(&rate), bottom(&rate));
+            let motion = Motion { v: trial.v, omega: trial.omega, a: trial.a, alpha: trial.alpha };
+            set_rates(&mut ws.increments[node], &motion);
+        }
+        update_dependent_nodes(cx, ws, &state.nodes);
+        let scheme = cx.model.scheme.coefficients(dt);
+        self.accelerations.project(cx, ws, state, &scheme, dt)?;
+        let mut account = Account::default();
+        if cx.system.history > 0 {
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+            account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
+        }
+        contacts::check_passage(cx, ws, state, dt)?;
+        joints::check(cx, ws)?;
+        commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
+        if cx.wants_forces {
+            for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.held) {
+                *reaction = -ws.forces.on_nodes[held.node][held.dof];
+            }
+            self.work.add_to(&mut state.work);
+        }
+        Ok(StepReport { iterations: end, ..StepReport::begin(to) })
+    }
+
+    /// The largest errors of translations and rotations of a step of `dt` whose stages have been evaluated.
+    pub fn error(&self, cx: &Context, dt: f64) -> Size {
+        let (tableau, nodes) = (self.tableau, cx.independent_nodes.len());
+        let mut largest = [Size::default(); 2];
+        for k in 0..nodes {
+            for (largest, weights) in largest.iter_mut().zip(tableau.errors) {
+                let sum = |sum: Vec6, &(of, weight): &(usize, f64)| sum + self.stages[of * nodes + k][0] * weight;
+                let error = weights.iter().fold(Vec6::zeros(), sum);
+                largest.translation = largest.translation.max(top(&error).norm());
+                largest.rotation = largest.rotation.max(bottom(&error).norm());
+            }
+        }
+        let [first, second] = largest;
+        let mixed = |e: f64, other: f64| {
+            if tableau.errors.len() == 1 || e == 0.0 {
+                dt * e
+            } else {
+                dt * e * e / (e * e + 0.01 * other * other).sqrt()
+            }
+        };
+        Size {
+            translation: mixed(first.translation, second.translation),
+            rotation: mixed(first.rotation, second.rotation),
+        }
+    }
+
+    /// Writes the trial motion of a stage from the rates of those before it, and its loads.
+    fn move_to(&mut self, cx: &Context, ws: &mut Workspace, state: &State, at: At, to: f64) -> Result<(), Failure> {
+        let (dt, nodes) = (to - state.time, cx.independent_nodes.len());
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            let start = &state.nodes[node];
+            let [mut q, mut v] = [Vec6::zeros(); 2];
+            for &(of, weight) in at.weights {
+                let [dq, dv] = &self.stages[of * nodes + k];
+                q += dq * weight;
+                v += dv * weight;
+            }
+            let increment = &mut ws.increments[node];
+            increment.q = q * dt;
+            increment.d = join(&start.v, &start.omega) + v * dt;
+            increment.dd = Vec6::zeros();
+        }
+        if self.driven {
+            prescribe(cx, ws, state.time + at.c * dt, at.c);
+        }
+        let mut farthest = 0.0f64;
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            let increment = &mut ws.increments[node];
+            let angle = advance(&mut ws.trial[node], &state.nodes[node], increment);
+            farthest = farthest.max(angle);
+            self.stages[at.stage * nodes + k][0] = increment.d;
+        }
+        if farthest > FARTHEST || farthest.is_nan() {
+            return Err(Failure::Turned { dt });
+        }
+        update_dependent_nodes(cx, ws, &state.nodes);
+        if self.varying {
+            let time = if at.c < 1.0 { state.time + at.c * dt } else { to };
+            cx.excitation.loading(time, Side::Before, &mut ws.loads.instant);
+        }
+        Ok(())
+    }
+
+    /// Writes the accelerations of the trial motion, as rates of a stage.
+    fn evaluate(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: usize,
+        ahead: f64,
+    ) -> Result<(), Failure> {
+        if self.accelerations.ties.is_some() {
+            ws.forces.multipliers.values.fill(0.0);
+        }
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+        self.accelerations.solve(cx, ws, state, true)?;
+        let nodes = cx.independent_nodes.len();
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            let trial = &ws.trial[node];
+            self.stages[stage * nodes + k][1] = join(&trial.a, &trial.alpha) + self.accelerations.missing[node];
+        }
+        Ok(())
+    }
+}
+
+/// Prescribes the motion of driven directions at a time within the step.
+fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
+    // What is given at the end is at hand.
+    if c < 1.0 {
+        cx.excitation.held(time, &mut ws.prescribed.instant);
+    } else {
+        ws.prescribed.instant.copy_from_slice(&ws.prescribed.end);
+    }
+    for (i, held) in cx.model.held.iter().enumerate().filter(|(_, held)| held.motion.is_some()) {
+        let (from, now) = (&ws.prescribed.start[i], &ws.prescribed.instant[i]);
+        let increment = &mut ws.increments[held.node];
+        // A rotation that goes with others which are free is that of its rate alone.
+        let alone = held.dof < 3 || (3..6).all(|dof| !cx.plan.is_unknown(held.node, dof));
+        if alone {
+            increment.q[held.dof] = now.u - from.u;
+        }
+        increment.d[held.dof] = now.v;
+        increment.dd[held.dof] = now.a;
+    }
+}
+
+/// Moves a node to the increment of a stage, whose rates are v and ω as they are; ω becomes the rate of the rotation vector. Returns
+/// the square of the angle.
+#[inline]
+fn advance(trial: &mut Node, start: &Node, increment: &mut Increment) -> f64 {
+    let (theta, omega) = (bottom(&increment.q), bottom(&increment.d));
+    trial.place(&start.x, &start.low, &top(&increment.q));
+    trial.v = top(&increment.d);
+    trial.omega = omega;
+    (trial.a, trial.alpha) = (top(&increment.dd), bottom(&increment.dd));
+    let angle = theta.norm_squared();
+    if angle > 0.0 {
+        trial.q = renormalise(&(exp(&theta) * start.q));
+        increment.d = join(&trial.v, &inverse_tangent(&theta, &omega));
+    } else {
+        trial.q = start.q;
+    }
+    angle
+}

@@ -1,0 +1,66 @@
+//! The end of an implicit step: from the instant where equilibrium is written to the end, onto the joints, into the state.
+
+use crate::solve::commit::{Account, commit};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{Stage, differentiate, move_to_step_end, move_trial, rates_of};
+use crate::solve::projection::ConstraintProjection;
+use crate::solve::workspace::Workspace;
+use crate::solve::{contacts, joints};
+use crate::state::{Configuration, State};
+
+/// Takes the equilibrium that was found: the state moves to `to`, written once.
+///
+/// # Errors
+/// [`Failure::Apart`] where joints cannot be closed at the end of the step, [`Failure::Contact`] where something would have gone
+/// through a surface there; `state` is untouched.
+pub fn accept(
+    cx: &Context,
+    ws: &mut Workspace,
+    mut projection: Option<&mut ConstraintProjection>,
+    state: &mut State,
+    stage: &Stage,
+    to: f64,
+) -> Result<(), Failure> {
+    let dt = to - state.time;
+    let account = account(cx, ws, state, stage, dt);
+    for &node in &cx.independent_nodes {
+        let [v, a] = stage.start_rates(cx, state, node, rates_of(&state.nodes[node]));
+        ws.increments[node] = stage.scheme.finish(&ws.increments[node], &v, &a);
+    }
+    move_to_step_end(cx, ws, state, stage.scheme);
+    if let Some(projection) = projection.as_deref_mut() {
+        projection.project(cx, ws, state, stage.scheme, dt)?;
+    }
+    if stage.scheme.instant != 1.0 {
+        contacts::check_passage(cx, ws, state, dt)?;
+    }
+    joints::check(cx, ws)?;
+    commit(cx, ws, projection, state, (stage.scheme, to), account);
+    Ok(())
+}
+
+/// Evaluates the forces and updates the history of the material where equilibrium is written.
+fn account(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, dt: f64) -> Account {
+    let has_history = cx.system.history > 0;
+    if cx.wants_forces || has_history {
+        move_trial(cx, ws, state, stage);
+    } else {
+        differentiate(cx, ws, state, stage);
+    }
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: stage.scheme.instant * dt };
+    let mut account = Account { damping_power: Some(0.0), ..Account::default() };
+    if cx.wants_forces {
+        cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+        if cx.system.is_damped() && cx.is_dynamic() {
+            account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
+        }
+    }
+    if has_history {
+        // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a straight
+        // line: at the end itself stiff parts are not at rest, and would yield from step to step.
+        account.dissipated =
+            cx.system.update_history(&now, 1.0 / stage.scheme.instant, &mut ws.history, cx.plan.threads);
+    }
+    account
+}

@@ -1,0 +1,228 @@
+//! A step whose load is unknown: equilibrium r(q, t) = 0 and one equation more. With K = −∂r/∂q each correction is
+//!   δq = a + δt b,   K a = r,   K b = ∂r/∂t,
+//! two substitutions with one factorisation, and δt follows from the equation that was added, solved exactly: the length of
+//! the motion |Δq + δq| = ℓ, load left out (M. A. Crisfield, Comput. Struct. 13 (1981); E. Ramm, 1981), or a displacement
+//! that is given. Of the two roots of the first the one that goes on: along the last step at the start of a step (Y. T. Feng
+//! et al., Eng. Comput. 12 (1995)), whatever the sign of det K, along the motion so far afterwards.
+
+use crate::integrators::load_steps;
+use crate::math::rotation::inverse_tangent;
+use crate::math::{Vec6, bottom, join, top};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{Stage, excite, move_trial};
+use crate::solve::residual::no_equilibrium;
+use crate::solve::workspace::Workspace;
+use crate::state::{Configuration, State};
+use crate::system::{Forces, Loading};
+
+/// What takes the place of a given time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Condition {
+    /// The length of the motion of the step.
+    Arc(f64),
+    /// The motion of one unknown translation in the step.
+    Motion { node: usize, dof: usize, by: f64 },
+}
+
+/// The equation that is added where the time is unknown, with what it needs beside the machinery of a step. Allocated once.
+pub struct ArcLengthConstraint {
+    /// ∂r/∂t, then b, per unknown.
+    rate: Vec<f64>,
+    loading: Loading,
+    forces: Forces,
+    /// Change of the gaps of joints with the time.
+    gaps: Vec<f64>,
+    /// Motion of the last step, per node.
+    last: Vec<Vec6>,
+    /// Prescribed directions move with the time.
+    driven: bool,
+    /// A rotation counts as a translation over the length of the model: its square.
+    weight: f64,
+}
+
+/// A motion over that of the step before which is smaller than this does not tell a direction.
+const SHORT: f64 = 1e-6;
+
+/// How far a step goes.
+pub struct StepMotion {
+    pub length: f64,
+    /// The cosine of the angle with the last step; 1 where there is none.
+    pub cosine: f64,
+    short: bool,
+}
+
+/// Products of motions, rotations as rotation vectors of the step: D the motion so far, ahead the way to go.
+#[derive(Default)]
+struct Products {
+    DD: f64,
+    Da: f64,
+    Db: f64,
+    aa: f64,
+    ab: f64,
+    bb: f64,
+    ahead_b: f64,
+}
+
+impl ArcLengthConstraint {
+    pub fn new(cx: &Context, ws: &Workspace) -> ArcLengthConstraint {
+        ArcLengthConstraint {
+            rate: vec![0.0; cx.plan.unknowns],
+            loading: Loading {
+                factors: Vec::with_capacity(cx.model.loads.len()),
+                pressures: Vec::with_capacity(cx.model.pressures.len()),
+                ..Loading::default()
+            },
+            forces: ws.forces.clone(),
+            gaps: vec![0.0; cx.system.multipliers()],
+            last: vec![Vec6::zeros(); ws.increments.len()],
+            driven: cx.model.held.iter().any(|held| held.motion.is_some()),
+            weight: cx.length * cx.length,
+        }
+    }
+
+    /// With a in `r`: puts a + δt b there, and loads and prescribed motion at the new time, which it returns.
+    ///
+    /// # Errors
+    /// [`Failure::Bend`] where the line of corrections misses the arc, [`Failure::Idle`] where nothing changes with the time.
+    pub fn close(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        to: f64,
+        condition: Condition,
+    ) -> Result<f64, Failure> {
+        self.differentiate_residual(cx, ws, state, to);
+        ws.matrix.solve_augmented(&self.forces.multipliers, &mut self.rate);
+        ws.solves += 1;
+        let idle = self.rate.iter().all(|&b| b == 0.0);
+        let dt = match condition {
+            _ if idle => None,
+            Condition::Arc(length) => self.on_arc(cx, ws, length),
+            Condition::Motion { node, dof, by } => {
+                let row = cx.plan.dofs.row(node, dof);
+                row.map(|row| (by - ws.increments[node].q[dof] - ws.r[row]) / self.rate[row])
+            }
+        };
+        if let Some(dt) = dt {
+            ws.r.iter_mut().zip(&self.rate).for_each(|(r, b)| *r += dt * b);
+        }
+        match dt.map(|dt| to + dt).filter(|to| to.is_finite()) {
+            Some(to) => {
+                excite(cx, ws, state.time, to, 1.0);
+                Ok(to)
+            }
+            None if idle => Err(Failure::Idle { time: to }),
+            None => Err(no_equilibrium(cx, ws)),
+        }
+    }
+
+    /// Writes ∂r/∂t at fixed unknowns, and the change of the gaps: of the loads exactly; where prescribed directions move, by
+    /// differences, whose error only slows the iteration.
+    fn differentiate_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
+        if self.driven {
+            return self.difference_residual(cx, ws, state, to);
+        }
+        cx.excitation.rates(to, &mut self.loading);
+        cx.system.external(&ws.trial, &self.loading, &mut self.forces);
+        // Loads alone do not open joints.
+        self.forces.multipliers.gaps.fill(0.0);
+        for (rate, &(node, dof)) in self.rate.iter_mut().zip(&cx.plan.directions) {
+            *rate = self.forces.on_nodes[node][dof];
+        }
+    }
+
+    fn difference_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
+        let h = 1e-6 * cx.model.analysis.end_time;
+        let scheme = load_steps::coefficients();
+        self.rate.fill(0.0);
+        self.forces.multipliers.copy_from(&ws.forces.multipliers);
+        self.gaps.fill(0.0);
+        for side in [1.0, -1.0] {
+            excite(cx, ws, state.time, to + side * h, 1.0);
+            move_trial(cx, ws, state, &Stage::from(&scheme));
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
+            cx.system.residual(&now, &ws.loads.instant, &mut self.forces);
+            for (rate, &(node, dof)) in self.rate.iter_mut().zip(&cx.plan.directions) {
+                *rate += side * self.forces.on_nodes[node][dof] / (2.0 * h);
+            }
+            let gaps = self.gaps.iter_mut().zip(&self.forces.multipliers.gaps);
+            gaps.for_each(|(rate, gap)| *rate += side * gap / (2.0 * h));
+        }
+        self.forces.multipliers.gaps.copy_from_slice(&self.gaps);
+    }
+
+    /// |D + a + δt b|² = ℓ²; `None`: no point of the line lies on the arc.
+    fn on_arc(&self, cx: &Context, ws: &Workspace, length: f64) -> Option<f64> {
+        let Products { DD, Da, Db, aa, ab, bb, ahead_b } = self.products(cx, ws);
+        let (half, rest) = (Db + ab, DD + 2.0 * Da + aa - length * length);
+        let discriminant = half * half - bb * rest;
+        if discriminant.is_nan() || discriminant < 0.0 {
+            return None;
+        }
+        // Both roots without cancellation: their product is rest/bb.
+        let far = -(half + discriminant.sqrt().copysign(half));
+        let roots = if far == 0.0 { [0.0, 0.0] } else { [far / bb, rest / far] };
+        // The motion ahead is the larger the further δt goes with the sign of ahead·b.
+        let [low, high] = [roots[0].min(roots[1]), roots[0].max(roots[1])];
+        Some(if ahead_b >= 0.0 { high } else { low })
+    }
+
+    fn products(&self, cx: &Context, ws: &Workspace) -> Products {
+        let mut sum = Products::default();
+        let mut last_b = 0.0;
+        for &node in &cx.independent_nodes {
+            let rows = cx.plan.dofs.of(node);
+            let D = unknown_part(cx, node, &ws.increments[node].q);
+            let theta = bottom(&ws.increments[node].q);
+            let vector = |x: &[f64]| {
+                let x = rows.gather(x);
+                // As the correction will be added: δΘ = T⁻¹ δθ
+                unknown_part(cx, node, &join(&top(&x), &inverse_tangent(&theta, &bottom(&x))))
+            };
+            let (a, b) = (vector(&ws.r), vector(&self.rate));
+            sum.DD += self.dot(&D, &D);
+            sum.Da += self.dot(&D, &a);
+            sum.Db += self.dot(&D, &b);
+            sum.aa += self.dot(&a, &a);
+            sum.ab += self.dot(&a, &b);
+            sum.bb += self.dot(&b, &b);
+            last_b += self.dot(&self.last[node], &b);
+        }
+        sum.ahead_b = if sum.DD == 0.0 { last_b } else { sum.Db };
+        sum
+    }
+
+    fn dot(&self, x: &Vec6, y: &Vec6) -> f64 {
+        top(x).dot(&top(y)) + self.weight * bottom(x).dot(&bottom(y))
+    }
+
+    /// The motion of the step that was found.
+    pub fn motion(&self, cx: &Context, ws: &Workspace) -> StepMotion {
+        let (mut along, mut last, mut now) = (0.0, 0.0, 0.0);
+        for &node in &cx.independent_nodes {
+            let (D, L) = (unknown_part(cx, node, &ws.increments[node].q), &self.last[node]);
+            along += self.dot(&D, L);
+            last += self.dot(L, L);
+            now += self.dot(&D, &D);
+        }
+        let short = now <= SHORT * SHORT * last;
+        let cosine = if short || last == 0.0 { 1.0 } else { along / (last * now).sqrt() };
+        StepMotion { length: now.sqrt(), cosine, short }
+    }
+
+    /// The next step goes on along the motion that was found, unless that is too short to tell a direction.
+    pub fn keep_motion(&mut self, cx: &Context, ws: &Workspace, motion: &StepMotion) {
+        if motion.short {
+            return;
+        }
+        for &node in &cx.independent_nodes {
+            self.last[node] = unknown_part(cx, node, &ws.increments[node].q);
+        }
+    }
+}
+
+fn unknown_part(cx: &Context, node: usize, q: &Vec6) -> Vec6 {
+    cx.plan.dofs.of(node).mask(q)
+}

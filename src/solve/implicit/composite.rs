@@ -1,0 +1,83 @@
+//! A step in two stages, of which the second looks back to the start of the step (Bathe's scheme).
+
+use super::newton::Newton;
+use crate::integrators::TwoStages;
+use crate::math::rotation::inverse_tangent;
+use crate::math::{Vec6, bottom, join};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{Stage, rates_of};
+use crate::solve::report::StepReport;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// The scheme and what its second stage needs to know of the first. Allocated once.
+pub struct Composite<'a> {
+    scheme: &'a dyn TwoStages,
+    /// The state at the start of the step.
+    start: State,
+    /// What the second stage takes in place of velocities and accelerations at its start, by node.
+    start_rates: Vec<[Vec6; 2]>,
+}
+
+impl<'a> Composite<'a> {
+    pub fn new(scheme: &'a dyn TwoStages, nodes: usize) -> Self {
+        Composite { scheme, start: State::default(), start_rates: vec![[Vec6::zeros(); 2]; nodes] }
+    }
+
+    /// A run starts from this state.
+    pub fn begin(&mut self, state: &State) {
+        self.start.clone_from(state);
+    }
+
+    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// As for [`Newton::stage`].
+    pub fn step(
+        &mut self,
+        newton: &mut Newton,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        self.start.copy_from(state);
+        let result = self.stages(newton, cx, ws, state, to);
+        if result.is_err() {
+            state.copy_from(&self.start);
+        }
+        result
+    }
+
+    fn stages(
+        &mut self,
+        newton: &mut Newton,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let dt = to - state.time;
+        let between = state.time + self.scheme.split() * dt;
+        let first = newton.stage(cx, ws, state, &Stage::from(&cx.model.scheme.coefficients(dt)), between)?;
+        self.look_back(cx, ws, state, dt);
+        let scheme = self.scheme.second(dt);
+        let stage = Stage { scheme: &scheme, start_rates: Some(&self.start_rates) };
+        let second = newton.stage(cx, ws, state, &stage, to)?;
+        Ok(first.then(second))
+    }
+
+    /// Writes the motion of the first stage and the velocities at both of its ends as the second stage takes them in.
+    fn look_back(&mut self, cx: &Context, ws: &Workspace, between: &State, dt: f64) {
+        let b = self.scheme.backward(dt);
+        for &node in &cx.independent_nodes {
+            let start = &self.start.nodes[node];
+            // The motion so far, and the velocity at its start in the rotation vector counted from between the stages.
+            let q0 = ws.increments[node].q;
+            let v0 = join(&start.v, &inverse_tangent(&-bottom(&q0), &start.omega));
+            let [v, _] = rates_of(&between.nodes[node]);
+            self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];
+        }
+    }
+}

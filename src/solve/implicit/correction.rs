@@ -1,0 +1,70 @@
+//! What corrects the increments, and how small that is.
+
+use crate::math::rotation::inverse_tangent;
+use crate::math::{Vec6, bottom, larger};
+use crate::solve::context::Context;
+use crate::solve::size::Size;
+use crate::solve::workspace::Workspace;
+
+/// The size of the correction in `r`.
+pub fn size_of_correction(cx: &Context, ws: &Workspace) -> Size {
+    let mut size = Size::default();
+    for (r, &(_, dof)) in ws.r.iter().zip(&cx.plan.directions) {
+        let largest = if dof < 3 { &mut size.translation } else { &mut size.rotation };
+        *largest = largest.max(r.abs());
+    }
+    size
+}
+
+/// Adds the correction in `r` to the increments and the multipliers. Returns its size and that of the increments.
+pub fn correct(cx: &Context, ws: &mut Workspace) -> (Size, Size) {
+    let (mut correction, mut motion) = (Size::default(), Size::default());
+    for &node in &cx.independent_nodes {
+        let rows = cx.plan.dofs.of(node);
+        let entry = |i: usize| rows.get(i).map_or(0.0, |row| ws.r[row]);
+        let increment = &mut ws.increments[node].q;
+        let dq = Vec6::from_fn(|i, _| entry(i));
+        let theta = bottom(increment);
+        // δΘ = T⁻¹ δθ
+        let dtheta = inverse_tangent(&theta, &bottom(&dq));
+        for i in 0..3 {
+            increment[i] += dq[i];
+            if rows.has(3 + i) {
+                increment[3 + i] += dtheta[i];
+            }
+            correction.translation = larger(correction.translation, dq[i].abs());
+            correction.rotation = larger(correction.rotation, dq[3 + i].abs());
+            motion.translation = larger(motion.translation, increment[i].abs());
+            motion.rotation = larger(motion.rotation, increment[3 + i].abs());
+        }
+        if dq.iter().any(|c| !c.is_finite()) {
+            correction.translation = f64::NAN;
+        }
+    }
+    ws.forces.multipliers.add(&ws.r[cx.directions()..]);
+    (correction, motion)
+}
+
+/// The correction relative to the motion of the step, translations and rotations apart, with floors for scenes at rest.
+pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
+    const STILL: f64 = 1e-6; // of the model's length, or radians: a step that moves less is judged on this
+    if correction.translation.is_nan() {
+        return f64::NAN;
+    }
+    let translation = correction.translation / motion.translation.max(STILL * cx.length);
+    translation.max(correction.rotation / motion.rotation.max(STILL))
+}
+
+/// True for a correction that only stirs the last digits of the positions. (It must have stopped to contract as well: increments,
+/// and the accelerations that follow from them, have more digits than positions.) The axial stiffness turns these digits into
+/// forces, and bending answers them with corrections that are larger by the slenderness squared: where even a `fresh` matrix does
+/// not help, four digits more are given for that, and rotations follow the positions over the model's length.
+pub fn is_rounding(cx: &Context, ws: &Workspace, correction: Size, fresh: bool) -> bool {
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    let (translation, rotation) = if fresh {
+        (1e4 * ROUNDING * ws.reach, 1e4 * ROUNDING * (ws.reach / cx.length).max(1.0))
+    } else {
+        (ROUNDING * ws.reach, ROUNDING)
+    };
+    correction.translation <= translation && correction.rotation <= rotation
+}

@@ -1,0 +1,16 @@
+//! Implicit steps: equilibrium is found by iteration with a matrix.
+
+mod accept;
+mod anderson;
+mod arc_length;
+mod composite;
+mod convergence;
+mod correction;
+mod line_search;
+mod newton;
+mod refresh;
+mod stepper;
+
+pub use arc_length::{ArcLengthConstraint, Condition, StepMotion};
+pub use newton::Newton;
+pub use stepper::Implicit;

@@ -1,0 +1,409 @@
+//! Equilibrium by iteration: residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
+
+use super::accept::accept;
+use super::anderson::Anderson;
+use super::arc_length::{ArcLengthConstraint, Condition};
+use super::convergence::{Convergence, Judgement};
+use super::correction::{correct, is_rounding, relative, size_of_correction};
+use super::line_search::LineSearch;
+use super::refresh::{Advice, Refresh};
+use crate::elements::Moduli;
+use crate::integrators::Coefficients;
+use crate::linear::TooLarge;
+use crate::model::{AnalysisKind, Method, Update};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::{self, Stage};
+use crate::solve::projection::ConstraintProjection;
+use crate::solve::report::StepReport;
+use crate::solve::size::Size;
+use crate::solve::workspace::Workspace;
+use crate::solve::{contacts, joints, residual};
+use crate::state::{Configuration, State};
+use crate::system::assembly::Weights;
+
+/// Newton's method, modified where a matrix is worth keeping, with what it needs beside the workspace.
+pub struct Newton {
+    refresh: Refresh,
+    /// Where the matrix may be far from the derivative because material yields.
+    anderson: Option<Anderson>,
+    line_search: Option<LineSearch>,
+    /// Where a motion in time has joints.
+    pub projection: Option<ConstraintProjection>,
+    /// What multiplies the masses in the matrix at hand.
+    pub mass_weight: f64,
+}
+
+/// How far the iteration of a step has come.
+struct Progress {
+    report: StepReport,
+    convergence: Convergence,
+    /// Iterations after which the step is given up.
+    limit: usize,
+    /// The relative error that is left of the time where that is unknown: loads are curves over it.
+    time_error: f64,
+}
+
+/// What a correction comes to.
+enum Verdict {
+    Converged,
+    GoOn,
+    /// An old matrix has led astray: the iteration goes back to the prediction.
+    Restart,
+    /// The iterations that a step is given are used up.
+    Exhausted,
+}
+
+impl Progress {
+    fn begin(cx: &Context, to: f64, exact: bool) -> Progress {
+        Progress {
+            report: StepReport::begin(to),
+            convergence: Convergence::new(cx.model.iteration.tolerance, exact),
+            limit: cx.model.iteration.limit,
+            time_error: 0.0,
+        }
+    }
+
+    /// A correction of the time by δt leaves the loads wrong by its square, whatever the motion.
+    fn move_time(&mut self, cx: &Context, to: f64) {
+        self.time_error = ((to - self.report.to) / cx.model.analysis.end_time).powi(2);
+        self.report.to = to;
+    }
+}
+
+impl Newton {
+    /// # Errors
+    /// There is no memory for the projection onto joints.
+    pub fn new(cx: &Context) -> Result<Newton, TooLarge> {
+        let Context { model, plan, system, length, .. } = *cx;
+        // Load steps are long and few, and there is no mass to steady an old matrix; along a path an old one leads astray.
+        let along = model.analysis.step_length.is_arc_length();
+        let method = if along { Method::TangentStiffness } else { model.iteration.method };
+        let mixes = system.yields() && method != Method::TangentStiffness;
+        let update = match (model.analysis.kind, model.iteration.update) {
+            _ if along => Update::Iteration,
+            (AnalysisKind::Static, Update::Auto) if !mixes => Update::Iteration,
+            (_, update) => update,
+        };
+        let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
+        // In place of multipliers stand gaps.
+        let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
+        let searches = system.history > 0 && !along;
+        let line_search = || LineSearch::new(plan.directions.len(), model.nodes.len(), system.multipliers());
+        Ok(Newton {
+            refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
+            anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
+            line_search: searches.then(line_search),
+            projection: ConstraintProjection::for_motion(cx)?,
+            mass_weight: 0.0,
+        })
+    }
+
+    /// Takes `state` from its time to `to` in one stage. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn stage(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        stage: &Stage,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let ahead = stage.scheme.instant * (to - state.time);
+        contacts::check_length(cx, state, ahead)?;
+        self.predict(cx, ws, state, stage.scheme);
+        let report = self.equilibrate(cx, ws, state, stage, to, None)?;
+        contacts::check_passage(cx, ws, state, ahead)?;
+        self.accept(cx, ws, state, stage, to)?;
+        Ok(report)
+    }
+
+    /// Writes the first guess of a step, with nothing known of its corrections.
+    pub fn predict(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
+        self.forget_corrections();
+        motion::predict(cx, ws, state, scheme);
+    }
+
+    /// Takes the equilibrium that was found.
+    ///
+    /// # Errors
+    /// As for [`accept`]; `state` is untouched.
+    pub fn accept(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        stage: &Stage,
+        to: f64,
+    ) -> Result<(), Failure> {
+        let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to);
+        if matches!(accepted, Err(Failure::Apart { .. })) {
+            self.discard_matrix();
+        }
+        accepted
+    }
+
+    /// The matrix at hand belongs to a motion that was not taken, or to other loads.
+    pub fn discard_matrix(&mut self) {
+        self.refresh.rejected();
+    }
+
+    /// Finds the motion from `state` to its equilibrium at `to`, from the increments at hand; or, under a constraint in place of
+    /// the time, to where its condition holds, from the time `to` on.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn equilibrate(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+        constraint: Option<(&mut ArcLengthConstraint, Condition)>,
+    ) -> Result<StepReport, Failure> {
+        let found = self.iterate(cx, ws, state, stage, to, constraint);
+        match &found {
+            Ok(report) => self.refresh.accepted(report.iterations),
+            Err(_) => self.discard_matrix(),
+        }
+        found
+    }
+
+    fn iterate(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+        mut constraint: Option<(&mut ArcLengthConstraint, Condition)>,
+    ) -> Result<StepReport, Failure> {
+        motion::excite(cx, ws, state.time, to, stage.scheme.instant);
+        let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none());
+        loop {
+            progress.report.residual = evaluate_residual(cx, ws, state, stage, progress.report.to);
+            if !progress.report.residual.is_finite() {
+                if !self.insist(cx, ws, state, stage, &mut progress) {
+                    return Err(residual::not_finite(cx, ws));
+                }
+                continue;
+            }
+            if self.shorten_correction(cx, ws, progress.report.residual) {
+                continue;
+            }
+            self.refresh_matrix(cx, ws, state, stage, &mut progress.report)?;
+            self.solve(cx, ws, progress.report.residual);
+            if let Some((constraint, condition)) = &mut constraint {
+                let to = constraint.close(cx, ws, state, progress.report.to, *condition)?;
+                progress.move_time(cx, to);
+            }
+            let (correction, motion) = self.correct(cx, ws);
+            match self.judge(cx, ws, correction, motion, &mut progress)? {
+                Verdict::Converged => return Ok(progress.report),
+                Verdict::GoOn => {}
+                Verdict::Restart => self.restart(cx, ws, state, stage, &mut progress),
+                Verdict::Exhausted => {
+                    if !self.insist(cx, ws, state, stage, &mut progress) {
+                        return Err(not_converged(cx, ws, &progress.report));
+                    }
+                    progress.limit += cx.model.iteration.limit;
+                }
+            }
+        }
+    }
+
+    /// Takes back part of the last correction where it went too far; false where it did not.
+    fn shorten_correction(&mut self, cx: &Context, ws: &mut Workspace, size: f64) -> bool {
+        let Some(line_search) = &mut self.line_search else { return false };
+        let residual = &ws.r[..cx.directions()];
+        let values = &mut ws.forces.multipliers.values;
+        let shortened = line_search.shorten(residual, size, &mut ws.increments, values);
+        if shortened && let Some(anderson) = &mut self.anderson {
+            // What was mixed into it no longer tells what it did.
+            anderson.forget();
+        }
+        shortened
+    }
+
+    /// Forms and factorises the matrix where that is due.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where it cannot be factorised.
+    fn refresh_matrix(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        report: &mut StepReport,
+    ) -> Result<(), Failure> {
+        let dt = report.to - state.time;
+        let key = matrix_key(stage.scheme, dt);
+        if self.refresh.due(report.iterations, key) {
+            self.form_matrix(cx, ws, state, stage.scheme, stage.scheme.instant * dt)?;
+            self.refresh.done(key);
+            self.forget_corrections();
+            report.factorizations += 1;
+        }
+        Ok(())
+    }
+
+    /// Where all that resists has yielded its derivative may be singular; the elastic matrix then leads on.
+    fn form_matrix(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        ahead: f64,
+    ) -> Result<(), Failure> {
+        let (rate, acceleration) = scheme.weights();
+        self.mass_weight = acceleration;
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        let mut moduli = self.refresh.moduli();
+        loop {
+            let weights = Weights { stiffness: true, rate, acceleration, moduli };
+            let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
+            matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
+            ws.factorizations += 1;
+            match matrix.solver.factor() {
+                Ok(()) => return Ok(()),
+                Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => moduli = Moduli::Elastic,
+                Err(singular) => return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row)),
+            }
+        }
+    }
+
+    /// The correction that the residual asks for, in its place.
+    fn solve(&mut self, cx: &Context, ws: &mut Workspace, residual: f64) {
+        if let Some(line_search) = &mut self.line_search {
+            line_search.keep_residual(&ws.r[..cx.directions()], residual);
+        }
+        ws.matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
+        ws.solves += 1;
+    }
+
+    /// Adds the correction to the increments. Returns its size and that of the increments.
+    fn correct(&mut self, cx: &Context, ws: &mut Workspace) -> (Size, Size) {
+        // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
+        let plain = self.line_search.is_some().then(|| self.mix_corrections(cx, ws));
+        let (correction, motion) = correct(cx, ws);
+        (plain.map_or(correction, |plain| plain.or_not_finite(correction)), motion)
+    }
+
+    /// Mixes the correction with those before it, where material yields, and keeps it. Returns its size before that.
+    #[inline(never)]
+    fn mix_corrections(&mut self, cx: &Context, ws: &mut Workspace) -> Size {
+        let plain = size_of_correction(cx, ws);
+        if let Some(anderson) = &mut self.anderson {
+            anderson.mix(&mut ws.r);
+        }
+        if let Some(line_search) = &mut self.line_search {
+            let correction = &ws.r[..cx.directions()];
+            line_search.keep_correction(correction, &ws.increments, &ws.forces.multipliers.values);
+        }
+        plain
+    }
+
+    /// # Errors
+    /// [`Failure::NotFinite`] where the correction is not a number.
+    fn judge(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        correction: Size,
+        motion: Size,
+        progress: &mut Progress,
+    ) -> Result<Verdict, Failure> {
+        let Progress { report, convergence, limit, time_error } = progress;
+        report.iterations += 1;
+        let size = relative(cx, correction, motion);
+        if !size.is_finite() {
+            return Err(residual::not_finite(cx, ws));
+        }
+        let fresh = report.factorizations > 0;
+        let judgement = convergence.judge(size, report.residual);
+        if *time_error <= cx.model.iteration.tolerance
+            && has_converged(cx, ws, correction, fresh, report.residual, &judgement)
+        {
+            return Ok(Verdict::Converged);
+        }
+        if report.iterations >= *limit {
+            return Ok(Verdict::Exhausted);
+        }
+        let astray = judgement.seen && self.refresh.watch(fresh, &judgement) == Advice::Restart;
+        Ok(if astray { Verdict::Restart } else { Verdict::GoOn })
+    }
+
+    fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut Progress) {
+        self.predict(cx, ws, state, stage.scheme);
+        progress.convergence.forget();
+    }
+
+    /// Before a step is cut: back to its prediction, to go on with a matrix for every iteration; false if that was done.
+    fn insist(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        progress: &mut Progress,
+    ) -> bool {
+        let again = self.refresh.insist();
+        if again {
+            self.restart(cx, ws, state, stage, progress);
+        }
+        again
+    }
+
+    fn forget_corrections(&mut self) {
+        if let Some(anderson) = &mut self.anderson {
+            anderson.forget();
+        }
+        if let Some(line_search) = &mut self.line_search {
+            line_search.forget();
+        }
+    }
+}
+
+/// Moves the trial motion to the increments at hand and writes its residual; returns how large that is, relative to the forces.
+fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
+    motion::move_trial(cx, ws, state, stage);
+    let ahead = stage.scheme.instant * (to - state.time);
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+    let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+    residual::gather(cx, ws, &scale)
+}
+
+/// What the matrix of a step depends on besides the motion: a time, the length of the step or what its rates are taken over.
+fn matrix_key(scheme: &Coefficients, dt: f64) -> f64 {
+    if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
+}
+
+/// Between elastic and plastic one contraction says little of the next, and what is small against positions may be large against
+/// elastic strains: the residual must have come down as well, or nothing but rounding be left.
+fn has_converged(
+    cx: &Context,
+    ws: &Workspace,
+    correction: Size,
+    fresh: bool,
+    residual: f64,
+    judgement: &Judgement,
+) -> bool {
+    let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.iteration.tolerance;
+    let rounding = judgement.stalled() && is_rounding(cx, ws, correction, fresh && sure);
+    rounding || sure && judgement.converged()
+}
+
+fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport) -> Failure {
+    // Forces balance, but not with closed joints: they contradict each other.
+    if report.residual < 1e-3
+        && let Err(apart) = joints::check(cx, ws)
+    {
+        return apart;
+    }
+    Failure::NotConverged { iterations: report.iterations, largest: residual::largest(cx, ws) }
+}

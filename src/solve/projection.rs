@@ -1,0 +1,201 @@
+//! Joints at the end of a step and at the start of a run. Where a scheme writes equilibrium past the end of the step, the end
+//! itself lies off the joints by its error; there position, velocity and acceleration are projected onto the constraints, one after
+//! the other, by the least change in the norm of the masses (E. Eich, SIAM J. Numer. Anal. 30 (1993)), as if the joints had pushed
+//! a little more or less within the step: they do not drift, and the accelerations of one step bring no oscillation into the next.
+//! How the iteration came there does not matter.
+
+use super::context::Context;
+use super::failure::Failure;
+use super::joints::{self, MOST_CORRECTIONS, ROUNDING};
+use super::linear_system::LinearSystem;
+use super::motion::update_dependent_nodes;
+use super::workspace::Workspace;
+use crate::elements::Moduli;
+use crate::integrators::Coefficients;
+use crate::linear::TooLarge;
+use crate::math::rotation::inverse_tangent;
+use crate::math::{Vec3, bottom};
+use crate::plan::Plan;
+use crate::state::{Configuration, Node, State};
+use crate::system::assembly::Weights;
+use crate::system::{Forces, Loading, System};
+
+/// The mass that a direction without one is given, over the largest: so that it is the one that gives way.
+const TRACE: f64 = 1e-9;
+
+/// The masses and joints of a scene by themselves, with their own factorisation. Allocated once.
+pub struct ConstraintProjection {
+    /// The system without stiffness.
+    bare: System,
+    matrix: LinearSystem,
+    loading: Loading,
+    forces: Forces,
+    /// Gaps and right-hand side, then correction, per unknown.
+    r: Vec<f64>,
+    diagonal: Vec<DiagonalSlot>,
+    /// The part of the diagonal that nothing gives a mass.
+    massless: Vec<DiagonalSlot>,
+}
+
+/// A place on the diagonal of the matrix.
+struct DiagonalSlot {
+    slot: usize,
+    is_rotation: bool,
+}
+
+impl ConstraintProjection {
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn new(plan: &Plan, system: &System, nodes: usize) -> Result<Self, TooLarge> {
+        let bare = system.bare();
+        let (solver, assembly) = plan.build_bare(&bare)?;
+        let has_mass = bare.massive(nodes);
+        let slots = |massless: bool| {
+            let directions = plan.directions.iter().enumerate();
+            let kept = directions.filter(|(_, (node, dof))| !massless || !has_mass[*node][usize::from(*dof > 2)]);
+            let slot = |row: usize| solver.slot(row, row);
+            kept.filter_map(|(row, &(_, dof))| slot(row).map(|slot| DiagonalSlot { slot, is_rotation: dof > 2 }))
+                .collect()
+        };
+        Ok(ConstraintProjection {
+            diagonal: slots(false),
+            massless: slots(true),
+            forces: Forces::new(&bare, nodes),
+            loading: Loading::default(),
+            r: vec![0.0; plan.unknowns],
+            bare,
+            matrix: LinearSystem { solver, assembly },
+        })
+    }
+
+    /// For a motion in time that has joints.
+    ///
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn for_motion(cx: &Context) -> Result<Option<Self>, TooLarge> {
+        let needed = cx.is_dynamic() && !cx.system.joints.is_empty();
+        needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
+    }
+
+    /// Puts the trial motion, at the end of a step of length `dt` from `state`, onto the joints; the increments lead there.
+    ///
+    /// # Errors
+    /// [`Failure::Apart`] where the joints cannot be closed from there.
+    pub fn project(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        let closed = self.factor(&ws.trial) && self.close(cx, ws, state, scheme, dt);
+        cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
+        if closed { Ok(()) } else { Err(joints::apart(cx, ws)) }
+    }
+
+    /// Factorises masses and joints as they lie; false where the joints leave no way to close them.
+    fn factor(&mut self, nodes: &[Node]) -> bool {
+        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+        let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly }, forces, loading, .. } = self;
+        assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
+        let values = solver.values();
+        let mut largest = [0.0f64; 2];
+        for &DiagonalSlot { slot, is_rotation } in &self.diagonal {
+            let largest = &mut largest[usize::from(is_rotation)];
+            *largest = largest.max(values[slot].abs());
+        }
+        for &DiagonalSlot { slot, is_rotation } in &self.massless {
+            let mass = largest[usize::from(is_rotation)];
+            values[slot] += TRACE * if mass > 0.0 { mass } else { 1.0 };
+        }
+        solver.factor().is_ok()
+    }
+
+    /// Corrects positions until the gaps are those of rounding, then their rates; false where the gaps do not close.
+    fn close(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) -> bool {
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_CORRECTIONS {
+            let gap = self.gap(cx, ws, 0);
+            // At rounding, or no longer falling next to it.
+            if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
+                self.close_rates(cx, ws, state, scheme, dt);
+                return true;
+            }
+            if gap.is_nan() {
+                return false;
+            }
+            last = gap;
+            self.correct(cx, ws, state, scheme, 0);
+        }
+        false
+    }
+
+    /// Rates are linear in themselves: one correction is exact but for what the positions have changed since.
+    fn close_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) {
+        for derivative in [1, 2] {
+            let mut last = f64::INFINITY;
+            loop {
+                let gap = self.gap(cx, ws, derivative);
+                if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
+                    break;
+                }
+                last = gap;
+                self.correct(cx, ws, state, scheme, derivative);
+            }
+        }
+    }
+
+    /// The largest gap of the trial motion, or of its derivative, relative.
+    fn gap(&mut self, cx: &Context, ws: &Workspace, derivative: usize) -> f64 {
+        let gaps = &mut self.forces.multipliers.gaps;
+        cx.system.gaps(&ws.trial, derivative, gaps);
+        cx.system.largest_gap(gaps, ws.reach)
+    }
+
+    /// Makes one correction of the motion, its velocity or its acceleration: the least that closes the gaps at hand.
+    fn correct(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, derivative: usize) {
+        self.r[..cx.directions()].fill(0.0);
+        self.matrix.solve_augmented(&self.forces.multipliers, &mut self.r);
+        for &node in &cx.independent_nodes {
+            let rows = cx.plan.dofs.of(node);
+            let increment = &mut ws.increments[node];
+            let theta = bottom(&increment.q);
+            let entry = |i: usize| rows.get(i).map_or(0.0, |row| self.r[row]);
+            let turn = inverse_tangent(&theta, &Vec3::new(entry(3), entry(4), entry(5)));
+            let change = match derivative {
+                0 => &mut increment.q,
+                1 => &mut increment.d,
+                _ => &mut increment.dd,
+            };
+            for i in 0..3 {
+                change[i] += entry(i);
+                if rows.has(3 + i) {
+                    change[3 + i] += turn[i];
+                }
+            }
+            ws.trial[node].advance(&state.nodes[node], increment, scheme.rotation);
+        }
+        update_dependent_nodes(cx, ws, &state.nodes);
+    }
+
+    /// Constraint equations that say the same may carry anything against each other: they are left with the least that does what
+    /// they do together.
+    pub fn share_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        if !cx.plan.shares() {
+            return;
+        }
+        let ConstraintProjection { bare, forces, r, matrix, .. } = self;
+        forces.multipliers.values.copy_from_slice(&state.multipliers);
+        bare.joint_forces(&ws.trial, forces);
+        for (r, &(node, dof)) in r.iter_mut().zip(&cx.plan.directions) {
+            *r = -forces.on_nodes[node][dof];
+        }
+        // M δ + Gᵀμ = Gᵀλ, G δ = 0
+        r[cx.directions()..].fill(0.0);
+        matrix.solver.solve(r);
+        forces.multipliers.values.fill(0.0);
+        forces.multipliers.add(&r[cx.directions()..]);
+        state.multipliers.copy_from_slice(&forces.multipliers.values);
+    }
+}

@@ -1,0 +1,129 @@
+//! What becomes of an accepted step: it is counted, its energies are checked, and it is shown to whoever watches the run.
+
+use super::context::Context;
+use super::derived::{Derived, Request, Wanted};
+use super::energy_growth::{EnergyGrowth, is_watched};
+use super::frame::{Frame, Observer};
+use super::outcome::{Counts, Outcome};
+use super::report::StepReport;
+use super::workspace::Workspace;
+use crate::model::{Cadence, Model};
+use crate::state::State;
+use std::time::{Duration, Instant};
+
+/// The account of a run. Allocated once.
+pub struct Recorder {
+    wanted: Wanted,
+    pub counts: Counts,
+    /// Time spent in the observer.
+    pub observing: Duration,
+    pub growth: EnergyGrowth,
+    /// The mechanical energy at t = 0, where energies are summed.
+    initial_energy: Option<f64>,
+    derived: Derived,
+}
+
+/// A step as it is shown.
+pub struct AcceptedStep<'s> {
+    pub dt: f64,
+    pub report: &'s StepReport,
+    pub cuts: usize,
+    /// Its end is an output time, whatever the cadence says.
+    pub due: bool,
+    /// The run ends with it.
+    pub last: bool,
+    /// See [`Frame::passed`].
+    pub passed: &'s [usize],
+}
+
+impl Recorder {
+    pub fn new(model: &Model, wanted: Wanted) -> Recorder {
+        Recorder {
+            wanted,
+            counts: Counts::default(),
+            observing: Duration::ZERO,
+            growth: EnergyGrowth::default(),
+            initial_energy: None,
+            derived: Derived::new(model),
+        }
+    }
+
+    /// Notes the energy that the run starts with.
+    pub fn begin(&mut self, cx: &Context, state: &State) {
+        if self.wanted.has(Wanted::ENERGY) || is_watched(cx.model) {
+            self.initial_energy = Some(cx.system.energy(state, None, cx.plan.threads).mechanical);
+        }
+    }
+
+    /// Counts a step, computes what is wanted of it and shows it.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write, [`Outcome::Failed`] where energy grows.
+    pub fn notify(
+        &mut self,
+        cx: &Context,
+        ws: &Workspace,
+        state: &State,
+        observer: &mut dyn Observer,
+        step: &AcceptedStep,
+    ) -> Result<(), Outcome> {
+        if step.report.iterations > 0 {
+            self.counts.steps += 1;
+            self.counts.iterations += step.report.iterations;
+        }
+        let (due, drawn) = self.is_due(cx.model, step);
+        // Two looks at the clock are a twentieth of a step of two bodies.
+        let began = (due || drawn || self.wanted.has(Wanted::EVERY_STEP)).then(Instant::now);
+        let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
+        let watched = if is_watched(model) { Wanted::ENERGY } else { Wanted::NOTHING };
+        let request = Request { model, system, state, due, drawn, balance, threads };
+        self.derived.compute(self.wanted | watched, &request);
+        let scene = (model, cx.plan, system);
+        let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
+        observer.on_step(&self.frame(cx, ws, state, step, due)).map_err(Outcome::Io)?;
+        if let Some(began) = began {
+            self.observing += began.elapsed();
+        }
+        failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
+    }
+
+    /// Whether tables are due, and whether fields are drawn: these by steps, and at the end.
+    fn is_due(&self, model: &Model, step: &AcceptedStep) -> (bool, bool) {
+        let due = match model.output.cadence {
+            Cadence::Steps(every) => self.counts.steps.is_multiple_of(every.max(1)),
+            Cadence::Interval(_) => false,
+        };
+        let drawn =
+            model.output.fields.is_some_and(|every| self.counts.steps.is_multiple_of(every.max(1)) || step.last);
+        (due || step.due, drawn)
+    }
+
+    fn frame<'f>(
+        &'f self,
+        cx: &Context<'f>,
+        ws: &Workspace,
+        state: &'f State,
+        step: &AcceptedStep<'f>,
+        due: bool,
+    ) -> Frame<'f> {
+        let &AcceptedStep { dt, report, cuts, last, passed, .. } = step;
+        // Each multiplier brings a negative pivot of its own.
+        let negative = || ws.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
+        Frame {
+            model: cx.model,
+            state,
+            step: self.counts.steps,
+            dt,
+            iterations: report.iterations,
+            refactorizations: report.factorizations,
+            residual: report.residual,
+            cuts,
+            due,
+            last,
+            reactions: if due && self.wanted.has(Wanted::REACTIONS) { &state.reactions } else { &[] },
+            derived: &self.derived,
+            passed,
+            negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),
+        }
+    }
+}

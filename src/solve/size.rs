@@ -1,0 +1,15 @@
+//! How large a motion is, translations and rotations apart.
+
+/// The largest translation and the largest rotation of a set of nodes.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Size {
+    pub translation: f64,
+    pub rotation: f64,
+}
+
+impl Size {
+    /// This size, unless the other is not a number.
+    pub fn or_not_finite(self, other: Size) -> Size {
+        if other.translation.is_nan() { other } else { self }
+    }
+}

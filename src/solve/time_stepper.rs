@@ -1,0 +1,61 @@
+//! The steps a run can take, one variant for each machinery.
+
+use super::context::Context;
+use super::explicit::{CentralDifferenceStepper, RungeKuttaStepper};
+use super::failure::Failure;
+use super::implicit::Implicit;
+use super::report::StepReport;
+use super::workspace::Workspace;
+use crate::integrators::Stepping;
+use crate::linear::TooLarge;
+use crate::state::State;
+
+/// What takes a step of given length.
+pub enum TimeStepper<'a> {
+    Implicit(Box<Implicit<'a>>),
+    CentralDifference(Box<CentralDifferenceStepper>),
+    RungeKutta(Box<RungeKuttaStepper>),
+}
+
+impl<'a> TimeStepper<'a> {
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn new(cx: &Context<'a>) -> Result<Self, TooLarge> {
+        Ok(match cx.model.scheme.stepping() {
+            Stepping::Verlet if cx.is_dynamic() => {
+                TimeStepper::CentralDifference(Box::new(CentralDifferenceStepper::new(cx)?))
+            }
+            Stepping::RungeKutta(tableau) if cx.is_dynamic() => {
+                TimeStepper::RungeKutta(Box::new(RungeKuttaStepper::new(cx, tableau)?))
+            }
+            _ => TimeStepper::Implicit(Box::new(Implicit::new(cx)?)),
+        })
+    }
+
+    /// A run starts from this state, or goes on from it after a jump of the loads.
+    pub fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        match self {
+            TimeStepper::Implicit(stepper) => stepper.restart(state),
+            TimeStepper::CentralDifference(stepper) => stepper.restart(cx, ws, state),
+            TimeStepper::RungeKutta(_) => {}
+        }
+    }
+
+    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        match self {
+            TimeStepper::Implicit(stepper) => stepper.step(cx, ws, state, to),
+            TimeStepper::CentralDifference(stepper) => stepper.step(cx, ws, state, to),
+            TimeStepper::RungeKutta(stepper) => stepper.step(cx, ws, state, to),
+        }
+    }
+}
