@@ -215,7 +215,7 @@ fn a_line_torn_off_is_left_out() {
     let root = folders();
     change(&root, "nodes.csv", |text| text[..text.len() - 6].into());
     let said = both_ways(&root, 0, &[]);
-    assert!(said.contains("the last line in b is torn off") && said.contains("41 rows matched"), "{said}");
+    assert!(said.contains("the last line in b is incomplete") && said.contains("41 rows matched"), "{said}");
 }
 
 #[test]

@@ -502,8 +502,8 @@ fn massless_directions_are_named() {
     let inner = places(&Plan::new(&finer, &system, 1).massless(&finer, &system));
     assert!(inner.contains(&"\"legs\"".to_owned()), "{inner:?}");
     let system = System::new(&model).unwrap();
-    let text = plan.explain(&model, &system);
-    assert!(text.contains("nothing is factorised"), "{text}");
+    let text = plan.explain(&model, &system).to_string();
+    assert!(text.contains("nothing is factorized"), "{text}");
 }
 
 /// Nothing is factorised but once, for the start.

@@ -669,7 +669,7 @@ fn runs_whose_steps_were_made_alike_say_nothing_of_each_other() {
     assert_eq!(rows[0]["steps"], rows[1]["steps"], "{text}");
     assert!(text.contains("no reference: no two runs of a line differ: steps are as long as samples"), "{text}");
     let text = of(&["--samples", "2", "--time-steps", "0.5,0.25,0.02,0.01"]);
-    assert!(text.contains("its own error is about"), "{text}");
+    assert!(text.contains("its own error is at most about"), "{text}");
     // Tolerances so loose that all steps are as long as the samples allow.
     let newmark = ["--schemes", "newmark", "--error-tolerances", "0.9,0.5", "--samples", "1000"];
     let text = of(&newmark);
@@ -703,7 +703,7 @@ fn what_no_run_could_do_is_refused_before_any() {
             .replace("[[bodies]]", "[integrator]\nscheme = \"central-difference\"\n[[bodies]]"),
     );
     let said = study(folder.path(), &[], 3).1;
-    assert!(said.contains("`central-difference` has no error tolerance to go over"), "{said}");
+    assert!(said.contains("`central-difference` has no error tolerance:"), "{said}");
     study(folder.path(), &["--time-steps", "0.02,0.01", "--samples", "50", "--repeats", "1", "--quiet"], 0);
     let said = study(folder.path(), &["--schemes", "newmark:gamma=0.6", "--overwrite"], 3).1;
     assert!(said.contains("`newmark:gamma=0.6` is of first order"), "{said}");

@@ -1,19 +1,18 @@
 //! `rdsolve check deck.toml`: read, validate, print the plan; run nothing.
 
-use super::{DeckArgs, Exit, doubts, load, no_room, planned, show};
+use super::arguments::DeckArgs;
+use super::console::{print, show};
+use super::exit::Exit;
+use super::load::{load, plan, too_large};
+use crate::output::listed;
 
-pub(super) fn check(args: &DeckArgs) -> Result<(), Exit> {
-    let loaded = load(&args.deck, &args.sets)?;
+pub fn check(args: &DeckArgs) -> Result<(), Exit> {
+    let loaded = load(&args.deck, &args.sets, Vec::new())?;
     show(&loaded.warnings, &loaded.source);
-    let (system, plan) = planned(&loaded, 1)?;
-    show(&doubts(&plan, &loaded.model, &system), &loaded.source);
-    let (solver, _) = plan.build(&system).map_err(no_room)?;
-    let mut text = plan.explain(&loaded.model, &system);
-    if !plan.explicit || plan.masses(&system).is_none() {
-        text += &format!("{:<12}{}\n", "  factor", solver.describe());
-    }
-    for saving in plan.savings(&loaded.model, &system) {
-        text += &format!("{:<12}{saving}\n", "saved");
-    }
-    super::print(&format!("{}: no errors\n{text}", loaded.source.path))
+    let (system, plan, warnings) = plan(&loaded, 1)?;
+    show(&warnings, &loaded.source);
+    let (solver, _) = plan.build(&system).map_err(too_large)?;
+    let mut text = plan.explain_costs(&loaded.model, &system, &solver);
+    text.computed.push(("output", listed(&loaded.model)));
+    print(&format!("{}: no errors\n{text}", loaded.source.path))
 }

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Exit, complain, counted, say};
+use super::console::{complain, counted, print, say};
+use super::exit::Exit;
 use crate::names::{nearest, short};
 use crate::output::compare::{
     Alone, Column, Comparison, Selector, Settings, Table, Tolerance, compare as compared, shown, size,
@@ -19,7 +20,7 @@ judged unless named: they say what a run cost.
 
 Exit codes: 0 the folders agree, 5 they do not, 6 one cannot be read, 2 usage."
 )]
-pub(super) struct CompareArgs {
+pub struct CompareArgs {
     /// The first folder of results
     dir_a: PathBuf,
     /// The second
@@ -39,7 +40,7 @@ pub(super) struct CompareArgs {
     quiet: bool,
 }
 
-pub(super) fn compare(args: &CompareArgs) -> Result<(), Exit> {
+pub fn compare(args: &CompareArgs) -> Result<(), Exit> {
     let settings =
         Settings { tolerances: args.tolerance.clone(), absolute: args.absolute, columns: args.columns.clone() };
     let names = [&args.dir_a, &args.dir_b].map(|dir| dir.display().to_string());
@@ -51,11 +52,11 @@ pub(super) fn compare(args: &CompareArgs) -> Result<(), Exit> {
         comparison.idle.iter().for_each(|selector| unknown(selector, &comparison));
         return Err(Exit::Usage);
     }
-    super::print(&table(&comparison, args.quiet))?;
+    print(&table(&comparison, args.quiet))?;
     let remarks = remarks(&comparison, &names, args.quiet);
-    super::print(&remarks)?;
+    print(&remarks)?;
     if comparison.agrees() {
-        if args.quiet { Ok(()) } else { super::print("the folders agree\n") }
+        if args.quiet { Ok(()) } else { print("the folders agree\n") }
     } else {
         complain(&format!("`{}` and `{}` do not agree", names[0], names[1]));
         Err(Exit::CheckFailed)

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Exit, complain, say};
+use super::console::{complain, print, say};
+use super::exit::Exit;
 use crate::output::report::page;
 
 #[derive(Debug, Args)]
@@ -15,7 +16,7 @@ use crate::output::report::page;
 run, plots of all tables, energy balance, and the moving scene (of fields.pvd if the run wrote it: [output] fields). Long \
 histories are thinned, which it says."
 )]
-pub(super) struct ReportArgs {
+pub struct ReportArgs {
     /// The folder of results
     dir: PathBuf,
     /// The file to write [default: the folder's name with .html, in the current folder]
@@ -29,7 +30,7 @@ pub(super) struct ReportArgs {
     quiet: bool,
 }
 
-pub(super) fn report(args: &ReportArgs) -> Result<(), Exit> {
+pub fn report(args: &ReportArgs) -> Result<(), Exit> {
     let fault = |what: String| {
         complain(&what);
         Exit::InputOutput
@@ -59,7 +60,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<(), Exit> {
         Err(error) => return Err(fault(format!("cannot write `{name}`: {error}"))),
         Ok(()) => {}
     }
-    if args.quiet { Ok(()) } else { super::print(&format!("{name}, {:.1} MB\n", page.len() as f64 / 1e6)) }
+    if args.quiet { Ok(()) } else { print(&format!("{name}, {:.1} MB\n", page.len() as f64 / 1e6)) }
 }
 
 /// `cab.out` becomes `cab.html`; dots within a name stay.

@@ -2,15 +2,16 @@
 
 use serde_json::Value;
 
-use super::Exit;
+use super::console::print;
+use super::exit::Exit;
 use crate::deck::{Deck, aliases};
 
-pub(super) fn schema() -> Result<(), Exit> {
+pub fn schema() -> Result<(), Exit> {
     let mut schema = schemars::schema_for!(Deck).to_value();
     aliases::describe(&mut schema);
     without_null(&mut schema);
     let text = serde_json::to_string_pretty(&schema).map_err(|_| Exit::Internal)?;
-    super::print(&format!("{text}\n"))
+    print(&format!("{text}\n"))
 }
 
 /// A key that may be left out cannot be null: TOML has none.

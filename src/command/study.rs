@@ -1,4 +1,4 @@
-//! `rdsolve study deck.toml`: error against run time over a ladder of settings; `--rigidify`: what rigid parts would cost and save.
+//! `rdsolve study deck.toml`: error against run time over a grid of settings; `--rigidify`: what rigid parts would cost and save.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -6,8 +6,12 @@ use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 
-use super::run::stop_on_signals;
-use super::{Exit, MOST_THREADS, beside, complain, counted, free_folder, load_with, say, show};
+use super::arguments::MAX_THREADS;
+use super::console::{complain, counted, print, say, show};
+use super::exit::Exit;
+use super::folder::{named_after, require_free};
+use super::load::load;
+use super::signals::stop_on_signals;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::plan::Plan;
@@ -26,7 +30,7 @@ study's. Runs that failed are listed as failed.
 
 Exit codes: 0 done, 2 usage, 3 deck invalid, 4 no run came to its end, 6 input/output, 75 stopped by a signal, with what there is."
 )]
-pub(super) struct StudyArgs {
+pub struct StudyArgs {
     /// The deck, a TOML file
     deck: PathBuf,
     /// Override one entry of the deck, as for `run`; repeatable
@@ -71,11 +75,11 @@ pub(super) struct StudyArgs {
     /// No more runs of a setting once they have taken so many seconds together
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
-    /// Instead of a ladder: each part's share of the elastic energy, and runs with it rigid
+    /// Instead of a grid of settings: each part's share of the elastic energy, and runs with it rigid
     #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "meshes", "reference", "finest", "wanted_error"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
     threads: u8,
     /// Folder for the study [default: the deck's name with .study, in the current folder]
     #[arg(short, long, value_name = "DIR")]
@@ -95,15 +99,15 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
+pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     let (mut sets, mut names) = (args.sets.clone(), Vec::new());
     for (name, value) in args.keys()? {
         sets.push(format!("study.{}={value}", name.trim_start_matches("--").replace('-', "_")));
         names.push(name.to_owned());
     }
-    let loaded = load_with(&args.deck, &sets, names)?;
-    let folder = args.output.clone().unwrap_or_else(|| beside(&args.deck, "study"));
-    free_folder(&folder, args.overwrite)?;
+    let loaded = load(&args.deck, &sets, names)?;
+    let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "study"));
+    require_free(&folder, args.overwrite)?;
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
@@ -146,7 +150,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), Exit> {
         let found = studied(&loaded.model, &deck, &options, &stop).map_err(fault)?;
         (found.text(), found.stopped, found.runs.iter().any(|run| run.status == Status::Done))
     };
-    super::print(&text)?;
+    print(&text)?;
     if !args.quiet {
         say(&format!("results in {}", folder.display()));
     }
@@ -195,7 +199,7 @@ impl StudyArgs {
         add("--schemes", !self.schemes.is_empty(), texts(&self.schemes));
         add("--methods", !self.methods.is_empty(), texts(&self.methods));
         add("--time-steps", !self.time_steps.is_empty(), numbers(&self.time_steps));
-        // A list given here is the ladder, whatever the deck halves.
+        // A list given here is complete, whatever the deck halves.
         let halvings = self.halvings.or((!self.time_steps.is_empty()).then_some(0));
         add("--halvings", halvings.is_some(), halvings.unwrap_or_default().to_string());
         add("--error-tolerances", !self.error_tolerances.is_empty(), numbers(&self.error_tolerances));

@@ -6,7 +6,7 @@ use super::folder::remove_stale;
 use super::table::{TableKind, WriteRows};
 use super::table_file::TableFile;
 use super::tables::TABLES;
-use crate::model::{ExpectAt, Model, PartKind};
+use crate::model::{Cadence, ExpectAt, Model, PartKind};
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
 use std::io;
@@ -68,6 +68,29 @@ impl Observer for Files {
         let writes = frame.due || frame.step.is_multiple_of(64);
         if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
     }
+}
+
+/// The files that a run of this model writes, and when, in words.
+pub fn listed(model: &Model) -> String {
+    let wanted = || TABLES.into_iter().filter(|kind| (kind.wanted)(model));
+    let names = |every_step| {
+        let names: Vec<&str> = wanted().filter(|kind| kind.every_step == every_step).map(|kind| kind.file).collect();
+        names.join(", ")
+    };
+    let when = match model.output.cadence {
+        Cadence::Steps(0 | 1) => "every step".to_owned(),
+        Cadence::Steps(every) => format!("every {every} steps"),
+        Cadence::Interval(interval) => format!("every {interval} of time"),
+    };
+    let mut groups = vec![format!("{} ({when})", names(false)), format!("{} (every step)", names(true))];
+    if names(false).is_empty() {
+        groups.remove(0);
+    }
+    groups.extend(model.output.fields.map(|every| match every {
+        0 | 1 => "fields (every step)".to_owned(),
+        _ => format!("fields (every {every} steps)"),
+    }));
+    groups.join("; ")
 }
 
 /// What the tables, fields and expectations of a model need to be computed.

@@ -21,6 +21,6 @@ pub mod tables;
 mod vtu;
 
 pub(crate) use disk::{at, replace};
-pub use files::{Files, wanted};
+pub use files::{Files, listed, wanted};
 pub(crate) use folder::{holds_run, remove, remove_empty, remove_run};
 pub use tables::TABLES;

@@ -34,22 +34,24 @@ impl Status {
 
 /// The object itself.
 #[derive(Debug, Clone, Serialize)]
-pub struct Report {
+pub struct RunResult {
     pub status: Status,
     /// That of the status, unless the failure was one of input/output (6).
     pub exit_code: u8,
     /// One sentence; empty when done, unless a path ended before its `stop`.
     pub reason: String,
-    pub version: String,
-    /// That of the deck.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub title: String,
-    /// SHA-256 of the deck with its overrides and its mesh, hexadecimal.
-    pub deck_hash: String,
-    pub plan: serde_json::Value,
+    /// Where the run did not come to its end, the time up to which its results are valid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub valid_until: Option<f64>,
+    /// The deck and the program that the results come from.
+    #[serde(flatten)]
+    pub origin: Origin,
+    /// The lines that `rdsolve check` prints.
+    pub plan: Vec<String>,
+    pub sizes: Sizes,
     pub counts: Counts,
     pub timings: Timings,
-    /// Largest departure from orthogonality that a first- or second-order rotation update left to be mended.
+    /// Largest departure from orthogonality that a first- or second-order rotation update left to be corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_drift: Option<f64>,
     /// Largest gap that a joint was left with at the end of a step, relative to the largest coordinate of the scene.
@@ -59,6 +61,45 @@ pub struct Report {
     pub peak_memory_bytes: Option<u64>,
     pub warnings: Vec<String>,
     pub expectations: Vec<Verdict>,
+}
+
+/// What results come from: enough to run them again, and to tell whether two runs were of the same deck and program.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Origin {
+    /// Version of the program, with the commit it was built from where that was known.
+    pub version: String,
+    /// That of the deck.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Path of the deck, as it was given.
+    pub deck: String,
+    /// Overrides, as they were given: `KEY=VALUE`.
+    pub sets: Vec<String>,
+    /// SHA-256 of the deck with its overrides and its mesh, hexadecimal.
+    pub deck_hash: String,
+}
+
+impl Origin {
+    /// Lines for the log.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("rdsolve {}, deck {}", self.version, self.deck)];
+        lines.extend(self.sets.iter().map(|set| format!("--set {set}")));
+        lines.push(format!("deck hash {}", self.deck_hash));
+        lines
+    }
+}
+
+/// How large the scene is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Sizes {
+    pub nodes: usize,
+    pub bodies: usize,
+    /// Of all beams, bars and shells.
+    pub elements: usize,
+    /// Displacements, rotations and Lagrange multipliers that are solved for.
+    pub unknowns: usize,
+    /// Of these, Lagrange multipliers.
+    pub multipliers: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -81,7 +122,7 @@ pub struct Timings {
     pub total_s: f64,
 }
 
-impl Report {
+impl RunResult {
     /// Writes `result.json` whole or not at all.
     pub fn write(&self, dir: &Path) -> io::Result<()> {
         let path = dir.join(NAME);
@@ -104,16 +145,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_report_reads_back() {
+    fn a_result_reads_back() {
         let dir = tempfile::tempdir().unwrap();
-        let report = Report {
+        let result = RunResult {
             status: Status::NotConverged,
             exit_code: Status::NotConverged.exit_code(),
             reason: "no equilibrium at t = 0.1".into(),
-            version: "0.1.0".into(),
-            title: String::new(),
-            deck_hash: "00ff".into(),
-            plan: serde_json::json!({ "unknowns": 12 }),
+            valid_until: Some(0.1),
+            origin: Origin { version: "0.1.0".into(), deck_hash: "00ff".into(), ..Origin::default() },
+            plan: vec!["dynamic".into()],
+            sizes: Sizes { unknowns: 12, ..Sizes::default() },
             counts: Counts { steps: 3, ..Counts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },
             rotation_drift: None,
@@ -122,12 +163,13 @@ mod tests {
             warnings: vec![],
             expectations: vec![],
         };
-        report.write(dir.path()).unwrap();
+        result.write(dir.path()).unwrap();
         let text = std::fs::read(dir.path().join("result.json")).unwrap();
         let read: serde_json::Value = serde_json::from_slice(&text).unwrap();
         assert_eq!(read["status"], "not-converged");
         assert_eq!(read["exit_code"], 4);
-        assert_eq!(read["plan"]["unknowns"], 12);
+        assert_eq!(read["sizes"]["unknowns"], 12);
+        assert_eq!(read["deck_hash"], "00ff");
         assert_eq!(read["timings"]["loop_s"], 0.1);
         assert!(read["peak_memory_bytes"].is_null());
         assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file stays");

@@ -22,17 +22,15 @@ impl Plan {
     pub(super) fn explain_masses(&self, system: &System) -> Vec<String> {
         let Some(masses) = self.masses(system) else {
             return vec![
-                "none but that of the masses, and joints, factorised at every evaluation: masses of several nodes \
-                 belong together"
-                    .to_string(),
+                "mass matrix (and joints), factorized at every evaluation: it couples several nodes".to_string(),
             ];
         };
         match (system.multipliers(), Ties::new(system, &masses, self.shares())) {
-            (0, _) => vec!["none: the masses of each node stand alone, nothing is factorised".to_string()],
-            (rows, Some(_)) => {
-                vec![format!("none: masses stand alone; joints by a dense system of {rows} rows at every evaluation")]
-            }
-            (_, None) => vec!["none but that of the masses and joints, factorised at every evaluation".to_string()],
+            (0, _) => vec!["block-diagonal masses: nothing is factorized".to_string()],
+            (rows, Some(_)) => vec![format!(
+                "block-diagonal masses; a dense system of the {rows} constraint equations of joints at every evaluation"
+            )],
+            (_, None) => vec!["mass matrix and joints, factorized at every evaluation".to_string()],
         }
     }
 

@@ -24,7 +24,6 @@ pub struct Plan {
     pub directions: Vec<(usize, usize)>,
     pub structure: Structure,
     pub kind: linear::Factorization,
-    pub omissions: Vec<Omission>,
     /// Steps solve for accelerations with the masses alone: the matrix is that of masses and joints.
     pub explicit: bool,
     /// The matrix never changes: it is factorised once per length of step.
@@ -37,16 +36,9 @@ pub struct Plan {
     nodes: Vec<place::Place>,
 }
 
-/// Directions that are no unknowns, with the reason.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Omission {
-    pub count: usize,
-    pub what: String,
-}
-
 impl Plan {
     pub fn new(model: &Model, system: &System, threads: usize) -> Plan {
-        let (nodes, omissions) = place::place(model, system);
+        let nodes = place::place(model, system);
         let unknown = nodes.iter().map(|place| place.map(|why| why == place::Why::Unknown));
         let dofs = DofMap::new(unknown, &system.joints);
         let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.scheme.is_explicit();
@@ -70,7 +62,6 @@ impl Plan {
             dofs,
             structure,
             kind,
-            omissions,
             threads,
             repeated: Some(Vec::new()),
             nodes,
@@ -108,6 +99,11 @@ impl Plan {
         let solver = Solver::new(&self.structure, self.kind, self.threads)?;
         let assembly = Assembly::new(system, &self.dofs, &solver, self.threads);
         Ok((solver, assembly))
+    }
+
+    /// How many of these degrees of freedom of all nodes are what they are for this reason.
+    fn count(&self, why: place::Why, dofs: std::ops::Range<usize>) -> usize {
+        self.nodes.iter().map(|node| node[dofs.clone()].iter().filter(|&&of| of == why).count()).sum()
     }
 
     /// True for directions that ride, are held or are left out: their increments do not come from the solution.

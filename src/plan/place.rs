@@ -1,6 +1,5 @@
 //! For each direction of each node: unknown, held, riding, or left out, and why.
 
-use super::Omission;
 use crate::constraints::joint::Row;
 use crate::elements::ElementBlock;
 use crate::math::Vec3;
@@ -23,7 +22,7 @@ pub enum Why {
 
 pub type Place = [Why; 6];
 
-pub fn place(model: &Model, system: &System) -> (Vec<Place>, Vec<Omission>) {
+pub fn place(model: &Model, system: &System) -> Vec<Place> {
     let n = model.nodes.len();
     let resisted = resistance(system, n);
     let moved = causes(model, system, &resisted);
@@ -61,30 +60,7 @@ pub fn place(model: &Model, system: &System) -> (Vec<Place>, Vec<Omission>) {
     for held in &model.held {
         places[held.node][held.dof] = Why::Held;
     }
-    let omissions = explain(&places, normal);
-    (places, omissions)
-}
-
-fn explain(places: &[Place], normal: Option<usize>) -> Vec<Omission> {
-    let count = |why: Why, dofs: std::ops::Range<usize>| -> usize {
-        places.iter().map(|p| p[dofs.clone()].iter().filter(|&&w| w == why).count()).sum()
-    };
-    let axis = ["x", "y", "z"][normal.unwrap_or(0)];
-    [
-        (count(Why::Held, 0..6), "held: their motion is given".to_string()),
-        (count(Why::Rides, 0..6), "eliminated: they ride on a body or node (58)".to_string()),
-        (count(Why::Nothing, 0..3), "translations on which nothing acts".to_string()),
-        (count(Why::Nothing, 3..6), "rotations on which nothing acts: neither element nor inertia".to_string()),
-        (count(Why::Still, 0..6), "directions of free masses that nothing sets moving".to_string()),
-        (
-            count(Why::Plane, 0..6),
-            format!("motion out of the plane normal to {axis}: the scene is plane, nothing causes it"),
-        ),
-    ]
-    .into_iter()
-    .filter(|(count, _)| *count > 0)
-    .map(|(count, what)| Omission { count, what })
-    .collect()
+    places
 }
 
 /// Directions on which elements, links or riders act.

@@ -23,29 +23,27 @@ impl Plan {
             let times = operations(with) / own;
             if times >= WORTH {
                 out.push(format!(
-                    "{what}: with them {unknowns} unknowns and {times:.1} times the operations of a factorisation"
+                    "{what}: with them {unknowns} unknowns and {times:.1} times the operations of a factorization"
                 ));
             }
         };
         let kept = [
-            (Why::Plane, "directions out of the plane"),
-            (Why::Still, "masses that nothing sets moving"),
-            (Why::Held, "held directions"),
+            (Why::Plane, "degrees of freedom out of the plane"),
+            (Why::Still, "inactive degrees of freedom"),
+            (Why::Held, "restrained degrees of freedom"),
         ];
         for (why, what) in kept {
             let sizes = self.sizes_with(why);
             compare(what, &grouped(&sizes, cliques(system, sizes.len()), system.joints.len()));
         }
         if !system.attachments.is_empty() {
-            compare("multipliers of attached nodes", &self.with_multipliers(system));
+            compare("Lagrange multipliers of dependent nodes", &self.with_multipliers(system));
         }
         if self.kind == Factorization::Cholesky && !self.linear {
-            out.push(
-                "the unsymmetric part of the tangent: with it 2 times the operations of a factorisation".to_string(),
-            );
+            out.push("unsymmetric part of the tangent: with it 2 times the operations of a factorization".to_string());
         }
         if self.linear && model.analysis.kind == AnalysisKind::Dynamic {
-            out.push("iterations: the scene is linear, one solve a step is exact".to_string());
+            out.push("equilibrium iterations: the scene is linear, one solve per step is exact".to_string());
         }
         out
     }

@@ -5,23 +5,23 @@
 //! Error = √(mean |q − q_ref|²) / max |q_ref| over equidistant times, q all quantities. Steps land on these times; nothing is
 //! interpolated. The reference is a file, or what the finest runs tend to, with a bound of its own error ([`reference`]).
 
-mod child;
+mod grid;
 mod history;
-mod ladder;
-mod made;
+mod manifest;
 mod order;
 mod page;
 mod picture;
+mod process;
 mod progress;
 mod reference;
 mod rigidify;
-mod rows;
 mod runs;
+mod study_csv;
 mod table;
 
-pub use child::LIFELINE;
-pub use ladder::{Ladder, Line};
+pub use grid::{Line, StudyGrid};
 pub use order::{Cheapest, Order};
+pub use process::LIFELINE;
 pub use reference::Reference;
 pub use rigidify::{Advice, Part, rigidify};
 pub use runs::{Run, Status};
@@ -30,12 +30,12 @@ use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::model::study::Quantity;
-use made::Made;
+use manifest::Manifest;
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-/// What a ladder writes besides its runs.
+/// Files that a study writes besides its runs.
 const TABLE: &str = "study.csv";
 const PICTURE: &str = "study.svg";
 const PAGE: &str = "study.html";
@@ -70,12 +70,12 @@ impl From<io::Error> for Fault {
     }
 }
 
-/// A ladder climbed.
+/// A study that has been run.
 pub struct Found {
     pub title: String,
     pub deck: String,
     pub quantities: Vec<Quantity>,
-    pub ladder: Ladder,
+    pub grid: StudyGrid,
     /// By line, longest time step first.
     pub runs: Vec<Run>,
     /// Or why there is none, in words.
@@ -88,7 +88,7 @@ pub struct Found {
     pub stopped: bool,
 }
 
-/// Runs the ladder of a sound deck and writes study.csv, study.svg and study.html.
+/// Runs the grid of settings of a sound deck and writes study.csv, study.svg and study.html.
 pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Found, Fault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);
@@ -96,32 +96,32 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     let key = deck.study.as_ref().and_then(|study| study.reference.as_ref()).map(|file| &file.span);
     let given = reference::read(model, &asked, &quantities, &base, key);
     let samples = given.as_ref().ok().and_then(|given| given.as_ref()).map(|given| given.samples);
-    let ladder = Ladder::new(model, deck, &asked, &quantities, samples);
-    let (given, ladder) = match (given, ladder) {
-        (Ok(given), Ok(ladder)) => (given, ladder),
-        (given, ladder) => {
-            return Err(Fault::Deck([given.err(), ladder.err()].into_iter().flatten().flatten().collect()));
+    let grid = StudyGrid::new(model, deck, &asked, &quantities, samples);
+    let (given, grid) = match (given, grid) {
+        (Ok(given), Ok(grid)) => (given, grid),
+        (given, grid) => {
+            return Err(Fault::Deck([given.err(), grid.err()].into_iter().flatten().flatten().collect()));
         }
     };
-    let mut made = Made::begin(&options.folder, &[TABLE, PICTURE, PAGE], &runs::folders(&ladder))?;
-    let (mut runs, stopped) = runs::climb(&ladder, &quantities, options, &mut made, stop)?;
+    let mut manifest = Manifest::begin(&options.folder, &[TABLE, PICTURE, PAGE], &runs::folders(&grid))?;
+    let (mut runs, stopped) = runs::run_all(&grid, &quantities, options, &mut manifest, stop)?;
     let reference = match given {
         Some(given) => Ok(given.into()),
-        None => reference::extrapolate(&ladder, &runs, &quantities),
+        None => reference::extrapolate(&grid, &runs, &quantities),
     };
     if let Ok(reference) = &reference {
         runs.iter_mut().for_each(|run| run.judge(reference, quantities.len()));
     }
-    let orders = order::orders(&ladder, &runs);
+    let orders = order::orders(&grid, &runs);
     let wanted = if asked.wanted_errors.is_empty() { vec![1e-2, 1e-3, 1e-4] } else { asked.wanted_errors.clone() };
-    let cheapest = order::cheapest(&ladder, &runs, &wanted);
+    let cheapest = order::cheapest(&grid, &runs, &wanted);
     let title = if model.title.is_empty() { options.deck.display().to_string() } else { model.title.clone() };
     let deck = options.deck.display().to_string();
-    let found = Found { title, deck, quantities, ladder, runs, reference, orders, cheapest, stopped };
-    made.write(TABLE, rows::table(&found).as_bytes())?;
+    let found = Found { title, deck, quantities, grid, runs, reference, orders, cheapest, stopped };
+    manifest.write(TABLE, study_csv::table(&found).as_bytes())?;
     let picture = picture::draw(&found);
-    made.write(PICTURE, picture.as_bytes())?;
-    made.write(PAGE, page::page(&found, &picture).as_bytes())?;
+    manifest.write(PICTURE, picture.as_bytes())?;
+    manifest.write(PAGE, page::page(&found, &picture).as_bytes())?;
     Ok(found)
 }
 

@@ -1,6 +1,6 @@
 //! What a line of runs says: its order where it has one, and what an error costs.
 
-use super::ladder::Ladder;
+use super::grid::StudyGrid;
 use super::runs::{Run, Status};
 
 /// Local orders that agree so far are of one slope.
@@ -25,39 +25,39 @@ pub struct Order {
 /// A line at the error asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cheapest {
-    /// Index into [`Ladder::lines`].
+    /// Index into [`StudyGrid::lines`].
     pub line: usize,
     pub loop_s: f64,
     pub process_s: f64,
     /// Time step or tolerance.
-    pub rung: f64,
-    /// The longest step of the ladder is better than asked for already.
+    pub resolution: f64,
+    /// The coarsest setting of the grid is better than asked for already.
     pub at_the_top: bool,
 }
 
 /// Of each line; or why it has none.
-pub fn orders(ladder: &Ladder, runs: &[Run]) -> Vec<Result<Order, &'static str>> {
+pub fn orders(grid: &StudyGrid, runs: &[Run]) -> Vec<Result<Order, &'static str>> {
     let of = |line| {
         let of_line: Vec<&Run> = runs.iter().filter(|run| run.line == line).collect();
-        of_rungs(ladder.rungs(line), &of_line)
+        over(grid.resolutions(line), &of_line)
     };
-    (0..ladder.lines.len()).map(of).collect()
+    (0..grid.lines.len()).map(of).collect()
 }
 
 /// Over settings next to each other: one that failed, or was not come to, parts the line.
-fn of_rungs(rungs: &[f64], runs: &[&Run]) -> Result<Order, &'static str> {
-    let run = |rung: &f64| runs.iter().find(|run| run.rung == *rung && run.status == Status::Done);
+fn over(resolutions: &[f64], runs: &[&Run]) -> Result<Order, &'static str> {
+    let run = |resolution: &f64| runs.iter().find(|run| run.resolution == *resolution && run.status == Status::Done);
     // Errors well above that of the reference.
-    let point = |rung: &f64| {
-        let run = run(rung).filter(|run| run.resolved)?;
-        Some((run.rung.ln(), run.error.filter(|error| *error > 0.0)?.ln()))
+    let point = |resolution: &f64| {
+        let run = run(resolution).filter(|run| run.resolved)?;
+        Some((run.resolution.ln(), run.error.filter(|error| *error > 0.0)?.ln()))
     };
-    let points: Vec<Option<(f64, f64)>> = rungs.iter().map(point).collect();
+    let points: Vec<Option<(f64, f64)>> = resolutions.iter().map(point).collect();
     // The last of the longest.
     let stretches = points.split(Option::is_none).map(|of| of.iter().copied().flatten().collect::<Vec<_>>());
     let best = stretches.filter_map(|points| order(&points)).max_by_key(|order| order.runs);
-    let in_a_row = || rungs.windows(2).any(|pair| pair.iter().all(|rung| run(rung).is_some()));
-    best.ok_or_else(|| match rungs.iter().all(|rung| run(rung).is_some()) || in_a_row() {
+    let in_a_row = || resolutions.windows(2).any(|pair| pair.iter().all(|resolution| run(resolution).is_some()));
+    best.ok_or_else(|| match resolutions.iter().all(|resolution| run(resolution).is_some()) || in_a_row() {
         true => "no steady order",
         false => "no order: no two settings next to each other came to their end",
     })
@@ -102,18 +102,19 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 }
 
 /// For each error asked for, the lines that come to it, the cheapest first: on straight lines between neighbours of log error
-/// and log time, never beyond the ladder.
-pub fn cheapest(ladder: &Ladder, runs: &[Run], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
+/// and log time, never beyond the grid.
+pub fn cheapest(grid: &StudyGrid, runs: &[Run], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
     let of = |error: f64| {
-        let lines = 0..ladder.lines.len();
-        let mut found: Vec<Cheapest> = lines.filter_map(|line| cost(ladder.rungs(line), runs, line, error)).collect();
+        let lines = 0..grid.lines.len();
+        let mut found: Vec<Cheapest> =
+            lines.filter_map(|line| cost(grid.resolutions(line), runs, line, error)).collect();
         found.sort_by(|a, b| a.loop_s.total_cmp(&b.loop_s));
         (error, found)
     };
     wanted.iter().map(|&error| of(error)).collect()
 }
 
-fn cost(rungs: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
+fn cost(resolutions: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
     // Bounds count: what they hold is at least as good.
     let points: Vec<(&Run, f64)> =
         runs.iter().filter(|run| run.line == line).filter_map(|run| Some((run, run.error?))).collect();
@@ -122,14 +123,14 @@ fn cost(rungs: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapes
         line,
         loop_s: run.loop_s,
         process_s: run.process_s,
-        rung: run.rung,
+        resolution: run.resolution,
         at_the_top,
     };
     let mut best = reached.map(|(run, _)| at(run, false)).min_by(|a, b| a.loop_s.total_cmp(&b.loop_s))?;
-    best.at_the_top = rungs.first() == Some(&best.rung);
+    best.at_the_top = resolutions.first() == Some(&best.resolution);
     for pair in points.windows(2) {
         let ((coarse, above), (fine, below)) = (pair[0], pair[1]);
-        let neighbours = rungs.windows(2).any(|pair| pair == [coarse.rung, fine.rung]);
+        let neighbours = resolutions.windows(2).any(|pair| pair == [coarse.resolution, fine.resolution]);
         if !(neighbours && above > wanted && below <= wanted && below > 0.0) {
             continue;
         }
@@ -138,8 +139,8 @@ fn cost(rungs: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapes
         let loop_s = between(coarse.loop_s, fine.loop_s);
         if loop_s < best.loop_s {
             let process_s = between(coarse.process_s, fine.process_s);
-            let rung = between(coarse.rung, fine.rung);
-            best = Cheapest { line, loop_s, process_s, rung, at_the_top: false };
+            let resolution = between(coarse.resolution, fine.resolution);
+            best = Cheapest { line, loop_s, process_s, resolution, at_the_top: false };
         }
     }
     Some(best)
@@ -149,7 +150,7 @@ fn cost(rungs: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapes
 pub fn local(before: Option<&Run>, run: &Run) -> Option<f64> {
     let before = before.filter(|before| before.resolved && run.resolved)?;
     let (above, below) = (before.error?, run.error?);
-    let order = (above / below).ln() / (before.rung / run.rung).ln();
+    let order = (above / below).ln() / (before.resolution / run.resolution).ln();
     order.is_finite().then_some(order)
 }
 
@@ -179,10 +180,10 @@ mod tests {
 
     #[test]
     fn settings_that_failed_part_a_line() {
-        let rungs = [0.08, 0.04, 0.02, 0.01, 0.005];
-        let run = |rung: f64, status| Run {
+        let resolutions = [0.08, 0.04, 0.02, 0.01, 0.005];
+        let run = |resolution: f64, status| Run {
             line: 0,
-            rung,
+            resolution,
             folder: String::new(),
             status,
             reason: String::new(),
@@ -190,7 +191,7 @@ mod tests {
             loop_s: 1.0,
             process_s: 1.0,
             times: vec![1.0],
-            error: (status == Status::Done).then_some(rung * rung),
+            error: (status == Status::Done).then_some(resolution * resolution),
             errors: Vec::new(),
             resolved: status == Status::Done,
             history: Vec::new(),
@@ -198,8 +199,12 @@ mod tests {
         let of = |words: &str| {
             let status = |word| if word == 'd' { Status::Done } else { Status::NotConverged };
             // Those behind the words were never run.
-            let runs: Vec<Run> = rungs.iter().zip(words.chars()).map(|(&rung, word)| run(rung, status(word))).collect();
-            of_rungs(&rungs, &runs.iter().collect::<Vec<_>>()).map(|order| (order.runs, order.from, order.to))
+            let runs: Vec<Run> = resolutions
+                .iter()
+                .zip(words.chars())
+                .map(|(&resolution, word)| run(resolution, status(word)))
+                .collect();
+            over(&resolutions, &runs.iter().collect::<Vec<_>>()).map(|order| (order.runs, order.from, order.to))
         };
         let (near, exact) = (|a: f64, b: f64| (a / b - 1.0).abs() < 1e-12, of("ddddd").unwrap());
         assert!(exact.0 == 5 && near(exact.1, 0.08) && near(exact.2, 0.005), "{exact:?}");

@@ -5,20 +5,20 @@ use crate::output::report::STYLE;
 use crate::output::report::html::{self, escaped};
 
 pub fn page(found: &Found, picture: &str) -> String {
-    let label = |line: usize| found.ladder.lines[line].label.clone();
+    let label = |line: usize| found.grid.lines[line].label.clone();
     let orders: Vec<Vec<String>> = found
         .orders
         .iter()
         .enumerate()
-        .map(|(line, order)| vec![label(line), table::order(&found.ladder.lines[line], order)])
+        .map(|(line, order)| vec![label(line), table::order(&found.grid.lines[line], order)])
         .collect();
     let mut cheapest = Vec::new();
     for (wanted, list) in &found.cheapest {
         for of in list {
-            cheapest.push(vec![format!("{wanted:e}"), label(of.line), table::cost(&found.ladder.lines[of.line], of)]);
+            cheapest.push(vec![format!("{wanted:e}"), label(of.line), table::cost(&found.grid.lines[of.line], of)]);
         }
         if list.is_empty() {
-            cheapest.push(vec![format!("{wanted:e}"), "no run comes to it".into(), String::new()]);
+            cheapest.push(vec![format!("{wanted:e}"), "no run reaches it".into(), String::new()]);
         }
     }
     let picture = picture.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");

@@ -56,7 +56,7 @@ pub fn draw(found: &Found) -> String {
     let runs: Vec<&Run> = found.runs.iter().filter(shown).collect();
     let errors: Vec<f64> = runs.iter().filter_map(|run| run.error).collect();
     let times: Vec<f64> = runs.iter().map(|run| run.loop_s).collect();
-    let letters = found.ladder.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0).max(28);
+    let letters = found.grid.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0).max(28);
     let whole = left + width + 52.0 + LETTER * letters as f64;
     let (x, y) = (Axis::new(&times, [left, left + width]), Axis::new(&errors, [top + height, top]));
     let mut out = format!(
@@ -89,12 +89,12 @@ pub fn draw(found: &Found) -> String {
             out += &line("wanted", [left, y.at(*wanted), left + width, y.at(*wanted)]);
         }
     }
-    out += &text("middle", left + 0.5 * width, top + height + 42.0, "time loop, s");
+    out += &text("middle", left + 0.5 * width, top + height + 42.0, "run time of the time stepping (s)");
     let middle = top + 0.5 * height;
     out += &format!(
-        "<text x=\"18\" y=\"{middle:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 {middle:.1})\">error</text>\n"
+        "<text x=\"18\" y=\"{middle:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 {middle:.1})\">relative error</text>\n"
     );
-    for (index, setting) in found.ladder.lines.iter().enumerate() {
+    for (index, setting) in found.grid.lines.iter().enumerate() {
         let (colour, dash) = (COLOURS[index % COLOURS.len()], DASHES[index / COLOURS.len() % DASHES.len()]);
         let of_line: Vec<&&Run> = runs.iter().filter(|run| run.line == index).collect();
         let points: Vec<String> =
@@ -107,7 +107,7 @@ pub fn draw(found: &Found) -> String {
             let title = format!(
                 "{}, {}: error {}{error:.2e}, loop {} s",
                 setting.label,
-                super::table::rung(setting, run.rung),
+                super::table::resolution(setting, run.resolution),
                 if run.resolved { "" } else { "at most " },
                 super::table::seconds(run.loop_s)
             );
@@ -125,8 +125,8 @@ pub fn draw(found: &Found) -> String {
     }
     if runs.iter().any(|run| !run.resolved) {
         let at = top + height + 42.0;
-        out += &text("start", left + width + 16.0, at, "hollow: a bound, not told from");
-        out += &text("start", left + width + 16.0, at + 16.0, "the reference");
+        out += &text("start", left + width + 16.0, at, "hollow: an upper bound, below the");
+        out += &text("start", left + width + 16.0, at + 16.0, "resolution of the reference");
     }
     out + "</svg>\n"
 }

@@ -1,7 +1,7 @@
 //! What errors are measured against: a file, or what the finest runs tend to.
 //!
 //! Without a file, each line of settings is extrapolated to a time step of zero (Richardson): q* = q + (q − q')/(rᵖ − 1) from its
-//! two finest runs, p the order that the three finest show, or the whole number next to it. What a whole order gives one rung up
+//! two finest runs, p the order that the three finest show, or the whole number next to it. What a whole order gives one resolution up
 //! is an independent answer; their difference bounds the error of q* with room to spare. Of an order that is not whole, the whole
 //! ones on both sides give the bound. Over several meshes the limits in
 //! time are extrapolated in the same way. The line with the least bound is taken, and its bound raised where another line's
@@ -10,8 +10,8 @@
 //! The step of a run is the mean of those it took: what was asked for may have been cut to the limit of stability, or to the
 //! interval between samples, and runs with the same steps show nothing of their error.
 
+use super::grid::StudyGrid;
 use super::history;
-use super::ladder::Ladder;
 use super::runs::{Run, Status};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::mesh::text::{Line, Text};
@@ -21,7 +21,7 @@ use crate::names::{nearest, quoted};
 use std::fs;
 use std::path::Path;
 
-/// Steps less than so many times as long as others are as long: fewer than the halves of a ladder, more than what rounding to
+/// Steps less than so many times as long as others are as long: less than halving does, more than what rounding to
 /// whole steps makes of equal ones.
 const ALIKE: f64 = 1.05;
 /// Runs that are alike to the last digit tell no more than this of what they tend to, relative to the largest motion: rounding of
@@ -35,7 +35,7 @@ pub struct Reference {
     /// At the sample times one after the other, each time all quantities.
     pub values: Vec<f64>,
     /// Of its own error, relative as errors are; 0 for a file, of which nothing is known.
-    pub bar: f64,
+    pub error_bound: f64,
     /// Where it comes from, in words.
     pub source: String,
 }
@@ -49,7 +49,7 @@ pub struct Given {
 
 impl From<Given> for Reference {
     fn from(given: Given) -> Self {
-        Reference { values: given.values, bar: 0.0, source: given.source }
+        Reference { values: given.values, error_bound: 0.0, source: given.source }
     }
 }
 
@@ -238,7 +238,7 @@ fn rows(study: &Study, quantities: &[Quantity], bytes: &[u8], faults: &mut Fault
 struct Limit {
     q: Vec<f64>,
     /// Of its error, relative.
-    bar: f64,
+    error_bound: f64,
     /// `None`: nothing was extrapolated.
     order: Option<f64>,
     /// Room for errors of what was extrapolated: they grow so many times.
@@ -252,7 +252,7 @@ fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     let last = history::error(before, fine, count, |_| true).max(ROUNDING);
     // Of first order the finest run is off by Δ/(r − 1): less is not taken for granted where no order is seen.
     let ratio = h[n - 2] / h[n - 1];
-    let as_it_is = Limit { q: fine.to_vec(), bar: last / (ratio - 1.0).min(1.0), order: None, growth: 1.0 };
+    let as_it_is = Limit { q: fine.to_vec(), error_bound: last / (ratio - 1.0).min(1.0), order: None, growth: 1.0 };
     let Some(first) = n.checked_sub(3).map(|i| q[i]) else { return Some(as_it_is) };
     let (r1, r2) = (h[n - 3] / h[n - 2], h[n - 2] / h[n - 1]);
     let ratio = distance(first, before) / distance(before, fine);
@@ -265,18 +265,18 @@ fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     };
     let best = toward(before, fine, r2, order);
     let apart = |other: &[f64]| history::error(other, &best, count, |_| true);
-    let mut bar = apart(&toward(first, before, r1, order)).max(ROUNDING);
+    let mut error_bound = apart(&toward(first, before, r1, order)).max(ROUNDING);
     // An order as it was measured makes the two agree whatever the truth is: the orders next to it may be that.
     if !whole {
         let least = if order < 1.0 { fine.to_vec() } else { toward(before, fine, r2, order.floor()) };
-        bar = bar.max(apart(&least)).max(apart(&toward(before, fine, r2, order.ceil())));
+        error_bound = error_bound.max(apart(&least)).max(apart(&toward(before, fine, r2, order.ceil())));
     }
     // Where that says no more than the runs, there is no order to speak of.
-    if bar >= as_it_is.bar {
+    if error_bound >= as_it_is.error_bound {
         return Some(as_it_is);
     }
     let growth = 1.0 + 2.0 / (r2.powf(order) - 1.0);
-    Some(Limit { q: best, bar, order: Some(order), growth })
+    Some(Limit { q: best, error_bound, order: Some(order), growth })
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
@@ -312,13 +312,13 @@ fn distinct<'a>(runs: impl DoubleEndedIterator<Item = &'a Run>, end_time: f64) -
 }
 
 /// Why there is nothing to extrapolate.
-fn nothing(ladder: &Ladder, runs: &[Run]) -> String {
+fn nothing(grid: &StudyGrid, runs: &[Run]) -> String {
     let ended = |line: usize| runs.iter().filter(move |run| run.line == line && run.status == Status::Done).count();
-    let rungs = |line: usize| ladder.rungs(line).len();
-    let lines = || 0..ladder.lines.len();
+    let resolutions = |line: usize| grid.resolutions(line).len();
+    let lines = || 0..grid.lines.len();
     if lines().any(|line| ended(line) > 1) {
         "no two runs of a line differ: steps are as long as samples or stability allow".to_owned()
-    } else if lines().all(|line| ended(line) == rungs(line)) {
+    } else if lines().all(|line| ended(line) == resolutions(line)) {
         "each line has one run: take two time steps or more".to_owned()
     } else {
         "too few runs came to their end".to_owned()
@@ -332,61 +332,61 @@ fn at_rest(quantities: &[Quantity]) -> String {
     format!("nothing moves of what errors are measured on{}", hint.unwrap_or_default())
 }
 
-/// What the runs of a ladder tend to; or, in words, why that is not known.
-pub fn extrapolate(ladder: &Ladder, runs: &[Run], quantities: &[Quantity]) -> Result<Reference, String> {
+/// What the runs of a grid tend to; or, in words, why that is not known.
+pub fn extrapolate(grid: &StudyGrid, runs: &[Run], quantities: &[Quantity]) -> Result<Reference, String> {
     let ended = runs.iter().filter(|run| run.status == Status::Done);
-    let finest = ended.map(|run| ladder.lines[run.line].mesh).fold(0.0, f64::max);
-    let mut candidates: Vec<(usize, Limit, Option<Limit>)> = ladder
+    let finest = ended.map(|run| grid.lines[run.line].mesh).fold(0.0, f64::max);
+    let mut candidates: Vec<(usize, Limit, Option<Limit>)> = grid
         .lines
         .iter()
         .enumerate()
         .filter(|(_, line)| line.mesh == finest)
-        .filter_map(|(index, _)| over_meshes(ladder, runs, index).map(|(time, mesh)| (index, time, mesh)))
+        .filter_map(|(index, _)| over_meshes(grid, runs, index).map(|(time, mesh)| (index, time, mesh)))
         .collect();
-    // Automatic steps differ from rung to rung in more than their length.
-    if candidates.iter().any(|(line, ..)| !ladder.lines[*line].automatic) {
-        candidates.retain(|(line, ..)| !ladder.lines[*line].automatic);
+    // Automatic steps differ from resolution to resolution in more than their length.
+    if candidates.iter().any(|(line, ..)| !grid.lines[*line].automatic) {
+        candidates.retain(|(line, ..)| !grid.lines[*line].automatic);
     }
     let of = |(_, time, mesh): &(usize, Limit, Option<Limit>)| mesh.clone().unwrap_or_else(|| time.clone());
-    let Some(best) = candidates.iter().min_by(|a, b| of(a).bar.total_cmp(&of(b).bar)) else {
-        return Err(nothing(ladder, runs));
+    let Some(best) = candidates.iter().min_by(|a, b| of(a).error_bound.total_cmp(&of(b).error_bound)) else {
+        return Err(nothing(grid, runs));
     };
     let limit = of(best);
     if limit.q.iter().all(|value| *value == 0.0) {
         return Err(at_rest(quantities));
     }
-    if !limit.bar.is_finite() {
+    if !limit.error_bound.is_finite() {
         return Err("the runs are too far apart to tell a limit".to_owned());
     }
-    let count = limit.q.len() / (ladder.samples + 1);
-    let apart = |other: &Limit| history::error(&other.q, &limit.q, count, |_| true) - other.bar;
-    let bar = candidates.iter().map(|other| apart(&of(other))).fold(limit.bar, f64::max);
+    let count = limit.q.len() / (grid.samples + 1);
+    let apart = |other: &Limit| history::error(&other.q, &limit.q, count, |_| true) - other.error_bound;
+    let error_bound = candidates.iter().map(|other| apart(&of(other))).fold(limit.error_bound, f64::max);
     let order = |limit: &Limit, what: &str| match limit.order {
         Some(order) => format!("extrapolated in the {what} at order {}", crate::names::short(order)),
         None => format!("not extrapolated in the {what}"),
     };
-    let mut source = format!("the finest runs of {}, {}", ladder.lines[best.0].label, order(&best.1, "time step"));
+    let mut source = format!("the finest runs of {}, {}", grid.lines[best.0].label, order(&best.1, "time step"));
     if let Some(mesh) = &best.2 {
         source += &format!(" and {}", order(mesh, "mesh"));
     }
-    Ok(Reference { values: limit.q, bar, source })
+    Ok(Reference { values: limit.q, error_bound, source })
 }
 
 /// The limits of a line in time, and of it and its coarser meshes in both.
-fn over_meshes(ladder: &Ladder, runs: &[Run], index: usize) -> Option<(Limit, Option<Limit>)> {
-    let line = &ladder.lines[index];
+fn over_meshes(grid: &StudyGrid, runs: &[Run], index: usize) -> Option<(Limit, Option<Limit>)> {
+    let line = &grid.lines[index];
     let of_line = |index: usize| {
         let done = runs.iter().filter(|run| run.line == index && run.status == Status::Done);
         let (h, q): (Vec<f64>, Vec<&[f64]>) =
-            distinct(done, ladder.end_time).iter().map(|(h, run)| (*h, run.history.as_slice())).unzip();
-        let count = q.first()?.len() / (ladder.samples + 1);
-        limit(&h, &q, count, ladder.lines[index].order).map(|limit| (limit, count))
+            distinct(done, grid.end_time).iter().map(|(h, run)| (*h, run.history.as_slice())).unzip();
+        let count = q.first()?.len() / (grid.samples + 1);
+        limit(&h, &q, count, grid.lines[index].order).map(|limit| (limit, count))
     };
     let (time, count) = of_line(index)?;
     let same = |other: &super::Line| {
         other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic
     };
-    let meshes = ladder.lines.iter().enumerate().filter(|(_, other)| same(other));
+    let meshes = grid.lines.iter().enumerate().filter(|(_, other)| same(other));
     let mut meshes: Vec<(f64, Limit)> =
         meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();
     meshes.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -395,8 +395,8 @@ fn over_meshes(ladder: &Ladder, runs: &[Run], index: usize) -> Option<(Limit, Op
     }
     let (h, q): (Vec<f64>, Vec<&[f64]>) = meshes.iter().map(|(h, limit)| (*h, limit.q.as_slice())).unzip();
     let mut mesh = limit(&h, &q, count, f64::INFINITY)?;
-    let in_time = meshes.iter().rev().take(2).map(|(_, limit)| limit.bar).fold(0.0, f64::max);
-    mesh.bar += mesh.growth * in_time;
+    let in_time = meshes.iter().rev().take(2).map(|(_, limit)| limit.error_bound).fold(0.0, f64::max);
+    mesh.error_bound += mesh.growth * in_time;
     Some((time, Some(mesh)))
 }
 
@@ -418,10 +418,10 @@ mod tests {
                 let limit = limit(&h, &q, 1, f64::INFINITY).unwrap();
                 let error = history::error(&limit.q, &[1.0, 1.0], 1, |_| true);
                 let finest = history::error(&runs[2], &[1.0, 1.0], 1, |_| true);
-                assert!(error <= limit.bar, "order {p}, {h:?}: {error} of {}", limit.bar);
-                // It says more than the finest run itself, or not much less: at high orders the rung above is far off.
+                assert!(error <= limit.error_bound, "order {p}, {h:?}: {error} of {}", limit.error_bound);
+                // It says more than the finest run itself, or not much less: at high orders the resolution above is far off.
                 let most = if p == p.round() && p < 4.0 { 1.0 } else { 3.0 };
-                assert!(limit.bar < most * finest, "order {p}, {h:?}: {} of {finest}", limit.bar);
+                assert!(limit.error_bound < most * finest, "order {p}, {h:?}: {} of {finest}", limit.error_bound);
             }
         }
     }
@@ -446,7 +446,7 @@ mod tests {
         let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
         let of = |most: f64| limit(&[0.4, 0.2, 0.1], &q, 1, most).unwrap();
         assert_eq!((of(3.0).order, of(2.0).order), (Some(3.0), None));
-        assert_eq!((of(2.0).q.as_slice(), of(2.0).bar), (q[2], history::error(q[1], q[2], 1, |_| true)));
+        assert_eq!((of(2.0).q.as_slice(), of(2.0).error_bound), (q[2], history::error(q[1], q[2], 1, |_| true)));
     }
 
     #[test]
@@ -456,7 +456,7 @@ mod tests {
         for q in [vec![run.as_slice(); 2], vec![run.as_slice(); 3], vec![&other, &run, &run]] {
             let h: Vec<f64> = (0..q.len()).rev().map(|k| 2f64.powi(k as i32)).collect();
             let limit = limit(&h, &q, 1, f64::INFINITY).unwrap();
-            assert_eq!((limit.bar, limit.q), (ROUNDING, run.clone()));
+            assert_eq!((limit.error_bound, limit.q), (ROUNDING, run.clone()));
         }
     }
 
@@ -466,6 +466,6 @@ mod tests {
         let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
         let limit = limit(&[4.0, 2.0, 1.0], &q, 1, f64::INFINITY).unwrap();
         assert_eq!((limit.q.as_slice(), limit.order), (&runs[2][..], None));
-        assert_eq!(limit.bar, history::error(&runs[1], &runs[2], 1, |_| true));
+        assert_eq!(limit.error_bound, history::error(&runs[1], &runs[2], 1, |_| true));
     }
 }

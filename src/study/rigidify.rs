@@ -1,12 +1,12 @@
 //! What would it cost to make a part rigid, and what would it save? Each part's share of the elastic energy says where to look;
 //! a run with that part rigid says what comes of it.
 
-use super::child::{Ended, Program};
-use super::ladder::{SAMPLES, output};
-use super::made::Made;
+use super::grid::{SAMPLES, output};
+use super::manifest::Manifest;
+use super::process::{Ended, Program};
 use super::progress::Progress;
-use super::rows::{field, maybe};
 use super::runs::{AS_IT_IS, RIGID, RUNS, Run, Status, program};
+use super::study_csv::{field, maybe};
 use super::table::seconds;
 use super::{Fault, Options, columns, history};
 use crate::deck::Deck;
@@ -73,7 +73,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     let folder =
         |index: usize| if index == 0 { format!("{RUNS}/{AS_IT_IS}") } else { format!("{RUNS}/{RIGID}{index}") };
     let folders: Vec<String> = (0..=candidates.len()).map(folder).collect();
-    let mut made = Made::begin(&options.folder, &[TABLE], &folders)?;
+    let mut manifest = Manifest::begin(&options.folder, &[TABLE], &folders)?;
     let end = model.analysis.end_time;
     // Samples closer together than the deck's steps would shorten these.
     let steps = (end / model.analysis.nominal_step() + 1e-9).floor().max(1.0);
@@ -99,7 +99,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
             let folder = folders[index].clone();
             let place = options.folder.join(&folder);
             if repeat == 0 {
-                made.note(&folder)?;
+                manifest.note(&folder)?;
             }
             let sets: Vec<String> = options.sets.iter().chain(own).chain(&common).cloned().collect();
             let Some(ended) = run(&program, &sets, &place, stop)? else {
@@ -159,7 +159,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     };
     let parts = candidates.into_iter().zip(runs).map(part).collect();
     let advice = Advice { quantities, samples, base, parts, stopped };
-    made.write(TABLE, advice.table().as_bytes())?;
+    manifest.write(TABLE, advice.table().as_bytes())?;
     Ok(advice)
 }
 

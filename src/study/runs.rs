@@ -1,10 +1,10 @@
-//! The runs of a ladder: one each for its answer, then again for its time, in turn, so that what disturbs the machine for a while
+//! The runs of a study: one each for its answer, then again for its time, in turn, so that what disturbs the machine for a while
 //! disturbs all settings alike.
 
-use super::child::{Ended, Program, first_error};
+use super::grid::StudyGrid;
 use super::history;
-use super::ladder::Ladder;
-use super::made::Made;
+use super::manifest::Manifest;
+use super::process::{Ended, Program, first_error};
 use super::progress::Progress;
 use super::reference::Reference;
 use super::{Fault, Options};
@@ -44,10 +44,10 @@ impl Status {
 /// A setting and what came of it.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// Index into [`Ladder::lines`].
+    /// Index into [`StudyGrid::lines`].
     pub line: usize,
     /// Its time step; on an automatic line, its tolerance.
-    pub rung: f64,
+    pub resolution: f64,
     /// Its folder, below that of the study.
     pub folder: String,
     pub status: Status,
@@ -91,8 +91,9 @@ impl Run {
         }
         let error = history::error(&self.history, &reference.values, count, |_| true);
         self.errors = (0..count).map(|k| history::error(&self.history, &reference.values, count, |i| i == k)).collect();
-        self.resolved = error >= RESOLVED * reference.bar;
-        self.error = Some(if self.resolved { error } else { error + reference.bar }).filter(|error| error.is_finite());
+        self.resolved = error >= RESOLVED * reference.error_bound;
+        self.error =
+            Some(if self.resolved { error } else { error + reference.error_bound }).filter(|error| error.is_finite());
     }
 }
 
@@ -101,56 +102,56 @@ fn folder(index: usize) -> String {
     format!("{RUNS}/{}", index + 1)
 }
 
-/// Folders of all runs of a ladder.
-pub fn folders(ladder: &Ladder) -> Vec<String> {
-    let count = (0..ladder.lines.len()).map(|line| ladder.rungs(line).len()).sum();
+/// Folders of all runs of a grid.
+pub fn folders(grid: &StudyGrid) -> Vec<String> {
+    let count = (0..grid.lines.len()).map(|line| grid.resolutions(line).len()).sum();
     (0..count).map(folder).collect()
 }
 
-/// Runs the ladder. The runs that came to be, and whether a signal ended it.
-pub fn climb(
-    ladder: &Ladder,
+/// Runs all settings. Returns the runs that came to be, and whether a signal ended it.
+pub fn run_all(
+    grid: &StudyGrid,
     quantities: &[Quantity],
     options: &Options,
-    made: &mut Made,
+    manifest: &mut Manifest,
     stop: &AtomicBool,
 ) -> Result<(Vec<Run>, bool), Fault> {
     let program = program(options)?;
     let mut jobs = Vec::new();
-    for line in 0..ladder.lines.len() {
-        for &rung in ladder.rungs(line) {
-            let sets: Vec<String> = options.sets.iter().cloned().chain(ladder.overrides(line, rung)).collect();
-            jobs.push((line, rung, sets));
+    for line in 0..grid.lines.len() {
+        for &resolution in grid.resolutions(line) {
+            let sets: Vec<String> = options.sets.iter().cloned().chain(grid.overrides(line, resolution)).collect();
+            jobs.push((line, resolution, sets));
         }
     }
     // A process itself costs as much as some hundred steps.
-    let work = |line: usize, rung: f64| 300.0 + ladder.work(line, rung);
-    let all: f64 = jobs.iter().map(|(line, rung, _)| work(*line, *rung)).sum();
+    let work = |line: usize, resolution: f64| 300.0 + grid.work(line, resolution);
+    let all: f64 = jobs.iter().map(|(line, resolution, _)| work(*line, *resolution)).sum();
     let mut progress = Progress::new(options.quiet, all * options.repeats as f64);
     let mut runs: Vec<Run> = Vec::new();
     let mut stopped = false;
     for repeat in 0..options.repeats {
-        for (index, (line, rung, sets)) in jobs.iter().enumerate() {
-            let label = format!("{}, {}", ladder.lines[*line].label, crate::names::short(*rung));
+        for (index, (line, resolution, sets)) in jobs.iter().enumerate() {
+            let label = format!("{}, {}", grid.lines[*line].label, crate::names::short(*resolution));
             progress.show(&label, repeat + 1, options.repeats);
             let folder = folder(index);
             let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
             if repeat > 0 && runs.get(index).is_none_or(enough) {
-                progress.did(work(*line, *rung));
+                progress.did(work(*line, *resolution));
                 continue;
             }
             let place = options.folder.join(&folder);
             if repeat == 0 {
-                made.note(&folder)?;
+                manifest.note(&folder)?;
             }
             let Some(ended) = program.run(sets, &place, stop)? else {
                 stopped = true;
                 break;
             };
-            progress.did(work(*line, *rung));
+            progress.did(work(*line, *resolution));
             if repeat == 0 {
-                let run = Run::new(*line, *rung, folder, &ended, &place)?;
-                runs.push(run.with_history(quantities, ladder.samples, ladder.end_time, &place));
+                let run = Run::new(*line, *resolution, folder, &ended, &place)?;
+                runs.push(run.with_history(quantities, grid.samples, grid.end_time, &place));
             } else if ended.code == Some(0)
                 && let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place))
             {
@@ -172,7 +173,7 @@ pub fn program(options: &Options) -> io::Result<Program> {
 }
 
 impl Run {
-    pub fn new(line: usize, rung: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<Run> {
+    pub fn new(line: usize, resolution: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<Run> {
         let status = match ended.code {
             Some(0) => Status::Done,
             Some(4) => Status::NotConverged,
@@ -187,7 +188,7 @@ impl Run {
         let measured = if status == Status::Failed { Measured::default() } else { measured(place)? };
         Ok(Run {
             line,
-            rung,
+            resolution,
             folder,
             status,
             reason,
@@ -209,9 +210,9 @@ impl Run {
         self.process_s = self.process_s.min(process_s);
     }
 
-    /// The middle of its times.
-    pub fn middle_s(&self) -> f64 {
-        middle(self.times.clone()).unwrap_or(f64::NAN)
+    /// The median of its times.
+    pub fn median_s(&self) -> f64 {
+        median(self.times.clone()).unwrap_or(f64::NAN)
     }
 
     /// With what it has written; where that is not whole, it has failed.
@@ -226,17 +227,18 @@ impl Run {
     }
 }
 
-/// The upper one of two in the middle; `None`: there is none.
-fn middle(mut numbers: Vec<f64>) -> Option<f64> {
+/// The upper median; `None`: there are no numbers.
+fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied()
 }
 
-/// How far times can be trusted: the middle of a setting's times over the least of them, in the middle of all settings.
+/// How far times can be trusted: the median of a setting's times over the least of them, and of these ratios the median over all
+/// settings.
 /// `None`: nothing was run twice.
 pub fn spread(runs: &[Run]) -> Option<f64> {
     let twice = runs.iter().filter(|run| run.times.len() > 1 && run.loop_s > 0.0);
-    middle(twice.map(|run| run.middle_s() / run.loop_s).collect())
+    median(twice.map(|run| run.median_s() / run.loop_s).collect())
 }
 
 fn result(place: &Path) -> io::Result<Value> {
@@ -247,7 +249,7 @@ fn result(place: &Path) -> io::Result<Value> {
 
 fn reason(place: &Path) -> String {
     let result = result(place).unwrap_or_default();
-    one_line(result["reason"].as_str().unwrap_or_default().trim_end_matches("; results are valid up to this time"))
+    one_line(result["reason"].as_str().unwrap_or_default())
 }
 
 /// For a row of a table.
@@ -259,10 +261,8 @@ fn one_line(text: &str) -> String {
 pub fn measured(place: &Path) -> io::Result<Measured> {
     let result = result(place)?;
     let count = |key: &str| result["counts"][key].as_u64().unwrap_or(0);
-    let unknowns = result["plan"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    let unknowns = unknowns.filter_map(|line| line.strip_prefix("unknowns")?.split_whitespace().next()?.parse().ok());
     Ok(Measured {
-        unknowns: unknowns.into_iter().next().unwrap_or(0),
+        unknowns: result["sizes"]["unknowns"].as_u64().unwrap_or(0),
         steps: count("steps"),
         iterations: count("iterations"),
         factorizations: count("factorizations"),

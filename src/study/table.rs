@@ -31,7 +31,7 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
     let mut before: Option<&Run> = None;
     let mut rows = Vec::new();
     for run in &found.runs {
-        let line = &found.ladder.lines[run.line];
+        let line = &found.grid.lines[run.line];
         let order = local(before.filter(|before| before.line == run.line), run);
         before = Some(run);
         let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
@@ -42,7 +42,7 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
         };
         rows.push(vec![
             line.label.clone(),
-            rung(line, run.rung),
+            resolution(line, run.resolution),
             error(run),
             order.map_or(String::new(), |order| format!("{order:.2}")),
             if run.measured.steps > 0 { seconds(run.loop_s) } else { String::new() },
@@ -56,8 +56,8 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
 }
 
 /// A time step, or a tolerance that says it is one.
-pub fn rung(line: &Line, rung: f64) -> String {
-    if line.automatic { format!("tol {}", short(rung)) } else { short(rung) }
+pub fn resolution(line: &Line, resolution: f64) -> String {
+    if line.automatic { format!("tol {}", short(resolution)) } else { short(resolution) }
 }
 
 pub fn order(line: &Line, order: &Result<Order, &str>) -> String {
@@ -75,18 +75,18 @@ pub fn order(line: &Line, order: &Result<Order, &str>) -> String {
 /// "0.0021 s (process 0.0070 s), time step 0.0071".
 pub fn cost(line: &Line, of: &Cheapest) -> String {
     let what = if line.automatic { "tolerance" } else { "time step" };
-    let bound = if of.at_the_top { ", the first of the ladder" } else { "" };
+    let bound = if of.at_the_top { ", the coarsest setting run" } else { "" };
     let (loop_s, process_s) = (seconds(of.loop_s), seconds(of.process_s));
-    format!("loop {loop_s} s, process {process_s} s, {what} {}{bound}", short(of.rung))
+    format!("loop {loop_s} s, process {process_s} s, {what} {}{bound}", short(of.resolution))
 }
 
 /// What errors are measured against.
 pub fn reference(found: &Found) -> String {
-    let (samples, count) = (found.ladder.samples + 1, found.quantities.len());
+    let (samples, count) = (found.grid.samples + 1, found.quantities.len());
     let against = match &found.reference {
         Err(reason) => return format!("no reference: {reason}"),
-        Ok(reference) if reference.bar > 0.0 => {
-            format!("{}; its own error is about {:.1e} or less", reference.source, reference.bar)
+        Ok(reference) if reference.error_bound > 0.0 => {
+            format!("{}; its own error is at most about {:.1e}", reference.source, reference.error_bound)
         }
         Ok(reference) => reference.source.clone(),
     };
@@ -98,9 +98,9 @@ pub fn reference(found: &Found) -> String {
 pub fn timing(found: &Found) -> String {
     let most = found.runs.iter().map(|run| run.times.len()).max().unwrap_or(0);
     match spread(&found.runs) {
-        Some(spread) => format!(
-            "times: least of up to {most} runs in turn, of which the middle one takes {spread:.2} times as long\n"
-        ),
+        Some(spread) => {
+            format!("times: least of up to {most} runs in turn, whose median is {spread:.2} times as long\n")
+        }
         None => "times: of one run each\n".to_owned(),
     }
 }
@@ -109,34 +109,34 @@ pub fn text(found: &Found) -> String {
     let mut rows = vec![HEAD.map(String::from).to_vec()];
     rows.extend(cells(found));
     let mut text = format!("reference: {}\n{}", reference(found), timing(found));
-    if !found.ladder.fitted.is_empty() {
+    if !found.grid.fitted.is_empty() {
         let fitted: Vec<String> =
-            found.ladder.fitted.iter().map(|(asked, step)| format!("{} for {}", short(*step), short(*asked))).collect();
-        text += &format!("time steps that end at all samples: {}\n", fitted.join(", "));
+            found.grid.fitted.iter().map(|(asked, step)| format!("{} for {}", short(*step), short(*asked))).collect();
+        text += &format!("time steps shortened to fit between samples: {}\n", fitted.join(", "));
     }
-    if found.ladder.lines.iter().any(|line| line.automatic) {
-        text += "automatic steps land on all samples: plain runs may take longer ones and err more\n";
+    if found.grid.lines.iter().any(|line| line.automatic) {
+        text += "automatic steps end at all sample times; a plain run may take longer steps, with larger errors\n";
     }
     text += &format!("\n{}\nmeasured order\n", columns(&rows, 1));
-    let label = |line: usize| found.ladder.lines[line].label.clone();
+    let label = |line: usize| found.grid.lines[line].label.clone();
     let orders: Vec<Vec<String>> = found
         .orders
         .iter()
         .enumerate()
-        .map(|(line, of)| vec![format!("  {}", label(line)), order(&found.ladder.lines[line], of)])
+        .map(|(line, of)| vec![format!("  {}", label(line)), order(&found.grid.lines[line], of)])
         .collect();
     text += &columns(&orders, 1);
     for (wanted, list) in &found.cheapest {
         text += &format!("\ncheapest for an error of {wanted:e}\n");
         if list.is_empty() {
-            text += "  no run of the ladder comes to it\n";
+            text += "  no run reaches it\n";
             continue;
         }
         let rows: Vec<Vec<String>> = list
             .iter()
             .map(|of| {
                 let times = format!("x {:.2}", of.loop_s / list[0].loop_s);
-                vec![format!("  {}", label(of.line)), times, cost(&found.ladder.lines[of.line], of)]
+                vec![format!("  {}", label(of.line)), times, cost(&found.grid.lines[of.line], of)]
             })
             .collect();
         text += &columns(&rows, 1);

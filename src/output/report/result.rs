@@ -2,16 +2,17 @@
 
 use super::html::{escaped, table};
 use crate::names::short;
+use crate::output::log;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What result.json and run.log say.
+/// What result.json says, and of a run that is not finished the log.
 pub struct Result {
     /// Null where there is no result.json.
     pub json: Value,
-    /// The deck as run.log names it.
+    /// Path of the deck, as it was given.
     pub deck: Option<String>,
     /// Its text, if it can be found and is that of this run to the last byte.
     pub text: Option<String>,
@@ -19,12 +20,12 @@ pub struct Result {
 
 impl Result {
     pub fn of(folder: &Path, json: Value) -> Result {
-        let log = fs::read_to_string(folder.join("run.log")).unwrap_or_default();
-        let deck = log.lines().next().and_then(|line| line.split_once(", deck ")).map(|(_, deck)| deck.to_owned());
+        let deck = json["deck"].as_str().map(str::to_owned).or_else(|| deck_of_log(&folder.join(log::NAME)));
+        let sets: Vec<&str> = json["sets"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
         let hash = json["deck_hash"].as_str().unwrap_or_default();
         let beside = folder.parent().map(Path::to_path_buf).unwrap_or_default();
         let found = deck.iter().flat_map(|deck| [PathBuf::from(deck), beside.join(deck)]);
-        let text = found.filter_map(|path| fs::read_to_string(path).ok()).find(|text| digest(text) == hash);
+        let text = found.filter_map(|path| fs::read_to_string(path).ok()).find(|text| digest(text, &sets) == hash);
         Result { json, deck, text }
     }
 
@@ -82,7 +83,8 @@ impl Result {
     pub fn numbers(&self) -> String {
         let mut rows: Vec<Vec<String>> = Vec::new();
         let mut row = |name: &str, value: String| rows.push(vec![name.to_owned(), value]);
-        for (key, value) in self.json["counts"].as_object().into_iter().flatten() {
+        let numbers = ["sizes", "counts"].into_iter().flat_map(|key| self.json[key].as_object().into_iter().flatten());
+        for (key, value) in numbers {
             row(key, value.to_string());
         }
         for (key, value) in self.json["timings"].as_object().into_iter().flatten() {
@@ -102,6 +104,9 @@ impl Result {
         }
         row("rdsolve", self.json["version"].as_str().unwrap_or("?").to_owned());
         row("deck", self.deck.clone().unwrap_or_else(|| "?".into()));
+        for set in self.json["sets"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            row("--set", set.to_owned());
+        }
         row("SHA-256", self.json["deck_hash"].as_str().unwrap_or("?").to_owned());
         format!("<section><h2>Counts and times</h2>\n{}</section>\n", table(&[], &rows))
     }
@@ -116,8 +121,8 @@ impl Result {
         let deck = match (&self.text, &self.deck) {
             (Some(text), _) => format!("<details><summary>Deck</summary>\n<pre>{}</pre></details>\n", escaped(text)),
             (None, Some(deck)) => format!(
-                "<p class=\"note\">The text of <code>{}</code> is not shown: it is not there, has changed since, or was run \
-                 with <code>--set</code> or a mesh file.</p>\n",
+                "<p class=\"note\">The text of <code>{}</code> is not shown: it is not there, has changed since, or has a \
+                 mesh file.</p>\n",
                 escaped(deck)
             ),
             (None, None) => String::new(),
@@ -137,6 +142,19 @@ fn significant(number: f64) -> String {
     }
 }
 
-fn digest(text: &str) -> String {
-    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
+/// As a run takes it of a deck without a mesh.
+fn digest(text: &str, sets: &[&str]) -> String {
+    let mut hasher = Sha256::new();
+    hasher.update(text);
+    for set in sets {
+        hasher.update([0]);
+        hasher.update(set);
+    }
+    hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A run that is not finished has named its deck in the first line of its log.
+fn deck_of_log(path: &Path) -> Option<String> {
+    let log = fs::read_to_string(path).ok()?;
+    Some(log.lines().next()?.split_once(", deck ")?.1.to_owned())
 }

@@ -12,17 +12,17 @@ pub const NAME: &str = "study.list";
 const HEAD: &str = "# written by this study; --overwrite takes it away";
 
 /// Files and folders of runs that a study has written, by their names below its folder.
-pub struct Made {
+pub struct Manifest {
     folder: PathBuf,
     names: Vec<String>,
 }
 
-impl Made {
+impl Manifest {
     /// Begins in a folder that is new, empty, or given up: what an older study has written there goes, and what it has not stays.
     ///
     /// # Errors
     /// Something there that no study has written is in the way of these files and folders of runs; then nothing has gone.
-    pub fn begin(folder: &Path, files: &[&str], runs: &[String]) -> io::Result<Made> {
+    pub fn begin(folder: &Path, files: &[&str], runs: &[String]) -> io::Result<Manifest> {
         fs::create_dir_all(folder).map_err(|error| at(folder, error))?;
         let list = folder.join(NAME);
         let older: Vec<String> = match fs::read_to_string(&list) {
@@ -60,7 +60,7 @@ impl Made {
             remove_empty(&runs)?;
         }
         remove(folder, &|name| name == NAME || is_known(name))?;
-        Ok(Made { folder: folder.to_owned(), names: Vec::new() })
+        Ok(Manifest { folder: folder.to_owned(), names: Vec::new() })
     }
 
     /// Notes what is about to be written, so that the list is whole however the study ends.

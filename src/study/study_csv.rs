@@ -1,6 +1,6 @@
 //! study.csv: a row for each run.
 
-use super::ladder::float;
+use super::grid::float;
 use super::order::local;
 use super::{Found, Run};
 
@@ -46,7 +46,7 @@ pub fn table(found: &Found) -> String {
     let mut text = header.join(",") + "\n";
     let mut before: Option<&Run> = None;
     for (index, run) in found.runs.iter().enumerate() {
-        let line = &found.ladder.lines[run.line];
+        let line = &found.grid.lines[run.line];
         let order = local(before.filter(|before| before.line == run.line), run);
         before = Some(run);
         let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
@@ -58,15 +58,15 @@ pub fn table(found: &Found) -> String {
             line.method.clone(),
             float(line.mesh),
             count(m.unknowns),
-            if line.automatic { String::new() } else { float(run.rung) },
-            if line.automatic { float(run.rung) } else { String::new() },
+            if line.automatic { String::new() } else { float(run.resolution) },
+            if line.automatic { float(run.resolution) } else { String::new() },
             run.status.word().to_owned(),
             maybe(run.error),
             resolved.to_owned(),
             maybe(order),
-            maybe(found.reference.as_ref().ok().map(|reference| reference.bar).filter(|bar| *bar > 0.0)),
+            maybe(found.reference.as_ref().ok().map(|reference| reference.error_bound).filter(|bound| *bound > 0.0)),
             if m.steps > 0 { maybe(Some(run.loop_s)) } else { String::new() },
-            if m.steps > 0 { maybe(Some(run.middle_s())) } else { String::new() },
+            if m.steps > 0 { maybe(Some(run.median_s())) } else { String::new() },
             maybe(Some(run.process_s)),
             run.times.len().to_string(),
             count(m.steps),

@@ -1,4 +1,5 @@
-//! What is run: lines of settings, each over the same time steps, as overrides of the deck.
+//! The grid of settings that a study runs: lines of schemes, methods and meshes, each over the same time steps, as overrides of
+//! the deck.
 
 use crate::deck::Deck;
 use crate::deck::analysis::{Analysis, Plane};
@@ -11,7 +12,7 @@ use std::sync::Arc;
 
 /// Intervals between samples where nothing says otherwise.
 pub const SAMPLES: usize = 200;
-/// The ladder where nothing says otherwise: from so many of the deck's time steps, halved so often.
+/// The grid where nothing says otherwise: from so many of the deck's time steps, halved so often.
 const LONGEST: f64 = 8.0;
 const HALVINGS: usize = 6;
 /// Over a load step only material that yields makes an error, of first order in general and never above second.
@@ -26,7 +27,7 @@ pub struct Line {
     pub method: String,
     /// Factor on the deck's numbers of elements.
     pub mesh: f64,
-    /// The step is automatic, and its tolerance is what the ladder goes over.
+    /// The step is automatic, and its tolerance is what the grid goes over.
     pub automatic: bool,
     /// That of the scheme in the time step; of load steps, the highest there is.
     pub order: f64,
@@ -35,7 +36,7 @@ pub struct Line {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ladder {
+pub struct StudyGrid {
     pub lines: Vec<Line>,
     /// Longest first; each fits a whole number of times between two samples.
     pub time_steps: Vec<f64>,
@@ -46,13 +47,13 @@ pub struct Ladder {
     pub samples: usize,
     /// Overrides of all runs.
     pub sets: Vec<String>,
-    /// `[analysis]` without what a rung says.
+    /// `[analysis]` without what a resolution sets.
     analysis: String,
     /// Time steps that were asked for and shortened, with what they are.
     pub fitted: Vec<(f64, f64)>,
 }
 
-impl Ladder {
+impl StudyGrid {
     /// `samples`: those of a reference.
     pub fn new(
         model: &Model,
@@ -60,7 +61,7 @@ impl Ladder {
         study: &Study,
         quantities: &[Quantity],
         samples: Option<usize>,
-    ) -> Result<Ladder, Vec<Diagnostic>> {
+    ) -> Result<StudyGrid, Vec<Diagnostic>> {
         let mut problems = Vec::new();
         if let Some(text) = obstacle(model) {
             return Err(vec![Diagnostic::error(text)]);
@@ -86,7 +87,7 @@ impl Ladder {
         };
         if let Some(longest) = asked.first().filter(|&&longest| longest > interval * (1.0 + 1e-9)) {
             let message = format!("the time step {longest} is longer than the {interval} between two samples");
-            let hint = "steps land on all of them: take fewer samples (--samples)";
+            let hint = "steps end at every sample time: take fewer samples (--samples)";
             problems.push(Diagnostic::error(message).hint(hint));
         }
         let time_steps: Vec<f64> = asked.iter().map(|&step| fitting(interval, step)).collect();
@@ -105,30 +106,30 @@ impl Ladder {
         }
         let sets = vec![output(quantities, interval, false), "expect=[]".to_owned()];
         let analysis = analysis(model, deck);
-        Ok(Ladder { lines, time_steps, error_tolerances, end_time, samples, sets, analysis, fitted })
+        Ok(StudyGrid { lines, time_steps, error_tolerances, end_time, samples, sets, analysis, fitted })
     }
 
     /// What a line goes over: time steps or tolerances.
-    pub fn rungs(&self, line: usize) -> &[f64] {
+    pub fn resolutions(&self, line: usize) -> &[f64] {
         if self.lines[line].automatic { &self.error_tolerances } else { &self.time_steps }
     }
 
     /// All overrides of a run.
-    pub fn overrides(&self, line: usize, rung: f64) -> Vec<String> {
+    pub fn overrides(&self, line: usize, resolution: f64) -> Vec<String> {
         let of = &self.lines[line];
         let step = match of.automatic {
-            false => format!("time_step = {}", float(rung)),
-            true => format!("time_step = \"auto\", error_tolerance = {}", float(rung)),
+            false => format!("time_step = {}", float(resolution)),
+            true => format!("time_step = \"auto\", error_tolerance = {}", float(resolution)),
         };
         let analysis = format!("analysis={{ {}, {step} }}", self.analysis);
         of.sets.iter().chain(&self.sets).cloned().chain([analysis]).collect()
     }
 
     /// Steps that a run takes, about, in units of elements.
-    pub fn work(&self, line: usize, rung: f64) -> f64 {
+    pub fn work(&self, line: usize, resolution: f64) -> f64 {
         let of = &self.lines[line];
         // Errors go with the square of the step.
-        let steps = if of.automatic { 20.0 / rung.sqrt() } else { self.end_time / rung };
+        let steps = if of.automatic { 20.0 / resolution.sqrt() } else { self.end_time / resolution };
         steps.max(self.samples as f64) * of.mesh
     }
 }
@@ -268,8 +269,8 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
 fn no_tolerance(label: &str, scheme: &dyn Scheme) -> Option<Diagnostic> {
     let (message, hint) = match scheme.stepping() {
         Stepping::Verlet => (
-            format!("`{label}` has no error tolerance to go over: its automatic steps are as long as is stable"),
-            "give time steps (--time-steps): those too long to be stable are cut",
+            format!("`{label}` has no error tolerance: its automatic steps follow the critical time step"),
+            "give time steps (--time-steps): those above the critical time step are cut back",
         ),
         _ if scheme.order() < 2 => (
             format!("`{label}` is of first order, and automatic steps want second"),

@@ -1,0 +1,40 @@
+//! Arguments that several commands share.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// More threads gain nothing, and thousands cannot be had.
+pub const MAX_THREADS: i64 = 64;
+
+#[derive(Debug, Args)]
+pub struct DeckArgs {
+    /// The deck, a TOML file
+    pub deck: PathBuf,
+    /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value
+    /// (beams.portal.elements=24); a bare word is taken as text; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    // As in `DeckArgs`: clap does not find a group within an optional group.
+    /// The deck, a TOML file
+    pub deck: PathBuf,
+    /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value
+    /// (beams.portal.elements=24); a bare word is taken as text; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+    /// Folder for the results [default: the deck's name with .out, in the current folder]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Threads to use, from 1 to 64; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
+    pub threads: Option<u8>,
+    /// Show errors only
+    #[arg(long)]
+    pub quiet: bool,
+    /// Write into a folder that already holds files, and replace results there
+    #[arg(long)]
+    pub overwrite: bool,
+}

@@ -1,0 +1,31 @@
+//! The folder that a command writes into.
+
+use super::console::{complain, say};
+use super::exit::Exit;
+use std::path::{Path, PathBuf};
+
+/// A folder named after a deck, whose last extension alone goes: `a.v1.toml` and `a.v2.toml` are two.
+pub fn named_after(deck: &Path, extension: &str) -> PathBuf {
+    let mut name = deck.file_stem().unwrap_or_default().to_owned();
+    name.push(".");
+    name.push(extension);
+    PathBuf::from(name)
+}
+
+/// Makes sure that a folder is new, or empty, or given up by `--overwrite`.
+pub fn require_free(folder: &Path, overwrite: bool) -> Result<(), Exit> {
+    let entries = match std::fs::read_dir(folder) {
+        Ok(mut entries) => entries.next().is_some(),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
+        Err(error) => {
+            complain(&format!("cannot write to `{}`: {error}", folder.display()));
+            return Err(Exit::InputOutput);
+        }
+    };
+    if entries && !overwrite {
+        complain(&format!("the folder `{}` holds files already", folder.display()));
+        say("  help: --overwrite replaces results; -o DIR writes elsewhere");
+        return Err(Exit::Usage);
+    }
+    Ok(())
+}

@@ -1,0 +1,40 @@
+//! Signals that ask a run to end, and the end of the process that started it.
+
+use super::exit::Exit;
+use std::io::{self, Read};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Interrupt, termination and the loss of the terminal raise the flag: the run ends after the step in hand, with whole files.
+pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
+    // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
+    // two at the same moment.
+    let code = i32::from(Exit::Stopped as u8);
+    signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGINT, code, Arc::clone(flag))?;
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        signal_hook::flag::register(signal, Arc::clone(flag))?;
+    }
+    #[cfg(unix)]
+    if !is_ignored(signal_hook::consts::SIGHUP) {
+        signal_hook::flag::register(signal_hook::consts::SIGHUP, Arc::clone(flag))?;
+    }
+    Ok(())
+}
+
+/// As `nohup` asks for; also where nobody tells, so that nothing is caught that was to be ignored.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
+/// Ends the process when its standard input ends: nobody is left who wants the run of a study that is gone.
+pub fn end_with_input() {
+    let mut input = io::stdin().lock();
+    let mut bytes = [0; 64];
+    // Zero bytes are the end, and so is an input that cannot be read.
+    while input.read(&mut bytes).is_ok_and(|count| count > 0) {}
+    std::process::exit(i32::from(Exit::Stopped as u8));
+}

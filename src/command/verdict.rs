@@ -1,0 +1,127 @@
+//! How a run ended, in words: its status, its warnings, its expectations.
+
+use crate::model::{ArcLength, DIRECTIONS, Model, StepLength};
+use crate::names::short;
+use crate::output::expect::Verdict;
+use crate::output::result_json::Status;
+use crate::solve::{Outcome, Run};
+use crate::system::energy::Balance;
+use std::io;
+
+/// How a run ended.
+pub struct End {
+    pub status: Status,
+    /// Empty where all went as the deck asks.
+    pub reason: String,
+    /// Where the run did not come to its end, the time up to which its results are valid.
+    pub valid_until: Option<f64>,
+}
+
+impl End {
+    /// The reason and what it means for the results.
+    pub fn sentence(&self) -> String {
+        let valid = if self.valid_until.is_some() { "; results are valid up to this time" } else { "" };
+        format!("{}{valid}", self.reason)
+    }
+}
+
+/// Judges the end of a run. An error is one of input/output.
+pub fn end(
+    model: &Model,
+    run: &Run,
+    outcome: Outcome,
+    end_time: Option<f64>,
+    expectations: &[Verdict],
+) -> io::Result<End> {
+    let (status, reason, valid_until) = match outcome {
+        Outcome::Io(error) => return Err(error),
+        Outcome::Failed { time, failure } => (Status::NotConverged, format!("at t = {time}: {failure}"), Some(time)),
+        Outcome::Stopped { time } => (Status::Stopped, format!("stopped by a signal at t = {time}"), Some(time)),
+        Outcome::Done => match expectations.iter().filter(|verdict| !verdict.passed).count() {
+            0 => (Status::Done, String::new(), None),
+            missed => {
+                let reason = format!("{missed} of {} expected values missed", expectations.len());
+                (Status::ExpectationMissed, reason, None)
+            }
+        },
+    };
+    let short = end_time.and_then(|time| short_of_stop(model, run, time));
+    let reasons: Vec<String> = [Some(reason), short].into_iter().flatten().filter(|text| !text.is_empty()).collect();
+    Ok(End { status, reason: reasons.join("; "), valid_until })
+}
+
+/// A path that ended before its `stop`, in a sentence.
+fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
+    let (StepLength::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
+        (&model.analysis.step_length, run.short_of_stop())
+    else {
+        return None;
+    };
+    let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+    let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
+    Some(format!(
+        "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {value} at the end, t = {time}, \
+         after {} steps",
+        stop.value, run.counts().steps
+    ))
+}
+
+/// Initial velocities that do not agree with the joints; `change` is relative to the largest.
+pub fn start_warning(change: f64) -> Option<String> {
+    // A deck gives its numbers with some digits only.
+    const ROUNDING: f64 = 1e-5;
+    (change > ROUNDING).then(|| {
+        let part = short(change);
+        format!("initial velocities violate the joints: they were corrected by up to {part} of the largest velocity")
+    })
+}
+
+/// An energy balance that no one should take on trust.
+pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
+    /// Of the largest energy: schemes add next to nothing, ...
+    const GROWTH: f64 = 0.02;
+    /// ... and may dissipate what no step resolves.
+    const DISSIPATION: f64 = 0.2;
+    let part = |energy: f64| format!("{:.0} % of the largest energy", 100.0 * energy / balance.most);
+    let shorter = match model.analysis.step_length {
+        StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
+        StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
+        StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
+    };
+    let remedy = format!("see `numerical` in energy.csv, and try {shorter}");
+    if balance.made > GROWTH * balance.most {
+        let part = part(balance.made);
+        // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
+        // strain that comes out wrong by it: no motion is made.
+        Some(if balance.made <= balance.plastic {
+            format!(
+                "plastic flow has dissipated more energy than there was, by {part}: steps do not resolve the onset of yielding, \
+                 and plastic strains are too large; {remedy}"
+            )
+        } else {
+            format!("energy growth: the time integration has added {part}; {remedy}")
+        })
+    } else if balance.taken > DISSIPATION * balance.most {
+        Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.taken)))
+    } else {
+        None
+    }
+}
+
+/// An expectation in a line.
+pub fn line(v: &Verdict) -> String {
+    let mark = if v.passed { "ok  " } else { "MISS" };
+    let value = v.value.map_or("no value".to_string(), |value| format!("{value:.6e}"));
+    if let Some(bound) = v.bound {
+        return format!("{mark} {}: {value}, {bound} {:.6e}", v.label, v.expected);
+    }
+    let error = match (v.error, &v.reason) {
+        (Some(error), _) => {
+            let kind = if v.relative { "relative" } else { "absolute" };
+            format!("{kind} error {error:.2e}, tolerance {}", short(v.tolerance))
+        }
+        (None, Some(reason)) => reason.clone(),
+        (None, None) => String::new(),
+    };
+    format!("{mark} {}: {value}, expected {:.6e}, {error}", v.label, v.expected)
+}

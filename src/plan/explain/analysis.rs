@@ -1,0 +1,37 @@
+//! The analysis and the scheme of integration.
+
+use super::Explanation;
+use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
+
+pub fn explain(text: &mut Explanation, model: &Model) {
+    let analysis = &model.analysis;
+    let steps = (analysis.end_time / analysis.nominal_step() - 1e-9).ceil().max(1.0);
+    let end = analysis.end_time;
+    match (analysis.kind, &analysis.step_length) {
+        (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
+        (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
+        (AnalysisKind::Dynamic, step_length) => {
+            let how = match step_length {
+                StepLength::StabilityLimited { fraction } => {
+                    format!("in steps of {fraction} of the critical time step")
+                }
+                StepLength::ErrorControlled { tolerance, .. } => {
+                    format!("in automatic steps, for a relative error of {tolerance} at the end")
+                }
+                _ => format!("in {steps} steps of {}", analysis.nominal_step()),
+            };
+            text.add("analysis", format!("dynamic, to t = {end} {how}"));
+            text.add("scheme", model.scheme.in_words());
+            text.notes.extend(model.scheme.note().map(str::to_owned));
+        }
+    }
+}
+
+fn path(model: &Model, control: &ArcLength) -> String {
+    let stop = control.stop.as_ref().map_or(String::new(), |stop| {
+        let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+        format!(", or until {direction} of {node} = {}", stop.value)
+    });
+    let end = model.analysis.end_time;
+    format!("static, by arc length to load factor t = {end}{stop}; the first increment of t is {}", control.first)
+}

@@ -1,0 +1,85 @@
+//! What is omitted, and why: degrees of freedom, constraint equations, terms of the equation of motion.
+
+use crate::model::{AnalysisKind, MassKind, Model, Part};
+use crate::plan::Plan;
+use crate::plan::place::Why;
+use crate::system::System;
+use std::ops::Range;
+
+pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
+    let mut lines = degrees_of_freedom(plan, system);
+    if !model.joints.is_empty() {
+        let all: usize = model.joints.iter().map(|joint| joint.rows.len()).sum();
+        let kept = system.multipliers();
+        if all > kept {
+            lines.push(format!("{} constraint equations of joints: out of the plane of the motion", all - kept));
+        }
+    }
+    lines.extend(terms(plan, model, system).into_iter().map(str::to_owned));
+    lines
+}
+
+/// Those that are no unknowns.
+fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
+    let axis = ["x", "y", "z"][system.plane.unwrap_or(0)];
+    let plane =
+        format!("degrees of freedom out of the plane normal to {axis}: the scene is plane, nothing excites them");
+    let reasons: [(Why, Range<usize>, &str); 6] = [
+        (Why::Held, 0..6, "restrained or prescribed degrees of freedom"),
+        (
+            Why::Rides,
+            0..6,
+            "degrees of freedom of dependent nodes: eliminated at element level, the nodes being rigidly attached",
+        ),
+        (Why::Nothing, 0..3, "translations without element or mass"),
+        (Why::Nothing, 3..6, "rotations without element or rotary inertia"),
+        (Why::Still, 0..6, "inactive degrees of freedom: free masses that nothing sets in motion"),
+        (Why::Plane, 0..6, &plane),
+    ];
+    let counted = reasons.into_iter().map(|(why, dofs, what)| (plan.count(why, dofs), what));
+    counted.filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()
+}
+
+/// Terms of the equation of motion that this scene does without.
+fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
+    let kinds = || model.parts.iter().filter_map(Part::mass_kind);
+    let deformable = kinds().next().is_some();
+    let mut out = Vec::new();
+    if model.analysis.kind == AnalysisKind::Static {
+        out.push("inertia and damping: the analysis is static");
+    } else {
+        out.extend(gyroscopic(plan, model, system));
+        if !system.is_damped() {
+            out.push("damping: none is given");
+        }
+    }
+    if !deformable {
+        out.push("element stiffness: there are bodies, links and joints only");
+    }
+    if model.analysis.kind != AnalysisKind::Static {
+        if deformable && kinds().all(|kind| kind != MassKind::Consistent) {
+            out.push("off-diagonal mass terms: masses are lumped");
+        }
+        if kinds().any(|kind| kind == MassKind::FreeNodes) {
+            out.push("masses of deformable parts at nodes attached to bodies: `mass = \"free-nodes\"`");
+        }
+        if kinds().any(|kind| kind == MassKind::None) {
+            out.push("masses of deformable parts: `mass = \"none\"`");
+        }
+    }
+    if !system.yields() {
+        out.push("history at integration points: all materials are elastic");
+    }
+    out
+}
+
+fn gyroscopic(plan: &Plan, model: &Model, system: &System) -> Option<&'static str> {
+    let turning = system.inertias.iter().any(|i| {
+        i.rotary && (3..6).any(|dof| plan.is_unknown(i.node, dof) || model.riders.iter().any(|r| r.node == i.node))
+    });
+    match turning {
+        false => Some("gyroscopic terms: no rotary inertia is in rotation"),
+        true if plan.count(Why::Plane, 0..6) > 0 => Some("gyroscopic terms: rotation about one axis only"),
+        true => None,
+    }
+}
