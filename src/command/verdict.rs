@@ -62,7 +62,8 @@ fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     Some(format!(
         "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {value} at the end, t = {time}, \
          after {} steps",
-        stop.value, run.counts().steps
+        stop.value,
+        run.counts().steps
     ))
 }
 
