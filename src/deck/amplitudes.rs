@@ -10,35 +10,37 @@ use crate::diagnostic::At;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Amplitude {
+    /// The function.
     #[schemars(required)]
     pub kind: Maybe<AmplitudeKind>,
-    /// [[time, value], ...], times increasing: table.
+    /// [[time, value], ...], two or more, times not decreasing, equal ones for a jump; straight lines between them, the first and last value held before and after. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
-    /// Cycles per time: sine, sine-squared.
+    /// Cycles per unit of time, above 0. (sine, sine-squared)
     pub frequency: Maybe<f64>,
-    /// Radians per time, instead of frequency: sine, sine-squared.
+    /// Radians per unit of time, above 0, instead of `frequency`. (sine, sine-squared)
     pub angular_frequency: Maybe<f64>,
-    /// Radians. Default: 0. sine.
+    /// Phase in radians. Default: 0. (sine)
     pub phase: Maybe<f64>,
-    /// Zero before. Default: 0. sine, sine-squared, ramp, step.
+    /// Time before which the function is zero. Default: 0. (sine, sine-squared, ramp, step)
     pub start: Maybe<f64>,
-    /// Zero after; a ramp stays at one. Default: never; needed by ramp. sine, sine-squared, ramp, step.
+    /// Time after which the function is zero; a ramp ends there at 1 and stays. Default: never; a ramp needs
+    /// it. (sine, sine-squared, ramp, step)
     pub end: Maybe<f64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AmplitudeKind {
-    /// Straight lines through points.
+    /// Straight lines through `points`.
     Table,
-    /// sin(w (t - start) + phase).
+    /// sin(w (t - start) + phase) from `start` to `end`.
     Sine,
-    /// sin²(w (t - start)).
+    /// sin^2(w (t - start)) from `start` to `end`.
     SineSquared,
-    /// From 0 at start to 1 at end.
+    /// From 0 at `start` linearly to 1 at `end`, then 1.
     Ramp,
-    /// 1 between start and end.
+    /// 1 from `start` to `end`, otherwise 0.
     Step,
-    /// 1.
+    /// 1 at all times.
     Constant,
 }

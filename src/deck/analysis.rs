@@ -13,40 +13,42 @@ use crate::math::rotation::RotationUpdate;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Analysis {
+    /// Whether inertia acts.
     #[schemars(required)]
     pub kind: Maybe<AnalysisKind>,
-    /// What leads a static analysis on. Default: "time".
+    /// How a static analysis advances along its path. Default: "time".
     pub control: Maybe<Control>,
-    /// The run goes from t = 0 to this time; with arc-length, until the load first comes to it.
+    /// The run goes from t = 0 to this time, above 0; with arc-length control until the load first reaches it.
     #[schemars(required)]
     pub end_time: Maybe<f64>,
-    /// Time per step; "auto": as long as `error_tolerance` lets it be, and with central-difference as is stable. With arc-length, that of the first step, from which the
-    /// length of the others follows.
+    /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-
+    /// difference as long as is stable. With arc-length control the length of the first step, which sets the
+    /// arc length of the others.
     #[schemars(required)]
     pub time_step: Maybe<NumberOrAuto>,
-    /// With an automatic step: how far displacements may be off for the length of the steps, relative to the largest.
-    /// Default: 1e-3.
+    /// With time_step = "auto": error of displacements at the end of the run owed to the length of the steps,
+    /// relative to the largest displacement; between 0 and 1. Default: 1e-3.
     pub error_tolerance: Maybe<f64>,
-    /// A step that does not converge is halved, but not below this. Default: time_step / 2^20; with an automatic step
-    /// end_time / 10^9.
+    /// Shortest step, above 0: a step that does not converge is halved, but not below this. Default: time_step
+    /// / 2^20; with an automatic step end_time / 10^9.
     pub least_step: Maybe<f64>,
-    /// With arc-length: where the run ends, unless `end_time` is reached before.
+    /// With arc-length control: the run ends where a displacement passes a value, unless `end_time` is reached before.
     pub stop: Maybe<Table<Passage>>,
-    /// With arc-length: the run ends after so many steps, wherever it is. Default: after 100000 it fails.
+    /// With arc-length control: the run ends after this number of steps, 1 or more. Default: it fails after 100000.
     pub steps: Maybe<u64>,
-    /// With arc-length: steps grow to at most so many times the first, in displacements. Default: no limit.
+    /// With arc-length control: the arc length grows to at most this multiple of the first. Default: no limit.
     pub growth: Maybe<f64>,
-    /// Leave out motion out of a plane where nothing can cause it. Default: "auto".
+    /// Whether motion out of a global plane is omitted where nothing can cause it. Default: "auto".
     pub plane: Maybe<Plane>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Control {
-    /// Time goes on in given steps.
+    /// Time advances in given steps, and loads with it.
     Time,
-    /// Steps have a length in displacements; time is the load's and follows, so it may fall and rise again: through limit
-    /// points, snap-through and snap-back.
+    /// Steps have a given arc length in displacements; time, which drives the loads, follows and may fall: through limit points,
+    /// snap-through and snap-back.
     ArcLength,
 }
 
@@ -57,19 +59,24 @@ pub struct Passage {
     /// Name of a point or body.
     #[schemars(required)]
     pub at: Maybe<String>,
+    /// The displacement.
     #[schemars(required)]
     pub quantity: Maybe<Displacement>,
+    /// The value that it passes, in units of length.
     #[schemars(required)]
     pub value: Maybe<f64>,
-    /// Which time it passes the value, either way. Default: 1.
+    /// Which of its passages through the value is meant, from either side, 1 or more. Default: 1.
     pub pass: Maybe<u64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Displacement {
+    /// Displacement along global x.
     Ux,
+    /// Displacement along global y.
     Uy,
+    /// Displacement along global z.
     Uz,
 }
 
@@ -79,16 +86,16 @@ pub enum AnalysisKind {
     /// Motion in time.
     #[default]
     Dynamic,
-    /// Load stepping without inertia; loads without an amplitude grow linearly from 0 to 1 at the end time.
+    /// Load stepping without inertia; a load without an amplitude grows linearly from 0 at t = 0 to 1 at the end time.
     Static,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Plane {
-    /// Left out where nothing can cause it.
+    /// Omitted where nothing can cause it.
     Auto,
-    /// Always kept.
+    /// Always computed.
     Off,
 }
 
@@ -115,15 +122,15 @@ impl Kinds for Integrator {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Iteration {
-    /// Which moduli the matrix is formed with where material yields. Default: "auto".
+    /// The stiffness matrix where material yields. Default: "auto".
     pub method: Maybe<Method>,
-    /// When the matrix is formed and factorised anew. Default: "auto".
+    /// When the matrix is formed and factorised. Default: "auto".
     pub update: Maybe<Update>,
-    /// Where the gyroscopic term of bodies stands: the answer is the same. Default: "auto".
+    /// Whether the gyroscopic term of bodies enters the matrix; the converged result is the same. Default: "auto".
     pub gyroscopic: Maybe<Gyroscopic>,
-    /// Relative, on residual and increment. Default: 1e-8.
+    /// Convergence tolerance, relative, on the residual and on the increment; between 0 and 1. Default: 1e-8.
     pub tolerance: Maybe<f64>,
-    /// Iterations in a step before it is cut. Default: 20; 200 with initial-load.
+    /// Iterations after which a step is cut back, 1 or more. Default: 20; 200 with initial-load.
     pub limit: Maybe<u64>,
 }
 

@@ -9,26 +9,27 @@ use super::words::{Directions, Maybe, Names};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
-    /// Name of a body.
+    /// Name of the body that the nodes are attached to.
     pub body: Maybe<String>,
-    /// Name of a beam, instead of a body. Where the beam is rigid, all of them go with its body.
+    /// Name of a beam, instead of a body: each node is attached to the nearest node of it. Where the beam is
+    /// rigid, all go with its body.
     pub beam: Maybe<String>,
     /// Names of points, bodies or sets. Those on the beam itself stay as they are.
     #[schemars(required)]
     pub nodes: Maybe<Names>,
-    /// Which motions are taken from the body or beam. Default: "all".
+    /// Degrees of freedom that are taken from the body or beam. Default: "all".
     pub dofs: Maybe<Directions>,
-    /// Default: "auto".
+    /// How the constraint is enforced. Default: "auto".
     pub method: Maybe<AttachmentMethod>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AttachmentMethod {
-    /// Elimination, and multipliers only where a node is attached a second time.
+    /// Elimination, and Lagrange multipliers only where a node is attached a second time.
     Auto,
-    /// The attached motions leave the unknowns.
+    /// The dependent degrees of freedom are eliminated.
     Elimination,
-    /// The motions of both stay unknown, and forces hold them together.
+    /// Lagrange multipliers hold the nodes to the body; the degrees of freedom of both stay unknowns.
     Multipliers,
 }

@@ -10,41 +10,40 @@ use crate::elements::beam::IntegrationRule;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Beam {
-    /// Default: that of the group.
+    /// Name; left out with `group`, the name of the group.
     pub name: Maybe<String>,
-    /// Names of points, two or more.
+    /// Names of points, two or more, joined by straight segments.
     pub path: Maybe<Names>,
-    /// Name of a group of the mesh, instead of path and elements: each of its segments is an element.
+    /// Name of a group of the mesh, instead of `path` and `elements`: each of its segments is an element.
     pub group: Maybe<String>,
-    /// Elements per segment, or a list with one number for each.
+    /// Elements per segment, 1 or more, or a list with one number for each segment.
     pub elements: Maybe<OneOrMany<u64>>,
-    /// Name of a material; not needed where the section gives stiffnesses.
+    /// Name of a material; left out where the section gives stiffnesses.
     pub material: Maybe<String>,
     /// Name of a section.
     #[schemars(required)]
     pub section: Maybe<String>,
-    /// A vector in the plane of local x (along the beam) and local y.
+    /// A vector in the plane of local x (along the beam) and local y, global at t = 0; not parallel to the beam.
     #[schemars(required)]
     pub orientation: Maybe<Vector>,
-    /// Degree of an element's interpolation, 1 to 4; an element has order - 1 inner nodes.
+    /// Polynomial degree of an element, 1 to 4; it has order + 1 nodes. Default: 3.
     pub order: Maybe<u64>,
-    /// Default: "lumped".
+    /// Mass matrix. Default: "lumped".
     pub mass: Maybe<MassKind>,
-    /// The part is a rigid body of its name, with the mass and inertia of its elements. Default: false.
+    /// The beam is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
-    /// Rule along an element. Default: "gauss". Beams whose material yields.
+    /// Integration rule along an element, for beams whose material yields. Default: "gauss".
     pub integration: Maybe<IntegrationRule>,
-    /// Points of the rule, order to 5. Default: order, which lets the moment be straight along an element. Beams whose material
-    /// yields.
+    /// Integration points of an element, `order` to 5, for beams whose material yields. Default: `order`.
     pub points: Maybe<u64>,
-    /// Shear stress counts in the yield condition; false: shear and torsion stay elastic. Default: true. Beams whose material
-    /// yields.
+    /// Shear stress counts in the yield condition; false: shear and torsion stay elastic. For beams whose
+    /// material yields. Default: true.
     pub shear_yields: Maybe<bool>,
-    /// From the path's first point to the beam's end, rigid, global components at t = 0.
+    /// Rigid offset from the first point of the path to the start of the beam, global components at t = 0. Default: none.
     pub offset_start: Maybe<Vector>,
-    /// From the path's last point to the beam's end, rigid, global components at t = 0.
+    /// Rigid offset from the last point of the path to the end of the beam, global components at t = 0. Default: none.
     pub offset_end: Maybe<Vector>,
 }
 
@@ -52,26 +51,28 @@ pub struct Beam {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bar {
+    /// Name, for messages, results and other tables.
     #[schemars(required)]
     pub name: Maybe<String>,
-    /// Names of points, two or more.
+    /// Names of points, two or more, joined by straight segments.
     #[schemars(required)]
     pub path: Maybe<Names>,
-    /// Elements per segment, or a list with one number for each. Default: 1.
+    /// Elements per segment, 1 or more, or a list with one number for each segment. Default: 1.
     pub elements: Maybe<OneOrMany<u64>>,
-    /// Name of a material, with area.
+    /// Name of a material, with `area`.
     pub material: Maybe<String>,
-    /// Cross-sectional area, with material.
+    /// Cross-sectional area, above 0, with `material`.
     pub area: Maybe<f64>,
-    /// E A, force; instead of material and area.
+    /// E A, a force above 0, instead of `material` and `area`.
     pub axial_stiffness: Maybe<f64>,
-    /// With axial_stiffness.
+    /// Mass per length, 0 or more, with `axial_stiffness`.
     pub mass_per_length: Maybe<f64>,
-    /// Slack when shortened. Default: false.
+    /// The bar is slack when shortened, as a cable. Default: false.
     pub tension_only: Maybe<bool>,
-    /// Of the whole path, without force: shorter than it lies pulls from the start, longer hangs. Default: as it lies at t = 0.
+    /// Length of the whole path without force, above 0: shorter than it lies, it pulls from the start; longer,
+    /// it hangs. Default: its length at t = 0.
     pub free_length: Maybe<f64>,
-    /// Default: "lumped".
+    /// Mass matrix. Default: "lumped".
     pub mass: Maybe<MassKind>,
 }
 

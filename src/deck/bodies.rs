@@ -9,53 +9,60 @@ use super::words::{Maybe, Names, Table, Vector};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
+    /// Name, for messages, results and other tables.
     #[schemars(required)]
     pub name: Maybe<String>,
-    /// Names of shells, beams and bars that are rigid and make up the body: they give its centre, mass and inertia, and their
-    /// elements are left out of the computation.
+    /// Names of shells, beams and bars that are rigid and make up the body: they give its centre, mass and
+    /// inertia, and their elements are omitted from the computation.
     pub parts: Maybe<Names>,
-    /// Centre of mass at t = 0. Left out where parts make up the body, like mass, inertia and shape.
+    /// Centre of mass at t = 0, global coordinates. Left out where `parts` make up the body, like mass, inertia and shape.
     pub center: Maybe<Vector>,
-    /// Left out where the shape has a density.
+    /// Mass, above 0. Left out where the shape has a density.
     pub mass: Maybe<f64>,
-    /// About the centre, global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx].
+    /// Moments of inertia about the centre, global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx], the
+    /// products as they stand in the matrix.
     pub inertia: Maybe<Vec<f64>>,
-    /// Gives the inertia, and the mass if it has a density; with `inertia` it is only drawn.
-    pub shape: Maybe<Table<Shape>>,
-    /// Of the centre at t = 0.
+    /// A solid that gives the inertia, and the mass if it has a density; with `inertia` it is only drawn.
+    pub shape: Maybe<Table<BodyShape>>,
+    /// Velocity of the centre at t = 0, global components. Default: at rest.
     pub velocity: Maybe<Vector>,
-    /// At t = 0, global components, radians per time.
+    /// Angular velocity at t = 0, global components, radians per unit of time. Default: none.
     pub angular_velocity: Maybe<Vector>,
 }
 
 /// A shape around the centre of mass, along the global axes at t = 0.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Shape {
+pub struct BodyShape {
+    /// The solid.
     #[schemars(required)]
     pub kind: Maybe<ShapeKind>,
-    /// Full edge lengths: box.
+    /// Full edge lengths along the global axes at t = 0. (box)
     pub size: Maybe<Vector>,
-    /// Outer radius: cylinder, tube, sphere.
+    /// Outer radius, above 0. (cylinder, tube, sphere)
     pub radius: Maybe<f64>,
-    /// Default 0: cylinder. Tubes take it or thickness.
+    /// Inner radius. Default: 0, solid. (cylinder; tube, which takes it or thickness)
     pub inner_radius: Maybe<f64>,
-    /// Of the wall: tube.
+    /// Thickness of the wall. (tube)
     pub thickness: Maybe<f64>,
-    /// Cylinder, tube.
+    /// Length along the axis, above 0. (cylinder, tube)
     pub length: Maybe<f64>,
-    /// Direction of the length: cylinder, tube.
+    /// Direction of the length, global at t = 0. Any length. (cylinder, tube)
     pub axis: Maybe<Vector>,
-    /// Mass per volume, instead of the body's mass.
+    /// Mass per volume, above 0, instead of the body's mass.
     pub density: Maybe<f64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ShapeKind {
+    /// A cuboid along the global axes at t = 0.
     Box,
+    /// A solid or hollow cylinder.
     Cylinder,
+    /// A solid sphere.
     Sphere,
+    /// A hollow cylinder.
     Tube,
 }
 
@@ -63,11 +70,12 @@ pub enum ShapeKind {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
-    /// Names of points or sets; each gets the whole mass.
+    /// Names of points or sets; each node gets the whole mass.
     #[schemars(required)]
     pub at: Maybe<Names>,
+    /// Mass, above 0.
     #[schemars(required)]
     pub mass: Maybe<f64>,
-    /// Global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx]. Default: none.
+    /// Moments of inertia about global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx]. Default: none.
     pub inertia: Maybe<Vec<f64>>,
 }

@@ -5,32 +5,36 @@ use serde::Deserialize;
 
 use super::words::{Maybe, Names, Table, Vector};
 
-/// Points that push away from a surface, rub on it and bounce off it; or, with a stiffness of 0, a zone whose gap is watched.
+/// Points that push away from a surface, rub on it and bounce off it; or, with a stiffness of 0, a zone whose gap
+/// is watched.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
+    /// Name, for messages, results and `[[expect]]`.
     #[schemars(required)]
     pub name: Maybe<String>,
+    /// The surface that is touched.
     #[schemars(required)]
     pub surface: Maybe<Table<Surface>>,
-    /// What touches it, by name: points, bodies (their shape: corners of a box, rims of a cylinder, a sphere as it is), sets,
-    /// groups of the mesh, beams, bars, shells.
+    /// What touches it, by name: points, bodies (corners of a box, rims of a cylinder, a sphere as it is),
+    /// sets, groups of the mesh, beams, bars, shells.
     #[schemars(required)]
     pub with: Maybe<Names>,
-    /// Of the balls around the points that touch. Default: half the thickness of shells, half the smaller side of a beam's
-    /// section, the radius of a sphere; else 0.
+    /// Contact radius: the distance from a point at which it touches, 0 or more. Default: half the thickness of
+    /// shells, half the smaller side of a beam's section, the radius of a sphere; else 0.
     pub radius: Maybe<f64>,
-    /// Force per depth, of each point, also sideways where there is friction. 0: a zone, nothing acts. Default in dynamics:
-    /// such that an impact lasts 20 steps.
+    /// Penalty stiffness, force per penetration of each point, also for friction. 0: a clearance monitor,
+    /// nothing acts. Default in dynamics: such that an impact lasts 20 steps.
     pub stiffness: Maybe<f64>,
-    /// Speed after an impact over that before it, 0.01 to 1. Default: 1, nothing is lost.
+    /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1. Default: 1, nothing is
+    /// lost. For a restitution of 0 give `damping`.
     pub restitution: Maybe<f64>,
-    /// Force per velocity, instead of a restitution. It never pulls.
+    /// Force per normal velocity, 0 or more, instead of a restitution. The contact never pulls.
     pub damping: Maybe<f64>,
-    /// Coulomb's coefficient. Default: 0.
+    /// Coulomb's coefficient of friction, 0 or more. Default: 0.
     pub friction: Maybe<f64>,
-    /// Points that touch between neighbouring nodes of beams, bars and shells, and between corners of boxes and rims of cylinders.
-    /// Default: 0.
+    /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
+    /// boxes and rims of cylinders, at most 100. Default: 0.
     pub points: Maybe<u64>,
 }
 

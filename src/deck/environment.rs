@@ -10,9 +10,9 @@ use crate::diagnostic::At;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Environment {
-    /// Acceleration of free fall. Default: none.
+    /// Acceleration of free fall, global components. Default: none.
     pub gravity: Maybe<Vector>,
-    /// Accelerations of the ground; displacements are then relative to it.
+    /// Accelerations of the ground. Displacements, velocities and accelerations are then relative to the ground.
     #[serde(default)]
     pub base_acceleration: Vec<At<Table<BaseAcceleration>>>,
 }
@@ -21,13 +21,13 @@ pub struct Environment {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BaseAcceleration {
-    /// Of any length; only its direction counts.
+    /// Direction of the acceleration; its length does not count.
     #[schemars(required)]
     pub direction: Maybe<Vector>,
-    /// Name of an amplitude.
+    /// Name of the amplitude that gives the acceleration over time.
     #[schemars(required)]
     pub amplitude: Maybe<String>,
-    /// Default: 1.
+    /// Factor on the amplitude, such as 9.81 for a record in g. Default: 1.
     pub scale: Maybe<f64>,
 }
 
@@ -35,10 +35,12 @@ pub struct BaseAcceleration {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Damping {
-    /// C = mass_factor M + stiffness_factor K. Per time. Default: 0.
+    /// Rayleigh's alpha in C = alpha M + beta K, per unit of time, 0 or more. Default: 0. Alias: `alpha`.
     pub mass_factor: Maybe<f64>,
-    /// Time; acts on strain rates of beams and bars. Default: 0.
+    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more; it acts on strain rates of beams and bars.
+    /// Default: 0. Alias: `beta`.
     pub stiffness_factor: Maybe<f64>,
+    /// Dampers from nodes to the ground.
     #[serde(default)]
     pub nodal: Vec<At<Table<NodalDamping>>>,
 }
@@ -50,8 +52,8 @@ pub struct NodalDamping {
     /// Names of points, bodies or sets.
     #[schemars(required)]
     pub at: Maybe<Names>,
-    /// Force per velocity. Default: 0.
+    /// Force per velocity, 0 or more. Default: 0.
     pub translation: Maybe<f64>,
-    /// Moment per angular velocity. Default: 0.
+    /// Moment per angular velocity, 0 or more. Default: 0.
     pub rotation: Maybe<f64>,
 }

@@ -10,26 +10,29 @@ use super::words::{Maybe, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Name of a point, body, beam, bar, link or contact, "energy", or "analysis" for its time.
+    /// Name of a point, body, beam, bar, shell, link, joint or contact, "energy", or "analysis" for its time.
     #[schemars(required)]
     pub at: Maybe<String>,
-    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "fx" to "mz" of a joint, what it does to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest anywhere.
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "fx" to "mz" of a joint, what
+    /// it does to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest
+    /// anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,
-    /// When the value is taken; with arc-length, the first time the load comes to it.
+    /// Time at which the value is taken; with arc-length control, the first time the load reaches it.
     pub time: Maybe<f64>,
-    /// With arc-length, instead of a time: where a displacement passes a value. A step lands there.
+    /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.
     pub when: Maybe<Table<Passage>>,
-    /// Of the whole run, instead of a time.
+    /// An extreme over the whole run, instead of `time`.
     pub peak: Maybe<Peak>,
-    /// Left out with a bound.
+    /// The expected value. Left out with a bound.
     pub value: Maybe<f64>,
-    /// A bound instead of a value and its tolerance; over the whole run where neither time nor peak says when.
+    /// Lower bound, instead of `value` and its tolerance; over the whole run where neither `time` nor `peak` says when.
     pub at_least: Maybe<f64>,
+    /// Upper bound, instead of `value` and its tolerance; over the whole run where neither `time` nor `peak` says when.
     pub at_most: Maybe<f64>,
-    /// Relative.
+    /// Tolerance relative to the value, above 0.
     pub tolerance: Maybe<f64>,
-    /// Instead of a relative one.
+    /// Absolute tolerance, above 0, instead of a relative one.
     pub absolute_tolerance: Maybe<f64>,
     /// Where the value comes from: author, year, table or figure.
     pub source: Maybe<String>,
@@ -38,8 +41,10 @@ pub struct Expect {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Peak {
+    /// The greatest value.
     Max,
+    /// The least value.
     Min,
-    /// Greatest absolute value.
+    /// The greatest absolute value.
     Abs,
 }

@@ -13,15 +13,17 @@ pub struct Initial {
     /// Names of points, bodies, beams, bars, shells, edges or sets, or "all".
     #[schemars(required)]
     pub at: Maybe<Names>,
+    /// Velocity, global components.
     pub velocity: Maybe<Vector>,
-    /// Global components, radians per time.
+    /// Angular velocity, global components, radians per unit of time.
     pub angular_velocity: Maybe<Vector>,
-    /// The motion is that of a rigid body about this point, which has the velocity. Default: node by node.
+    /// The motion is that of a rigid body about this point, global coordinates, which has `velocity`. Default:
+    /// the velocities hold node by node.
     pub about: Maybe<Vector>,
-    /// Instead of velocity: along the normals of shells, which see the corners go round counter-clockwise; where patches
-    /// meet, along the mean of theirs.
+    /// Velocity along the normals of shells, which see the corners go round counter-clockwise, instead of
+    /// `velocity`; where patches meet, along the mean of their normals.
     pub normal_velocity: Maybe<f64>,
-    /// Factors of the velocities that vary from node to node; several multiply.
+    /// Factors on the velocities that vary from node to node; several multiply.
     pub profile: Maybe<Vec<At<Table<Profile>>>>,
 }
 
@@ -29,14 +31,14 @@ pub struct Initial {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
-    /// Name of an amplitude.
+    /// Name of an amplitude, whose time is here the distance or the angle.
     #[schemars(required)]
     pub amplitude: Maybe<String>,
-    /// The distance is measured along this direction, an angle from it.
+    /// The direction along which the distance is measured, or from which the angle is.
     #[schemars(required)]
     pub direction: Maybe<Vector>,
-    /// Takes the angle about this axis, in radians, from -pi to pi, instead of the distance.
+    /// Takes the angle about this axis, in radians from -pi to pi, instead of the distance.
     pub axis: Maybe<Vector>,
-    /// Where the distance is zero, or a point of the axis. Default: the origin.
+    /// The point where the distance is zero, or a point of the axis, global coordinates. Default: the origin.
     pub center: Maybe<Vector>,
 }

@@ -19,7 +19,8 @@ pub struct Joint {
     /// The first end.
     #[schemars(required)]
     pub from: Maybe<Table<End>>,
-    /// The second end. Where it is on a body, its `point` may be left out: it then lies where `from` lies (not with "distance").
+    /// The second end. Where it is on a body, its `point` may be left out: it then lies where `from` lies (not
+    /// with "distance").
     #[schemars(required)]
     pub to: Maybe<Table<End>>,
 }

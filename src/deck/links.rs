@@ -10,34 +10,38 @@ use crate::diagnostic::At;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
+    /// Name, for messages, results and `[[expect]]`.
     #[schemars(required)]
     pub name: Maybe<String>,
+    /// The first end.
     #[schemars(required)]
     pub from: Maybe<Table<End>>,
+    /// The second end.
     #[schemars(required)]
     pub to: Maybe<Table<End>>,
     /// Force against elongation. Default: "linear".
-    pub law: Maybe<Law>,
-    /// Force per length: linear, compression-only, tension-only.
+    pub law: Maybe<LinkLaw>,
+    /// Force per elongation, above 0; of a linear link also 0. (linear, compression-only, tension-only)
     pub stiffness: Maybe<f64>,
-    /// Force per velocity. Default: 0.
+    /// Force per rate of elongation, 0 or more. Default: 0.
     pub damping: Maybe<f64>,
-    /// Free play before the link acts. Default: 0. compression-only, tension-only.
+    /// Free play before the link acts, a length of 0 or more. Default: 0. (compression-only, tension-only)
     pub gap: Maybe<f64>,
-    /// Force at zero elongation, tension positive. Default: 0. linear.
+    /// Force at zero elongation, tension positive. Default: 0. (linear)
     pub preload: Maybe<f64>,
     /// Length without force, or projection without force along `direction`. Default: as the ends lie at t = 0.
     pub free_length: Maybe<f64>,
-    /// Fixed global direction from `from` to `to`, for coincident points and for bumpers; otherwise along the line between
-    /// them, which turns round when one point passes the other.
+    /// Fixed global direction from `from` to `to`, for coincident points and bumpers. Default: along the line
+    /// between the ends, which turns round when one end passes the other.
     pub direction: Maybe<Vector>,
-    /// [[elongation, force], ...]: table.
+    /// [[elongation, force], ...], two or more, elongations increasing; tension positive. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
-    /// Six stiffnesses [x, y, z, about x, about y, about z] in the frame of the first end, instead of a law.
+    /// Six stiffnesses [x, y, z, about x, about y, about z] in the frame of the first end, force per length and
+    /// moment per radian, instead of a law.
     pub bushing: Maybe<Numbers<6>>,
-    /// Six damping values of the bushing. Default: 0.
+    /// Six damping values of the bushing, force per velocity and moment per angular velocity. Default: 0.
     pub bushing_damping: Maybe<Numbers<6>>,
-    /// Axes of the bushing at t = 0: x, and a vector in the x-y plane. Default: global.
+    /// Axes of the bushing, global at t = 0: its x, and a vector in its x-y plane. Default: global axes.
     pub axes: Maybe<Vec<Vector>>,
 }
 
@@ -49,18 +53,21 @@ pub struct End {
     pub node: Maybe<String>,
     /// Name of a body.
     pub body: Maybe<String>,
-    /// Where on the body, global coordinates at t = 0. Default: its centre.
+    /// The point of the body, global coordinates at t = 0. Default: its centre of mass.
     pub point: Maybe<Vector>,
-    /// A fixed point, global coordinates.
+    /// A point fixed in space, global coordinates.
     pub ground: Maybe<Vector>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Law {
+pub enum LinkLaw {
+    /// Force proportional to elongation, with a preload.
     Linear,
-    /// Straight lines through `points`; the end slopes go on.
+    /// Straight lines through `points`; the slopes at the ends go on.
     Table,
+    /// Linear when shortened by more than the gap, otherwise without force: a bumper.
     CompressionOnly,
+    /// Linear when lengthened by more than the gap, otherwise without force: a rope.
     TensionOnly,
 }

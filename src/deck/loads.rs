@@ -12,20 +12,21 @@ pub struct Load {
     /// Names of points, bodies, shells, edges or sets; each node gets the whole load, unless it is one per length or area.
     #[schemars(required)]
     pub at: Maybe<Names>,
-    /// Global components.
+    /// Force, global components.
     pub force: Maybe<Vector>,
-    /// Global components.
+    /// Moment, global components.
     pub moment: Maybe<Vector>,
-    /// Along edges of shells, global components; `at` then names edges, such as "roof.edge2", groups of segments of the mesh, or
-    /// sets of nodes between which edges of shells lie.
+    /// Force per length along edges of shells, global components; `at` then names edges, such as "roof.edge2",
+    /// groups of segments of the mesh, or sets of nodes between which edges of shells lie.
     pub force_per_length: Maybe<Vector>,
-    /// On the area that shells have at t = 0, global components; `at` then names shells.
+    /// Force per area that shells have at t = 0, global components; `at` then names shells.
     pub force_per_area: Maybe<Vector>,
-    /// On shells, against their normals, which see the corners go round counter-clockwise; `at` then names shells. Area and
-    /// normals are those of t = 0, or with `follower` those of the moment.
+    /// Pressure on shells, against their normals, which see the corners go round counter-clockwise; `at` then
+    /// names shells. Area and normals are those of t = 0, with `follower` the current ones.
     pub pressure: Maybe<f64>,
-    /// A force or moment turns with its node, a pressure goes with the surface. Default: false.
+    /// A force or moment turns with its node, a pressure follows the surface. Default: false.
     pub follower: Maybe<bool>,
-    /// Name of an amplitude that multiplies the load. Default: constant (dynamic), growing linearly (static).
+    /// Name of an amplitude that multiplies the load. Default: constant in a dynamic analysis, growing linearly
+    /// to the end time in a static one.
     pub amplitude: Maybe<String>,
 }

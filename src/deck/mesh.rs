@@ -9,9 +9,9 @@ use super::words::Maybe;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// Path from the deck's folder: Gmsh in ASCII (.msh, 4.1 or 2.2), or Abaqus or CalculiX input (.inp).
+    /// Path relative to the deck's folder: Gmsh in ASCII (.msh, 4.1 or 2.2), or Abaqus or CalculiX input (.inp).
     #[schemars(required)]
     pub file: Maybe<String>,
-    /// Multiplies all coordinates. Default: 1.
+    /// Factor on all coordinates, above 0. Default: 1.
     pub scale: Maybe<f64>,
 }

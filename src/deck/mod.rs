@@ -43,11 +43,14 @@ use words::{Maybe, Named, Names, Table, Vector};
 pub struct Deck {
     /// What the scene is, in one line.
     pub title: Maybe<String>,
-    /// Unit system: labels output and turns on warnings about implausible values. Computes nothing.
+    /// System of units: it labels output and turns on warnings about implausible values. Nothing is converted.
     pub units: Maybe<output::Units>,
+    /// What is computed, over what time, in which steps.
     #[schemars(required)]
     pub analysis: Maybe<Table<analysis::Analysis>>,
+    /// The time integration scheme.
     pub integrator: Maybe<OneOf<analysis::Integrator>>,
+    /// How the nonlinear equations of each step are solved.
     pub iteration: Maybe<Table<analysis::Iteration>>,
     /// Materials by name.
     #[serde(default)]
@@ -55,45 +58,63 @@ pub struct Deck {
     /// Cross sections of beams by name.
     #[serde(default)]
     pub sections: Named<Table<sections::Section>>,
-    /// Named points [x, y, z] at t = 0; every one becomes a node.
+    /// Points by name, [x, y, z] at t = 0 in global coordinates; every one becomes a node.
     #[serde(default)]
     pub points: Named<Vector>,
+    /// A mesh from a file.
     pub mesh: Maybe<Table<mesh::Mesh>>,
-    /// Lists of names under one name: points, bodies, beams, bars, shells and their edges, groups of the mesh, further sets.
+    /// Lists of names under one name: points, bodies, beams, bars, shells and their edges, groups of the mesh, other sets.
     #[serde(default)]
     pub sets: Named<Names>,
+    /// Beams: shear-flexible, geometrically exact, elastic or yielding.
     #[serde(default)]
     pub beams: Vec<At<Table<beams::Beam>>>,
+    /// Bars and cables: axial force alone.
     #[serde(default)]
     pub bars: Vec<At<Table<beams::Bar>>>,
+    /// Shells: patches of triangles or quadrilaterals.
     #[serde(default)]
     pub shells: Vec<At<Table<shells::Shell>>>,
+    /// Rigid bodies.
     #[serde(default)]
     pub bodies: Vec<At<Table<bodies::Body>>>,
+    /// Point masses.
     #[serde(default)]
     pub masses: Vec<At<Table<bodies::Mass>>>,
+    /// Nodes rigidly attached to bodies or beams.
     #[serde(default)]
     pub attachments: Vec<At<Table<attachments::Attachment>>>,
+    /// Restrained and prescribed degrees of freedom.
     #[serde(default)]
     pub supports: Vec<At<Table<supports::Support>>>,
+    /// Joints between bodies or points: spherical, revolute, prismatic and others.
     #[serde(default)]
     pub joints: Vec<At<OneOf<joints::Joint>>>,
+    /// Springs, dampers, gaps and bushings between two points.
     #[serde(default)]
     pub links: Vec<At<Table<links::Link>>>,
+    /// Unilateral contact with friction and impact between points and surfaces.
     #[serde(default)]
     pub contacts: Vec<At<Table<contacts::Contact>>>,
+    /// Forces, moments and distributed loads.
     #[serde(default)]
     pub loads: Vec<At<Table<loads::Load>>>,
     /// Functions of time by name, for loads and prescribed motion.
     #[serde(default)]
     pub amplitudes: Named<Table<amplitudes::Amplitude>>,
+    /// Gravity and accelerations of the ground.
     pub environment: Maybe<Table<environment::Environment>>,
+    /// Velocities at t = 0.
     #[serde(default)]
     pub initial: Vec<At<Table<initial::Initial>>>,
+    /// Rayleigh damping, and dampers to the ground.
     pub damping: Maybe<Table<environment::Damping>>,
+    /// Values that the run must reach; a miss ends it with exit code 5.
     #[serde(default)]
     pub expect: Vec<At<Table<expect::Expect>>>,
+    /// Which results are written, and how often.
     pub output: Maybe<Table<output::Output>>,
+    /// What `rdsolve study` goes over; a run leaves it aside.
     pub study: Maybe<Table<study::Study>>,
     /// Entries that are written but could not be read: not missing, and already reported.
     #[serde(skip)]

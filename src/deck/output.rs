@@ -11,21 +11,21 @@ use super::words::{Maybe, Names, Table};
 pub struct Output {
     /// Nodes in nodes.csv: "named", "all", or names of points and sets. Default: "named".
     pub nodes: Maybe<Names>,
-    /// Steps between two rows. Default: 1.
+    /// Steps between two rows, 1 or more. Default: 1.
     pub every: Maybe<u64>,
-    /// Time between two rows, instead of `every`: steps land on its multiples.
+    /// Time between two rows, above 0, instead of `every`: multiples of it are hit exactly.
     pub interval: Maybe<f64>,
-    /// Files for looking at: the deformed shape.
+    /// Files of the deformed shape for viewers such as ParaView.
     pub fields: Maybe<Table<Fields>>,
-    /// Write energy.csv. Default: true.
+    /// Write energy.csv: energies, dissipation, balance and momenta. Default: true.
     pub energy: Maybe<bool>,
-    /// Write links.csv. Default: false.
+    /// Write links.csv: elongation, rate and force of links. Default: false.
     pub links: Maybe<bool>,
     /// Write contacts.csv: gaps and forces of contacts. Default: false.
     pub contacts: Maybe<bool>,
-    /// Write reactions.csv. Default: false.
+    /// Write reactions.csv: reactions of supports and joints. Default: false.
     pub reactions: Maybe<bool>,
-    /// Write sections.csv of beams and shells.csv of shells: their stress resultants. Default: false.
+    /// Write sections.csv for beams and shells.csv for shells: stress resultants. Default: false.
     pub sections: Maybe<bool>,
     /// Write layers.csv: stress through the thickness of shells. Default: false.
     pub layers: Maybe<bool>,
@@ -37,15 +37,17 @@ pub struct Output {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fields {
+    /// The format of the files.
     #[schemars(required)]
     pub format: Maybe<Format>,
-    /// Steps between two files. Default: 1.
+    /// Steps between two files, 1 or more. Default: 1.
     pub every: Maybe<u64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Format {
+    /// VTK unstructured grids, one file a time, with a .pvd file that lists them.
     Vtu,
 }
 

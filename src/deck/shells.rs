@@ -6,56 +6,62 @@ use serde::Deserialize;
 use super::beams::MassKind;
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
 
-/// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1` to `name.edge4` for those of an edge: edge1
+/// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1`
+/// to `name.edge4` for those of an edge: edge1
 /// runs from the first corner to the second, and so on round. Patches that share corners share the nodes between them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shell {
-    /// Default: that of the group.
+    /// Name; left out with `group`, the name of the group.
     pub name: Maybe<String>,
     /// Names of four points in order round the patch, or of three.
     pub corners: Maybe<Names>,
-    /// Name of a group of the mesh, instead of corners, elements, kind and surface: its triangles and quadrilaterals. Normals at
-    /// nodes are those of the elements round them, each weighted by its angle there, on the same side of folds of more than 31°.
+    /// Name of a group of the mesh, instead of `corners`, `elements`, `kind` and `surface`: its triangles and
+    /// quadrilaterals. Normals at nodes are those of the elements round them, each weighted by its angle there,
+    /// on the same side of folds of more than 31 degrees.
     pub group: Maybe<String>,
-    /// Elements along edge1 and along edge2, or one number for all edges.
+    /// Elements along edge1 and along edge2, 1 or more, or one number for all edges.
     pub elements: Maybe<OneOrMany<u64>>,
+    /// Thickness, above 0.
     #[schemars(required)]
     pub thickness: Maybe<f64>,
     /// Name of a material.
     #[schemars(required)]
     pub material: Maybe<String>,
-    /// Default: "quadrilateral"; a patch of three corners has triangles.
+    /// The elements. Default: "quadrilateral"; a patch of three corners has triangles.
     pub kind: Maybe<ElementKind>,
-    /// Points through the thickness, 2 to 10. Default: 5. Shells whose material yields.
+    /// Integration points through the thickness, 2 to 10, for shells whose material yields. Default: 5.
     pub layers: Maybe<u64>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
-    pub surface: Maybe<Table<Surface>>,
-    /// Direction that, laid into the surface, is axis 1 of results; where it stands on the surface, the global axis the farthest
-    /// from it is. Default: global x, and y where x stands on the surface.
+    pub surface: Maybe<Table<PatchSurface>>,
+    /// Direction that, projected into the surface, is axis 1 of results; where it is normal to the surface, the
+    /// global axis that is farthest from it. Default: global x, and y where x is normal to the surface.
     pub axis: Maybe<Vector>,
-    /// Default: "lumped".
+    /// Mass matrix. Default: "lumped".
     pub mass: Maybe<MassKind>,
-    /// The part is a rigid body of its name, with the mass and inertia of its elements. Default: false.
+    /// The shell is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ElementKind {
+    /// Four-node elements with assumed transverse shear strains.
     Quadrilateral,
+    /// Three-node elements with assumed transverse shear strains.
     Triangle,
 }
 
 /// Where the nodes between the corners lie. With an axis, edges are straight in the coordinates about it.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Surface {
+pub struct PatchSurface {
+    /// The surface.
     #[schemars(required)]
     pub kind: Maybe<SurfaceKind>,
-    /// A point of the axis, or the centre of the sphere. Default: the origin.
+    /// A point of the axis, or the centre of the sphere, global coordinates. Default: the origin.
     pub center: Maybe<Vector>,
-    /// Needed by a cylinder. A sphere without one takes edges along great circles.
+    /// Direction of the axis; a cylinder needs it. A sphere without one takes edges along great circles.
     pub axis: Maybe<Vector>,
 }
 

@@ -17,8 +17,10 @@ use crate::diagnostic::{At, Diagnostic, Span};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Study {
-    /// What errors are measured on, as name.quantity of points and bodies: x y z, ux uy uz, rx ry rz (not of bodies), vx vy vz,
-    /// wx wy wz, ax ay az, alphax alphay alphaz, body_wx body_wy body_wz (in axes that turn with it), r11 to r33 (rotation matrix).
+    /// What errors are measured on, as name.quantity of points and bodies: x y z, ux uy uz, rx ry rz (not of
+    /// bodies), vx vy vz,
+    /// wx wy wz, ax ay az, alphax alphay alphaz, body_wx body_wy body_wz (in axes that turn with it), r11 to
+    /// r33 (rotation matrix).
     /// Default: those of `columns`; else ux, uy, uz of all points in nodes.csv and of all bodies.
     pub quantities: Maybe<Names>,
     /// CSV file beside the deck: the time, then one column for each quantity. Default: the finest runs, extrapolated.
@@ -35,7 +37,8 @@ pub struct Study {
     pub time_steps: Maybe<OneOrMany<f64>>,
     /// Halve one time step so many times, instead of a list.
     pub halvings: Maybe<u64>,
-    /// With an automatic time step, lines of their own over these tolerances. Default: where the deck's step is automatic, its own
+    /// With an automatic time step, lines of their own over these tolerances. Default: where the deck's step is
+    /// automatic, its own
     /// tolerance times 10, 1, 0.1 and 0.01.
     pub error_tolerances: Maybe<OneOrMany<f64>>,
     /// Tables like `[integrator]`, or words with parameters: "wilson-theta", "newmark:gamma=0.6:beta=0.31". Default: the

@@ -12,9 +12,9 @@ pub struct Support {
     /// Names of points, bodies or sets.
     #[schemars(required)]
     pub at: Maybe<Names>,
-    /// Directions held at rest.
+    /// Degrees of freedom that are restrained at zero: "all", "translations", "rotations" or a list such as ["ux", "ry"].
     pub fix: Maybe<Directions>,
-    /// Directions moved as a function of time.
+    /// Degrees of freedom that are prescribed as functions of time.
     pub motion: Maybe<Table<Motions>>,
 }
 
@@ -22,11 +22,17 @@ pub struct Support {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motions {
+    /// Displacement along global x.
     pub ux: Maybe<Table<Motion>>,
+    /// Displacement along global y.
     pub uy: Maybe<Table<Motion>>,
+    /// Displacement along global z.
     pub uz: Maybe<Table<Motion>>,
+    /// Rotation about global x, radians.
     pub rx: Maybe<Table<Motion>>,
+    /// Rotation about global y, radians.
     pub ry: Maybe<Table<Motion>>,
+    /// Rotation about global z, radians.
     pub rz: Maybe<Table<Motion>>,
 }
 
@@ -37,9 +43,9 @@ pub struct Motion {
     /// Name of an amplitude.
     #[schemars(required)]
     pub amplitude: Maybe<String>,
-    /// Default: 1.
+    /// Factor on the amplitude. Default: 1.
     pub scale: Maybe<f64>,
-    /// What the amplitude describes. Default: "displacement".
+    /// The quantity that the amplitude gives. Default: "displacement".
     pub history: Maybe<History>,
 }
 

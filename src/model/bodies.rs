@@ -213,7 +213,7 @@ pub(super) fn read_inertia(values: &At<Vec<f64>>, report: &mut Report) -> Option
     Some(inertia)
 }
 
-fn read_solid<'d>(shape: &'d At<Table<words::Shape>>, body: &str, report: &mut Report<'d>) -> Option<Solid> {
+fn read_solid<'d>(shape: &'d At<Table<words::BodyShape>>, body: &str, report: &mut Report<'d>) -> Option<Solid> {
     let owner = Owner::new(format!("the shape of {body}"), &shape.span);
     let kind = report.require(&owner, "kind", &shape.kind)?.value;
     let keys = [
@@ -265,7 +265,7 @@ fn read_solid<'d>(shape: &'d At<Table<words::Shape>>, body: &str, report: &mut R
 
 fn read_inner_radius<'d>(
     owner: &Owner<'d>,
-    shape: &words::Shape,
+    shape: &words::BodyShape,
     kind: words::ShapeKind,
     radius: f64,
     report: &mut Report<'d>,

@@ -75,12 +75,12 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
     let law = match &link.law {
         Some(law) => law.value,
         None if report.is_spoiled(owner.span, "law") => return None,
-        None => words::Law::Linear,
+        None => words::LinkLaw::Linear,
     };
     let [stiffness, gap] = [("stiffness", span(&link.stiffness)), ("gap", span(&link.gap))];
     let [preload, points] = [("preload", span(&link.preload)), ("points", span(&link.points))];
     match law {
-        words::Law::Linear => {
+        words::LinkLaw::Linear => {
             report.reject_unused("the law \"linear\"", &[gap, points]);
             if link.damping.is_none() {
                 report.require(owner, "stiffness", &link.stiffness)?;
@@ -88,19 +88,19 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
             let stiffness = report.not_negative("stiffness", &link.stiffness, 0.0);
             Some(Law::Linear { stiffness, preload: link.preload.as_ref().map_or(0.0, |force| force.value) })
         }
-        words::Law::Table => {
+        words::LinkLaw::Table => {
             report.reject_unused("the law \"table\"", &[stiffness, gap, preload]);
             let points = report.require(owner, "points", &link.points)?;
             report.rising("elongation", points).map(|points| Law::Table { points })
         }
-        words::Law::CompressionOnly | words::Law::TensionOnly => {
+        words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {
             let one_sided = "a law that acts one way only";
             report.reject_unused(one_sided, &[preload, points]);
             let stiffness = report.require_positive(owner, "stiffness", &link.stiffness);
             let gap = report.not_negative("gap", &link.gap, 0.0);
             let stiffness = stiffness?;
             Some(match law {
-                words::Law::CompressionOnly => Law::CompressionOnly { stiffness, gap },
+                words::LinkLaw::CompressionOnly => Law::CompressionOnly { stiffness, gap },
                 _ => Law::TensionOnly { stiffness, gap },
             })
         }

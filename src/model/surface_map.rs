@@ -165,7 +165,10 @@ fn on_a_sphere(place: &Span, center: Vec3, corners: &[usize], nodes: &Nodes, rep
     report.error_with(place, message, format!("distances: {}", joined(&words)))
 }
 
-fn read_surface<'d>(surface: &'d At<Table<words::Surface>>, report: &mut Report<'d>) -> Option<(Coordinates, Vec3)> {
+fn read_surface<'d>(
+    surface: &'d At<Table<words::PatchSurface>>,
+    report: &mut Report<'d>,
+) -> Option<(Coordinates, Vec3)> {
     let owner = Owner::new("`surface`", &surface.span);
     match (report.require(&owner, "kind", &surface.kind)?.value, &surface.axis) {
         (words::SurfaceKind::Sphere, None) => Some((Coordinates::Pushed, Vec3::z())),
