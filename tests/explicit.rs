@@ -502,7 +502,7 @@ fn massless_directions_are_named() {
     let inner = places(&Plan::new(&finer, &system, 1).massless(&finer, &system));
     assert!(inner.contains(&"\"legs\"".to_owned()), "{inner:?}");
     let system = System::new(&model).unwrap();
-    let text = plan.explain(&model, &system).to_string();
+    let text = rdsolve::plan::explain::explain(&plan, &model, &system).to_string();
     assert!(text.contains("nothing is factorized"), "{text}");
 }
 

@@ -451,7 +451,12 @@ fn a_four_bar_linkage_turns_a_hundred_times_and_stays_closed() {
     // Rows of the loop that say nothing new: two turns and one translation.
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
-    assert_eq!(plan.repeated.as_deref().map(<[usize]>::len), Some(3), "{:?}", plan.repeated(&model, &system));
+    assert_eq!(
+        plan.repeated.as_deref().map(<[usize]>::len),
+        Some(3),
+        "{:?}",
+        rdsolve::plan::explain::redundant_constraints(&plan, &model, &system)
+    );
 }
 
 #[test]
@@ -476,7 +481,12 @@ fn hinges_that_say_the_same_share_the_weight() {
     let model = from_text(&text);
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
-    assert_eq!(plan.repeated.as_deref().map(<[usize]>::len), Some(10), "{:?}", plan.repeated(&model, &system));
+    assert_eq!(
+        plan.repeated.as_deref().map(<[usize]>::len),
+        Some(10),
+        "{:?}",
+        rdsolve::plan::explain::redundant_constraints(&plan, &model, &system)
+    );
     assert!(support::run(&model, &mut |_| vec![]).verdicts[0].passed);
     let seen = watch(&model, |frame| frame.derived.joints.iter().flat_map(|j| [j.f.x, j.f.y, j.f.z, j.m.y]).collect());
     println!("{:?}\n{:?}", seen.rows[0], seen.rows.last());

@@ -5,6 +5,7 @@ use super::console::{print, show};
 use super::exit::Exit;
 use super::load::{load, plan, too_large};
 use crate::output::listed;
+use crate::plan::explain::explain_costs;
 
 pub fn check(args: &DeckArgs) -> Result<(), Exit> {
     let loaded = load(&args.deck, &args.sets, Vec::new())?;
@@ -12,7 +13,7 @@ pub fn check(args: &DeckArgs) -> Result<(), Exit> {
     let (system, plan, warnings) = plan(&loaded, 1)?;
     show(&warnings, &loaded.source);
     let (solver, _) = plan.build(&system).map_err(too_large)?;
-    let mut text = plan.explain_costs(&loaded.model, &system, &solver);
+    let mut text = explain_costs(&plan, &loaded.model, &system, &solver);
     text.computed.push(("output", listed(&loaded.model)));
     print(&format!("{}: no errors\n{text}", loaded.source.path))
 }

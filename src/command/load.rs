@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Source};
 use crate::linear::TooLarge;
 use crate::model::{self, Model};
 use crate::plan::Plan;
+use crate::plan::explain::redundant_constraints;
 use crate::system::System;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -88,7 +89,7 @@ pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagno
 
 /// What the plan has found out about a sound model, as warnings.
 fn plan_warnings(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic> {
-    plan.repeated(model, system).into_iter().map(Diagnostic::warning).collect()
+    redundant_constraints(plan, model, system).into_iter().map(Diagnostic::warning).collect()
 }
 
 /// There is no memory for the solver.

@@ -22,6 +22,7 @@ use crate::output::progress::Progress;
 use crate::output::result_json::{Counts, Origin, RunResult, Sizes, Status, Timings, peak_memory_bytes};
 use crate::output::{Files, listed, wanted};
 use crate::plan::Plan;
+use crate::plan::explain::explain;
 use crate::solve::{Frame, Observer, Run};
 use crate::study::LIFELINE;
 use crate::system::System;
@@ -70,7 +71,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
 
 /// The plan in lines.
 fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Vec<String> {
-    let mut text = plan.explain(&loaded.model, system);
+    let mut text = explain(plan, &loaded.model, system);
     text.computed.push(("output", listed(&loaded.model)));
     text.to_string().lines().map(str::to_owned).collect()
 }

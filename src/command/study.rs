@@ -15,7 +15,7 @@ use super::signals::stop_on_signals;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::plan::Plan;
-use crate::study::{Fault, Options, Status, rigidify, study as studied};
+use crate::study::{Fault, Options, Status, rigidify, study as studied, text};
 use crate::system::System;
 
 #[derive(Debug, Args)]
@@ -148,7 +148,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         (advice.text(), advice.stopped, advice.base.status == Status::Done)
     } else {
         let found = studied(&loaded.model, &deck, &options, &stop).map_err(fault)?;
-        (found.text(), found.stopped, found.runs.iter().any(|run| run.status == Status::Done))
+        (text(&found), found.stopped, found.runs.iter().any(|run| run.status == Status::Done))
     };
     print(&text)?;
     if !args.quiet {

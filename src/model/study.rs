@@ -123,7 +123,7 @@ impl<'d> Reader<'_, 'd> {
         {
             let message =
                 format!("the time step {longest} is longer than the {} between two samples", end / samples as f64);
-            self.report.error_with::<()>(&at.span, message, "steps land on all of them: take fewer `samples`");
+            self.report.error_with::<()>(&at.span, message, "steps end at every sample time: take fewer `samples`");
         }
         let finest = study.finest.as_ref().is_some_and(|finest| finest.value);
         let schemes = self.schemes(study);

@@ -2,7 +2,7 @@
 //! matrix, the factorisation, when it is refreshed.
 
 mod choose;
-mod explain;
+pub mod explain;
 pub mod explicit;
 mod passages;
 mod place;

@@ -1,6 +1,6 @@
 //! What a study has written into its folder, in a file of its own there: nothing else is taken away or written over.
 
-use super::runs::RUNS;
+use super::options::RUNS;
 use crate::output::{at, holds_run, remove, remove_empty, remove_run, replace};
 use std::fs;
 use std::io;

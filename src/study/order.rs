@@ -1,7 +1,7 @@
 //! What a line of runs says: its order where it has one, and what an error costs.
 
 use super::grid::StudyGrid;
-use super::runs::{Run, Status};
+use super::run::{Run, Status};
 
 /// Local orders that agree so far are of one slope.
 const SLOPE: f64 = 0.3;
@@ -156,7 +156,7 @@ pub fn local(before: Option<&Run>, run: &Run) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::runs::Measured;
+    use super::super::run::Measured;
     use super::*;
 
     fn line(errors: &[f64]) -> Vec<(f64, f64)> {

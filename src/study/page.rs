@@ -1,6 +1,7 @@
 //! study.html: the picture and the tables on one page that opens without a network.
 
-use super::{Found, table};
+use super::found::Found;
+use super::table;
 use crate::output::report::STYLE;
 use crate::output::report::html::{self, escaped};
 

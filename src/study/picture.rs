@@ -1,7 +1,8 @@
 //! Error against the time of the loop, both by decades, one line a setting, as SVG without fonts or scripts of its own, for light
 //! and dark paper.
 
-use super::{Found, Run};
+use super::found::Found;
+use super::run::Run;
 use crate::names::short;
 use crate::output::report::html::escaped;
 

@@ -10,16 +10,11 @@
 //! The step of a run is the mean of those it took: what was asked for may have been cut to the limit of stability, or to the
 //! interval between samples, and runs with the same steps show nothing of their error.
 
-use super::grid::StudyGrid;
+use super::grid::{Line, StudyGrid};
 use super::history;
-use super::runs::{Run, Status};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::mesh::text::{Line, Text};
-use crate::model::Model;
-use crate::model::study::{Quantity, Study};
-use crate::names::{nearest, quoted};
-use std::fs;
-use std::path::Path;
+use super::reference_file::Given;
+use super::run::{Run, Status};
+use crate::model::study::Quantity;
 
 /// Steps less than so many times as long as others are as long: less than halving does, more than what rounding to
 /// whole steps makes of equal ones.
@@ -40,197 +35,10 @@ pub struct Reference {
     pub source: String,
 }
 
-/// A reference of a file.
-pub struct Given {
-    pub values: Vec<f64>,
-    pub samples: usize,
-    source: String,
-}
-
 impl From<Given> for Reference {
     fn from(given: Given) -> Self {
         Reference { values: given.values, error_bound: 0.0, source: given.source }
     }
-}
-
-/// More messages about one file help nobody.
-const MOST_FAULTS: usize = 20;
-
-/// What is wrong with the file of a reference.
-struct Faults<'t> {
-    /// As the deck names it.
-    file: &'t str,
-    text: Text<'t>,
-    list: Vec<Diagnostic>,
-}
-
-impl Faults<'_> {
-    fn push(&mut self, fault: Diagnostic) {
-        match self.list.len() {
-            MOST_FAULTS.. => {}
-            _ => self.list.push(fault),
-        }
-        if self.list.len() == MOST_FAULTS {
-            self.list.push(Diagnostic::error(format!("`{}` may have more errors; correct these first", self.file)));
-        }
-    }
-
-    /// About a line of the file.
-    fn on(&self, line: usize, text: String) -> Diagnostic {
-        *self.text.fault(format!("the reference `{}` {text}", self.file), line)
-    }
-
-    /// About a field of a line, where it can be told.
-    fn in_field(&self, line: usize, field: usize, text: String) -> Diagnostic {
-        let bytes = self.text.bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
-        // Commas in quotes part nothing.
-        let word = Line { bytes, number: line }.fields().nth(field).filter(|_| !bytes.contains(&b'"'));
-        match word {
-            Some(word) => *self.text.fault_at(format!("the reference `{}` {text}", self.file), &word),
-            None => self.on(line, text),
-        }
-    }
-}
-
-/// Reads the file that the deck names, if it names one; `key`: where it does.
-pub fn read(
-    model: &Model,
-    study: &Study,
-    quantities: &[Quantity],
-    base: &Path,
-    key: Option<&Span>,
-) -> Result<Option<Given>, Vec<Diagnostic>> {
-    let Some(file) = &study.reference else { return Ok(None) };
-    let path = base.join(file);
-    let placed = |list: Vec<Diagnostic>| match key {
-        Some(key) => list.into_iter().map(|problem| problem.at(key)).collect(),
-        None => list,
-    };
-    let error = |text: String| Diagnostic::error(format!("the reference `{file}` {text}"));
-    let bytes = match fs::read(&path) {
-        Ok(bytes) => bytes,
-        Err(fault) => return Err(placed(vec![error(format!("cannot be read: {fault}"))])),
-    };
-    let shown = path.display().to_string();
-    let mut faults = Faults { file, text: Text::new(&shown, &bytes), list: Vec::new() };
-    let rows = rows(study, quantities, &bytes, &mut faults);
-    if !faults.list.is_empty() {
-        return Err(placed(faults.list));
-    }
-    let end = model.analysis.end_time;
-    let samples = study.samples.unwrap_or(rows.len().saturating_sub(1)).max(1);
-    let near = 1e-6 * end / samples as f64;
-    let (mut values, mut missing) = (Vec::new(), Vec::new());
-    let mut left = rows.iter().peekable();
-    for k in 0..=samples {
-        let time = end * k as f64 / samples as f64;
-        while left.next_if(|row| row.time < time - near).is_some() {}
-        match left.peek() {
-            Some(row) if row.time <= time + near => values.extend(&row.values),
-            // The row before which it is missing; at the end the last there is.
-            next => missing.push((time, next.map_or_else(|| rows.last(), |row| Some(*row)).map_or(1, |row| row.line))),
-        }
-    }
-    if let Some(&(time, line)) = missing.first() {
-        let others = match missing.len() - 1 {
-            0 => String::new(),
-            1 => ", nor at one other time".to_owned(),
-            count => format!(", nor at {count} other times"),
-        };
-        let hint = format!("{samples} intervals are looked for from 0 to {end}: see `samples`");
-        return Err(placed(vec![faults.on(line, format!("has no row at t = {time}{others}")).hint(hint)]));
-    }
-    if values.iter().all(|value| *value == 0.0) {
-        let text = "is zero throughout: there is nothing an error could be relative to";
-        return Err(placed(vec![error(text.to_owned())]));
-    }
-    Ok(Some(Given { values, samples, source: shown }))
-}
-
-/// A time of a reference, and the quantities then.
-struct Row {
-    line: usize,
-    time: f64,
-    values: Vec<f64>,
-}
-
-/// All rows, where nothing is wrong with the file.
-fn rows(study: &Study, quantities: &[Quantity], bytes: &[u8], faults: &mut Faults) -> Vec<Row> {
-    let mut counted = (0, 1);
-    // Of a record that begins at a byte, ever later ones: blank lines before it are the reader's own affair.
-    let mut line_at = |start: usize| -> usize {
-        let blank = bytes[start..].iter().take_while(|&&byte| byte == b'\n' || byte == b'\r').count();
-        counted.1 += bytes[counted.0..start + blank].iter().filter(|&&byte| byte == b'\n').count();
-        counted.0 = start + blank;
-        counted.1
-    };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
-    let header: Vec<String> = match reader.byte_headers() {
-        Ok(header) => header.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect(),
-        Err(fault) => {
-            faults.push(faults.on(1, format!("cannot be read: {fault}")));
-            return Vec::new();
-        }
-    };
-    let head = line_at(0);
-    if header.is_empty() {
-        faults.push(faults.on(1, "is empty".to_owned()));
-        return Vec::new();
-    }
-    let names: Vec<String> =
-        if study.columns.is_empty() { quantities.iter().map(Quantity::word).collect() } else { study.columns.clone() };
-    let time_at = header.iter().position(|name| name == "t" || name == "time");
-    if time_at.is_none() {
-        faults.push(faults.on(head, "has no column `t` or `time`".to_owned()));
-    }
-    let mut places = Vec::new();
-    for name in &names {
-        match header.iter().position(|column| column == name) {
-            Some(place) => places.push(place),
-            None => {
-                let known = header.iter().map(String::as_str);
-                let near = nearest(name, known.clone()).map(|near| format!("did you mean `{near}`?"));
-                let hint = near.unwrap_or_else(|| format!("it has {}", quoted(known)));
-                faults.push(faults.on(head, format!("has no column `{name}`")).hint(hint));
-            }
-        }
-    }
-    let mut rows: Vec<Row> = Vec::new();
-    let mut last: Option<(f64, usize)> = None;
-    for record in reader.into_byte_records() {
-        let record = match record {
-            Ok(record) => record,
-            Err(fault) => {
-                faults.push(faults.on(head, format!("cannot be read: {fault}")));
-                break;
-            }
-        };
-        let line = line_at(record.position().map_or(0, |position| position.byte() as usize));
-        let mut number = |place: usize| -> Option<f64> {
-            let text = record.get(place).map(String::from_utf8_lossy);
-            let number = text.as_ref().and_then(|text| text.parse::<f64>().ok()).filter(|number| number.is_finite());
-            if number.is_none() {
-                let what = match &text {
-                    Some(text) if !text.is_empty() => format!("`{text}` is none"),
-                    _ => "there is nothing".to_owned(),
-                };
-                let message = format!("has no finite number for `{}` in line {line}", header[place]);
-                faults.push(faults.in_field(line, place, message).hint(what));
-            }
-            number
-        };
-        let time = time_at.and_then(&mut number);
-        let values: Vec<f64> = places.iter().filter_map(|&place| number(place)).collect();
-        if let (Some(time), Some(place)) = (time, time_at) {
-            if let Some((before, above)) = last.filter(|(before, _)| *before >= time) {
-                let message = format!("has times that do not rise: {time} in line {line}");
-                faults.push(faults.in_field(line, place, message).hint(format!("line {above} has {before}")));
-            }
-            last = Some((time, line));
-            rows.push(Row { line, time, values });
-        }
-    }
-    rows
 }
 
 /// What some runs tend to.
@@ -383,9 +191,8 @@ fn over_meshes(grid: &StudyGrid, runs: &[Run], index: usize) -> Option<(Limit, O
         limit(&h, &q, count, grid.lines[index].order).map(|limit| (limit, count))
     };
     let (time, count) = of_line(index)?;
-    let same = |other: &super::Line| {
-        other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic
-    };
+    let same =
+        |other: &Line| other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic;
     let meshes = grid.lines.iter().enumerate().filter(|(_, other)| same(other));
     let mut meshes: Vec<(f64, Limit)> =
         meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();

@@ -1,18 +1,20 @@
 //! What would it cost to make a part rigid, and what would it save? Each part's share of the elastic energy says where to look;
 //! a run with that part rigid says what comes of it.
 
+use super::advice::{Advice, Part};
 use super::grid::{SAMPLES, output};
+use super::history;
 use super::manifest::Manifest;
-use super::process::{Ended, Program};
+use super::options::{AS_IT_IS, Fault, Options, RIGID, RUNS};
+use super::process::Program;
 use super::progress::Progress;
-use super::runs::{AS_IT_IS, RIGID, RUNS, Run, Status, program};
-use super::study_csv::{field, maybe};
-use super::table::seconds;
-use super::{Fault, Options, columns, history};
+use super::run::{Run, Status};
+use super::run_all::program;
 use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::model::study::{Quantity, obstacle};
+use crate::output::at;
 use crate::output::table_reader::{TableReader, fields, number, text};
 use std::collections::HashMap;
 use std::io;
@@ -22,30 +24,6 @@ use std::sync::atomic::AtomicBool;
 /// What the advisor writes besides its runs.
 const TABLE: &str = "rigidify.csv";
 
-/// A beam, bar or shell that deforms.
-#[derive(Debug, Clone)]
-pub struct Part {
-    pub kind: &'static str,
-    pub name: String,
-    /// Of the largest elastic energy of all parts together at any time: the largest of this part's. `None`, as the next: the deck
-    /// as it is did not come to its end.
-    pub peak_share: Option<f64>,
-    /// Of the energy over all times: this part's.
-    pub mean_share: Option<f64>,
-    /// The run with this part rigid; a reason alone where there can be none.
-    pub rigid: Result<Run, String>,
-}
-
-/// What the parts of a deck cost and carry.
-pub struct Advice {
-    pub quantities: Vec<Quantity>,
-    pub samples: usize,
-    /// The deck as it is.
-    pub base: Run,
-    pub parts: Vec<Part>,
-    pub stopped: bool,
-}
-
 /// A part of the deck, before anything is known of it.
 struct Candidate {
     kind: &'static str,
@@ -54,11 +32,58 @@ struct Candidate {
     set: Option<String>,
 }
 
+/// One deck to run: as it is, or with a part rigid.
+struct Job {
+    label: String,
+    /// Below that of the study.
+    folder: String,
+    /// Overrides; `None`: it cannot be run.
+    sets: Option<Vec<String>>,
+}
+
+/// How each job is run and what is kept of it.
+struct Trial<'a> {
+    program: Program,
+    options: &'a Options,
+    quantities: &'a [Quantity],
+    samples: usize,
+    end: f64,
+    time_step: f64,
+}
+
+/// By kind and name: the largest share of the elastic energy, and that over all times.
+type Shares = HashMap<(String, String), [f64; 2]>;
+
 /// Runs the deck as it is and with each part rigid; writes rigidify.csv.
 pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Advice, Fault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);
     let candidates = candidates(deck);
+    check(model, &quantities, &candidates)?;
+    let (end, time_step) = (model.analysis.end_time, model.analysis.nominal_step());
+    // Samples closer together than the deck's steps would shorten these.
+    let steps = (end / time_step + 1e-9).floor().max(1.0);
+    let samples = asked.samples.unwrap_or(SAMPLES.min(steps as usize));
+    let common = [output(&quantities, end / samples as f64, true), "expect=[]".to_owned()];
+    let jobs = jobs(&candidates, options, &common);
+    let folders: Vec<String> = jobs.iter().map(|job| job.folder.clone()).collect();
+    let mut manifest = Manifest::begin(&options.folder, &[TABLE], &folders)?;
+    let trial = Trial { program: program(options)?, options, quantities: &quantities, samples, end, time_step };
+    let (runs, shares, stopped) = trial.run_all(&jobs, &mut manifest, stop)?;
+    let mut runs = runs.into_iter();
+    let Some(base) = runs.next().flatten() else {
+        let message = "stopped before the first run came to its end";
+        return Err(Fault::Io(io::Error::new(io::ErrorKind::Interrupted, message)));
+    };
+    let count = quantities.len();
+    let parts = candidates.into_iter().zip(runs).map(|(candidate, run)| part(candidate, run, &base, &shares, count));
+    let parts = parts.collect();
+    let advice = Advice { quantities, samples, base, parts, stopped };
+    manifest.write(TABLE, advice.table().as_bytes())?;
+    Ok(advice)
+}
+
+fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Result<(), Fault> {
     let mut problems: Vec<Diagnostic> = obstacle(model).map(Diagnostic::error).into_iter().collect();
     if quantities.is_empty() {
         let hint = "name a point or a body, or list `quantities` in `[study]`";
@@ -67,105 +92,105 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     if candidates.is_empty() {
         problems.push(Diagnostic::error("the deck has no part that deforms"));
     }
-    if !problems.is_empty() {
-        return Err(Fault::Deck(problems));
-    }
-    let folder =
-        |index: usize| if index == 0 { format!("{RUNS}/{AS_IT_IS}") } else { format!("{RUNS}/{RIGID}{index}") };
-    let folders: Vec<String> = (0..=candidates.len()).map(folder).collect();
-    let mut manifest = Manifest::begin(&options.folder, &[TABLE], &folders)?;
-    let end = model.analysis.end_time;
-    // Samples closer together than the deck's steps would shorten these.
-    let steps = (end / model.analysis.nominal_step() + 1e-9).floor().max(1.0);
-    let samples = asked.samples.unwrap_or(SAMPLES.min(steps as usize));
-    let program = program(options)?;
-    let common = [output(&quantities, end / samples as f64, true), "expect=[]".to_owned()];
-    let mut jobs: Vec<Option<Vec<String>>> = vec![Some(Vec::new())];
-    jobs.extend(candidates.iter().map(|candidate| candidate.set.clone().map(|set| vec![set])));
-    let mut runs: Vec<Option<Run>> = vec![None; jobs.len()];
-    let mut shares = HashMap::new();
-    let mut progress = Progress::new(options.quiet, (options.repeats * jobs.len()) as f64);
-    let mut stopped = false;
-    'all: for repeat in 0..options.repeats {
-        for (index, job) in jobs.iter().enumerate() {
-            let label = index.checked_sub(1).map_or("as it is".into(), |i| format!("{} rigid", candidates[i].name));
-            progress.show(&label, repeat + 1, options.repeats);
-            progress.did(1.0);
-            let Some(own) = job else { continue };
-            let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
-            if repeat > 0 && runs[index].as_ref().is_none_or(enough) {
-                continue;
-            }
-            let folder = folders[index].clone();
-            let place = options.folder.join(&folder);
-            if repeat == 0 {
-                manifest.note(&folder)?;
-            }
-            let sets: Vec<String> = options.sets.iter().chain(own).chain(&common).cloned().collect();
-            let Some(ended) = run(&program, &sets, &place, stop)? else {
-                stopped = true;
-                break 'all;
-            };
-            let done = Run::new(0, model.analysis.nominal_step(), folder, &ended, &place)?;
-            if let Some(before) = &mut runs[index] {
-                if done.status == Status::Done {
-                    before.again(done.loop_s, ended.process_s);
-                }
-                continue;
-            }
-            let done = done.with_history(&quantities, samples, end, &place);
-            if index == 0 {
-                if done.status == Status::Failed {
-                    return Err(Fault::Deck(vec![Diagnostic::error(format!(
-                        "the deck as it is fails: {}",
-                        done.reason
-                    ))]));
-                }
-                if done.status == Status::Done {
-                    shares = read_shares(&place.join("parts.csv"))?;
-                }
-            }
-            runs[index] = Some(done);
-        }
-    }
-    progress.finish();
-    let mut runs = runs.into_iter();
-    let Some(base) = runs.next().flatten() else {
-        return Err(Fault::Io(io::Error::new(
-            io::ErrorKind::Interrupted,
-            "stopped before the first run came to its end",
-        )));
-    };
-    let count = quantities.len();
-    let part = |(candidate, run): (Candidate, Option<Run>)| {
-        let key = (candidate.kind.to_owned(), candidate.name.clone());
-        let [peak_share, mean_share] = match base.status {
-            Status::Done => shares.get(&key).copied().unwrap_or([0.0; 2]).map(Some),
-            _ => [None; 2],
-        };
-        let rigid = match (run, &candidate.set) {
-            (Some(mut run), _) => {
-                if run.status == Status::Done && base.status == Status::Done {
-                    run.error = Some(history::error(&run.history, &base.history, count, |_| true));
-                    run.errors =
-                        (0..count).map(|k| history::error(&run.history, &base.history, count, |i| i == k)).collect();
-                }
-                Ok(run)
-            }
-            (None, None) => Err("a bar has no inertia about itself, so it cannot be a body".to_owned()),
-            (None, Some(_)) => Err("not run".to_owned()),
-        };
-        Part { kind: candidate.kind, name: candidate.name, peak_share, mean_share, rigid }
-    };
-    let parts = candidates.into_iter().zip(runs).map(part).collect();
-    let advice = Advice { quantities, samples, base, parts, stopped };
-    manifest.write(TABLE, advice.table().as_bytes())?;
-    Ok(advice)
+    if problems.is_empty() { Ok(()) } else { Err(Fault::Deck(problems)) }
 }
 
-fn run(program: &Program, sets: &[String], place: &Path, stop: &AtomicBool) -> io::Result<Option<Ended>> {
-    std::fs::create_dir_all(place).map_err(|error| crate::output::at(place, error))?;
-    program.run(sets, place, stop)
+fn jobs(candidates: &[Candidate], options: &Options, common: &[String]) -> Vec<Job> {
+    let sets = |own: &[String]| options.sets.iter().chain(own).chain(common).cloned().collect();
+    let base = Job { label: "as it is".to_owned(), folder: format!("{RUNS}/{AS_IT_IS}"), sets: Some(sets(&[])) };
+    let rigid = candidates.iter().enumerate().map(|(i, candidate)| Job {
+        label: format!("{} rigid", candidate.name),
+        folder: format!("{RUNS}/{RIGID}{}", i + 1),
+        sets: candidate.set.as_ref().map(|set| sets(std::slice::from_ref(set))),
+    });
+    std::iter::once(base).chain(rigid).collect()
+}
+
+impl Trial<'_> {
+    /// Runs of all jobs, each again and again in turn; shares of energy of the first; whether a signal ended it.
+    fn run_all(
+        &self,
+        jobs: &[Job],
+        manifest: &mut Manifest,
+        stop: &AtomicBool,
+    ) -> Result<(Vec<Option<Run>>, Shares, bool), Fault> {
+        let repeats = self.options.repeats;
+        let mut runs: Vec<Option<Run>> = vec![None; jobs.len()];
+        let mut shares = Shares::new();
+        let mut progress = Progress::new(self.options.quiet, (repeats * jobs.len()) as f64);
+        let mut stopped = false;
+        'all: for repeat in 0..repeats {
+            for (index, job) in jobs.iter().enumerate() {
+                progress.show(&job.label, repeat + 1, repeats);
+                progress.did(1.0);
+                let Some(sets) = &job.sets else { continue };
+                if repeat > 0 && runs[index].as_ref().is_none_or(|run| self.is_enough(run, repeat)) {
+                    continue;
+                }
+                if repeat == 0 {
+                    manifest.note(&job.folder)?;
+                }
+                let place = self.options.folder.join(&job.folder);
+                std::fs::create_dir_all(&place).map_err(|error| at(&place, error))?;
+                let Some(ended) = self.program.run(sets, &place, stop)? else {
+                    stopped = true;
+                    break 'all;
+                };
+                let run = Run::new(0, self.time_step, job.folder.clone(), &ended, &place)?;
+                match &mut runs[index] {
+                    Some(before) if run.status == Status::Done => before.again(run.loop_s, ended.process_s),
+                    Some(_) => {}
+                    none => {
+                        let run = run.with_history(self.quantities, self.samples, self.end, &place);
+                        if index == 0 {
+                            shares = shares_of(&run, &place)?;
+                        }
+                        *none = Some(run);
+                    }
+                }
+            }
+        }
+        progress.finish();
+        Ok((runs, shares, stopped))
+    }
+
+    fn is_enough(&self, run: &Run, repeat: usize) -> bool {
+        run.status != Status::Done || run.process_s * repeat as f64 > self.options.budget
+    }
+}
+
+/// Of the deck as it is, which must not be refused.
+fn shares_of(base: &Run, place: &Path) -> Result<Shares, Fault> {
+    match base.status {
+        Status::Failed => {
+            let message = format!("the deck as it is fails: {}", base.reason);
+            Err(Fault::Deck(vec![Diagnostic::error(message)]))
+        }
+        Status::Done => Ok(read_shares(&place.join("parts.csv"))?),
+        Status::NotConverged => Ok(Shares::new()),
+    }
+}
+
+/// A part with what is known of it; `count`: of quantities.
+fn part(candidate: Candidate, run: Option<Run>, base: &Run, shares: &Shares, count: usize) -> Part {
+    let key = (candidate.kind.to_owned(), candidate.name.clone());
+    let [peak_share, mean_share] = match base.status {
+        Status::Done => shares.get(&key).copied().unwrap_or([0.0; 2]).map(Some),
+        _ => [None; 2],
+    };
+    let rigid = match (run, &candidate.set) {
+        (Some(mut run), _) => {
+            if run.status == Status::Done && base.status == Status::Done {
+                let error = |of: &dyn Fn(usize) -> bool| history::error(&run.history, &base.history, count, of);
+                let (all, each) = (error(&|_| true), (0..count).map(|k| error(&|i| i == k)).collect());
+                (run.error, run.errors) = (Some(all), each);
+            }
+            Ok(run)
+        }
+        (None, None) => Err("a bar has no inertia about itself, so it cannot be a body".to_owned()),
+        (None, Some(_)) => Err("not run".to_owned()),
+    };
+    Part { kind: candidate.kind, name: candidate.name, peak_share, mean_share, rigid }
 }
 
 /// Parts that are not rigid already.
@@ -196,9 +221,9 @@ fn candidates(deck: &Deck) -> Vec<Candidate> {
 }
 
 /// By kind and name: the largest energy, and that over all times, each of that of all parts.
-fn read_shares(path: &Path) -> io::Result<HashMap<(String, String), [f64; 2]>> {
+fn read_shares(path: &Path) -> io::Result<Shares> {
     let mut rows = TableReader::open(path)?;
-    let mut peaks: HashMap<(String, String), [f64; 2]> = HashMap::new();
+    let mut peaks: Shares = HashMap::new();
     // Of the time at hand, its energy, the largest so far, the sum.
     let (mut step, mut now, mut largest, mut sum) = (Vec::new(), 0.0, 0.0f64, 0.0);
     while let Some(row) = rows.next()? {
@@ -219,91 +244,4 @@ fn read_shares(path: &Path) -> io::Result<HashMap<(String, String), [f64; 2]>> {
     largest = largest.max(now);
     let part = |of: f64, all: f64| if all > 0.0 { of / all } else { 0.0 };
     Ok(peaks.into_iter().map(|(key, [peak, mean])| (key, [part(peak, largest), part(mean, sum)])).collect())
-}
-
-impl Advice {
-    /// For standard output: the parts, those that could go first.
-    pub fn text(&self) -> String {
-        let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
-        let percent = |part: Option<f64>| match part.map(|part| 100.0 * part) {
-            None => String::new(),
-            Some(0.0) => "0 %".to_owned(),
-            Some(p) if p.abs() < 0.1 => format!("{p:.0e} %"),
-            Some(p) => format!("{p:.1} %"),
-        };
-        let base = &self.base;
-        let mut rows = vec![head.map(String::from).to_vec()];
-        let empty = String::new;
-        let (loop_s, unknowns) = (seconds(base.loop_s), base.measured.unknowns.to_string());
-        let status = if base.status == Status::Done {
-            "done".into()
-        } else {
-            format!("{}: {}", base.status.word(), base.reason)
-        };
-        rows.push(vec!["(as it is)".into(), empty(), empty(), empty(), empty(), loop_s, empty(), unknowns, status]);
-        let mut parts: Vec<&Part> = self.parts.iter().collect();
-        let error = |part: &Part| part.rigid.as_ref().ok().and_then(|run| run.error).unwrap_or(f64::INFINITY);
-        let share = |part: &Part| part.peak_share.unwrap_or(0.0);
-        parts.sort_by(|a, b| error(a).total_cmp(&error(b)).then(share(a).total_cmp(&share(b))));
-        for part in parts {
-            let mut row =
-                vec![part.name.clone(), part.kind.to_owned(), percent(part.peak_share), percent(part.mean_share)];
-            match &part.rigid {
-                Ok(run) if run.status == Status::Done => row.extend([
-                    run.error.map_or(empty(), |error| format!("{error:.2e}")),
-                    seconds(run.loop_s),
-                    percent((base.status == Status::Done).then(|| 1.0 - run.loop_s / base.loop_s)),
-                    run.measured.unknowns.to_string(),
-                    "done".into(),
-                ]),
-                Ok(run) => {
-                    row.extend([empty(), empty(), empty(), empty(), format!("{}: {}", run.status.word(), run.reason)])
-                }
-                Err(reason) => row.extend([empty(), empty(), empty(), empty(), reason.clone()]),
-            }
-            rows.push(row);
-        }
-        let (samples, count) = (self.samples + 1, self.quantities.len());
-        let what = if count == 1 { "quantity" } else { "quantities" };
-        format!("{}\nerror: against the deck as it is, {count} {what} at {samples} times\n", columns(&rows, 2))
-    }
-
-    /// The text of rigidify.csv.
-    fn table(&self) -> String {
-        let head = "kind,part,peak_share,mean_share,status,error,loop_s,process_s,repeats,unknowns,folder,reason";
-        let mut out = head.to_owned();
-        self.quantities
-            .iter()
-            .for_each(|quantity| out += &format!(",{}", field(&format!("error:{}", quantity.word()))));
-        out.push('\n');
-        let mut row = |kind: &str, name: &str, shares: [Option<f64>; 2], run: Result<&Run, &str>| {
-            let [peak, mean] = shares.map(maybe);
-            out += &format!("{kind},{},{peak},{mean}", field(name));
-            match run {
-                Ok(run) => {
-                    let [loop_s, process_s] = [run.loop_s, run.process_s].map(|s| maybe(Some(s)));
-                    out += &format!(",{},{},{loop_s},{process_s}", run.status.word(), maybe(run.error));
-                    out += &format!(
-                        ",{},{},{},{}",
-                        run.times.len(),
-                        run.measured.unknowns,
-                        run.folder,
-                        field(&run.reason)
-                    );
-                }
-                Err(reason) => out += &format!(",none,,,,,,,{}", field(reason)),
-            }
-            for i in 0..self.quantities.len() {
-                let error = run.ok().and_then(|run| run.errors.get(i).copied());
-                out += &format!(",{}", maybe(error));
-            }
-            out.push('\n');
-        };
-        row("all", "", [None, None], Ok(&self.base));
-        for part in &self.parts {
-            let shares = [part.peak_share, part.mean_share];
-            row(part.kind, &part.name, shares, part.rigid.as_ref().map_err(String::as_str));
-        }
-        out
-    }
 }

@@ -1,8 +1,9 @@
 //! study.csv: a row for each run.
 
+use super::found::Found;
 use super::grid::float;
 use super::order::local;
-use super::{Found, Run};
+use super::run::Run;
 
 const COLUMNS: [&str; 22] = [
     "run",

@@ -1,8 +1,10 @@
 //! A study in words: the table of runs, measured orders, the cheapest setting.
 
+use super::columns::columns;
+use super::found::Found;
+use super::grid::Line;
 use super::order::{Cheapest, Order, local};
-use super::runs::spread;
-use super::{Found, Line, Run, Status, columns};
+use super::run::{Run, Status, spread};
 use crate::names::short;
 
 pub const HEAD: [&str; 9] =

@@ -244,7 +244,8 @@ fn the_plan_says_what_came_from_the_mesh() {
     let folder = Folder::with(&[("a.msh", &PLATE.msh4())]);
     let model = folder.model(&meshed("static", "a.msh"));
     let system = rdsolve::system::System::new(&model).unwrap();
-    let text = rdsolve::plan::Plan::new(&model, &system, 1).explain(&model, &system).to_string();
+    let text =
+        rdsolve::plan::explain::explain(&rdsolve::plan::Plan::new(&model, &system, 1), &model, &system).to_string();
     assert!(text.contains("36 nodes, 30 elements, 24 of them in parts"), "{text}");
 }
 

@@ -149,7 +149,7 @@ fn one_word_makes_a_part_rigid() {
     // Four corners, and three more nodes along edge1, which a load names.
     assert_eq!(ridden, 7, "{:?}", left.nodes.iter().map(|node| node.label.as_str()).collect::<Vec<_>>());
     let system = System::new(&rigid).unwrap();
-    let text = Plan::new(&rigid, &system, 1).explain(&rigid, &system).to_string();
+    let text = rdsolve::plan::explain::explain(&Plan::new(&rigid, &system, 1), &rigid, &system).to_string();
     assert!(text.contains("shell `plate` as body `plate`, mass ") && text.contains("its 12 elements"), "{text}");
     let Shape::Faces { points, faces } = &rigid.bodies[0].shape else { panic!("{:?}", rigid.bodies[0].shape) };
     assert_eq!((points.len(), faces.len()), (20, 12));

@@ -1,6 +1,6 @@
 //! The analysis and the scheme of integration.
 
-use super::Explanation;
+use super::explanation::Explanation;
 use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 
 pub fn explain(text: &mut Explanation, model: &Model) {

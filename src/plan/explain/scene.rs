@@ -1,6 +1,6 @@
 //! What the scene consists of, and its unknowns.
 
-use super::Explanation;
+use super::explanation::Explanation;
 use crate::elements::beam::IntegrationRule;
 use crate::elements::contact::Shape;
 use crate::model::{Bar, Beam, Contact, MeshFile, Model, Part, PartKind, PartType, Shell};
@@ -91,27 +91,5 @@ fn contact_in_words(model: &Model, contact: &Contact) -> String {
             format!("{pair}; {stiffness}; steps during impacts at most {}", short(limit))
         }
         _ => format!("{pair}; {stiffness}"),
-    }
-}
-
-impl Plan {
-    /// Constraints of joints that others impose already, a line for each joint.
-    pub fn repeated(&self, model: &Model, system: &System) -> Vec<String> {
-        let Some(repeated) = &self.repeated else {
-            return vec!["too many joints to search for redundant constraints".to_string()];
-        };
-        let mut lines: Vec<(usize, Vec<&str>)> = Vec::new();
-        for (joint, row) in repeated.iter().filter_map(|&number| system.row(number)) {
-            match lines.last_mut().filter(|(last, _)| *last == joint) {
-                Some((_, words)) => words.push(row.word()),
-                None => lines.push((joint, vec![row.word()])),
-            }
-        }
-        let line = |(joint, words): (usize, Vec<&str>)| {
-            let name = &model.joints[joint].name;
-            let (are, these) = if words.len() == 1 { ("is", "this reaction") } else { ("are", "these reactions") };
-            format!("joint `{name}`: {} {are} redundant; the joints share {these} by least norm", joined(&words))
-        };
-        lines.into_iter().map(line).collect()
     }
 }

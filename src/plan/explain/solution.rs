@@ -1,6 +1,6 @@
 //! How a step is solved: the iteration, the matrix, and when it is formed anew.
 
-use super::Explanation;
+use super::explanation::Explanation;
 use crate::linear::Factorization;
 use crate::model::{AnalysisKind, Gyroscopic, Method, Model, Update};
 use crate::plan::Plan;

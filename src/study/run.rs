@@ -1,26 +1,13 @@
-//! The runs of a study: one each for its answer, then again for its time, in turn, so that what disturbs the machine for a while
-//! disturbs all settings alike.
+//! One run of a study: a setting and what came of it.
 
-use super::grid::StudyGrid;
 use super::history;
-use super::manifest::Manifest;
-use super::process::{Ended, Program, first_error};
-use super::progress::Progress;
-use super::reference::Reference;
-use super::{Fault, Options};
+use super::process::{Ended, first_error};
 use crate::model::study::Quantity;
 use crate::output;
 use serde_json::Value;
 use std::fs;
 use std::io;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
-
-/// Below the folder of a study, that of its runs: one for each setting, by number, ...
-pub const RUNS: &str = "runs";
-/// ... or the deck as it is, and with a part rigid, by number.
-pub const AS_IT_IS: &str = "as_it_is";
-pub const RIGID: &str = "rigid_";
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,92 +71,16 @@ pub struct Measured {
 pub const RESOLVED: f64 = 3.0;
 
 impl Run {
-    /// Its error against a reference.
-    pub fn judge(&mut self, reference: &Reference, count: usize) {
+    /// Its error against the values of a reference, which are themselves off by up to `error_bound`.
+    pub fn judge(&mut self, reference: &[f64], error_bound: f64, count: usize) {
         if self.status != Status::Done {
             return;
         }
-        let error = history::error(&self.history, &reference.values, count, |_| true);
-        self.errors = (0..count).map(|k| history::error(&self.history, &reference.values, count, |i| i == k)).collect();
-        self.resolved = error >= RESOLVED * reference.error_bound;
-        self.error =
-            Some(if self.resolved { error } else { error + reference.error_bound }).filter(|error| error.is_finite());
+        let error = history::error(&self.history, reference, count, |_| true);
+        self.errors = (0..count).map(|k| history::error(&self.history, reference, count, |i| i == k)).collect();
+        self.resolved = error >= RESOLVED * error_bound;
+        self.error = Some(if self.resolved { error } else { error + error_bound }).filter(|error| error.is_finite());
     }
-}
-
-/// The folder of a setting.
-fn folder(index: usize) -> String {
-    format!("{RUNS}/{}", index + 1)
-}
-
-/// Folders of all runs of a grid.
-pub fn folders(grid: &StudyGrid) -> Vec<String> {
-    let count = (0..grid.lines.len()).map(|line| grid.resolutions(line).len()).sum();
-    (0..count).map(folder).collect()
-}
-
-/// Runs all settings. Returns the runs that came to be, and whether a signal ended it.
-pub fn run_all(
-    grid: &StudyGrid,
-    quantities: &[Quantity],
-    options: &Options,
-    manifest: &mut Manifest,
-    stop: &AtomicBool,
-) -> Result<(Vec<Run>, bool), Fault> {
-    let program = program(options)?;
-    let mut jobs = Vec::new();
-    for line in 0..grid.lines.len() {
-        for &resolution in grid.resolutions(line) {
-            let sets: Vec<String> = options.sets.iter().cloned().chain(grid.overrides(line, resolution)).collect();
-            jobs.push((line, resolution, sets));
-        }
-    }
-    // A process itself costs as much as some hundred steps.
-    let work = |line: usize, resolution: f64| 300.0 + grid.work(line, resolution);
-    let all: f64 = jobs.iter().map(|(line, resolution, _)| work(*line, *resolution)).sum();
-    let mut progress = Progress::new(options.quiet, all * options.repeats as f64);
-    let mut runs: Vec<Run> = Vec::new();
-    let mut stopped = false;
-    for repeat in 0..options.repeats {
-        for (index, (line, resolution, sets)) in jobs.iter().enumerate() {
-            let label = format!("{}, {}", grid.lines[*line].label, crate::names::short(*resolution));
-            progress.show(&label, repeat + 1, options.repeats);
-            let folder = folder(index);
-            let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
-            if repeat > 0 && runs.get(index).is_none_or(enough) {
-                progress.did(work(*line, *resolution));
-                continue;
-            }
-            let place = options.folder.join(&folder);
-            if repeat == 0 {
-                manifest.note(&folder)?;
-            }
-            let Some(ended) = program.run(sets, &place, stop)? else {
-                stopped = true;
-                break;
-            };
-            progress.did(work(*line, *resolution));
-            if repeat == 0 {
-                let run = Run::new(*line, *resolution, folder, &ended, &place)?;
-                runs.push(run.with_history(quantities, grid.samples, grid.end_time, &place));
-            } else if ended.code == Some(0)
-                && let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place))
-            {
-                run.again(again.loop_s, ended.process_s);
-            }
-        }
-        if stopped {
-            break;
-        }
-    }
-    progress.finish();
-    Ok((runs, stopped))
-}
-
-/// This program itself, for the deck of a study.
-pub fn program(options: &Options) -> io::Result<Program> {
-    let path = std::env::current_exe()?;
-    Ok(Program { path, deck: options.deck.clone(), threads: options.threads })
 }
 
 impl Run {

@@ -1,0 +1,118 @@
+//! What the parts of a deck cost and carry, in words and as rigidify.csv.
+
+use super::columns::columns;
+use super::run::{Run, Status};
+use super::study_csv::{field, maybe};
+use super::table::seconds;
+use crate::model::study::Quantity;
+
+/// A beam, bar or shell that deforms.
+#[derive(Debug, Clone)]
+pub struct Part {
+    pub kind: &'static str,
+    pub name: String,
+    /// Of the largest elastic energy of all parts together at any time: the largest of this part's. `None`, as the next: the deck
+    /// as it is did not come to its end.
+    pub peak_share: Option<f64>,
+    /// Of the energy over all times: this part's.
+    pub mean_share: Option<f64>,
+    /// The run with this part rigid; a reason alone where there can be none.
+    pub rigid: Result<Run, String>,
+}
+
+/// What the parts of a deck cost and carry.
+pub struct Advice {
+    pub quantities: Vec<Quantity>,
+    pub samples: usize,
+    /// The deck as it is.
+    pub base: Run,
+    pub parts: Vec<Part>,
+    pub stopped: bool,
+}
+
+impl Advice {
+    /// For standard output: the parts, those that could go first.
+    pub fn text(&self) -> String {
+        let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
+        let percent = |part: Option<f64>| match part.map(|part| 100.0 * part) {
+            None => String::new(),
+            Some(0.0) => "0 %".to_owned(),
+            Some(p) if p.abs() < 0.1 => format!("{p:.0e} %"),
+            Some(p) => format!("{p:.1} %"),
+        };
+        let base = &self.base;
+        let mut rows = vec![head.map(String::from).to_vec()];
+        let empty = String::new;
+        let (loop_s, unknowns) = (seconds(base.loop_s), base.measured.unknowns.to_string());
+        let status = if base.status == Status::Done {
+            "done".into()
+        } else {
+            format!("{}: {}", base.status.word(), base.reason)
+        };
+        rows.push(vec!["(as it is)".into(), empty(), empty(), empty(), empty(), loop_s, empty(), unknowns, status]);
+        let mut parts: Vec<&Part> = self.parts.iter().collect();
+        let error = |part: &Part| part.rigid.as_ref().ok().and_then(|run| run.error).unwrap_or(f64::INFINITY);
+        let share = |part: &Part| part.peak_share.unwrap_or(0.0);
+        parts.sort_by(|a, b| error(a).total_cmp(&error(b)).then(share(a).total_cmp(&share(b))));
+        for part in parts {
+            let mut row =
+                vec![part.name.clone(), part.kind.to_owned(), percent(part.peak_share), percent(part.mean_share)];
+            match &part.rigid {
+                Ok(run) if run.status == Status::Done => row.extend([
+                    run.error.map_or(empty(), |error| format!("{error:.2e}")),
+                    seconds(run.loop_s),
+                    percent((base.status == Status::Done).then(|| 1.0 - run.loop_s / base.loop_s)),
+                    run.measured.unknowns.to_string(),
+                    "done".into(),
+                ]),
+                Ok(run) => {
+                    row.extend([empty(), empty(), empty(), empty(), format!("{}: {}", run.status.word(), run.reason)])
+                }
+                Err(reason) => row.extend([empty(), empty(), empty(), empty(), reason.clone()]),
+            }
+            rows.push(row);
+        }
+        let (samples, count) = (self.samples + 1, self.quantities.len());
+        let what = if count == 1 { "quantity" } else { "quantities" };
+        format!("{}\nerror: against the deck as it is, {count} {what} at {samples} times\n", columns(&rows, 2))
+    }
+
+    /// The text of rigidify.csv.
+    pub fn table(&self) -> String {
+        let head = "kind,part,peak_share,mean_share,status,error,loop_s,process_s,repeats,unknowns,folder,reason";
+        let mut out = head.to_owned();
+        self.quantities
+            .iter()
+            .for_each(|quantity| out += &format!(",{}", field(&format!("error:{}", quantity.word()))));
+        out.push('\n');
+        let mut row = |kind: &str, name: &str, shares: [Option<f64>; 2], run: Result<&Run, &str>| {
+            let [peak, mean] = shares.map(maybe);
+            out += &format!("{kind},{},{peak},{mean}", field(name));
+            match run {
+                Ok(run) => {
+                    let [loop_s, process_s] = [run.loop_s, run.process_s].map(|s| maybe(Some(s)));
+                    out += &format!(",{},{},{loop_s},{process_s}", run.status.word(), maybe(run.error));
+                    out += &format!(
+                        ",{},{},{},{}",
+                        run.times.len(),
+                        run.measured.unknowns,
+                        run.folder,
+                        field(&run.reason)
+                    );
+                }
+                Err(reason) => out += &format!(",none,,,,,,,{}", field(reason)),
+            }
+            for i in 0..self.quantities.len() {
+                let error = run.ok().and_then(|run| run.errors.get(i).copied());
+                out += &format!(",{}", maybe(error));
+            }
+            out.push('\n');
+        };
+        row("all", "", [None, None], Ok(&self.base));
+        for part in &self.parts {
+            let shares = [part.peak_share, part.mean_share];
+            row(part.kind, &part.name, shares, part.rigid.as_ref().map_err(String::as_str));
+        }
+        out
+    }
+}
