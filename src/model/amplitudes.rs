@@ -8,7 +8,7 @@ use crate::deck::amplitudes as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 
-/// One for each of the deck, also for those with errors, since others refer to them by their index.
+/// Reads `[amplitudes]`. Each gives one, also those with errors, since others refer to them by their index.
 pub(super) fn amplitudes<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Vec<Amplitude> {
     let read = deck.amplitudes.0.iter().map(|(name, amplitude)| read_amplitude(&name.value, amplitude, report));
     read.map(|amplitude| amplitude.unwrap_or(Amplitude::Constant)).collect()

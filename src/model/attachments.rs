@@ -52,7 +52,7 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
 /// What nodes are attached to.
 enum Target<'d> {
     Body(usize),
-    /// With the name that the attachment gives it.
+    /// A beam by its index, with the name that the attachment gives it.
     Beam(&'d At<String>, usize),
 }
 
@@ -99,7 +99,7 @@ impl<'d> Attacher<'_, 'd> {
         for spot in spots {
             if spot.node == master {
                 let message = format!("body `{body}` is attached to itself");
-                let hint = if spot.direct { "leave it out" } else { "it is a member of this set" };
+                let hint = if spot.direct { "remove it from `nodes`" } else { "it is a member of this set" };
                 self.report.error_with::<()>(spot.span, message, hint);
             } else {
                 self.attach(spot, master, body);
@@ -112,7 +112,7 @@ impl<'d> Attacher<'_, 'd> {
         let first = self.nodes.master(spot.node);
         if first == Some(master) {
             let message = format!("`{}` is attached to `{to}` twice", spot.name);
-            self.report.error_with::<()>(spot.span, message, "once is enough");
+            self.report.error_with::<()>(spot.span, message, "remove one of the two attachments");
         } else if self.method == Some(AttachmentMethod::Multipliers)
             || first.is_some() && self.method != Some(AttachmentMethod::Elimination)
         {
@@ -158,12 +158,19 @@ impl<'d> Attacher<'_, 'd> {
         }
         self.report_between(name, &between);
         if far > 0 {
-            let message = format!("nodes reach beyond beam `{}` by more than half an element: {far}", name.value);
-            self.report.warn(&name.span, message, format!("the farthest by {} elements", short(farthest)));
+            let message = format!(
+                "nodes lie farther along beam `{}` from its nearest node than half an element: {far}",
+                name.value
+            );
+            self.report.warn(
+                &name.span,
+                message,
+                format!("the farthest by {} elements: extend the beam, or divide it where they are", short(farthest)),
+            );
         }
     }
 
-    /// By node of a beam: the vector from end to end of an element there.
+    /// Maps each node of a beam to the vector from end to end of an element there.
     fn element_vectors(&self, beam: usize) -> HashMap<usize, Vec3> {
         let parts = &self.scene.parts;
         let mut vectors = HashMap::new();
@@ -184,7 +191,7 @@ impl<'d> Attacher<'_, 'd> {
             let [node, a, b] = nodes.map(|node| self.nodes.label(node));
             let message = format!("`{node}` is as near to `{a}` as to `{b}` of beam `{}`", beam.value);
             let error = Diagnostic::error(message).at(spot.span);
-            let error = error.hint("the meshes must match: each node needs its own on the beam");
+            let error = error.hint("the meshes must match: give the beam a node next to each attached node");
             self.report.push(match of.len() {
                 1 => error,
                 count => error.hint(format!("the same goes for {} more nodes", count - 1)),
@@ -208,7 +215,7 @@ fn check_cycles(nodes: &Nodes, report: &mut Report) {
             let names: Vec<String> =
                 chain[begin..].iter().chain([&node]).map(|&n| format!("`{}`", nodes.label(n))).collect();
             let message = format!("these attachments go round in a circle: {}", names.join(" on "));
-            report.push(Diagnostic::error(message).at(place).hint("one of them must not be attached"));
+            report.push(Diagnostic::error(message).at(place).hint("remove one of these attachments"));
             break;
         }
     }

@@ -21,7 +21,7 @@ pub(super) fn bars(cx: &mut PartContext) {
     }
 }
 
-/// Goes as far as it can, so that all errors of the bar are found; `None` means there were some.
+/// Reads one bar as far as it can, so that all errors of the bar are found; `None` means there were some.
 fn read_bar<'d>(
     index: usize,
     name: String,

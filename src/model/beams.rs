@@ -33,7 +33,7 @@ pub(super) fn beams(cx: &mut PartContext) {
     }
 }
 
-/// Goes as far as it can, so that all errors of the beam are found; `None` means there were some.
+/// Reads one beam as far as it can, so that all errors of the beam are found; `None` means there were some.
 fn read_beam<'d>(
     index: usize,
     name: String,
@@ -78,7 +78,7 @@ struct Line<'b, 'd> {
 }
 
 impl<'d> Line<'_, 'd> {
-    /// Elements along the segments of a group of the mesh, without their sections.
+    /// Makes elements along the segments of a group of the mesh, as yet without their sections.
     fn along_group(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
         let unused = [
             ("path", span(&self.beam.path)),
@@ -126,7 +126,7 @@ impl<'d> Line<'_, 'd> {
         toward.map(|_| made)
     }
 
-    /// Elements along a path of points, without their sections. Nodes are made only where the rest of the beam is `sound`.
+    /// Makes elements along a path of points, as yet without their sections, where the rest of the beam is `sound`.
     fn along_path(&self, sound: bool, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
         let elements = cx.report.require(self.owner, "elements", &self.beam.elements);
         let mut path = path(self.owner, &self.beam.path, true, cx)?;
@@ -181,7 +181,8 @@ impl<'d> Line<'_, 'd> {
     }
 }
 
-/// How the beam yields, `Some(None)` where its material is elastic. `section`: its section is sound.
+/// Reads how the beam yields: `Some(None)` where its material is elastic, `None` where there are errors. `section` tells whether
+/// its section is sound.
 fn yielding<'d>(
     owner: &Owner<'d>,
     beam: &'d words::Beam,

@@ -35,7 +35,7 @@ pub(super) struct Bodies<'d> {
     pub of_parts: Vec<(usize, Vec<Place>, &'d Span)>,
 }
 
-/// One body and one node for each `[[bodies]]`, also for those with errors since others refer to them, then for each part with
+/// Makes a body and a node for each `[[bodies]]`, also for those with errors since others refer to them, then for each part with
 /// `rigid = true`.
 pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<'d>) -> Bodies<'d> {
     let mut bodies = Bodies::default();
@@ -57,7 +57,7 @@ pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<
                 ("inertia", span(&body.inertia)),
                 ("shape", span(&body.shape)),
             ];
-            report.reject_unused("a body that parts make up", &unused);
+            report.reject_unused("a body with `parts`", &unused);
             bodies.take_parts(index, deck, list, report);
         } else {
             let sound = mass_properties(&owner, body, report);
@@ -86,7 +86,7 @@ impl<'d> Bodies<'d> {
         for (k, part) in parts.iter().enumerate() {
             if parts[..k].contains(part) || self.of_parts.iter().any(|(_, others, _)| others.contains(part)) {
                 let what = part_name(deck, *part);
-                report.error::<()>(&list.span, format!("{what} is in two bodies, or twice in one"));
+                report.error::<()>(&list.span, format!("{what} is listed in two bodies, or twice in one"));
             }
         }
         if list.values.is_empty() {
@@ -115,8 +115,8 @@ impl<'d> Bodies<'d> {
 fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<Place> {
     let is = |word: Option<&At<String>>| word.is_some_and(|word| word.value == name.value);
     let rigid_by_itself = |report: &mut Report| {
-        let message = format!("`{}` is a body of its own", name.value);
-        report.error_with(&name.span, message, "leave out its `rigid`, or attach the body")
+        let message = format!("`{}` has `rigid = true`, so it is a body of its own", name.value);
+        report.error_with(&name.span, message, "remove its `rigid`, or attach it to this body with `[[attachments]]`")
     };
     if let Some(i) = deck.beams.iter().position(|beam| is(beam.name.as_ref().or(beam.group.as_ref()))) {
         return if flag(&deck.beams[i].rigid, false) { rigid_by_itself(report) } else { Some(Place::Beam(i)) };
@@ -160,8 +160,12 @@ fn mass_properties<'d>(
     let density = body.shape.as_ref().and_then(|shape| shape.density.as_ref());
     let mass = match (&body.mass, density, &solid) {
         (Some(mass), Some(density), _) => {
-            let message = format!("{} has a mass and a density", owner.what);
-            return report.error_with(&density.span, message, format!("the mass is given as {}", mass.value));
+            let message = format!("{} has both a mass and a density", owner.what);
+            return report.error_with(
+                &density.span,
+                message,
+                format!("remove one of them: the mass is given as {}", mass.value),
+            );
         }
         (None, Some(_), Some(solid)) => {
             let density = &body.shape.as_ref()?.density;

@@ -132,7 +132,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     model
 }
 
-/// Nodes with names, bodies, and deformable parts between them.
+/// What all other tables stand on: nodes with names, bodies, and the deformable parts between them.
 struct Ground<'d> {
     scene: Scene<'d>,
     nodes: Nodes,
@@ -166,7 +166,7 @@ fn ground<'d>(deck: &'d Deck, input: Option<&'d Input>, analysis: Analysis, repo
     Ground { scene: Scene { deck, analysis, names, bodies, parts }, nodes, groups, rigid }
 }
 
-/// One node for each of `[points]`, the first nodes of all.
+/// Makes a node for each of `[points]`; they are the first nodes of all.
 fn points(deck: &Deck, nodes: &mut Nodes) {
     for (name, x) in &deck.points.0 {
         nodes.add(name.value.clone(), true, vec3(x));
@@ -217,7 +217,7 @@ fn lead_on(
     }
 }
 
-/// What can be told of the whole model alone: stable steps, nodes that nothing needs, and the list of all that are left.
+/// Completes what only the whole model tells: stable steps, nodes that nothing needs, and the list of all that are left.
 fn finish(model: &mut Model, all_nodes: bool) {
     if model.analysis.step_length.is_automatic() && matches!(model.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: stable_fraction(model) };

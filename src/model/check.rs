@@ -28,7 +28,7 @@ pub(super) fn check_use(deck: &Deck, topology: &Topology, report: &mut Report) {
         let connected = (0..6).any(|dof| topology.is_connected(node, dof)) || topology.attachment(node).is_some();
         if !connected && !masters.contains(&node) {
             let message = format!("nothing is connected to point `{}`", name.value);
-            report.warn(&name.span, message, "it is left out of the computation");
+            report.warn(&name.span, message, "it is omitted from the computation");
         }
     }
     check_table("material", &deck.materials, &named_materials(deck), report);
@@ -38,7 +38,7 @@ pub(super) fn check_use(deck: &Deck, topology: &Topology, report: &mut Report) {
 
 fn check_table<T>(what: &str, table: &Named<T>, used: &HashSet<&str>, report: &mut Report) {
     for (name, _) in table.0.iter().filter(|(name, _)| !used.contains(name.as_str())) {
-        report.warn(&name.span, format!("nothing uses {what} `{}`", name.value), "never named");
+        report.warn(&name.span, format!("nothing uses {what} `{}`", name.value), "nothing in the deck names it");
     }
 }
 
@@ -47,11 +47,15 @@ pub(super) fn check_static(deck: &Deck, report: &mut Report) {
     let velocities = deck.bodies.iter().flat_map(|body| [span(&body.velocity), span(&body.angular_velocity)]).flatten();
     let places = velocities.chain(deck.initial.iter().map(|initial| &initial.span)).chain(span(&deck.damping));
     for place in places {
-        report.warn(place, "this has no effect in a static analysis", "nothing moves by itself");
+        report.warn(
+            place,
+            "this has no effect in a static analysis",
+            "a static analysis has no velocities, no inertia and no damping",
+        );
     }
     // Rotations are updated in load steps too.
     let Some(integrator) = &deck.integrator else { return };
     for place in span(&integrator.kind).into_iter().chain(integrator.values.places()) {
-        report.warn(place, "this has no effect in a static analysis", "load steps take no scheme in time");
+        report.warn(place, "this has no effect in a static analysis", "load steps need no time integration");
     }
 }

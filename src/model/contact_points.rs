@@ -14,7 +14,7 @@ use crate::math::{Vec3, quadrature};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
-/// Points around the rim of a cylinder.
+/// Number of points around the rim of a cylinder.
 const RIM: usize = 16;
 /// More points between two nodes are a slip of the keyboard.
 const MOST_POINTS: usize = 100;
@@ -204,7 +204,7 @@ impl<'d> Finder<'_, 'd> {
         parts.next().map_or(0.0, |part| part.plate.thickness)
     }
 
-    /// Half the smaller side of a beam's section; 0 where the section does not say.
+    /// Half the smaller side of a beam's section, or 0 where the section does not say it.
     fn half_depth(&self, beam: usize) -> f64 {
         let name = self.scene.deck.beams[beam].section.as_ref();
         let section =
@@ -217,7 +217,7 @@ impl<'d> Finder<'_, 'd> {
         (0.5 * side).max(value(&section.radius)).max(0.5 * value(&section.diameter))
     }
 
-    /// Points of a body's shape, which ride on it.
+    /// Finds points of a body's shape, as nodes that are rigidly attached to the body.
     fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
@@ -262,7 +262,7 @@ impl<'d> Finder<'_, 'd> {
     }
 }
 
-/// As many places between each pair of neighbours.
+/// Places between each two neighbours, `between` of them, equally spaced.
 fn inside(nodes: &[f64], between: usize) -> Vec<f64> {
     let pairs = nodes.windows(2);
     pairs

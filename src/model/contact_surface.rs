@@ -104,7 +104,7 @@ pub(super) fn read_surface<'d>(
     Some((node, Surface { center: center - topology.x(node), axes, shape }))
 }
 
-/// Axes whose third is given.
+/// A frame whose third axis is given.
 pub(super) fn along(axis: &Vec3) -> Mat3 {
     let x = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
     Mat3::from_columns(&[x, axis.cross(&x), *axis])

@@ -35,7 +35,7 @@ pub(super) fn control<'d>(
         return None;
     };
     if scene.analysis.kind != AnalysisKind::Static {
-        return report.error(&at.span, "`arc-length` leads a static analysis, and this one is dynamic");
+        return report.error(&at.span, "arc-length control needs `kind = \"static\"`, and this analysis is dynamic");
     }
     check_iteration(scene.deck, report);
     check_history(scene, amplitudes, topology, report);
@@ -43,7 +43,10 @@ pub(super) fn control<'d>(
     let steps = analysis.steps.as_ref().map(|_| report.count("steps", &analysis.steps, 1));
     let growth = report.positive("growth", &analysis.growth).unwrap_or(f64::INFINITY);
     if let Some(at) = analysis.growth.as_ref().filter(|at| at.value > 0.0 && at.value < 1.0) {
-        report.error::<()>(&at.span, "`growth` must be at least 1: `time_step` sets the first step");
+        report.error::<()>(
+            &at.span,
+            "`growth` must be at least 1: `time_step` sets the first step, which is the shortest",
+        );
     }
     Some(ArcLength { first, stop, steps, growth })
 }
@@ -58,13 +61,13 @@ pub(super) fn iterate_along(deck: &Deck, iteration: Iteration) -> Iteration {
 
 fn check_iteration(deck: &Deck, report: &mut Report) {
     let Some(iteration) = &deck.iteration else { return };
-    let reason = "arc-length takes the derivative at every iteration";
+    let reason = "arc-length control forms the tangent stiffness at every iteration";
     if let Some(at) = iteration.method.as_ref().filter(|at| at.value == Method::InitialLoad) {
-        report.error_with::<()>(&at.span, "`initial-load` cannot follow a path by arc length", reason);
+        report.error_with::<()>(&at.span, "`method = \"initial-load\"` does not go with arc-length control", reason);
     }
     let kept = |at: &&At<Update>| matches!(at.value, Update::Step | Update::Never);
     if let Some(at) = iteration.update.as_ref().filter(kept) {
-        report.error_with::<()>(&at.span, "`update` must be \"auto\" or \"iteration\" with arc-length", reason);
+        report.error_with::<()>(&at.span, "`update` must be \"auto\" or \"iteration\" with arc-length control", reason);
     }
 }
 
@@ -72,15 +75,18 @@ fn check_iteration(deck: &Deck, report: &mut Report) {
 fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, report: &mut Report) {
     for contact in &scene.deck.contacts {
         if contact.stiffness.as_ref().is_none_or(|at| at.value != 0.0) {
-            report.error::<()>(
-                &contact.span,
-                "arc-length does not follow contacts: where they close the path has a kink",
-            );
+            let message =
+                "arc-length control does not go with contacts: the path of equilibria has a kink where they close";
+            let hint = "use `control = \"time\"`, or `stiffness = 0` to monitor the clearance only";
+            report.error_with::<()>(&contact.span, message, hint);
         }
     }
     for (name, material) in &scene.deck.materials.0 {
         if let Some(at) = &material.viscosity {
-            let message = format!("material `{}` is viscous, and with arc-length time is only a load", name.value);
+            let message = format!(
+                "material `{}` is viscous, and with arc-length control time is the load factor only",
+                name.value
+            );
             report.error::<()>(&at.span, message);
         }
     }
@@ -88,8 +94,8 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
     for (index, (name, amplitude)) in scene.deck.amplitudes.0.iter().enumerate() {
         let jumps = amplitudes.get(index).is_some_and(|amplitude| !amplitude.jumps().is_empty());
         if jumps && used.contains(name.as_str()) {
-            let message = format!("amplitude `{}` jumps, and no path leads across by arc length", name.value);
-            report.error_with::<()>(&amplitude.span, message, "let it rise over a while");
+            let message = format!("amplitude `{}` jumps, which arc-length control cannot follow", name.value);
+            report.error_with::<()>(&amplitude.span, message, "let it rise over a finite time");
         }
         // A velocity that turns leaves a motion that may not.
         let moves = |held: &Held| {
@@ -102,7 +108,8 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
             && !topology.restraints().any(moves)
         {
             let message = format!("amplitude `{}` turns at t = {}", name.value, short(time));
-            let hint = "with arc-length a load that turns leads back along its path: let it only rise or only fall";
+            let hint =
+                "with arc-length control a load that turns leads back along its path: let it only rise or only fall";
             report.error_with::<()>(&amplitude.span, message, hint);
         }
     }

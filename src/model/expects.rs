@@ -71,7 +71,7 @@ impl<'d> Expects<'_, 'd> {
         })
     }
 
-    /// Where, and the columns there are.
+    /// Finds where the value is expected, and which columns there are.
     fn expect_at(&mut self, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
         if name.value == "energy" {
             return Some((ExpectAt::Energy, quantities::ENERGY.to_vec()));
@@ -91,7 +91,7 @@ impl<'d> Expects<'_, 'd> {
                 Some((ExpectAt::Contact(contact), [&quantities::CONTACT[..], &[quantities::CONTACT_FORCE]].concat()))
             }
             Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
-            // Where a shell has errors, these have been said.
+            // A shell without parts has errors, which have been reported.
             Some(Place::Shell(shell)) if !self.scene.parts.shells[shell].range.is_empty() => {
                 let Range { start, end } = self.scene.parts.shells[shell].range;
                 if self.scene.parts.list[start..end].iter().all(|part| part.elements() == 0) {
@@ -104,11 +104,11 @@ impl<'d> Expects<'_, 'd> {
             }
             Some(Place::Shell(_)) => None,
             Some(place) => {
-                let message = format!("`{}` is {}", name.value, place.kind());
+                let message = format!("`{}` is {}, which has no values of its own", name.value, place.kind());
                 self.report.error_with(
                     &name.span,
                     message,
-                    "values are at points, bodies, parts, links, joints, contacts or \"energy\"",
+                    "name a point, body, part, link, joint or contact, or \"energy\"",
                 )
             }
             None => {
@@ -122,7 +122,7 @@ impl<'d> Expects<'_, 'd> {
 
     /// A part that yields; counted as [`ExpectAt::Elements`] counts.
     fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
-        // Where a part has errors, these have been said, and the count is off.
+        // A part with errors, which have been reported, would put the count off.
         if self.scene.parts.beams.iter().chain(&self.scene.parts.bars).any(|entry| entry.range.is_empty()) {
             return None;
         }
@@ -169,8 +169,12 @@ impl<'d> Expects<'_, 'd> {
                 }
             }
             if !self.is_arc_length {
-                let hint = "`control = \"arc-length\"` of `[analysis]` does";
-                return self.report.error_with(&when.span, "steps of given times do not land on displacements", hint);
+                let hint = "give `time`, or `control = \"arc-length\"` in `[analysis]`";
+                return self.report.error_with(
+                    &when.span,
+                    "`when` needs arc-length control: time steps do not end at given displacements",
+                    hint,
+                );
             }
             return passage("`when`", when, self.scene, self.topology, self.report).map(When::Passing);
         }

@@ -16,9 +16,9 @@ pub(super) struct Groups<'d> {
     pub mesh: MeshNodes<'d>,
     /// Groups that are parts, with what they are: "shell `roof`".
     parts: HashMap<&'d str, String>,
-    /// By element: whether it is in a part.
+    /// Whether each element is in a part.
     taken: Vec<bool>,
-    /// By node of the mesh: its number in the part in hand, from 1; 0 for none.
+    /// The number of each node of the mesh in the part in hand, from 1; 0 for none.
     local: Vec<u32>,
 }
 
@@ -40,7 +40,11 @@ impl<'d> Groups<'d> {
             return None;
         }
         let Some(input) = self.mesh.input else {
-            return report.error_with(&name.span, "`group` wants a mesh", "the deck has no [mesh]");
+            return report.error_with(
+                &name.span,
+                "`group` needs a mesh, and the deck has none",
+                "give it `[mesh]` with its `file`",
+            );
         };
         let mesh = &input.mesh;
         let Some(group) = mesh.group(name) else {
@@ -55,13 +59,12 @@ impl<'d> Groups<'d> {
             return report.error_with(&name.span, message, hint);
         };
         if let Some(other) = self.parts.get(name.as_str()) {
-            let message = format!("group `{}` is {other} already", name.value);
+            let message = format!("group `{}` is already {other}", name.value);
             return report.error(&name.span, message);
         }
         self.parts.insert(name.as_str(), what.to_owned());
         if group.skipped > 0 {
-            let message =
-                format!("{} elements of group `{}` are of kinds that are not read", group.skipped, name.value);
+            let message = format!("{} elements of group `{}` are of unsupported types", group.skipped, name.value);
             report.lose_connections();
             return report.error_with(
                 &name.span,
@@ -82,13 +85,14 @@ impl<'d> Groups<'d> {
             shared += usize::from(std::mem::replace(&mut self.taken[e], true));
         }
         if shared > 0 {
-            let message = format!("{shared} elements of group `{}` are in another part already", name.value);
+            let message = format!("{shared} elements of group `{}` are already in another part", name.value);
             return report.error(&name.span, message);
         }
         Some(elements)
     }
 
-    /// Nodes of faces, each once in the order of the faces, and these by them. Takes no longer than the faces are many.
+    /// Lists the nodes of faces, each once in the order of the faces, and gives each face by its places in that list. The time
+    /// taken grows with the number of faces alone, not with the mesh.
     #[allow(clippy::type_complexity)]
     pub fn own_nodes(&mut self, faces: &[&mesh::Element]) -> Option<(Vec<u32>, Vec<[u32; 4]>)> {
         let local = &mut self.local;
@@ -130,7 +134,7 @@ impl<'d> Groups<'d> {
         // A part with errors would take some of them.
         if !left.is_empty() && !report.has_errors() {
             let words: Vec<&str> = left.iter().map(String::as_str).collect();
-            report.warn(&file.span, format!("{} of the mesh are in no part", joined(&words)), "left out");
+            report.warn(&file.span, format!("{} of the mesh are in no part", joined(&words)), "they are omitted");
         }
         Some(MeshFile {
             path: input.path.clone(),

@@ -13,11 +13,11 @@ use crate::diagnostic::At;
 use crate::math::Vec3;
 use std::collections::HashSet;
 
-/// A factor by place.
+/// A factor on a velocity that depends on the place.
 struct Factor {
     amplitude: Amplitude,
     center: Vec3,
-    /// Of length 1. With an axis: across it, and the angle is counted from it.
+    /// The unit vector along which places are measured. With an axis it lies across that, and angles are measured from it.
     direction: Vec3,
     axis: Option<Vec3>,
 }
@@ -66,7 +66,7 @@ impl<'d> Motions<'_, 'd> {
             if let Some(master) = self.topology.master_in(spot.node, 0) {
                 let master = self.topology.label(master);
                 let message = format!("`{}` moves with `{master}`", spot.name);
-                self.report.error_with::<()>(spot.span, message, "give the velocity to that");
+                self.report.error_with::<()>(spot.span, message, format!("give the velocity to `{master}`"));
             }
         }
         self.moves_by_itself(&spots);
@@ -139,7 +139,7 @@ impl<'d> Motions<'_, 'd> {
         Some(Factor { amplitude, center: vec3_or_zero(&profile.center), direction: unit?, axis })
     }
 
-    /// By node, zero where there is no shell: an error for those of the deck's list.
+    /// The unit normal of shells at each node, zero where there is no shell, which is an error at a node of the list.
     fn normals(&mut self, spots: &[Spot<'d>]) -> Vec<Vec3> {
         let mut normals = vec![Vec3::zeros(); self.topology.list.len()];
         for shell in self.scene.parts.list.iter().filter_map(Shell::of) {

@@ -58,7 +58,7 @@ fn nodal_load<'d>(
             let lost = directions(lost.map(|i| first + i));
             if let Some(place) = place.filter(|_| topology.is_complete() && !lost.is_empty()) {
                 let message = format!("nothing connected to `{}` takes a load in {lost}", spot.name);
-                report.error_with::<()>(place, message, "bars, springs and point masses do not turn");
+                report.error_with::<()>(place, message, "bars, springs and point masses have no rotations");
             }
         }
         loads.push(Load { node: spot.node, force, moment, follower, amplitude });
@@ -66,7 +66,7 @@ fn nodal_load<'d>(
     loads
 }
 
-/// Index of the amplitude of a load.
+/// The index of the amplitude of a load.
 fn amplitude<'d>(scene: &Scene<'d>, load: &'d words::Load, report: &mut Report<'d>) -> Option<usize> {
     let name = load.amplitude.as_ref()?;
     report.find("amplitude", &scene.deck.amplitudes, name).map(|(index, _)| index)

@@ -67,7 +67,7 @@ impl Others {
         let (listed, count) = (self.names.get(1..).unwrap_or_default(), self.count);
         match (count, listed.len()) {
             (0, _) => problem,
-            (_, 0) => problem.hint(format!("and so {count} times more")),
+            (_, 0) => problem.hint(format!("the same {count} more times")),
             (_, n) if n == count => {
                 problem.hint(format!("the same goes for {}", quoted(listed.iter().map(String::as_str))))
             }

@@ -29,7 +29,10 @@ impl Input {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = format!("cannot read the mesh `{path}`: {error}");
-                return (None, vec![Diagnostic::error(message).at(&file.span).hint("from the deck's folder")]);
+                return (
+                    None,
+                    vec![Diagnostic::error(message).at(&file.span).hint("the path is relative to the deck's folder")],
+                );
             }
         };
         match mesh::read(&path, &bytes) {
@@ -55,7 +58,7 @@ fn said(mesh: &Mesh, path: &str, bytes: &[u8]) -> Vec<Diagnostic> {
     let mut said = Vec::new();
     if !elements.is_empty() {
         let list: Vec<String> = elements.iter().map(|s| format!("{} {} (line {})", s.count, s.what, s.line)).collect();
-        said.push(warning(&elements, format!("elements that are not read: {}", list.join(", "))));
+        said.push(warning(&elements, format!("elements of unsupported types are skipped: {}", list.join(", "))));
     }
     if !keywords.is_empty() {
         let line = |s: &&mesh::Skipped| {
@@ -63,7 +66,7 @@ fn said(mesh: &Mesh, path: &str, bytes: &[u8]) -> Vec<Diagnostic> {
             format!("{} (line {}{more})", s.what, s.line)
         };
         let list: Vec<String> = keywords.iter().map(line).collect();
-        said.push(warning(&keywords, format!("not read: {}", list.join(", "))));
+        said.push(warning(&keywords, format!("keywords that are not read are skipped: {}", list.join(", "))));
     }
     said
 }

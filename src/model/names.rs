@@ -19,7 +19,7 @@ pub(super) struct Names<'d> {
     pub mesh: MeshNodes<'d>,
     /// What each name stands for, and where it is declared.
     places: HashMap<&'d str, (Place, &'d Span)>,
-    /// By body: its node.
+    /// The node of each body.
     body_nodes: Vec<usize>,
     /// The body that a part with `rigid = true` makes up by itself.
     body_of: HashMap<Place, usize>,
@@ -67,7 +67,7 @@ impl<'d> Names<'d> {
         if name.is_empty() {
             report.error::<()>(&name.span, "a name must not be empty");
         } else if RESERVED.contains(&name.as_str()) {
-            report.error::<()>(&name.span, format!("`{}` has a meaning of its own and cannot be a name", name.value));
+            report.error::<()>(&name.span, format!("`{}` is a reserved name", name.value));
         } else if self.places.contains_key(name.as_str()) {
             let message = format!("the name `{}` is taken", name.value);
             let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
@@ -90,8 +90,8 @@ impl<'d> Names<'d> {
             let name = group.name.as_str();
             if RESERVED.contains(&name) {
                 if !parts.contains(name) {
-                    let message = format!("group `{name}` of the mesh has a name with a meaning of its own");
-                    report.warn(&file.span, message, "it is no set");
+                    let message = format!("group `{name}` of the mesh has a reserved name");
+                    report.warn(&file.span, message, "it cannot be used as a set");
                 }
                 continue;
             }
@@ -103,7 +103,7 @@ impl<'d> Names<'d> {
                 Some(_) if parts.contains(name) => {}
                 Some((place, span)) => {
                     let message = format!("{} `{name}` has the name of a group of the mesh", place.noun());
-                    report.error_with::<()>(span, message, "give it another one");
+                    report.error_with::<()>(span, message, "rename it, here or in the mesh");
                 }
             }
         }
@@ -116,7 +116,7 @@ impl<'d> Names<'d> {
                 self.find(member, report);
             }
             if self.holds_itself(index) {
-                report.error::<()>(&name.span, format!("set `{}` holds itself", name.value));
+                report.error::<()>(&name.span, format!("set `{}` contains itself", name.value));
             }
         }
     }
@@ -176,7 +176,7 @@ impl<'d> Names<'d> {
         if shells[index].group.is_some() {
             return None;
         }
-        // Where the corners are wrong, that is said there.
+        // Wrong corners are reported where the shell is read.
         let three = shells[index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
         let corners = if three { 3 } else { 4 };
         (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(index, k - 1))
@@ -228,12 +228,12 @@ impl<'d> Names<'d> {
                 [node] => Some(node),
                 ref nodes => {
                     let (kind, count) = (set.kind(), nodes.len());
-                    let message = format!("`{key}` wants points, and `{}` is {kind} of {count} nodes", name.value);
+                    let message = format!("`{key}` takes points, and `{}` is {kind} of {count} nodes", name.value);
                     report.error(&name.span, message)
                 }
             },
             Some(place) => {
-                let message = format!("`{key}` wants points, and `{}` is {}", name.value, place.kind());
+                let message = format!("`{key}` takes points, and `{}` is {}", name.value, place.kind());
                 report.error(&name.span, message)
             }
             None => self.unknown("point", name, self.deck.points.names().collect(), report),

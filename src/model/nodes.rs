@@ -13,11 +13,11 @@ use crate::math::Vec3;
 #[derive(Default)]
 pub(super) struct Nodes {
     pub list: Vec<Node>,
-    /// By node: the directions in which an element, a mass, a body or a link acts on it.
+    /// The directions in which an element, a mass, a body or a link acts on each node.
     connected: Vec<[bool; 6]>,
     /// Nodes that depend on others, in the order in which they were attached.
     pub dependents: Vec<Rider>,
-    /// By dependent node: its index in `dependents`, and the place in the deck that made it depend.
+    /// The index of each dependent node in `dependents`, and the place in the deck that made it depend.
     attachments: HashMap<usize, (usize, Span)>,
     restraints: Restraints,
 }
@@ -86,7 +86,7 @@ impl Nodes {
         self.connected[node][3..].contains(&true)
     }
 
-    /// Index in `dependents` of the attachment of a node.
+    /// The index of a node in `dependents`, if it depends on another.
     pub fn attachment(&self, node: usize) -> Option<usize> {
         self.attachments.get(&node).map(|(index, _)| *index)
     }
@@ -154,7 +154,7 @@ impl Topology {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
         if loose && self.complete {
             let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
-            report.error_with::<()>(spot.span, message, "no beam, bar, link, mass or body");
+            report.error_with::<()>(spot.span, message, "connect a beam, bar, shell, link, mass or body to it");
         }
         loose
     }

@@ -11,7 +11,7 @@ use crate::diagnostic::At;
 /// More output times are a slip of the keyboard, and would only exhaust memory.
 const MOST_ROWS: f64 = 1e7;
 
-/// What is written. Where all nodes are, the list of nodes stays empty until it is known which of them are left.
+/// What is written. For `nodes = "all"` the list of nodes stays empty until it is known which of them are left.
 pub(super) struct Selection {
     pub output: Output,
     pub all_nodes: bool,
@@ -83,7 +83,7 @@ fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, repo
     let spots = scene.spots(&owner, "nodes", &table.nodes, Reach::Nodes, report);
     for spot in spots.iter().filter(|spot| spot.direct && is_body(scene, spot.node)) {
         let message = format!("`{}` is a body, and not written with the nodes", spot.name);
-        report.error_with::<()>(spot.span, message, "bodies always go to bodies.csv");
+        report.error_with::<()>(spot.span, message, "remove it: bodies are always written to bodies.csv");
     }
     let mut nodes: Vec<usize> = spots.iter().map(|spot| spot.node).filter(|&node| !is_body(scene, node)).collect();
     nodes.sort_unstable();
@@ -97,14 +97,14 @@ fn cadence(table: &words::Output, end_time: f64, is_arc_length: bool, report: &m
         return Cadence::Steps(1);
     }
     let Some(interval) = report.positive("interval", &table.interval) else { return Cadence::Steps(1) };
-    // Where the end time is missing, that has been said.
+    // A missing end time has been reported.
     if end_time < f64::MAX && end_time / interval > MOST_ROWS {
         let message = format!("`interval` asks for {:.1e} rows", end_time / interval);
-        report.error_with::<()>(&at.span, message, format!("at most {MOST_ROWS:.0e} are taken to be meant"));
+        report.error_with::<()>(&at.span, message, format!("at most {MOST_ROWS:.0e} are allowed"));
     }
     if is_arc_length {
-        let hint = "give `every`, in steps";
-        report.error_with::<()>(&at.span, "with arc-length steps do not land on multiples of a time", hint);
+        let hint = "give `every`, which counts steps";
+        report.error_with::<()>(&at.span, "with arc-length control no output times can be given", hint);
     }
     Cadence::Interval(interval)
 }

@@ -8,7 +8,7 @@ use super::report::Report;
 use crate::diagnostic::Span;
 use crate::sections::Stiffness;
 
-/// Elements of all beams, bars and shells together: more, at some kilobytes each, are a slip of the keyboard.
+/// The most elements of all beams, bars and shells together; more, at some kilobytes each, are a slip of the keyboard.
 const MOST_ELEMENTS: usize = 2_000_000;
 
 /// What one table of the deck has become.
@@ -29,7 +29,7 @@ pub(super) struct Parts {
     pub list: Vec<Part>,
     /// Section stiffnesses and inertias, shared by the beams that name them.
     pub stiffnesses: Vec<Stiffness>,
-    // By table of the deck.
+    // One entry for each table of the deck.
     pub beams: Vec<PartEntry>,
     pub bars: Vec<PartEntry>,
     pub shells: Vec<PartEntry>,
@@ -79,7 +79,7 @@ impl Parts {
         // This is said once: all that comes after is too many as well.
         if before <= MOST_ELEMENTS {
             let message = format!("with this the deck has {} elements", self.elements);
-            let hint = format!("at most {MOST_ELEMENTS} of all beams, bars and patches are taken to be meant");
+            let hint = format!("at most {MOST_ELEMENTS} are allowed in all beams, bars and shells together");
             report.error_with::<()>(place, message, hint);
         }
         None

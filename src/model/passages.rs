@@ -9,7 +9,7 @@ use crate::deck::analysis as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 
-/// A displacement that some step is to land on; it must be one of the unknowns.
+/// Reads a displacement at which some step is to end; it must be one of the unknowns.
 pub(super) fn passage<'d>(
     what: &str,
     passage: &'d At<Table<words::Passage>>,
@@ -28,7 +28,7 @@ pub(super) fn passage<'d>(
         Some(Place::Point(node)) => node,
         Some(Place::Body(body)) => scene.names.body_node(body),
         Some(place) => {
-            let message = format!("{what} wants a point or body, and `{}` is {}", name.value, place.kind());
+            let message = format!("{what} takes a point or body, and `{}` is {}", name.value, place.kind());
             return report.error(&name.span, message);
         }
         None => return scene.names.unknown("point or body", name, scene.names.known(|_| true), report),
@@ -42,17 +42,21 @@ pub(super) fn passage<'d>(
     if let Some(master) = topology.master_in(node, dof) {
         let master = topology.label(master);
         let message = format!("`{}` moves with `{master}`", name.value);
-        return report.error_with(&name.span, message, format!("{what} wants one that moves by itself"));
+        return report.error_with(&name.span, message, format!("{what} needs an independent node: name `{master}`"));
     }
     if topology.restraint(node, dof).is_some() {
-        return report.error(&quantity.span, format!("a support gives {word} of `{}`", name.value));
+        return report.error(&quantity.span, format!("{word} of `{}` is prescribed by a support", name.value));
     }
     if topology.is_complete() && !topology.is_taken(node, dof) {
         let message = format!("nothing acts on `{}` in direction {word}", name.value);
-        return report.error_with(&quantity.span, message, format!("{what} wants a displacement that is an unknown"));
+        return report.error_with(&quantity.span, message, format!("{what} needs a displacement that is an unknown"));
     }
     if value.value == 0.0 {
-        return report.error_with(&value.span, format!("{word} begins at zero"), "a passage lies off the start");
+        return report.error_with(
+            &value.span,
+            format!("{word} is zero at the start already"),
+            "give a value that it reaches later",
+        );
     }
     let place = [quantity.span.start, quantity.span.end];
     Some(Passage { node, dof, value: value.value, pass, place })

@@ -93,7 +93,7 @@ impl<'d> Patch<'_, 'd> {
             let normal = by_s.cross(&by_t);
             if normal.norm() <= 1e-9 * by_s.norm_squared().max(by_t.norm_squared()) {
                 let message = format!("{} has no area near one of its corners", self.owner.what);
-                let hint = "corners go round the patch, each at its own place";
+                let hint = "list the corners in order round the patch, each at a place of its own";
                 return report.error_with(self.owner.span, message, hint);
             }
             normals[self.at(i, j)] = normal.normalize();
@@ -144,7 +144,11 @@ impl<'d> Patch<'_, 'd> {
             if there != count {
                 let (what, other) = (&self.owner.what, &edge.patch);
                 let message = format!("{what} has {count} elements along an edge where shell `{other}` has {there}");
-                return report.error_with(self.owner.span, message, "patches that meet need the same number there");
+                return report.error_with(
+                    self.owner.span,
+                    message,
+                    "patches that share an edge need the same number of elements along it",
+                );
             }
             let mut shared = edge.nodes.clone();
             if edge.ends != ends {

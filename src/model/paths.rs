@@ -8,7 +8,7 @@ use crate::diagnostic::At;
 /// More elements in a segment are a slip of the keyboard, and would only exhaust memory.
 const MOST_ELEMENTS: u64 = 1_000_000;
 
-/// Nodes of a path of two or more points; a beam also acts on their rotations.
+/// Finds the nodes of a path of two or more points and connects them, for a beam with their `rotations`.
 pub(super) fn path<'d>(
     owner: &Owner<'d>,
     path: &'d Maybe<OneOrMany<String>>,
@@ -22,7 +22,7 @@ pub(super) fn path<'d>(
     }
     let nodes: Vec<Option<usize>> =
         path.values.iter().map(|point| cx.names.point("path", point, &cx.parts, cx.report)).collect();
-    // What meets at these points is known even if the rest has errors.
+    // They are connected even if the rest of the part has errors.
     nodes.iter().flatten().for_each(|&node| cx.nodes.connect(node, rotations));
     nodes.into_iter().collect::<Option<Vec<usize>>>().filter(|nodes| nodes.len() >= 2)
 }
@@ -47,7 +47,7 @@ pub(super) fn segments<'d>(
     sound
 }
 
-/// Elements of each segment.
+/// Reads how many elements each segment is cut into.
 pub(super) fn counts<'d>(
     elements: &At<OneOrMany<u64>>,
     segments: usize,
@@ -63,7 +63,11 @@ pub(super) fn counts<'d>(
     }
     if !elements.single && elements.values.len() != segments {
         let message = format!("`elements` has {} numbers and the path {segments} segments", elements.values.len());
-        return cx.report.error_with(&elements.span, message, "one for each, or one without brackets for all");
+        return cx.report.error_with(
+            &elements.span,
+            message,
+            "give one for each segment, or one number without brackets for all",
+        );
     }
     let count = |segment: usize| elements.values[if elements.single { 0 } else { segment }].value as usize;
     if !sound {

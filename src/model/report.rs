@@ -67,7 +67,7 @@ impl<'d> Report<'d> {
         self.problems
     }
 
-    /// How many problems there are so far, for [`Report::is_clean_since`] and [`Report::forget_warnings_since`].
+    /// The number of problems so far, for [`Report::is_clean_since`] and [`Report::forget_warnings_since`].
     pub fn mark(&self) -> usize {
         self.problems.len()
     }
@@ -174,7 +174,7 @@ impl<'d> Report<'d> {
             return self.error(&points.span, "`points` needs two points or more");
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[1].0[0] <= pair[0].0[0]) {
-            let message = format!("`points` must go up in {what}");
+            let message = format!("`points` must increase in {what}");
             return self.error_with(&pair[1].span, message, format!("the one before is at {}", pair[0].0[0]));
         }
         Some(points.iter().map(|point| point.0).collect())
@@ -184,7 +184,7 @@ impl<'d> Report<'d> {
     pub fn reject_unused(&mut self, what: &str, keys: &[(&str, Option<&Span>)]) {
         for (key, place) in keys {
             if let Some(place) = place {
-                self.error::<()>(place, format!("`{key}` means nothing for {what}"));
+                self.error::<()>(place, format!("`{key}` does not apply to {what}"));
             }
         }
     }

@@ -161,7 +161,7 @@ impl<'d> Maker<'_, 'd> {
         cells
     }
 
-    /// Elements as they are drawn.
+    /// The shape of the elements as they are drawn, about the centre.
     fn faces(&self, cells: &[Vec<usize>], center: Vec3) -> Shape {
         let (mut points, mut places) = (Vec::new(), HashMap::new());
         let mut place = |&node: &usize| {

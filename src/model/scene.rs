@@ -25,8 +25,9 @@ pub(super) struct Scene<'d> {
 /// Which names a list may hold besides points, bodies and sets.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
+    /// A list of points, bodies and sets alone.
     Nodes,
-    /// Beams and bars too. (Shells are lists of nodes like sets: their inner ones have no other name.)
+    /// A list that may hold beams and bars too. (Shells are lists of nodes like sets: their inner ones have no other name.)
     Parts,
 }
 
@@ -63,8 +64,8 @@ impl<'d> Scene<'d> {
             };
             let Some(place) = place else { continue };
             if reach == Reach::Nodes && self.names.is_part(place) {
-                let message = format!("`{key}` wants points, bodies or sets, and `{}` is {}", name.value, place.kind());
-                report.error_with::<()>(&name.span, message, "name its points");
+                let message = format!("`{key}` takes points, bodies or sets, and `{}` is {}", name.value, place.kind());
+                report.error_with::<()>(&name.span, message, "name the points that are meant");
                 continue;
             }
             let direct = matches!(place, Place::Point(_) | Place::Body(_));
@@ -86,7 +87,7 @@ impl<'d> Scene<'d> {
     pub fn report_empty(&self, place: Place, name: &At<String>, report: &mut Report<'d>) {
         let members = match place {
             Place::Group(_) => {
-                let hint = "its elements are of kinds that are skipped, or there are none";
+                let hint = "its elements are of unsupported types, or it has none";
                 report.error_with::<()>(&name.span, format!("the group `{}` has no nodes", name.value), hint);
                 return;
             }

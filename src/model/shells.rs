@@ -37,7 +37,7 @@ pub(super) fn shells(cx: &mut PartContext) {
     }
 }
 
-/// Goes as far as it can, so that all errors of the shell are found; `None` means there were some. A shell of triangles and
+/// Reads one shell as far as it can, so that all errors of the shell are found; `None` means there were some. A shell of triangles and
 /// quadrilaterals becomes two.
 fn read_shell<'d>(
     index: usize,
@@ -79,7 +79,7 @@ fn read_shell<'d>(
     let counts = counts?;
     if corners.len() == 3 && counts[0] != counts[1] {
         let place = span(&shell.elements).unwrap_or(owner.span);
-        let message = "a patch of three corners has as many elements along each edge: give one number";
+        let message = "a patch of three corners needs the same number of elements along each edge: give one number";
         return cx.report.error(place, message);
     }
     let part = part?;
@@ -106,7 +106,7 @@ fn of_patch<'d>(
     let corners = if triangles { 3 } else { 4 };
     if elements.iter().any(|element| folds(element, corners, cx.nodes)) {
         let message = format!("{} folds back on itself", patch.owner.what);
-        let hint = "corners go round the patch, each at its own place";
+        let hint = "list the corners in order round the patch, each at a place of its own";
         return cx.report.error_with(patch.owner.span, message, hint);
     }
     Some(elements)
@@ -133,7 +133,7 @@ fn of_group<'d>(
     let sizes = faces.iter().map(|face| face.nodes().len());
     let (normals, against) = mesh::normals(&x, local.iter().zip(sizes).map(|(nodes, size)| &nodes[..size]));
     if against > 0 {
-        let message = format!("the elements of {} are not oriented alike: at {against} edges", owner.what);
+        let message = format!("neighbouring elements of {} have opposite normals: at {against} edges", owner.what);
         cx.report.warn(&name.span, message, "pressure acts against the normal of each element");
     }
     let mut shells = Vec::new();
@@ -165,7 +165,7 @@ fn folds(element: &ShellElement, corners: usize, nodes: &Nodes) -> bool {
     })
 }
 
-/// What a shell is made of: plate, density, how it yields.
+/// Reads what a shell is made of: plate, density, how it yields, and axis 1 of its results.
 fn plate<'d>(
     owner: &Owner<'d>,
     shell: &'d words::Shell,
@@ -185,7 +185,7 @@ fn plate<'d>(
     Some((plate, density?, yielding?, axis?))
 }
 
-/// Nodes of three or four corners.
+/// Finds the nodes of three or four corners and connects them.
 fn corners<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Vec<usize>> {
     let corners = cx.report.require_nodes(owner, "corners", &shell.corners)?;
     if !(3..=4).contains(&corners.values.len()) {
@@ -198,7 +198,7 @@ fn corners<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<
     }
     let nodes: Vec<Option<usize>> =
         corners.values.iter().map(|point| cx.names.point("corners", point, &cx.parts, cx.report)).collect();
-    // What meets at these points is known even if the rest has errors.
+    // They are connected even if the rest of the shell has errors.
     nodes.iter().flatten().for_each(|&node| cx.nodes.connect(node, true));
     nodes.into_iter().collect::<Option<Vec<usize>>>().filter(|nodes| (3..=4).contains(&nodes.len()))
 }
@@ -206,7 +206,11 @@ fn corners<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<
 fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) -> Option<[usize; 2]> {
     let values = &counts.values;
     if values.is_empty() || values.len() > 2 {
-        return cx.report.error_with(&counts.span, "`elements` takes two numbers here", "along edge1 and along edge2");
+        return cx.report.error_with(
+            &counts.span,
+            "`elements` takes one or two numbers here",
+            "along edge1 and along edge2",
+        );
     }
     for count in values {
         if count.value == 0 || count.value > MOST_ELEMENTS {
@@ -215,16 +219,16 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
     }
     let [n, m] = [values.first()?.value as usize, values.last()?.value as usize];
     if n * m > MOST_IN_ALL {
-        let message = format!("{n} x {m} elements: at most {MOST_IN_ALL} in a patch are taken to be meant");
+        let message = format!("{n} x {m} elements: at most {MOST_IN_ALL} are allowed in a patch");
         return cx.report.error(&counts.span, message);
     }
     cx.parts.ask_for(n * m, &counts.span, cx.report)?;
     Some([n, m])
 }
 
-/// How the shell yields, `Some(None)` where its material is elastic.
+/// Reads how the shell yields: `Some(None)` where its material is elastic, `None` where there are errors.
 fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<Yielding>> {
-    // Where the material is wrong, that has been said.
+    // Errors of the material have been reported.
     let Some(law) = cx.materials.yielding_of(&shell.material)? else {
         cx.report
             .reject_unused(&format!("{}, whose material is elastic", owner.what), &[("layers", span(&shell.layers))]);

@@ -1,4 +1,4 @@
-//! Shell elements that no one would draw. They pass the patch test, so they are taken, but what they leave of the digits is little.
+//! Badly shaped shell elements. They pass the patch test, so they are accepted, but they lose precision.
 
 use super::nodes::Nodes;
 use super::parts::Parts;
@@ -35,7 +35,7 @@ impl Worst {
     }
 }
 
-/// One warning for each shell of the deck and each way to be odd.
+/// Warns once for each shell of the deck and each way in which its elements are badly shaped.
 pub(super) fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Report) {
     for (shell, entry) in deck.shells.iter().zip(&parts.shells) {
         let (mut long, mut flat) = (Worst::default(), Worst::default());
@@ -53,7 +53,11 @@ pub(super) fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &
         let name = name.map_or_else(|| "a shell".to_owned(), |name| format!("shell `{}`", name.value));
         if long.count > 0 {
             let message = format!("{} of {name}: up to {:.0} times as long as high", slivers(long.count), long.value);
-            let hint = format!("{}; of bending they lose as many digits as the square of that has", long.place());
+            let hint = format!(
+                "{}; bending loses about {:.0} digits of precision there",
+                long.place(),
+                2.0 * long.value.log10()
+            );
             report.warn(&shell.span, message, hint);
         }
         if flat.count > 0 {
@@ -68,7 +72,7 @@ fn slivers(count: usize) -> String {
     if count == 1 { "a sliver among the elements".to_owned() } else { format!("{count} slivers among the elements") }
 }
 
-/// Not 180, which it is not.
+/// An angle near 180 with as many digits as tell it from 180.
 fn degrees(angle: f64) -> String {
     let digits = (1..9).find(|&digits| (180.0 - angle) * 10.0_f64.powi(digits) > 0.9).unwrap_or(9);
     format!("{angle:.digits$}", digits = digits as usize)

@@ -7,7 +7,7 @@ use std::fmt;
 pub(super) struct Spot<'d> {
     pub node: usize,
     pub name: Label<'d>,
-    /// Where the name stands that covers it.
+    /// The place in the deck of the name that covers the node.
     pub span: &'d Span,
     /// True for a node that is named itself, and not as part of a set, a beam or everything.
     pub direct: bool,

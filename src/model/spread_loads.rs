@@ -30,8 +30,8 @@ pub(super) fn spread_load<'d>(
     if let Some(at) = follower
         && (load.force_per_length.is_some() || load.force_per_area.is_some())
     {
-        let hint = "give what keeps its direction a table of its own";
-        report.error_with::<()>(&at.span, "of loads spread over shells only `pressure` follows", hint);
+        let hint = "give the load that keeps its direction a `[[loads]]` of its own";
+        report.error_with::<()>(&at.span, "of loads spread over shells only `pressure` can follow", hint);
     }
     let Some(names) = report.require_nodes(&owner, "at", &load.at) else { return (Vec::new(), None) };
     if names.values.is_empty() {
@@ -93,8 +93,8 @@ impl<'d> Spread<'_, 'd> {
             _ => match self.scene.names.shell_of(place) {
                 Some(shell) if self.line.is_none() => self.over_shell(shell),
                 _ => {
-                    let wants = if self.line.is_some() { "edges of shells" } else { "shells" };
-                    let message = format!("this load wants {wants}, and `{}` is {}", name.value, place.kind());
+                    let what = if self.line.is_some() { "edges of shells" } else { "shells" };
+                    let message = format!("this load acts on {what}, and `{}` is {}", name.value, place.kind());
                     report.error::<()>(&name.span, message);
                 }
             },
@@ -168,7 +168,7 @@ fn line_of(
         return border;
     }
     if whole {
-        let message = format!("`{}` holds whole elements, not an edge", name.value);
+        let message = format!("`{}` contains whole elements, not the nodes of an edge alone", name.value);
         report.error_with::<()>(&name.span, message, "name the nodes along one line");
     } else if edges.is_empty() && topology.is_complete() {
         let message = format!("no edge of a shell lies between two nodes of `{}`", name.value);

@@ -33,7 +33,7 @@ struct Supports<'a, 'd> {
     scene: &'a Scene<'d>,
     amplitudes: &'a [Amplitude],
     topology: &'a mut Topology,
-    /// By dependent node that is supported: the point of its own that is restrained for it.
+    /// The node that is restrained in place of each dependent node that is supported.
     support_points: HashMap<usize, usize>,
     joints: Vec<Joint>,
     report: &'a mut Report<'d>,
@@ -48,10 +48,10 @@ impl<'d> Supports<'_, 'd> {
         let unread = self.report.is_spoiled(owner.span, "fix") || self.report.is_spoiled(owner.span, "motion");
         if fixed == [false; 6] && support.motion.is_none() && !unread {
             let place = support.fix.as_ref().map_or(owner.span, |fix| &fix.span);
-            self.report.error_with::<()>(place, "this support holds nothing", "give it `fix` or `motion`");
+            self.report.error_with::<()>(place, "this support restrains nothing", "give it `fix` or `motion`");
         }
         for (dof, _, place) in motions.extract_if(.., |(dof, ..)| fixed[*dof]) {
-            let message = format!("{} is both fixed and moved by this support", DIRECTIONS[dof]);
+            let message = format!("{} is both fixed and prescribed by this support", DIRECTIONS[dof]);
             self.report.error::<()>(place, message);
         }
         for spot in &spots {
@@ -76,7 +76,8 @@ impl<'d> Supports<'_, 'd> {
             if given.1.is_none() || self.topology.is_taken(node, dof) {
                 self.restrain_in(spot, node, given);
             } else if self.topology.is_complete() {
-                let message = format!("nothing connected to `{}` moves in {}", spot.name, DIRECTIONS[dof]);
+                let message =
+                    format!("nothing connected to `{}` has the degree of freedom {}", spot.name, DIRECTIONS[dof]);
                 self.report.error::<()>(place, message);
             }
         }
@@ -100,7 +101,7 @@ impl<'d> Supports<'_, 'd> {
                 && self.scene.analysis.kind == AnalysisKind::Static
                 && history != History::Displacement
             {
-                self.report.error::<()>(&at.span, "a static analysis knows displacements only");
+                self.report.error::<()>(&at.span, "a static analysis takes `history = \"displacement\"` only");
             }
             let scale = motion.scale.as_ref().map_or(1.0, |scale| scale.value);
             let Some((amplitude, _)) = amplitude else { continue };
@@ -114,7 +115,7 @@ impl<'d> Supports<'_, 'd> {
     fn restrain_in(&mut self, spot: &Spot, node: usize, (dof, motion, place): Given) -> bool {
         match self.topology.restraint(node, dof) {
             Some(restraint) if restraint.motion.is_some() || motion.is_some() => {
-                let message = format!("two supports give the motion of `{}` in {}", spot.name, directions([dof]));
+                let message = format!("two supports prescribe the motion of `{}` in {}", spot.name, DIRECTIONS[dof]);
                 self.report.error::<()>(place, message);
                 false
             }
@@ -140,8 +141,12 @@ impl<'d> Supports<'_, 'd> {
                 && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0
             {
                 let message =
-                    format!("the motion of `{}` does not begin at zero, but it rides on something", spot.name);
-                self.report.error_with::<()>(place, message, "what it rides on starts where it is");
+                    format!("the motion of `{}` does not begin at zero, but it is attached to something", spot.name);
+                self.report.error_with::<()>(
+                    place,
+                    message,
+                    "let the amplitude begin at zero: what it is attached to starts undisplaced",
+                );
             }
             new[*dof] |= self.restrain_in(spot, support_point, (*dof, motion.clone(), place));
         }

@@ -17,11 +17,11 @@ const ROUND: f64 = 1e-3;
 pub(super) struct Map {
     kind: Coordinates,
     center: Vec3,
-    /// Columns: e₁, e₂ and the axis.
+    /// The columns are e₁, e₂ and the axis.
     axes: Mat3,
-    /// Of the corners; between them they are bilinear.
+    /// Coordinates of the corners; between them they are bilinear.
     corners: [Vec3; 4],
-    /// From the centre to the corners, for what is pushed out; bilinear too.
+    /// Distances of the corners from the centre, for a patch that is pushed out; between them they are bilinear too.
     radii: [f64; 4],
 }
 
@@ -133,7 +133,7 @@ impl Map {
         let mut map = match Map::new(kind, center, &axis, [x(0), x(1), x(2), fourth]) {
             Some(map) => map,
             None => {
-                let message = "this surface has no place for the corners";
+                let message = "the corners do not fit this surface";
                 return report.error_with(
                     place,
                     message,

@@ -12,7 +12,7 @@ pub(super) fn drop_unused(model: &mut Model) {
     }
 }
 
-/// All that names a node, but for what rides.
+/// Calls `of` with every node that the model names, dependent nodes aside.
 fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.bodies.iter_mut().for_each(|body| of(&mut body.node));
     model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
@@ -39,7 +39,7 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
 fn kept(model: &mut Model) -> Vec<bool> {
     let mut kept: Vec<bool> = model.nodes.iter().map(|node| node.named).collect();
     visit_nodes(model, &mut |node| kept[*node] = true);
-    // What rides needs what it rides on.
+    // A dependent node needs the one that it depends on.
     let mut masters = vec![None; kept.len()];
     model.riders.iter().for_each(|rider| masters[rider.node] = Some(rider.master));
     for node in 0..kept.len() {
