@@ -67,7 +67,7 @@ fn times<'d>(analysis: &'d words::Analysis, span: &'d Span, report: &mut Report<
         && end / step > MOST_STEPS
     {
         let message = format!("`time_step` asks for {:.1e} steps", end / step);
-        report.error_with::<()>(&at.span, message, format!("at most {MOST_STEPS:.0e} are taken to be meant"));
+        report.error_with::<()>(&at.span, message, format!("at most {MOST_STEPS:.0e} are allowed"));
     }
     if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
         && least > step
@@ -194,7 +194,7 @@ pub(super) fn check_explicit(
     }
     let tolerance = deck.analysis.as_ref().and_then(|analysis| analysis.error_tolerance.as_ref());
     if let (Stepping::Verlet, Some(tolerance)) = (scheme.stepping(), tolerance) {
-        let message = format!("`error_tolerance` means nothing for the scheme \"{}\"", scheme.word());
+        let message = format!("`error_tolerance` does not apply to the scheme \"{}\"", scheme.word());
         report.error_with::<()>(&tolerance.span, message, "its steps are as long as is stable");
     }
 }

@@ -59,7 +59,7 @@ impl<'d> Finder<'_, 'd> {
     ) -> Option<Vec<Point>> {
         let between = match &contact.points {
             Some(at) if at.value > MOST_POINTS as u64 => {
-                let message = format!("`points` is {}: at most {MOST_POINTS} are taken to be meant", at.value);
+                let message = format!("`points` is {}: at most {MOST_POINTS} are allowed", at.value);
                 return self.report.error(&at.span, message);
             }
             points => points.as_ref().map_or(0, |at| at.value as usize),
@@ -115,7 +115,7 @@ impl<'d> Finder<'_, 'd> {
     ) -> Option<Vec<Touch>> {
         let place = self.scene.names.find(at, self.report)?;
         if matches!(place, Place::Link(_) | Place::Contact(_)) {
-            let message = format!("`with` wants points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
+            let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
             return self.report.error(&at.span, message);
         }
         let mut found = Vec::new();

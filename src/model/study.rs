@@ -231,7 +231,7 @@ impl<'d> Reader<'_, 'd> {
         }
         if list.values.len() > MOST_RUNGS {
             let message = format!("`{key}` has {} entries", list.values.len());
-            self.report.error_with::<()>(&list.span, message, format!("at most {MOST_RUNGS} are taken to be meant"));
+            self.report.error_with::<()>(&list.span, message, format!("at most {MOST_RUNGS} are allowed"));
         }
         for value in list.values.iter().filter(|value| value.value <= 0.0) {
             self.report.error::<()>(&value.span, format!("`{key}` must be above zero"));

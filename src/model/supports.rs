@@ -5,7 +5,7 @@ use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spot::Spot;
-use super::values::{chosen, directions};
+use super::values::chosen;
 use super::{AnalysisKind, DIRECTIONS, History, Joint, Motion};
 use crate::amplitude::Amplitude;
 use crate::deck::supports as words;

@@ -31,6 +31,6 @@ impl Plan {
             Why::Plane => "the scene is plane, and this is normal to it",
         };
         let message = format!("{} of `{}` never changes: {why}", DIRECTIONS[dof], model.nodes[node].label);
-        Some(Diagnostic::error(message).at(&(start..end)).hint("a passage wants a displacement that is an unknown"))
+        Some(Diagnostic::error(message).at(&(start..end)).hint("name a displacement that is an unknown"))
     }
 }

@@ -416,7 +416,7 @@ impl<'t> Given<'t> {
     /// Reports keys that `kind` does not take; `what` is a thing of that kind.
     pub fn reject_others<M>(&mut self, kind: &Kind<M>, what: &str) {
         for value in self.values.0.iter().filter(|value| !kind.takes(value.key)) {
-            let message = format!("`{}` means nothing for {what}", value.key);
+            let message = format!("`{}` does not apply to {what}", value.key);
             self.problems.push(Diagnostic::error(message).at(&value.span));
         }
     }
