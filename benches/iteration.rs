@@ -102,9 +102,9 @@ fn least<T>(subject: &mut T, mut prepare: impl FnMut(&mut T), mut call: impl FnM
 }
 
 fn measure(name: &str, mut model: Model) {
-    model.iteration.update = Update::Iteration;
+    model.solution.iteration.update = Update::Iteration;
     let (renewed, state) = run(&model);
-    model.iteration.update = Update::Never;
+    model.solution.iteration.update = Update::Never;
     let (kept, _) = run(&model);
 
     let system = System::new(&model).expect("a system");
@@ -113,7 +113,7 @@ fn measure(name: &str, mut model: Model) {
     let mut loading = Loading::default();
     Drive::new(&model).loading(state.time, Side::Before, &mut loading);
     let mut forces = Forces::new(&system, model.nodes.len());
-    let scheme = &model.scheme;
+    let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 

@@ -2,7 +2,7 @@
 //! what is left out by itself must not cost more. Least of repeats taken in turn, time loops alone, one thread.
 
 use rdsolve::diagnostic::Source;
-use rdsolve::model::{self, Held, Model};
+use rdsolve::model::{self, Model, Restraint};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};
 use rdsolve::system::System;
@@ -16,13 +16,13 @@ fn held_in_plane(mut model: Model) -> Model {
     model.analysis.plane = false;
     for node in 0..model.nodes.len() {
         for dof in ACROSS {
-            let rides = model.riders.iter().any(|rider| rider.node == node && rider.dofs[dof]);
-            if !rides && !model.held.iter().any(|held| held.node == node && held.dof == dof) {
-                model.held.push(Held { node, dof, motion: None });
+            let rides = model.constraints.dependents.iter().any(|rider| rider.node == node && rider.dofs[dof]);
+            if !rides && !model.constraints.restraints.iter().any(|held| held.node == node && held.dof == dof) {
+                model.constraints.restraints.push(Restraint { node, dof, motion: None });
             }
         }
     }
-    model.held.sort_by_key(|held| (held.node, held.dof));
+    model.constraints.restraints.sort_by_key(|held| (held.node, held.dof));
     model
 }
 

@@ -127,7 +127,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let mut loading = Loading::default();
     Drive::new(&model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);
-    let scheme = &model.scheme;
+    let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
     let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 

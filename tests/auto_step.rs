@@ -262,7 +262,7 @@ fn no_blow_is_missed() {
 #[test]
 fn rest_is_cheap() {
     let mut model = small(HIT);
-    model.loads.clear();
+    model.loading.nodal.clear();
     let done = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[0].x.z]);
     assert!(done.counts.steps <= 60 && done.rows.iter().all(|row| row[0] == 0.0), "{:?}", done.counts);
 }

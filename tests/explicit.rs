@@ -648,7 +648,7 @@ reactions = true
 "#;
     for scheme in [WILSON, CENTRAL, EIGHT] {
         let model = scene(text, &[scheme]);
-        let moment = model.held.iter().position(|held| held.dof == 4).unwrap();
+        let moment = model.constraints.restraints.iter().position(|held| held.dof == 4).unwrap();
         let done = run_to_the_end(&model, &mut |frame| vec![frame.reactions[moment]]);
         // Rounding.
         assert!(done.rows.iter().all(|row| (row[0] - 2.0).abs() < 1e-12), "{scheme}: {:?}", done.rows);

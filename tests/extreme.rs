@@ -364,7 +364,7 @@ fn steps_of_any_length_beside_the_time_of_relaxation() {
         model.expects.clear();
         let end = node(&model, "end_fast_linear");
         let done = run_to_the_end(&model, &mut |frame| {
-            let held = frame.model.held.iter().position(|held| held.node == end && held.dof == 0);
+            let held = frame.model.constraints.restraints.iter().position(|held| held.node == end && held.dof == 0);
             vec![held.map_or(0.0, |i| frame.reactions[i])]
         });
         let over = done.rows.last().expect("a row")[0] / (area * yield_stress) - 1.0;

@@ -201,7 +201,7 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
     for (kind, axes, ends, rows) in kinds {
         let model = from_text(&pair(&format!("kind = \"{kind}\"\n{axes}\n{ends}")));
         let [a, b] = ["a", "b"].map(|name| node(&model, name));
-        let ends = model.joints[0].ends;
+        let ends = model.constraints.joints[0].ends;
         let seen = watch(&model, |frame| {
             let n = &frame.state.nodes;
             // Relative motion as the first body sees it: of the joint's ends, and of the frames.
@@ -210,7 +210,7 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
             let turn = rotation::log(&(n[b].q.conjugate() * n[a].q));
             [d.x, d.y, d.z, turn.x, turn.y, turn.z, R.trace()].to_vec()
         });
-        assert_eq!(model.joints[0].rows.len(), rows, "{kind}");
+        assert_eq!(model.constraints.joints[0].rows.len(), rows, "{kind}");
         // Gaps at rounding of lengths near 1; of rates what a step makes a gap of that size of.
         assert!(seen.gaps[0] < 1e-14, "{kind}: {:?}", seen.gaps);
         assert!(seen.gaps[1] < 1e-14 / 0.002 && seen.gaps[2] < 1e-14 / 0.002_f64.powi(2), "{kind}: {:?}", seen.gaps);
@@ -630,7 +630,7 @@ interval = 0.25
 fn a_driven_joint_carries_the_inertia() {
     for dt in [0.01, 0.001] {
         let model = from_text(&scene("dynamic", 1.0, dt, DRIVEN));
-        let place = model.held.iter().position(|held| held.motion.is_some()).expect("a motion");
+        let place = model.constraints.restraints.iter().position(|held| held.motion.is_some()).expect("a motion");
         let seen = watch(&model, |frame| vec![frame.state.time, frame.reactions[place]]);
         for (row, energy) in seen.rows.iter().zip(&seen.energies).skip(1) {
             let exact = 2.0 * 0.1 * 18.0 * (6.0 * row[0]).cos();
@@ -750,7 +750,7 @@ fix = {fix}
     for (fix, rows) in [("[\"rx\"]", 1), ("[\"rx\", \"ry\"]", 2), ("[\"ux\", \"rx\", \"ry\", \"rz\"]", 4)] {
         let model = from_text(&scene("dynamic", 1.0, 0.01, &rest(fix)));
         let seen = watch(&model, |_| vec![]);
-        assert_eq!(model.joints[0].rows.len(), rows);
+        assert_eq!(model.constraints.joints[0].rows.len(), rows);
         assert!(seen.gaps[0] < 1e-14, "{fix}: {:?}", seen.gaps);
     }
 }

@@ -45,7 +45,7 @@ fn beams_follow_their_path() {
     let [a, b, c] = ["a", "b", "c"].map(|name| node(&model, name));
     let start = node(&model, "frame.start");
     assert_eq!(model.nodes[start].x, Vec3::new(0.0, 0.0, 0.5));
-    let rider = model.riders.iter().find(|rider| rider.node == start).unwrap();
+    let rider = model.constraints.dependents.iter().find(|rider| rider.node == start).unwrap();
     assert_eq!((rider.master, rider.dofs), (a, [true; 6]));
     let ends: Vec<[usize; 2]> = beam.elements.iter().map(|e| [e.nodes[0], e.nodes[2]]).collect();
     assert_eq!((ends[0][0], ends[1][1], ends[2]), (start, b, [b, c]));
@@ -102,7 +102,7 @@ fn materials_that_yield_reach_their_parts() {
     let viscosity = Viscosity { fluidity: 40.4, overstress: Overstress::Power { exponent: 5.0 } };
     assert_eq!(cable.yielding, Some(Law::new(210e9, 0.3, hardening, 0.0, Some(viscosity))));
     assert!(cable.tension_only);
-    assert_eq!((model.iteration.method, model.iteration.limit), (Method::InitialLoad, 15));
+    assert_eq!((model.solution.iteration.method, model.solution.iteration.limit), (Method::InitialLoad, 15));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn shells_are_patches() {
     let radius = |n: usize| (model.nodes[n].x.x - 0.5).hypot(model.nodes[n].x.y - 1.0);
     assert!(wall.elements.iter().flat_map(|e| e.nodes).all(|n| (radius(n) - 1.25f64.sqrt()).abs() < 1e-15));
     assert!(roof.elements.iter().flat_map(|e| e.normals).all(|n| n.z.abs() < 1e-15 && n.x.abs() < 1e-15));
-    let [follower] = &model.pressures[..] else { panic!("one of them follows") };
+    let [follower] = &model.loading.pressures[..] else { panic!("one of them follows") };
     assert_eq!((follower.pressure, follower.amplitude, follower.faces.len()), (-3.0, Some(0), 16));
     assert_eq!(follower.faces[0], Face::of(&roof.elements[0].nodes[..3]).unwrap());
     let at = model.parts.iter().position(|part| part.name() == "roof").unwrap();
@@ -146,9 +146,9 @@ fn shapes_give_mass_and_inertia() {
 #[test]
 fn supports_are_sorted_and_say_what_they_do() {
     let model = everything();
-    let order: Vec<(usize, usize)> = model.held.iter().map(|held| (held.node, held.dof)).collect();
+    let order: Vec<(usize, usize)> = model.constraints.restraints.iter().map(|held| (held.node, held.dof)).collect();
     assert!(order.is_sorted_by(|a, b| a < b));
-    let moved = model.held.iter().find(|held| held.motion.is_some()).unwrap();
+    let moved = model.constraints.restraints.iter().find(|held| held.motion.is_some()).unwrap();
     let motion = moved.motion.as_ref().unwrap();
     assert_eq!((moved.node, moved.dof), (node(&model, "d"), 0));
     assert_eq!((motion.scale, motion.history), (0.5, History::Acceleration));
@@ -169,7 +169,7 @@ fn links_measure_from_where_they_are() {
     assert_eq!(free(2), (2.0, None));
     // At its centre a link acts on the body itself, elsewhere on a new node that rides on it.
     assert_eq!(links[2].ends[0], model.bodies[0].node);
-    let rider = model.riders.iter().find(|rider| rider.node == links[0].ends[0]).unwrap();
+    let rider = model.constraints.dependents.iter().find(|rider| rider.node == links[0].ends[0]).unwrap();
     assert_eq!((rider.master, rider.dofs), (model.bodies[0].node, [true; 6]));
     let LinkKind::Bushing { stiffness, axes, .. } = &links[3].kind else { panic!("no bushing") };
     assert_eq!((stiffness[5], axes.column(0).into_owned()), (6.0, Vec3::y()));
@@ -192,7 +192,7 @@ fn parts_of_a_mesh_are_rigid_or_not() {
     let gone = ["mesh.1", "mesh.5", "mesh.14"];
     assert!(model.nodes.iter().all(|node| !gone.contains(&node.label.as_str())));
     let [rim, rib] = ["mesh.8", "mesh.6"].map(|label| node(&model, label));
-    let rider = model.riders.iter().find(|rider| rider.node == rim).unwrap();
+    let rider = model.constraints.dependents.iter().find(|rider| rider.node == rim).unwrap();
     assert_eq!((rider.master, rider.dofs), (rib, [true; 6]));
 }
 
@@ -204,7 +204,7 @@ fn one_word_makes_a_beam_rigid_that_nodes_are_attached_to() {
     let ribs = model.bodies.iter().find(|body| body.name == "ribs").expect("a body");
     for label in ["mesh.8", "mesh.9"] {
         let label = node(&model, label);
-        let rider = model.riders.iter().find(|rider| rider.node == label).expect("it rides");
+        let rider = model.constraints.dependents.iter().find(|rider| rider.node == label).expect("it rides");
         assert_eq!((rider.master, rider.dofs), (ribs.node, [true; 6]));
     }
 }
@@ -228,8 +228,8 @@ fn initial_motion_is_that_of_a_rigid_body_where_it_should_be() {
 fn the_rest_is_taken_as_written() {
     let model = everything();
     assert_eq!(model.masses[0].inertia, Mat3::zeros());
-    assert_eq!(model.loads[0].node, node(&model, "c"));
-    assert_eq!(model.base_accelerations[0].direction, Vec3::new(0.0, 3.0, 0.0));
+    assert_eq!(model.loading.nodal[0].node, node(&model, "c"));
+    assert_eq!(model.loading.base_accelerations[0].direction, Vec3::new(0.0, 3.0, 0.0));
     assert_eq!((model.damping.mass_factor, model.damping.nodal[0].translation), (0.1, 2.0));
     let expect = &model.expects[0];
     assert_eq!((expect.at, expect.when), (ExpectAt::Node(node(&model, "c")), When::Time(0.3)));

@@ -314,7 +314,8 @@ kind = "constant"
          [amplitudes.down]\nkind = \"sine-squared\"\nangular_frequency = 1.5707963267948966\n[output]\nreactions = true",
     );
     let model = read(&driven);
-    let (head, held) = (node(&model, "head"), model.held.iter().position(|held| held.motion.is_some()).unwrap());
+    let (head, held) =
+        (node(&model, "head"), model.constraints.restraints.iter().position(|held| held.motion.is_some()).unwrap());
     let curve = support::run_to_the_end(&model, &mut |frame: &Frame| {
         vec![-frame.reactions[held] / 1e5, frame.state.nodes[head].x[2] - 2.0]
     });

@@ -106,7 +106,7 @@ fn hash(source: &Source, sets: &[String], model: &Model) -> String {
         hasher.update([0]);
         hasher.update(set);
     }
-    if let Some(mesh) = &model.mesh {
+    if let Some(mesh) = &model.origin.mesh {
         hasher.update([0, 0]);
         hasher.update(mesh.digest);
     }

@@ -168,10 +168,11 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
 /// What the explicit schemes of a study lack.
 fn massless(model: &Model) -> Result<Vec<Diagnostic>, Exit> {
     let listed = model.study.iter().flat_map(|study| &study.schemes).map(|choice| &choice.scheme);
-    let own = model.study.as_ref().is_none_or(|study| study.schemes.is_empty()).then_some(&model.scheme);
+    let own = model.study.as_ref().is_none_or(|study| study.schemes.is_empty()).then_some(&model.solution.scheme);
     let mut problems = Vec::new();
     for scheme in listed.chain(own).filter(|scheme| scheme.is_explicit()) {
-        let model = Model { scheme: scheme.clone(), ..model.clone() };
+        let mut model = model.clone();
+        model.solution.scheme = scheme.clone();
         let system = System::new(&model).map_err(|error| {
             complain(&error);
             Exit::Internal

@@ -1,9 +1,9 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
+use super::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
+use super::data::{ERROR_TOLERANCE, FIRST_STEP};
 use super::report::{Owner, Report};
-use super::step_length::{ERROR_TOLERANCE, FIRST_STEP};
 use super::values::{chosen, span};
-use super::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use crate::deck::Deck;
 use crate::deck::analysis as words;
 use crate::deck::read::ROOT;

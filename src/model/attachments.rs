@@ -1,5 +1,6 @@
 //! `[[attachments]]`: points and bodies that move with a body, nodes that move with a beam.
 
+use super::data::{Joint, Part};
 use super::joints::rows;
 use super::nearest_nodes::Line;
 use super::nodes::Nodes;
@@ -7,7 +8,6 @@ use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spot::Spot;
-use super::{Joint, Part};
 use crate::deck::attachments::{Attachment, AttachmentMethod};
 use crate::deck::beams::Beam;
 use crate::diagnostic::{At, Diagnostic};

@@ -1,11 +1,11 @@
 //! `[[bars]]`: paths → nodes and elements that resist stretching alone.
 
+use super::data::{Bar, MassKind, Part};
 use super::part_context::PartContext;
 use super::parts::PartEntry;
 use super::paths::{counts, path, segments};
 use super::report::Owner;
 use super::values::{chosen, flag, span};
-use super::{Bar, MassKind, Part};
 use crate::deck::beams as words;
 
 pub(super) fn bars(cx: &mut PartContext) {

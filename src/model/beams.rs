@@ -1,11 +1,11 @@
 //! `[[beams]]`: paths or groups of the mesh → nodes and elements.
 
+use super::data::{Beam, BeamElement, Part};
 use super::part_context::PartContext;
 use super::parts::PartEntry;
 use super::paths::{counts, path, segments};
 use super::report::Owner;
 use super::values::{chosen, flag, span, vec3};
-use super::{Beam, BeamElement, Part};
 use crate::deck::beams as words;
 use crate::deck::words::Vector;
 use crate::diagnostic::At;

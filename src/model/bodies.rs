@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
+use super::data::{Body, Shape};
 use super::nodes::Nodes;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::values::{flag, span, vec3, vec3_or_zero};
-use super::{Body, Shape};
 use crate::deck::Deck;
 use crate::deck::bodies as words;
 use crate::deck::words::{Names, Table};

@@ -13,6 +13,10 @@ use super::check::{check_content, check_static, check_use};
 use super::contact_points::connect_touching_points;
 use super::contacts::contacts;
 use super::control::{control, iterate_along};
+use super::data::{
+    Analysis, AnalysisKind, ArcLength, Constraints, Iteration, Joint, Loading, MeshFile, Model, Origin, Part, Rigid,
+    Solution, StepLength,
+};
 use super::environment::{damping, environment};
 use super::expects::expects;
 use super::groups::Groups;
@@ -41,9 +45,6 @@ use super::supports::supports;
 use super::units::check_units;
 use super::unused::drop_unused;
 use super::values::vec3;
-use super::{
-    Analysis, AnalysisKind, ArcLength, Iteration, Joint, MeshFile, Model, Part, Rigid, StepLength, stable_fraction,
-};
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::integrators::{Scheme, Stepping};
@@ -99,31 +100,22 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let study = study(&scene, &scheme, &topology.list, report);
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
-    let (nodes, riders, held) = topology.into_parts();
+    let (nodes, dependents, restraints) = topology.into_parts();
     let (analysis, iteration) = lead_on(deck, scene.analysis, iteration, arc_length);
     let mut model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
-        units: deck.units.as_ref().map(|units| units.label().to_owned()),
         analysis,
-        scheme,
-        iteration,
+        solution: Solution { scheme, iteration },
         nodes,
         bodies: scene.bodies,
         masses,
         stiffnesses: scene.parts.stiffnesses,
         parts: scene.parts.list,
-        riders,
-        joints,
-        held,
-        amplitudes,
-        loads: loads.nodal,
-        pressures: loads.pressures,
-        gravity,
-        base_accelerations,
+        constraints: Constraints { dependents, joints, restraints },
+        loading: Loading { amplitudes, nodal: loads.nodal, pressures: loads.pressures, gravity, base_accelerations },
         damping,
         expects,
-        rigid,
-        mesh,
+        origin: Origin { mesh, rigid },
         output,
         study,
     };
@@ -219,8 +211,8 @@ fn lead_on(
 
 /// Completes what only the whole model tells: stable steps, nodes that nothing needs, and the list of all that are left.
 fn finish(model: &mut Model, all_nodes: bool) {
-    if model.analysis.step_length.is_automatic() && matches!(model.scheme.stepping(), Stepping::Verlet) {
-        model.analysis.step_length = StepLength::StabilityLimited { fraction: stable_fraction(model) };
+    if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
+        model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
     }
     drop_unused(model);
     if all_nodes {

@@ -1,11 +1,11 @@
 //! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
 
 use super::contact_surface::along;
+use super::data::{Bar, Beam, PartType, Shape as Drawn, Shell};
 use super::nodes::{Nodes, Topology};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use super::{Bar, Beam, PartType, Shape as Drawn, Shell};
 use crate::deck::contacts as words;
 use crate::deck::words::Maybe;
 use crate::diagnostic::At;

@@ -2,11 +2,11 @@
 
 use super::contact_points::Finder;
 use super::contact_surface::read_surface;
+use super::data::{AnalysisKind, Contact, Mass, StepLength};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
-use super::{AnalysisKind, Contact, Mass, StepLength};
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution::{self, Loss};
 use crate::elements::contact::{Law, Point, Surface};

@@ -1,12 +1,12 @@
 //! What leads a static analysis on: `control` of `[analysis]` and the words that go with it.
 
+use super::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
 use super::nodes::Topology;
 use super::passages::passage;
 use super::report::Report;
 use super::scene::Scene;
 use super::usage::named_amplitudes;
 use super::values::span;
-use super::{AnalysisKind, ArcLength, Held, History, Iteration, Method, Update};
 use crate::amplitude::Amplitude;
 use crate::deck::Deck;
 use crate::deck::analysis as words;
@@ -98,7 +98,7 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
             report.error_with::<()>(&amplitude.span, message, "let it rise over a finite time");
         }
         // A velocity that turns leaves a motion that may not.
-        let moves = |held: &Held| {
+        let moves = |held: &Restraint| {
             let motion = held.motion.as_ref().filter(|motion| motion.amplitude == index);
             motion.is_some_and(|motion| motion.history != History::Displacement)
         };

@@ -1,10 +1,10 @@
 //! `[environment]` and `[damping]`: what acts on all of a scene.
 
+use super::data::{BaseAcceleration, Damping, NodalDamping};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::vec3_or_zero;
-use super::{BaseAcceleration, Damping, NodalDamping};
 use crate::deck::Deck;
 use crate::math::Vec3;
 

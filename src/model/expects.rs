@@ -1,12 +1,12 @@
 //! `[[expect]]`: values that a run must reach.
 
+use super::data::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When};
 use super::nodes::Topology;
 use super::passages::passage;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
-use super::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When};
 use crate::deck::expect as words;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::MeshFile;
+use super::data::MeshFile;
 use super::mesh_file::MeshNodes;
 use super::names::Names;
 use super::report::Report;

@@ -1,11 +1,11 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
+use super::data::{DependentNode, PartType, Shell};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spot::Spot;
 use super::values::{span, vec3, vec3_or_zero};
-use super::{PartType, Rider, Shell};
 use crate::amplitude::Amplitude;
 use crate::deck::initial::{Initial, Profile};
 use crate::deck::words::Table;
@@ -181,7 +181,7 @@ fn carry_dependents(topology: &mut Topology) {
             next = topology.attachment(topology.dependents[index].master);
         }
         for index in chain.into_iter().rev() {
-            let Rider { node, master, dofs, .. } = topology.dependents[index];
+            let DependentNode { node, master, dofs, .. } = topology.dependents[index];
             let omega = topology.list[master].omega;
             let v = topology.list[master].v + omega.cross(&(topology.x(node) - topology.x(master)));
             let node = &mut topology.list[node];

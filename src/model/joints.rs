@@ -1,10 +1,10 @@
 //! `[[joints]]`: constraint equations between two nodes, held by multipliers.
 
+use super::data::{Joint, Node};
 use super::ends::EndTable;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use super::{Joint, Node};
 use crate::constraints::joint::{Row, rotations, translations};
 use crate::constraints::joints::JointKind;
 use crate::deck::Deck;

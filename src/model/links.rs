@@ -1,12 +1,12 @@
 //! `[[links]]`: their ends and laws.
 
 use super::axes::axes;
+use super::data::{Link, LinkKind};
 use super::ends::EndTable;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
-use super::{Link, LinkKind};
 use crate::deck::links as words;
 use crate::deck::words::{Maybe, Numbers};
 use crate::elements::link::Law;

@@ -1,11 +1,11 @@
 //! `[[loads]]`: forces and moments at nodes.
 
+use super::data::{Load, Pressure};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spread_loads::spread_load;
 use super::values::{directions, flag, span, vec3_or_zero};
-use super::{Load, Pressure};
 use crate::deck::loads as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;

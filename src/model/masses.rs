@@ -1,7 +1,7 @@
 //! `[[masses]]`: point masses.
 
-use super::Mass;
 use super::bodies::read_inertia;
+use super::data::Mass;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};

@@ -1,8 +1,8 @@
 //! `[materials.x]`: what a material is made of, and its law where it yields.
 
+use super::data::{AnalysisKind, MassKind};
 use super::report::{Owner, Report};
 use super::values::span;
-use super::{AnalysisKind, MassKind};
 use crate::deck::Deck;
 use crate::deck::environment::Environment;
 use crate::deck::materials as words;

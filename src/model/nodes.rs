@@ -4,9 +4,9 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{Deref, DerefMut};
 
+use super::data::{DependentNode, Motion, Node, Restraint};
 use super::report::Report;
 use super::spot::Spot;
-use super::{Held, Motion, Node, Rider};
 use crate::diagnostic::Span;
 use crate::math::Vec3;
 
@@ -16,14 +16,14 @@ pub(super) struct Nodes {
     /// The directions in which an element, a mass, a body or a link acts on each node.
     connected: Vec<[bool; 6]>,
     /// Nodes that depend on others, in the order in which they were attached.
-    pub dependents: Vec<Rider>,
+    pub dependents: Vec<DependentNode>,
     /// The index of each dependent node in `dependents`, and the place in the deck that made it depend.
     attachments: HashMap<usize, (usize, Span)>,
     restraints: Restraints,
 }
 
 /// Directions whose motion is given, by node and direction.
-pub(super) type Restraints = BTreeMap<(usize, usize), Held>;
+pub(super) type Restraints = BTreeMap<(usize, usize), Restraint>;
 
 impl Nodes {
     /// A new node at rest.
@@ -43,7 +43,7 @@ impl Nodes {
     /// Makes a node depend on another one in some directions, which it must not do yet on any.
     pub fn attach(&mut self, node: usize, master: usize, dofs: [bool; 6], place: &Span) {
         self.attachments.insert(node, (self.dependents.len(), place.clone()));
-        self.dependents.push(Rider { node, master, dofs, place: Some([place.start, place.end]) });
+        self.dependents.push(DependentNode { node, master, dofs, place: Some([place.start, place.end]) });
     }
 
     /// Notes that something acts on a node, on its translations or also on its rotations.
@@ -56,7 +56,7 @@ impl Nodes {
 
     /// Gives the motion of a node in a direction, or none for rest. It must not be given yet.
     pub fn restrain(&mut self, node: usize, dof: usize, motion: Option<Motion>) {
-        self.restraints.insert((node, dof), Held { node, dof, motion });
+        self.restraints.insert((node, dof), Restraint { node, dof, motion });
     }
 
     pub fn x(&self, node: usize) -> Vec3 {
@@ -68,12 +68,12 @@ impl Nodes {
     }
 
     /// The restraint of a node in a direction.
-    pub fn restraint(&self, node: usize, dof: usize) -> Option<&Held> {
+    pub fn restraint(&self, node: usize, dof: usize) -> Option<&Restraint> {
         self.restraints.get(&(node, dof))
     }
 
     /// All restraints, by node and direction.
-    pub fn restraints(&self) -> impl Iterator<Item = &Held> {
+    pub fn restraints(&self) -> impl Iterator<Item = &Restraint> {
         self.restraints.values()
     }
 
@@ -160,7 +160,7 @@ impl Topology {
     }
 
     /// Node list, attachments and restraints, for the model.
-    pub fn into_parts(self) -> (Vec<Node>, Vec<Rider>, Vec<Held>) {
+    pub fn into_parts(self) -> (Vec<Node>, Vec<DependentNode>, Vec<Restraint>) {
         let Nodes { list, dependents, restraints, .. } = self.nodes;
         (list, dependents, restraints.into_values().collect())
     }

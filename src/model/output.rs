@@ -1,9 +1,9 @@
 //! `[output]`: what is written, and how often.
 
+use super::data::{Cadence, Model, Node, Output};
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::flag;
-use super::{Cadence, Model, Node, Output};
 use crate::deck::output as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
@@ -18,9 +18,11 @@ pub(super) struct Selection {
 }
 
 pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool, report: &mut Report<'d>) -> Selection {
+    let units = scene.deck.units.as_ref().map(|units| units.label().to_owned());
     let Some(table) = &scene.deck.output else {
         let nodes = named_nodes(scene, nodes);
         let output = Output {
+            units,
             nodes,
             cadence: Cadence::Steps(1),
             energy: true,
@@ -47,6 +49,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         report.count("every", &fields.every, 1)
     });
     let output = Output {
+        units,
         nodes,
         cadence,
         energy: flag(&table.energy, true),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Part;
+use super::data::Part;
 use super::place::Place;
 use super::report::Report;
 use crate::diagnostic::Span;

@@ -1,6 +1,6 @@
 //! Displacements on their way through a value, for `stop` of `[analysis]` and `when` of `[[expect]]`.
 
-use super::Passage;
+use super::data::Passage;
 use super::nodes::Topology;
 use super::place::Place;
 use super::report::{Owner, Report};

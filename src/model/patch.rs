@@ -1,6 +1,6 @@
 //! A patch of shells: nodes of its edges, which neighbours share, nodes inside, normals, and the elements between them.
 
-use super::ShellElement;
+use super::data::ShellElement;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::surface_map::Map;

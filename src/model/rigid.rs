@@ -5,11 +5,11 @@
 //! has the same inertia in rigid motion; lumped mass comes to it as elements get smaller.
 
 use super::bodies::{Bodies, part_name};
+use super::data::{AnalysisKind, Bar, Beam, Body, MassKind, Part, Rigid, Shape, Shell};
 use super::nodes::Nodes;
 use super::parts::Parts;
 use super::place::Place;
 use super::report::{Owner, Report};
-use super::{AnalysisKind, Bar, Beam, Body, MassKind, Part, Rigid, Shape, Shell};
 use crate::deck::Deck;
 use crate::diagnostic::Span;
 use crate::elements::shell;

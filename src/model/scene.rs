@@ -3,12 +3,12 @@
 
 use std::collections::HashSet;
 
+use super::data::{Analysis, Body};
 use super::names::Names;
 use super::parts::Parts;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::spot::{Label, Spot};
-use super::{Analysis, Body};
 use crate::deck::Deck;
 use crate::deck::words::Maybe;
 use crate::deck::words::Names as List;

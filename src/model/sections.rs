@@ -1,6 +1,6 @@
 //! `[sections.x]`, of the material of a beam: section stiffnesses, and fibres where it yields.
 
-use super::MassKind;
+use super::data::MassKind;
 use super::materials::Materials;
 use super::report::{Owner, Report};
 use super::values::span;

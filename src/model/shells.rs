@@ -1,5 +1,6 @@
 //! `[[shells]]`: patches or groups of the mesh → nodes, normals and elements.
 
+use super::data::{MassKind, Part, Shell, ShellElement};
 use super::nodes::Nodes;
 use super::part_context::PartContext;
 use super::parts::PartEntry;
@@ -7,7 +8,6 @@ use super::patch::{Edges, Patch};
 use super::report::Owner;
 use super::surface_map::Map;
 use super::values::{chosen, span};
-use super::{MassKind, Part, Shell, ShellElement};
 use crate::deck::shells as words;
 use crate::deck::words::OneOrMany;
 use crate::diagnostic::At;

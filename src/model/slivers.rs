@@ -1,9 +1,9 @@
 //! Badly shaped shell elements. They pass the patch test, so they are accepted, but they lose precision.
 
+use super::data::{PartType, Shell};
 use super::nodes::Nodes;
 use super::parts::Parts;
 use super::report::Report;
-use super::{PartType, Shell};
 use crate::deck::Deck;
 use crate::math::Vec3;
 use crate::names::short;

@@ -1,12 +1,12 @@
 //! `[[loads]]` spread over shells and along their edges.
 
+use super::data::{Load, Pressure};
 use super::nodes::Topology;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::spot::Spot;
 use super::values::{span, vec3_or_zero};
-use super::{Load, Pressure};
 use crate::deck::loads as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;

@@ -2,10 +2,11 @@
 //! [`crate::study`] alone.
 
 use super::analysis::{can_be_kept, check_yielding, scheme as read_scheme};
+pub use super::data::{Choice, Quantity, Study};
+use super::data::{Method, Node, Part};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use super::{Method, Node, Part};
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
 use crate::deck::words::kinds::OneOf;
@@ -15,63 +16,6 @@ use crate::integrators::{SCHEMES, Scheme};
 use crate::names::nearest;
 use crate::quantities::{self, MOTION};
 use std::sync::Arc;
-
-/// What is gone over, and what errors are measured on.
-#[derive(Debug, Clone, Default)]
-pub struct Study {
-    /// Empty: displacements of all nodes in nodes.csv and of all bodies.
-    pub quantities: Vec<Quantity>,
-    /// File as the deck names it.
-    pub reference: Option<String>,
-    /// Of each quantity: its column in that file.
-    pub columns: Vec<String>,
-    /// Intervals; `None`: as the reference has them, or 200.
-    pub samples: Option<usize>,
-    /// Longest first; empty: from the deck's own.
-    pub time_steps: Vec<f64>,
-    /// Of an automatic step, largest first; empty: none, unless the deck's step is one.
-    pub error_tolerances: Vec<f64>,
-    /// Of the one time step.
-    pub halvings: usize,
-    /// Empty: the deck's own.
-    pub schemes: Vec<Choice>,
-    /// Empty: the deck's own.
-    pub methods: Vec<Method>,
-    /// Factors on numbers of elements, rising; empty: 1.
-    pub meshes: Vec<f64>,
-    /// Largest first; empty: 1e-2, 1e-3, 1e-4.
-    pub wanted_errors: Vec<f64>,
-}
-
-/// One number of one node at every time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
-    /// As `output.nodes` and the deck name it.
-    pub name: String,
-    /// As nodes.csv or bodies.csv has it.
-    pub label: String,
-    /// In bodies.csv.
-    pub body: bool,
-    /// A column of [`MOTION`], or one of [`DERIVED`].
-    pub column: &'static str,
-}
-
-impl Quantity {
-    /// "tip.uz".
-    pub fn word(&self) -> String {
-        format!("{}.{}", self.name, self.column)
-    }
-}
-
-/// A scheme with its parameters.
-#[derive(Debug, Clone)]
-pub struct Choice {
-    /// "newmark:gamma=0.6".
-    pub label: String,
-    pub scheme: Arc<dyn Scheme>,
-    /// The table `[integrator]` that asks for it, in line.
-    pub table: String,
-}
 
 /// What can be asked of a node or body besides its motion: angular velocity in axes that turn with it, and its rotation matrix.
 const DERIVED: [&str; 12] =
@@ -308,7 +252,7 @@ impl<'d> Reader<'_, 'd> {
 }
 
 /// Why a model cannot be studied; `None`: it can.
-pub fn obstacle(model: &super::Model) -> Option<&'static str> {
+pub fn obstacle(model: &super::data::Model) -> Option<&'static str> {
     let along = model.analysis.step_length.is_arc_length();
     along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
 }

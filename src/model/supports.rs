@@ -1,12 +1,12 @@
 //! `[[supports]]`: directions whose motion is given.
 
+use super::data::{AnalysisKind, DIRECTIONS, History, Joint, Motion};
 use super::joints::rows;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spot::Spot;
 use super::values::chosen;
-use super::{AnalysisKind, DIRECTIONS, History, Joint, Motion};
 use crate::amplitude::Amplitude;
 use crate::deck::supports as words;
 use crate::deck::words::Table;

@@ -1,12 +1,12 @@
 //! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
 
-use super::{ArcLength, ExpectAt, Model, StepLength, When};
+use super::data::{ArcLength, ExpectAt, Model, StepLength, When};
 use crate::elements::pressure::Face;
 
 /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
 /// rigid parts have none.
 pub(super) fn drop_unused(model: &mut Model) {
-    if model.mesh.is_some() || !model.rigid.is_empty() {
+    if model.origin.mesh.is_some() || !model.origin.rigid.is_empty() {
         let kept = kept(model);
         renumber(model, &kept);
     }
@@ -17,10 +17,10 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.bodies.iter_mut().for_each(|body| of(&mut body.node));
     model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
     model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
-    model.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
-    model.held.iter_mut().for_each(|held| of(&mut held.node));
-    model.loads.iter_mut().for_each(|load| of(&mut load.node));
-    model.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
+    model.constraints.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
+    model.constraints.restraints.iter_mut().for_each(|held| of(&mut held.node));
+    model.loading.nodal.iter_mut().for_each(|load| of(&mut load.node));
+    model.loading.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
     model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));
     model.output.nodes.iter_mut().for_each(&mut *of);
     for expect in &mut model.expects {
@@ -41,7 +41,7 @@ fn kept(model: &mut Model) -> Vec<bool> {
     visit_nodes(model, &mut |node| kept[*node] = true);
     // A dependent node needs the one that it depends on.
     let mut masters = vec![None; kept.len()];
-    model.riders.iter().for_each(|rider| masters[rider.node] = Some(rider.master));
+    model.constraints.dependents.iter().for_each(|rider| masters[rider.node] = Some(rider.master));
     for node in 0..kept.len() {
         let mut next = if kept[node] { masters[node] } else { None };
         while let Some(master) = next.filter(|&master| !kept[master]) {
@@ -61,8 +61,8 @@ fn renumber(model: &mut Model, kept: &[bool]) {
     }
     let mut flags = kept.iter();
     model.nodes.retain(|_| flags.next().copied().unwrap_or(true));
-    model.riders.retain(|rider| kept[rider.node]);
-    for rider in &mut model.riders {
+    model.constraints.dependents.retain(|rider| kept[rider.node]);
+    for rider in &mut model.constraints.dependents {
         (rider.node, rider.master) = (number[rider.node], number[rider.master]);
     }
     visit_nodes(model, &mut |node| *node = number[*node]);

@@ -1,6 +1,6 @@
 //! Values of the deck as the model takes them.
 
-use super::DIRECTIONS;
+use super::data::DIRECTIONS;
 use crate::deck::words::{Maybe, Vector};
 use crate::diagnostic::Span;
 use crate::math::Vec3;

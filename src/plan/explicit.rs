@@ -48,7 +48,7 @@ impl Plan {
                 self.directions.iter().filter(|(node, dof)| !heavy[*node][usize::from(*dof > 2)]).copied().collect()
             }
         };
-        let scheme = model.scheme.word();
+        let scheme = model.solution.scheme.word();
         let error = |&(node, dof): &(usize, usize)| {
             let (label, direction) = (&model.nodes[node].label, DIRECTIONS[dof]);
             let message = format!(
@@ -73,26 +73,34 @@ impl Plan {
     /// An error for each node that rides in some rotations and turns on its own in others, with Runge-Kutta: rotations of a step
     /// tie it to its master, not rates at its stages, and that is of first order in them.
     pub fn half_turning(&self, model: &Model) -> Vec<Diagnostic> {
-        if !matches!(model.scheme.stepping(), Stepping::RungeKutta(_)) {
+        if !matches!(model.solution.scheme.stepping(), Stepping::RungeKutta(_)) {
             return Vec::new();
         }
-        let master = |node: usize| model.riders.iter().find(|rider| rider.node == node).map(|rider| rider.master);
+        let master = |node: usize| {
+            model.constraints.dependents.iter().find(|rider| rider.node == node).map(|rider| rider.master)
+        };
         let moves = |mut node: usize, dof: usize| {
             while let (Why::Rides, Some(next)) = (self.nodes[node][dof], master(node)) {
                 node = next;
             }
-            let driven = || model.held.iter().any(|held| (held.node, held.dof) == (node, dof) && held.motion.is_some());
+            let driven = || {
+                model
+                    .constraints
+                    .restraints
+                    .iter()
+                    .any(|held| (held.node, held.dof) == (node, dof) && held.motion.is_some())
+            };
             self.nodes[node][dof] == Why::Unknown || driven()
         };
-        let half = model.riders.iter().filter(|rider| {
+        let half = model.constraints.dependents.iter().filter(|rider| {
             (3..6).any(|dof| self.nodes[rider.node][dof] == Why::Unknown)
                 && (3..6).any(|dof| rider.dofs[dof] && moves(rider.master, dof))
         });
-        let error = |rider: &crate::model::Rider| {
+        let error = |rider: &crate::model::DependentNode| {
             let [node, master] = [rider.node, rider.master].map(|node| &model.nodes[node].label);
             let message = format!(
                 "`{node}` turns with `{master}` about some axes only, which \"{}\" does not follow",
-                model.scheme.word()
+                model.solution.scheme.word()
             );
             placed(Diagnostic::error(message).hint("a joint of kind \"revolute\", or another scheme"), rider.place)
         };

@@ -41,12 +41,17 @@ impl Plan {
         let nodes = place::place(model, system);
         let unknown = nodes.iter().map(|place| place.map(|why| why == place::Why::Unknown));
         let dofs = DofMap::new(unknown, &system.joints);
-        let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.scheme.is_explicit();
+        let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.solution.scheme.is_explicit();
         let structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
-        let kind = choose::kind(&structure, model.iteration.gyroscopic);
+        let kind = choose::kind(&structure, model.solution.iteration.gyroscopic);
         // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
-        model.held.iter().filter(|held| held.motion.is_some()).for_each(|held| driven[held.node][held.dof] = true);
+        model
+            .constraints
+            .restraints
+            .iter()
+            .filter(|held| held.motion.is_some())
+            .for_each(|held| driven[held.node][held.dof] = true);
         let count = |of: &dyn Fn(usize) -> bool| (3..6).filter(|&dof| of(dof)).count();
         let turns = |node: usize| {
             let unknown = count(&|dof| nodes[node][dof] == place::Why::Unknown);

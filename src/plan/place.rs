@@ -52,12 +52,12 @@ pub fn place(model: &Model, system: &System) -> Vec<Place> {
             }
         }
     }
-    for rider in &model.riders {
+    for rider in &model.constraints.dependents {
         for dof in (0..6).filter(|&d| rider.dofs[d]) {
             places[rider.node][dof] = Why::Rides;
         }
     }
-    for held in &model.held {
+    for held in &model.constraints.restraints {
         places[held.node][held.dof] = Why::Held;
     }
     places
@@ -135,20 +135,20 @@ fn reach(block: &dyn ElementBlock, e: usize) -> [bool; 6] {
 fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 6]> {
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let mut moved = resisted.to_vec();
-    for load in &model.loads {
+    for load in &model.loading.nodal {
         for i in 0..3 {
             moved[load.node][i] |= load.follower || load.force[i] != 0.0;
             moved[load.node][3 + i] |= load.follower || load.moment[i] != 0.0;
         }
     }
-    for node in model.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()) {
+    for node in model.loading.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()) {
         moved[*node][..3].fill(true);
     }
-    for held in model.held.iter().filter(|held| held.motion.is_some()) {
+    for held in model.constraints.restraints.iter().filter(|held| held.motion.is_some()) {
         moved[held.node][held.dof] = true;
     }
-    let mut field = model.gravity.map(f64::abs);
-    for base in &model.base_accelerations {
+    let mut field = model.loading.gravity.map(f64::abs);
+    for base in &model.loading.base_accelerations {
         field += base.direction.map(f64::abs);
     }
     // Rotations of a mass about the three axes act on one another; in statics there is no inertia to do so.

@@ -76,7 +76,7 @@ fn update_reactions_and_work(
     damping_power: f64,
 ) {
     let carry = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
-    for (i, held) in cx.model.held.iter().enumerate() {
+    for (i, held) in cx.model.constraints.restraints.iter().enumerate() {
         let old = state.reactions[i];
         let new = carry(old, -ws.forces.on_nodes[held.node][held.dof]);
         let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;

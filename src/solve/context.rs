@@ -1,7 +1,7 @@
 //! What a run only reads: the model, its plan, its system, and what follows from them once.
 
 use crate::math::Vec3;
-use crate::model::{AnalysisKind, Held, Model};
+use crate::model::{AnalysisKind, Model, Restraint};
 use crate::plan::Plan;
 use crate::state::Node;
 use crate::system::{Drive, System};
@@ -44,7 +44,7 @@ impl<'a> Context<'a> {
             excitation: Drive::new(model),
             independent_nodes: independent_nodes(model, plan, system),
             driving: driving(model, system),
-            algorithmic_acceleration: if dynamic { model.scheme.follower() } else { None },
+            algorithmic_acceleration: if dynamic { model.solution.scheme.follower() } else { None },
             length: extent(model),
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
@@ -73,7 +73,7 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
     let mut follows = vec![false; n];
     system.attachments.iter().filter(|link| link.rigid).for_each(|link| follows[link.node] = true);
     let mut driven = vec![false; n];
-    model.held.iter().for_each(|held| driven[held.node] |= held.motion.is_some());
+    model.constraints.restraints.iter().for_each(|held| driven[held.node] |= held.motion.is_some());
     let moves = |i: &usize| !follows[*i] && (driven[*i] || (0..6).any(|dof| plan.is_unknown(*i, dof)));
     (0..n).filter(moves).collect()
 }
@@ -86,8 +86,8 @@ fn driving(model: &Model, system: &System) -> Vec<usize> {
     for link in system.attachments.iter().rev() {
         leads[link.master] |= leads[link.node];
     }
-    let moves = |(_, held): &(usize, &Held)| held.motion.is_some() && leads[held.node];
-    model.held.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
+    let moves = |(_, held): &(usize, &Restraint)| held.motion.is_some() && leads[held.node];
+    model.constraints.restraints.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
 }
 
 /// The largest distance of a node from the first, or 1 for a single point.

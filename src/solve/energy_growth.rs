@@ -50,5 +50,5 @@ impl EnergyGrowth {
 
 /// Energies are summed whoever wants them.
 pub fn is_watched(model: &Model) -> bool {
-    matches!(model.scheme.stepping(), Stepping::Verlet) && model.analysis.kind == AnalysisKind::Dynamic
+    matches!(model.solution.scheme.stepping(), Stepping::Verlet) && model.analysis.kind == AnalysisKind::Dynamic
 }

@@ -60,7 +60,9 @@ fn name(model: &Model, plan: &Plan, system: &System, row: usize) -> (String, &'s
 }
 
 fn multiplier(model: &Model, system: &System, number: usize) -> (String, &'static str) {
-    system.row(number).map_or((String::new(), ""), |(joint, row)| (model.joints[joint].name.clone(), row.word()))
+    system
+        .row(number)
+        .map_or((String::new(), ""), |(joint, row)| (model.constraints.joints[joint].name.clone(), row.word()))
 }
 
 /// The five largest by name.

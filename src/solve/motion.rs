@@ -97,7 +97,7 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
 /// masters.
 pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
     differentiate(cx, ws, state, stage);
-    for (held, given) in cx.model.held.iter().zip(&ws.prescribed.instant) {
+    for (held, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant) {
         prescribe(&mut ws.increments[held.node], held.dof, given);
     }
     for &node in &cx.independent_nodes {
@@ -110,7 +110,7 @@ pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage
 /// Writes the trial motion from the increments at the end of the step: prescribed directions as given, dependent nodes after
 /// their masters.
 pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
-    for (i, held) in cx.model.held.iter().enumerate() {
+    for (i, held) in cx.model.constraints.restraints.iter().enumerate() {
         let (from, to) = (&ws.prescribed.start[i], &ws.prescribed.end[i]);
         prescribe(&mut ws.increments[held.node], held.dof, &Prescribed { u: to.u - from.u, ..*to });
     }

@@ -39,7 +39,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
         add_accelerations(cx, ws, &mut state, &massless);
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     }
-    for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.held) {
+    for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
         *reaction = -ws.forces.on_nodes[held.node][held.dof];
     }
     if cx.system.history > 0 {
@@ -73,7 +73,7 @@ fn given_state(cx: &Context) -> State {
         nodes: cx.model.nodes.iter().enumerate().map(node).collect(),
         history: vec![0.0; cx.system.history],
         jerk: vec![Vec6::zeros(); n],
-        reactions: vec![0.0; cx.model.held.len()],
+        reactions: vec![0.0; cx.model.constraints.restraints.len()],
         multipliers: vec![0.0; cx.system.multipliers()],
         followers: vec![Vec6::zeros(); if cx.algorithmic_acceleration.is_some() { n } else { 0 }],
         work: Work::default(),
@@ -82,7 +82,7 @@ fn given_state(cx: &Context) -> State {
 
 /// Adds the prescribed motion at t = 0.
 fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
-    for (held, given) in cx.model.held.iter().zip(&ws.prescribed.start) {
+    for (held, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.start) {
         let node = &mut state.nodes[held.node];
         if held.dof < 3 {
             node.x[held.dof] += given.u;
@@ -175,7 +175,7 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     if cx.wants_forces {
         // Reactions jump too, by what the new accelerations leave of the new loads.
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-        for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.held) {
+        for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
             *reaction -= ws.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
         }
     }

@@ -21,7 +21,7 @@ impl<'a> TimeStepper<'a> {
     /// # Errors
     /// There is no memory for the solver.
     pub fn new(cx: &Context<'a>) -> Result<Self, TooLarge> {
-        Ok(match cx.model.scheme.stepping() {
+        Ok(match cx.model.solution.scheme.stepping() {
             Stepping::Verlet if cx.is_dynamic() => {
                 TimeStepper::CentralDifference(Box::new(CentralDifferenceStepper::new(cx)?))
             }

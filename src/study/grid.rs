@@ -217,12 +217,12 @@ fn fitting(interval: f64, step: f64) -> f64 {
 }
 
 fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<Line> {
-    let word = model.scheme.word().to_owned();
+    let word = model.solution.scheme.word().to_owned();
     let is_static = model.analysis.kind == AnalysisKind::Static;
     let scheme = |label: &str, scheme: &Arc<dyn Scheme>, set: Option<String>| (label.to_owned(), scheme.clone(), set);
     let schemes: Vec<_> = match study.schemes[..] {
-        [] if is_static => vec![scheme("static", &model.scheme, None)],
-        [] => vec![scheme(&word, &model.scheme, None)],
+        [] if is_static => vec![scheme("static", &model.solution.scheme, None)],
+        [] => vec![scheme(&word, &model.solution.scheme, None)],
         ref list => {
             list.iter().map(|of| scheme(&of.label, &of.scheme, Some(format!("integrator={}", of.table)))).collect()
         }
@@ -231,7 +231,7 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
         problems.extend(schemes.iter().filter_map(|(label, scheme, _)| no_tolerance(label, &**scheme)));
     }
     let methods: Vec<_> = match study.methods[..] {
-        [] => vec![(model.iteration.method.word(), None)],
+        [] => vec![(model.solution.iteration.method.word(), None)],
         ref list => list.iter().map(|of| (of.word(), Some(format!("iteration.method=\"{}\"", of.word())))).collect(),
     };
     let meshes: Vec<f64> = if study.meshes.is_empty() { vec![1.0] } else { study.meshes.clone() };

@@ -21,7 +21,12 @@ use std::ops::Range;
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
     let mut tied = vec![false; x.len()];
     for body in &model.bodies {
-        model.riders.iter().filter(|rider| rider.master == body.node).for_each(|rider| tied[rider.node] = true);
+        model
+            .constraints
+            .dependents
+            .iter()
+            .filter(|rider| rider.master == body.node)
+            .for_each(|rider| tied[rider.node] = true);
     }
     let mut masses = Masses { x, tied, lumped: Lumped::new(x.len()), consistent: Vec::new() };
     model.bodies.iter().for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));
@@ -280,5 +285,5 @@ pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
         let says = |row: &&Row| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
         Joint { nodes: joint.ends, rows: joint.rows.iter().filter(says).copied().collect(), supports: joint.supports }
     };
-    model.joints.iter().map(joint).collect()
+    model.constraints.joints.iter().map(joint).collect()
 }

@@ -158,7 +158,8 @@ impl System {
     /// A cycle among attachments, which [`crate::model`] excludes.
     pub fn new(model: &Model) -> Result<System, String> {
         let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
-        let attachments = model.riders.iter().map(|r| Attachment::new(r.node, r.master, &x, r.dofs)).collect();
+        let attachments =
+            model.constraints.dependents.iter().map(|r| Attachment::new(r.node, r.master, &x, r.dofs)).collect();
         let attachments = attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?;
         let (inertias, consistent) = build::masses(model, &x);
         let plane = plane::normal(model, &inertias, &attachments);
@@ -173,11 +174,11 @@ impl System {
             consistent,
             attachments,
             joints,
-            gyroscopic: model.iteration.gyroscopic != model::Gyroscopic::Right,
+            gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
             plane,
             watched,
-            loads: model.loads.clone(),
-            pressures: model.pressures.clone(),
+            loads: model.loading.nodal.clone(),
+            pressures: model.loading.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: model.damping.mass_factor,
             dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,

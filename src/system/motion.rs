@@ -3,7 +3,7 @@
 use super::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
-use crate::model::{AnalysisKind, Held, History, Model, Motion};
+use crate::model::{AnalysisKind, History, Model, Motion, Restraint};
 
 /// Displacement, velocity and acceleration of a held direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -69,20 +69,20 @@ impl Beyond {
 
 impl<'a> Drive<'a> {
     pub fn new(model: &'a Model) -> Self {
-        let jumps = model.amplitudes.iter().map(Amplitude::jumps).collect();
+        let jumps = model.loading.amplitudes.iter().map(Amplitude::jumps).collect();
         let mut drive =
             Drive { model, jumps, slack: 1e-9 * model.analysis.end_time, loads: Vec::new(), motions: Vec::new() };
         if model.analysis.step_length.is_arc_length() {
             let end = model.analysis.end_time;
-            let loads = model.amplitudes.iter();
+            let loads = model.loading.amplitudes.iter();
             drive.loads = loads.map(|a| Beyond::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
-            let beyond = |held: &Held| {
+            let beyond = |held: &Restraint| {
                 let Some(motion) = &held.motion else { return Beyond::new(0.0, end, |_| 0.0, |_| 0.0) };
-                let amplitude = &model.amplitudes[motion.amplitude];
+                let amplitude = &model.loading.amplitudes[motion.amplitude];
                 let given = |t: f64| prescribed(motion, amplitude, t);
                 Beyond::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
             };
-            drive.motions = model.held.iter().map(beyond).collect();
+            drive.motions = model.constraints.restraints.iter().map(beyond).collect();
         }
         drive
     }
@@ -98,7 +98,7 @@ impl<'a> Drive<'a> {
         match self.jumps[amplitude].iter().find(|jump| (jump.time - t).abs() <= self.slack) {
             Some(jump) if side == Side::Before => jump.before,
             Some(jump) => jump.after,
-            None => self.model.amplitudes[amplitude].value(t),
+            None => self.model.loading.amplitudes[amplitude].value(t),
         }
     }
 
@@ -117,12 +117,12 @@ impl<'a> Drive<'a> {
             Some(i) => self.factor(i, t, side),
             None => self.plain_factor(t),
         };
-        loading.factors.extend(self.model.loads.iter().map(|load| factor(load.amplitude)));
+        loading.factors.extend(self.model.loading.nodal.iter().map(|load| factor(load.amplitude)));
         loading.pressures.clear();
-        let pressures = self.model.pressures.iter();
+        let pressures = self.model.loading.pressures.iter();
         loading.pressures.extend(pressures.map(|load| load.pressure * factor(load.amplitude)));
-        loading.field = self.plain_factor(t) * self.model.gravity;
-        for base in &self.model.base_accelerations {
+        loading.field = self.plain_factor(t) * self.model.loading.gravity;
+        for base in &self.model.loading.base_accelerations {
             loading.field -= self.factor(base.amplitude, t, side) * base.direction;
         }
     }
@@ -130,17 +130,17 @@ impl<'a> Drive<'a> {
     /// When the first load or held motion of a static analysis begins to change; infinite where none does.
     pub fn begin(&self) -> f64 {
         let model = self.model;
-        let rest = |amplitude: Option<usize>| amplitude.map_or(0.0, |i| model.amplitudes[i].rest());
+        let rest = |amplitude: Option<usize>| amplitude.map_or(0.0, |i| model.loading.amplitudes[i].rest());
         let moves = |motion: &Motion| match motion.history {
             History::Displacement => rest(Some(motion.amplitude)),
             // A velocity that stays moves on.
             History::Velocity | History::Acceleration => 0.0,
         };
-        let loads = model.loads.iter().map(|load| rest(load.amplitude));
-        let pressures = model.pressures.iter().map(|load| rest(load.amplitude));
-        let bases = model.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
-        let held = model.held.iter().filter_map(|held| held.motion.as_ref()).map(moves);
-        let gravity = if model.gravity == Vec3::zeros() { f64::INFINITY } else { 0.0 };
+        let loads = model.loading.nodal.iter().map(|load| rest(load.amplitude));
+        let pressures = model.loading.pressures.iter().map(|load| rest(load.amplitude));
+        let bases = model.loading.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
+        let held = model.constraints.restraints.iter().filter_map(|held| held.motion.as_ref()).map(moves);
+        let gravity = if model.loading.gravity == Vec3::zeros() { f64::INFINITY } else { 0.0 };
         loads.chain(pressures).chain(bases).chain(held).fold(gravity, f64::min)
     }
 
@@ -151,14 +151,14 @@ impl<'a> Drive<'a> {
             AnalysisKind::Static => 1.0 / self.model.analysis.end_time,
         };
         let beyond = |i: usize| self.loads.get(i).and_then(|beyond| beyond.at(t));
-        let rate = |i: usize| beyond(i).map_or_else(|| self.model.amplitudes[i].rate(t), |(_, slope)| slope);
+        let rate = |i: usize| beyond(i).map_or_else(|| self.model.loading.amplitudes[i].rate(t), |(_, slope)| slope);
         loading.factors.clear();
-        loading.factors.extend(self.model.loads.iter().map(|load| load.amplitude.map_or(plain, rate)));
+        loading.factors.extend(self.model.loading.nodal.iter().map(|load| load.amplitude.map_or(plain, rate)));
         loading.pressures.clear();
-        let pressures = self.model.pressures.iter();
+        let pressures = self.model.loading.pressures.iter();
         loading.pressures.extend(pressures.map(|load| load.pressure * load.amplitude.map_or(plain, rate)));
-        loading.field = plain * self.model.gravity;
-        for base in &self.model.base_accelerations {
+        loading.field = plain * self.model.loading.gravity;
+        for base in &self.model.loading.base_accelerations {
             loading.field -= rate(base.amplitude) * base.direction;
         }
     }
@@ -168,10 +168,10 @@ impl<'a> Drive<'a> {
     pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();
-        out.extend(self.model.held.iter().enumerate().map(|(i, held)| match &held.motion {
+        out.extend(self.model.constraints.restraints.iter().enumerate().map(|(i, held)| match &held.motion {
             None => Prescribed::default(),
             Some(motion) => {
-                let given = |t: f64| prescribed(motion, &self.model.amplitudes[motion.amplitude], t);
+                let given = |t: f64| prescribed(motion, &self.model.loading.amplitudes[motion.amplitude], t);
                 match self.motions.get(i) {
                     Some(beyond) => Prescribed { u: beyond.value(t, |t| given(t).u), ..Prescribed::default() },
                     None if dynamic => given(t),

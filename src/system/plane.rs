@@ -22,7 +22,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     let pairs_wrongly =
         |K: &Mat3| (0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > small * K.amax()));
 
-    if !model.pressures.is_empty() {
+    if !model.loading.pressures.is_empty() {
         return false;
     }
     let Some(first) = model.nodes.first() else { return false };
@@ -32,14 +32,16 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     if !model.nodes.iter().all(|p| flat(p) && still(p)) {
         return false;
     }
-    if model.loads.iter().any(|l| out_of_plane(&l.force) || not_along(&l.moment)) {
+    if model.loading.nodal.iter().any(|l| out_of_plane(&l.force) || not_along(&l.moment)) {
         return false;
     }
-    if out_of_plane(&model.gravity) || model.base_accelerations.iter().any(|b| out_of_plane(&b.direction)) {
+    if out_of_plane(&model.loading.gravity)
+        || model.loading.base_accelerations.iter().any(|b| out_of_plane(&b.direction))
+    {
         return false;
     }
     let in_plane = |dof: usize| if dof < 3 { dof != n } else { dof - 3 == n };
-    if model.held.iter().any(|h| h.motion.is_some() && !in_plane(h.dof)) {
+    if model.constraints.restraints.iter().any(|h| h.motion.is_some() && !in_plane(h.dof)) {
         return false;
     }
     if inertias.iter().any(|i| mixes(&i.J0)) {
@@ -71,7 +73,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], n: 
     });
     // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
     let arms = attachments.iter().all(|a| !pairs_wrongly(&skew(&a.S0)) || a.S0 == Vec3::zeros());
-    let joints = model.joints.iter().all(|joint| {
+    let joints = model.constraints.joints.iter().all(|joint| {
         let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
         joint.rows.iter().all(|row| row.in_plane(n, &d).is_some())
     });

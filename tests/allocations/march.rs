@@ -7,8 +7,8 @@ use rand::rngs::StdRng;
 use rdsolve::diagnostic::Source;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    AnalysisKind, BaseAcceleration, Cadence, Held, History, Iteration, MassKind, Method, Model, Motion, NodalDamping,
-    StepLength, Update,
+    AnalysisKind, BaseAcceleration, Cadence, History, Iteration, MassKind, Method, Model, Motion, NodalDamping,
+    Restraint, StepLength, Update,
 };
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
@@ -30,18 +30,19 @@ impl Observer for Counts {
 fn lively(rng: &mut StdRng) -> Model {
     let mut m = zoo(rng, AnalysisKind::Dynamic, 0.005);
     m.analysis.end_time = 0.3;
-    m.iteration.tolerance = 1e-8;
+    m.solution.iteration.tolerance = 1e-8;
     let pulse = sine_squared(&mut m, 4.0);
-    m.loads[0].amplitude = Some(pulse);
-    m.base_accelerations.push(BaseAcceleration { direction: Vec3::x(), amplitude: pulse });
-    let foot = m.held[0].clone();
-    m.held[0] = Held { motion: Some(Motion { amplitude: pulse, scale: 0.1, history: History::Displacement }), ..foot };
+    m.loading.nodal[0].amplitude = Some(pulse);
+    m.loading.base_accelerations.push(BaseAcceleration { direction: Vec3::x(), amplitude: pulse });
+    let foot = m.constraints.restraints[0].clone();
+    m.constraints.restraints[0] =
+        Restraint { motion: Some(Motion { amplitude: pulse, scale: 0.1, history: History::Displacement }), ..foot };
     m.damping.mass_factor = 0.1;
     m.damping.stiffness_factor = 0.001;
     m.damping.nodal.push(NodalDamping { node: 2, translation: 0.2, rotation: 0.1 });
     let ball = body(&mut m, Vec3::new(5.0, 5.0, 5.0), 1.0, Mat3::identity());
     m.nodes[ball].omega = Vec3::new(1.0, 2.0, 3.0);
-    m.held.sort_by_key(|h| (h.node, h.dof));
+    m.constraints.restraints.sort_by_key(|h| (h.node, h.dof));
     m
 }
 
@@ -53,7 +54,7 @@ fn no_step_after_the_first_allocates() {
     for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
         for kind in [rdsolve::linear::Factorization::BlockLu, rdsolve::linear::Factorization::Cholesky] {
             for cadence in [Cadence::Steps(1), Cadence::Interval(0.012)] {
-                m.iteration.update = update;
+                m.solution.iteration.update = update;
                 m.output.cadence = cadence;
                 assert_none(&m, kind);
             }
@@ -64,10 +65,10 @@ fn no_step_after_the_first_allocates() {
     assert_none(&m, rdsolve::linear::Factorization::BlockLu);
     m.analysis.step_length = fixed;
     soften(&mut m, 10.0);
-    m.iteration.limit = 200;
+    m.solution.iteration.limit = 200;
     for method in [Method::TangentStiffness, Method::InitialLoad, Method::Auto] {
         for update in [Update::Step, Update::Auto] {
-            (m.iteration.method, m.iteration.update) = (method, update);
+            (m.solution.iteration.method, m.solution.iteration.update) = (method, update);
             let state = assert_none(&m, rdsolve::linear::Factorization::BlockLu);
             assert!(state.work.material.plastic > 0.1, "{:?}", state.work);
         }
@@ -147,7 +148,7 @@ fn joints_neither() {
 /// Shells of both kinds and masses, elastic and yielding, on a body, under pressure that follows.
 fn shells_neither() {
     let mut m = empty(AnalysisKind::Dynamic, 0.3, 0.005);
-    m.iteration.tolerance = 1e-8;
+    m.solution.iteration.tolerance = 1e-8;
     let [o, x, y] = [Vec3::zeros(), Vec3::x(), Vec3::y()];
     let first = shell(&mut m, [o, 2.0 * x, y], [3, 2], 4, MassKind::Consistent);
     shell(&mut m, [3.0 * x, 5.0 * x, 3.0 * x + y], [2, 2], 3, MassKind::Lumped);
@@ -162,8 +163,8 @@ fn shells_neither() {
         assert_none(&m, kind);
     }
     soften(&mut m, 10.0);
-    m.iteration.limit = 200;
-    m.iteration.method = Method::Auto;
+    m.solution.iteration.limit = 200;
+    m.solution.iteration.method = Method::Auto;
     let state = assert_none(&m, rdsolve::linear::Factorization::BlockLu);
     assert!(state.work.material.plastic > 0.01, "{:?}", state.work);
 }
@@ -171,12 +172,12 @@ fn shells_neither() {
 /// Shells enough for lanes of forces and for fronts above subtrees, on one thread.
 fn large_scenes_neither() {
     let mut m = empty(AnalysisKind::Dynamic, 0.07, 0.001);
-    m.iteration.tolerance = 1e-8;
+    m.solution.iteration.tolerance = 1e-8;
     let nodes = shell(&mut m, [Vec3::zeros(), 2.0 * Vec3::x(), Vec3::y()], [36, 30], 4, MassKind::Lumped);
     (0..31).for_each(|row| fix(&mut m, nodes[37 * row], 0..6));
     let pulse = sine_squared(&mut m, 0.07);
     press(&mut m, 0.1, Some(pulse));
-    m.iteration.update = Update::Step;
+    m.solution.iteration.update = Update::Step;
     assert_none(&m, rdsolve::linear::Factorization::Cholesky);
 }
 
@@ -196,7 +197,7 @@ fn assert_none(m: &Model, kind: rdsolve::linear::Factorization) -> State {
     let kept = counts.windows(2).skip(1).filter(|pair| !pair[1].1);
     let made: Vec<usize> = kept.map(|pair| pair[1].0 - pair[0].0).collect();
     assert!(2 * made.len() > counts.len(), "most steps are taken at once");
-    let Iteration { method, update, .. } = m.iteration;
+    let Iteration { method, update, .. } = m.solution.iteration;
     assert!(made.iter().all(|&n| n == 0), "{method:?}, {update:?}, {kind:?}, {:?}: {made:?}", m.output.cadence);
     state.expect("a start")
 }

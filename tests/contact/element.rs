@@ -54,7 +54,7 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
     nodes[0].q = exp(&vector(rng, 2.0));
     let R = nodes[0].R();
     let p = surface.axes * vector(rng, 1.0) + surface.center;
-    let near = surface.near(&p);
+    let near = surface.closest_point(&p);
     let inside = p - near.n * (near.distance - radius + rng.random_range(0.002..0.006));
     for k in 0..count {
         nodes[1 + k].q = exp(&vector(rng, 2.0));

@@ -183,7 +183,7 @@ fn a_group_of_both_kinds() {
     let mass: f64 = system.inertias.iter().map(|inertia| inertia.mass).sum();
     // ρ h (1.2 + 0.3)
     assert!((mass / (7850.0 * 0.02 * 1.5) - 1.0).abs() < 1e-14, "{mass}");
-    let pressure: f64 = model.loads.iter().map(|load| load.force.z).sum();
+    let pressure: f64 = model.loading.nodal.iter().map(|load| load.force.z).sum();
     assert!((pressure - (9000.0 * 0.6 - 1000.0 * 1.5)).abs() < 1e-9, "{pressure}");
 }
 
@@ -198,7 +198,7 @@ fn loads_along_edges() {
             .replace("at = \"tip\"", &format!("at = \"{set}\""))
             .replace("pressure = 1000.0", "pressure = 0.0");
         let model = folder.model(&deck);
-        let sum: f64 = model.loads.iter().map(|load| load.force.z).sum();
+        let sum: f64 = model.loading.nodal.iter().map(|load| load.force.z).sum();
         assert!((sum - 9000.0 * length).abs() < 1e-9, "{set}: {sum}");
     }
 }

@@ -121,7 +121,7 @@ fn a_line_of_nodes_over_a_rib() {
     let force = -1e-3;
     let deck = ribbed(32, 1, "\"left.edge1\"", "[\"root\", \"a\", \"d\"]", force);
     let model = model(&deck);
-    assert_eq!(model.riders.len(), 33);
+    assert_eq!(model.constraints.dependents.len(), 33);
     let u = displacements(&model);
     let tip = u.iter().find(|(label, _)| label == "tip").unwrap().1[2];
     println!("line: {:+.4}", tip / composite(force) - 1.0);

@@ -34,7 +34,7 @@ fn flyer(riding: bool, time_step: f64) -> Model {
     }
     (m.nodes[a].v, m.nodes[a].omega) = (Vec3::new(0.3, -0.2, 0.5), Vec3::new(1.0, -0.5, 0.7));
     (m.nodes[b].v, m.nodes[b].omega) = (Vec3::new(-0.4, 0.6, 0.2), Vec3::new(0.2, 0.8, -0.6));
-    m.iteration.update = Update::Step;
+    m.solution.iteration.update = Update::Step;
     m
 }
 
@@ -101,8 +101,8 @@ fn static_reactions_balance_the_loads() {
         let is_fixed = |link: &Link| matches!(link.kind, LinkKind::Line { direction: Some(_), .. });
         m.parts.retain(|part| !Link::of(part).is_some_and(is_fixed));
         // Far from buckling.
-        m.loads.iter_mut().for_each(|load| (load.force, load.moment) = (load.force * 0.3, load.moment * 0.3));
-        m.gravity *= 0.3;
+        m.loading.nodal.iter_mut().for_each(|load| (load.force, load.moment) = (load.force * 0.3, load.moment * 0.3));
+        m.loading.gravity *= 0.3;
         let record = run(&m);
         let state = record.last();
         let (mut force, mut moment, mut size) = (Vec3::zeros(), Vec3::zeros(), 0.0f64);
@@ -111,13 +111,13 @@ fn static_reactions_balance_the_loads() {
             moment += x.cross(&f) + m;
             size = size.max(f.norm()).max(m.norm()).max(x.cross(&f).norm());
         };
-        m.held.sort_by_key(|h| (h.node, h.dof));
-        for (h, &value) in m.held.iter().zip(&state.reactions) {
+        m.constraints.restraints.sort_by_key(|h| (h.node, h.dof));
+        for (h, &value) in m.constraints.restraints.iter().zip(&state.reactions) {
             let mut f = [Vec3::zeros(); 2];
             f[h.dof / 3][h.dof % 3] = value;
             add(&state.nodes[h.node].x, f[0], f[1]);
         }
-        for load in &m.loads {
+        for load in &m.loading.nodal {
             let node = &state.nodes[load.node];
             let R = if load.follower { node.R() } else { Mat3::identity() };
             add(&node.x, R * load.force, R * load.moment);
@@ -126,7 +126,7 @@ fn static_reactions_balance_the_loads() {
         let mut bare = System::new(&Model { riders: vec![], loads: vec![], ..m.clone() }).unwrap();
         bare.groups.clear();
         let mut weight = Forces::new(&bare, m.nodes.len());
-        bare.residual(&state.configuration(), &Loading { field: m.gravity, ..Loading::default() }, &mut weight);
+        bare.residual(&state.configuration(), &Loading { field: m.loading.gravity, ..Loading::default() }, &mut weight);
         for (node, f) in state.nodes.iter().zip(weight.on_nodes) {
             add(&node.x, Vec3::new(f[0], f[1], f[2]), Vec3::new(f[3], f[4], f[5]));
         }
@@ -141,7 +141,7 @@ fn reactions_jump_with_the_loads() {
     let mut m = empty(AnalysisKind::Dynamic, 0.5, 0.05);
     let block = body(&mut m, Vec3::zeros(), 2.0, Mat3::identity());
     fix(&mut m, block, [0, 1]);
-    m.amplitudes.push(Amplitude::Step { start: 0.2, end: f64::INFINITY });
+    m.loading.amplitudes.push(Amplitude::Step { start: 0.2, end: f64::INFINITY });
     push(&mut m, block, Vec3::new(0.0, 10.0, 1.0), Vec3::zeros(), false, Some(0));
     for state in run(&m).states {
         // At the jump itself the step before it ends.

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::link::Law;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, Held, History, MassKind, Model, Motion, NodalDamping};
+use rdsolve::model::{AnalysisKind, History, MassKind, Model, Motion, NodalDamping, Restraint};
 
 /// A crane of a slanted column, a jib and a heavy block on a spring, one foot pushed about. Its beams are soft enough for
 /// the steps to follow every motion that takes part.
@@ -25,10 +25,10 @@ fn crane(time_step: f64, damped: bool) -> Model {
     spring(&mut m, [hook, load], 60.0, if damped { 1.0 } else { 0.0 });
     let pulse = sine_squared(&mut m, 2.0);
     let motion = Motion { amplitude: pulse, scale: 0.2, history: History::Displacement };
-    m.held.push(Held { node: p[0], dof: 0, motion: Some(motion) });
+    m.constraints.restraints.push(Restraint { node: p[0], dof: 0, motion: Some(motion) });
     fix(&mut m, p[0], 1..6);
     push(&mut m, block, Vec3::new(0.0, 8.0, 0.0), Vec3::new(0.0, 0.0, 3.0), true, Some(pulse));
-    m.gravity = Vec3::new(0.0, 0.0, -3.0);
+    m.loading.gravity = Vec3::new(0.0, 0.0, -3.0);
     m.nodes[block].omega = Vec3::new(0.2, 0.5, -0.3);
     if damped {
         m.damping.mass_factor = 0.3;

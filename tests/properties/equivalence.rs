@@ -18,7 +18,7 @@ fn arm(time_step: f64) -> (Model, usize) {
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::z(), MassKind::Lumped);
     beam(&mut m, [p[1], p[2]], 2, 1, Vec3::z(), MassKind::Consistent);
     fix(&mut m, p[0], 0..6);
-    m.gravity = Vec3::new(1.0, -2.0, -4.0);
+    m.loading.gravity = Vec3::new(1.0, -2.0, -4.0);
     let pulse = sine_squared(&mut m, 5.0);
     push(&mut m, p[1], Vec3::new(0.0, 20.0, -10.0), Vec3::new(5.0, 0.0, 3.0), true, Some(pulse));
     (m, p[2])
@@ -129,7 +129,7 @@ fn a_plane_scene_is_the_same_in_space() {
         ride(&mut m, p[2], block, ALL);
         m.nodes[block].omega = Vec3::y() * 2.0;
         m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
-        m.gravity = Vec3::new(1.0, 0.0, -4.0);
+        m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);
         (m, p[2])
     };
     let ((plane, tip), (space, _)) = (in_plane(true), in_plane(false));
@@ -156,7 +156,7 @@ fn a_plane_scene_that_yields_is_the_same_in_space_and_in_any_plane() {
         ride(&mut m, p[2], block, ALL);
         m.nodes[block].omega = Vec3::y() * 2.0;
         m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
-        m.gravity = Vec3::new(1.0, 0.0, -4.0);
+        m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);
         m
     };
     let history = |m: &Model| System::new(m).unwrap().history;
@@ -189,15 +189,15 @@ fn updates_and_factorisations_do_not_show() {
     let mut rng = StdRng::seed_from_u64(64);
     let mut m = zoo(&mut rng, AnalysisKind::Dynamic, 0.005);
     m.analysis.end_time = 0.5;
-    m.iteration.tolerance = tolerance;
-    m.iteration.limit = 60;
-    m.iteration.update = Update::Iteration;
+    m.solution.iteration.tolerance = tolerance;
+    m.solution.iteration.limit = 60;
+    m.solution.iteration.update = Update::Iteration;
     let first = run_with(&m, Some(linear::Factorization::BlockLu));
     let travel = m.nodes.iter().zip(&first.last().nodes).map(|(a, b): (_, &Node)| (a.x - b.x).norm());
     assert!(travel.fold(0.0, f64::max) > 0.3, "the scene moves");
     for update in [Update::Iteration, Update::Step, Update::Auto, Update::Never] {
         for kind in [linear::Factorization::BlockLu, linear::Factorization::Cholesky] {
-            m.iteration.update = update;
+            m.solution.iteration.update = update;
             let other = run_with(&m, Some(kind));
             let e = first.states.iter().zip(&other.states).map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
             eprintln!("{update:?} {kind:?}: {e:e}, {:?}", other.counts);

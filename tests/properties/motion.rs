@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3, rotation};
-use rdsolve::model::{AnalysisKind, BaseAcceleration, Held, History, MassKind, Model, Motion};
+use rdsolve::model::{AnalysisKind, BaseAcceleration, History, MassKind, Model, Motion, Restraint};
 
 /// A bent beam with a body at its end, its foot held in all directions.
 fn mast(time_step: f64) -> (Model, usize) {
@@ -22,10 +22,10 @@ fn mast(time_step: f64) -> (Model, usize) {
 }
 
 fn drive(m: &mut Model, node: usize, dof: usize, amplitude: Amplitude, scale: f64, history: History) {
-    m.amplitudes.push(amplitude);
-    let motion = Some(Motion { amplitude: m.amplitudes.len() - 1, scale, history });
-    m.held.retain(|h| (h.node, h.dof) != (node, dof));
-    m.held.push(Held { node, dof, motion });
+    m.loading.amplitudes.push(amplitude);
+    let motion = Some(Motion { amplitude: m.loading.amplitudes.len() - 1, scale, history });
+    m.constraints.restraints.retain(|h| (h.node, h.dof) != (node, dof));
+    m.constraints.restraints.push(Restraint { node, dof, motion });
 }
 
 /// s = A sin²(ωt), ṡ = A ω sin(2ωt), s̈ = 2 A ω² cos(2ωt).

@@ -12,7 +12,7 @@ fn lively(rng: &mut StdRng) -> Model {
     let mut m = zoo(rng, AnalysisKind::Dynamic, 0.01);
     m.analysis.end_time = 1.5;
     let pulse = sine_squared(&mut m, 4.0);
-    for load in &mut m.loads {
+    for load in &mut m.loading.nodal {
         load.amplitude = Some(pulse);
     }
     let (hub, omega) = (m.bodies[0].node, vector(rng, 1.0));
@@ -21,7 +21,7 @@ fn lively(rng: &mut StdRng) -> Model {
     m.damping.stiffness_factor = 0.002;
     m.damping.nodal.push(NodalDamping { node: hub, translation: 0.2, rotation: 0.1 });
     // One support shakes along x.
-    let held = m.held.iter_mut().find(|h| h.dof == 0).expect("the scene is held");
+    let held = m.constraints.restraints.iter_mut().find(|h| h.dof == 0).expect("the scene is held");
     held.motion = Some(Motion { amplitude: pulse, scale: 0.2, history: History::Displacement });
     m
 }
@@ -85,7 +85,7 @@ fn answers_shift_with_the_scene() {
     let mut rng = StdRng::seed_from_u64(12);
     for (lengths, tolerance) in [(1e2, 1e-10), (1e3, 1e-8)] {
         let mut m = lively(&mut rng);
-        m.iteration.tolerance = tolerance;
+        m.solution.iteration.tolerance = tolerance;
         let e = differences(&m, &turn(&mut rng), &(vector(&mut rng, 1.0).normalize() * 5.0 * lengths));
         eprintln!("shifted by {lengths} lengths: {e:?}");
         assert!(e[..3].iter().all(|&e| e < 10.0 * tolerance) && e[3] < 100.0 * tolerance, "{e:?}");
@@ -99,7 +99,7 @@ fn small_loads_far_away_meet_rounding_and_go_on() {
     for (kind, load) in [(AnalysisKind::Static, 1.0), (AnalysisKind::Static, 1e-6), (AnalysisKind::Dynamic, 1e-6)] {
         let tip = |x: f64| {
             let mut m = empty(kind, 1.0, 0.1);
-            m.iteration.tolerance = 1e-8;
+            m.solution.iteration.tolerance = 1e-8;
             let inertia = [0.1, 0.05, 0.05];
             m.stiffnesses.push(Stiffness::general(2e9, [8e8; 2], 1e6, [1.6e6; 2], 78.0, inertia));
             let (a, b) = (node(&mut m, Vec3::new(x, 0.0, 0.0)), node(&mut m, Vec3::new(x + 3.0, 1.0, 0.5)));

@@ -5,12 +5,12 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, Held, History, Model, Motion};
+use rdsolve::model::{AnalysisKind, History, Model, Motion, Restraint};
 
 fn drive(m: &mut Model, node: usize, dof: usize, amplitude: Amplitude, scale: f64) {
-    m.amplitudes.push(amplitude);
-    let motion = Motion { amplitude: m.amplitudes.len() - 1, scale, history: History::Displacement };
-    m.held.push(Held { node, dof, motion: Some(motion) });
+    m.loading.amplitudes.push(amplitude);
+    let motion = Motion { amplitude: m.loading.amplitudes.len() - 1, scale, history: History::Displacement };
+    m.constraints.restraints.push(Restraint { node, dof, motion: Some(motion) });
 }
 
 const SWING: Amplitude = Amplitude::SineSquared { angular_frequency: 1.5, start: 0.0, end: f64::INFINITY };
@@ -98,7 +98,7 @@ fn spin_is_no_cause_in_statics() {
         Some(-Vec3::z()),
     );
     m.nodes[block].omega = Vec3::y();
-    m.gravity = Vec3::z() * -10.0;
+    m.loading.gravity = Vec3::z() * -10.0;
     let sunk = run(&m).last().nodes[block].x.z;
     assert!((sunk + 0.1).abs() < 1e-14, "{sunk}");
 }

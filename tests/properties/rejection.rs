@@ -25,8 +25,8 @@ fn bent(kind: AnalysisKind, limit: usize) -> Model {
     mass(&mut m, p[2], 1.0, Mat3::identity());
     let pulse = sine_squared(&mut m, std::f64::consts::PI);
     push(&mut m, p[2], Vec3::new(0.0, -8.0, 4.0), Vec3::new(3.0, 0.0, 5.0), false, Some(pulse));
-    m.iteration.update = Update::Iteration;
-    m.iteration.limit = limit;
+    m.solution.iteration.update = Update::Iteration;
+    m.solution.iteration.limit = limit;
     m
 }
 

@@ -46,7 +46,6 @@ pub fn inertia(rng: &mut impl Rng, size: f64) -> Mat3 {
 pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
     Model {
         title: String::new(),
-        units: None,
         analysis: Analysis {
             kind,
             end_time,
@@ -54,32 +53,28 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             least_step: time_step * 1e-3,
             plane: false,
         },
-        scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-        iteration: Iteration {
-            method: Method::TangentStiffness,
-            update: Update::Auto,
-            gyroscopic: Gyroscopic::Auto,
-            tolerance: 1e-12,
-            limit: 30,
+        solution: Solution {
+            scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+            iteration: Iteration {
+                method: Method::TangentStiffness,
+                update: Update::Auto,
+                gyroscopic: Gyroscopic::Auto,
+                tolerance: 1e-12,
+                limit: 30,
+            },
         },
         nodes: vec![],
         bodies: vec![],
         masses: vec![],
         stiffnesses: vec![],
         parts: vec![],
-        riders: vec![],
-        joints: vec![],
-        held: vec![],
-        amplitudes: vec![],
-        loads: vec![],
-        pressures: vec![],
-        gravity: Vec3::zeros(),
-        base_accelerations: vec![],
+        constraints: Constraints { restraints: vec![], ..Constraints::default() },
+        loading: Loading::default(),
         damping: Damping::default(),
         expects: vec![],
-        rigid: vec![],
-        mesh: None,
+        origin: Origin::default(),
         output: Output {
+            units: None,
             nodes: vec![],
             cadence: Cadence::Steps(1),
             energy: true,
@@ -112,7 +107,7 @@ pub fn mass(m: &mut Model, node: usize, mass: f64, inertia: Mat3) {
 }
 
 pub fn ride(m: &mut Model, node: usize, master: usize, dofs: [bool; 6]) {
-    m.riders.push(Rider { node, master, dofs, place: None });
+    m.constraints.dependents.push(DependentNode { node, master, dofs, place: None });
 }
 
 /// A section whose stiffnesses are of the same order, so that all of them show.
@@ -214,20 +209,20 @@ pub fn shell(
 pub fn press(m: &mut Model, pressure: f64, amplitude: Option<usize>) {
     let elements = m.each::<Shell>().flat_map(|s| s.elements.iter().map(|e| &e.nodes[..s.corners]));
     let faces = elements.filter_map(Face::of).collect();
-    m.pressures.push(Pressure { faces, pressure, amplitude });
+    m.loading.pressures.push(Pressure { faces, pressure, amplitude });
 }
 
 pub fn fix(m: &mut Model, node: usize, dofs: impl IntoIterator<Item = usize>) {
-    m.held.extend(dofs.into_iter().map(|dof| Held { node, dof, motion: None }));
+    m.constraints.restraints.extend(dofs.into_iter().map(|dof| Restraint { node, dof, motion: None }));
 }
 
 pub fn push(m: &mut Model, node: usize, force: Vec3, moment: Vec3, follower: bool, amplitude: Option<usize>) {
-    m.loads.push(Load { node, force, moment, follower, amplitude });
+    m.loading.nodal.push(Load { node, force, moment, follower, amplitude });
 }
 
 pub fn sine_squared(m: &mut Model, angular_frequency: f64) -> usize {
-    m.amplitudes.push(Amplitude::SineSquared { angular_frequency, start: 0.0, end: f64::INFINITY });
-    m.amplitudes.len() - 1
+    m.loading.amplitudes.push(Amplitude::SineSquared { angular_frequency, start: 0.0, end: f64::INFINITY });
+    m.loading.amplitudes.len() - 1
 }
 
 /// A structure of one of each: beams of all orders and masses, a bar, links, a bushing; a body with riders of all six
@@ -279,7 +274,7 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
         push(&mut m, at, vector(rng, 8.0), vector(rng, 3.0), follower, None);
     }
     mass(&mut m, p[2], 0.5, inertia(rng, 0.1));
-    m.gravity = vector(rng, 5.0);
+    m.loading.gravity = vector(rng, 5.0);
     for n in &mut m.nodes {
         n.v = Vec3::zeros();
     }
@@ -311,7 +306,7 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
     }
 }
 
-/// The scene turned by R about the origin, then shifted. Held directions must come in whole triples.
+/// The scene turned by R about the origin, then shifted. Restraint directions must come in whole triples.
 pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
     let R = rotation::matrix(q);
     let mut t = m.clone();
@@ -330,23 +325,27 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
             LinkKind::Bushing { axes, .. } => *axes = R * *axes,
         }
     }
-    for load in &mut t.loads {
+    for load in &mut t.loading.nodal {
         (load.force, load.moment) = (R * load.force, R * load.moment);
     }
-    t.gravity = R * t.gravity;
-    t.base_accelerations.iter_mut().for_each(|b| b.direction = R * b.direction);
+    t.loading.gravity = R * t.loading.gravity;
+    t.loading.base_accelerations.iter_mut().for_each(|b| b.direction = R * b.direction);
     // A motion along one axis becomes one with three components.
-    let moved: Vec<Held> = t.held.extract_if(.., |h| h.motion.is_some()).collect();
+    let moved: Vec<Restraint> = t.constraints.restraints.extract_if(.., |h| h.motion.is_some()).collect();
     for h in moved {
         let motion = h.motion.expect("filtered");
         for i in 0..3 {
             let scale = motion.scale * R[(i, h.dof % 3)];
             let dof = h.dof / 3 * 3 + i;
-            t.held.retain(|other| (other.node, other.dof) != (h.node, dof));
-            t.held.push(Held { node: h.node, dof, motion: Some(Motion { scale, ..motion.clone() }) });
+            t.constraints.restraints.retain(|other| (other.node, other.dof) != (h.node, dof));
+            t.constraints.restraints.push(Restraint {
+                node: h.node,
+                dof,
+                motion: Some(Motion { scale, ..motion.clone() }),
+            });
         }
     }
-    t.held.sort_by_key(|h| (h.node, h.dof));
+    t.constraints.restraints.sort_by_key(|h| (h.node, h.dof));
     t
 }
 
@@ -380,7 +379,7 @@ pub fn run(m: &Model) -> Record {
 
 pub fn run_with(m: &Model, solver: Option<linear::Factorization>) -> Record {
     let mut m = m.clone();
-    m.held.sort_by_key(|h| (h.node, h.dof));
+    m.constraints.restraints.sort_by_key(|h| (h.node, h.dof));
     let system = System::new(&m).unwrap();
     let mut plan = Plan::new(&m, &system, 1);
     plan.kind = solver.unwrap_or(plan.kind);

@@ -5,13 +5,13 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, Held, History, Model, Motion, Update};
+use rdsolve::model::{AnalysisKind, History, Model, Motion, Restraint, Update};
 
 /// A body far from the origin with an arm on it and an arm on the arm, massive at its end.
 fn wheel(time_step: f64, end_time: f64) -> (Model, [usize; 3]) {
     let mut rng = StdRng::seed_from_u64(21);
     let mut m = empty(AnalysisKind::Dynamic, end_time, time_step);
-    m.iteration.tolerance = 1e-8;
+    m.solution.iteration.tolerance = 1e-8;
     let hub = body(&mut m, Vec3::new(3.0, -2.0, 1.0), 2.0, inertia(&mut rng, 1.0));
     let near = node(&mut m, Vec3::new(3.7, -2.4, 1.3));
     let far = node(&mut m, Vec3::new(4.0, -1.1, 0.6));
@@ -40,7 +40,7 @@ fn a_tumbling_body_keeps_its_arms() {
     let (mut m, wheel) = wheel(0.02, 1200.0);
     m.nodes[wheel[0]].omega = Vec3::new(3.0, 9.0, 5.0); // 10.7 rad per time: 2045 turns
     m.nodes[wheel[0]].v = Vec3::new(0.5, 0.6, -0.4);
-    m.iteration.update = Update::Step;
+    m.solution.iteration.update = Update::Step;
     m.output.cadence = rdsolve::model::Cadence::Steps(500);
     let record = run(&m);
     for state in &record.states {
@@ -54,10 +54,10 @@ fn a_tumbling_body_keeps_its_arms() {
 fn whole_turns_lead_back() {
     let turns = 1e4;
     let (mut m, wheel) = wheel(1e-3, 100.0);
-    m.amplitudes.push(Amplitude::Ramp { start: 0.0, end: 100.0 });
+    m.loading.amplitudes.push(Amplitude::Ramp { start: 0.0, end: 100.0 });
     let motion = Motion { amplitude: 0, scale: std::f64::consts::TAU * turns, history: History::Displacement };
     fix(&mut m, wheel[0], 0..5);
-    m.held.push(Held { node: wheel[0], dof: 5, motion: Some(motion) });
+    m.constraints.restraints.push(Restraint { node: wheel[0], dof: 5, motion: Some(motion) });
     m.output.cadence = rdsolve::model::Cadence::Steps(10_000);
     let record = run(&m);
     for state in &record.states {

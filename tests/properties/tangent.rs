@@ -33,10 +33,10 @@ impl Instant {
     /// the start; the way into the step is `way`, or what the rates make of it.
     fn random(m: &Model, rng: &mut StdRng, rate: f64, way: Option<f64>) -> Instant {
         let mut m = m.clone();
-        m.held.sort_by_key(|h| (h.node, h.dof));
+        m.constraints.restraints.sort_by_key(|h| (h.node, h.dof));
         let system = System::new(&m).unwrap();
         let plan = Plan::new(&m, &system, 1);
-        let scheme = match (m.analysis.kind, &m.scheme) {
+        let scheme = match (m.analysis.kind, &m.solution.scheme) {
             (AnalysisKind::Static, _) => load_steps::coefficients(),
             (AnalysisKind::Dynamic, scheme) => scheme.coefficients(m.analysis.nominal_step()),
         };
@@ -160,7 +160,7 @@ fn of_a_static_scene_is_exact() {
 fn press(m: &mut Model) {
     let n = m.nodes.len();
     let faces = vec![Face::Quadrilateral([1, 4, 5, 3]), Face::Triangle([2, n - 3, 5]), Face::Triangle([4, 3, n - 1])];
-    m.pressures.push(Pressure { faces, pressure: 3.0, amplitude: None });
+    m.loading.pressures.push(Pressure { faces, pressure: 3.0, amplitude: None });
 }
 
 /// A dynamic scene caught at rest: mass and the weights of the scheme, still without anything left out.
@@ -214,7 +214,7 @@ fn in_motion_errs_by_second_order_of_the_step() {
         beam.mass = MassKind::None;
     }
     scene.parts.retain(|part| part.kind() != PartKind::Bar);
-    let riders: Vec<usize> = scene.riders.iter().map(|r| r.node).collect();
+    let riders: Vec<usize> = scene.constraints.dependents.iter().map(|r| r.node).collect();
     for n in 0..scene.nodes.len() {
         if !riders.contains(&n) {
             mass(&mut scene, n, 1.0, inertia(&mut rng, 0.5));

@@ -46,7 +46,6 @@ pub fn model() -> Model {
     let law = Law::Linear { stiffness: 1.0, preload: 0.0 };
     Model {
         title: "one of each".into(),
-        units: None,
         analysis: Analysis {
             kind: AnalysisKind::Dynamic,
             end_time: 1.0,
@@ -54,13 +53,15 @@ pub fn model() -> Model {
             least_step: 1e-6,
             plane: false,
         },
-        scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
-        iteration: Iteration {
-            method: Method::TangentStiffness,
-            update: Update::Auto,
-            gyroscopic: Gyroscopic::Auto,
-            tolerance: 1e-8,
-            limit: 20,
+        solution: Solution {
+            scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
+            iteration: Iteration {
+                method: Method::TangentStiffness,
+                update: Update::Auto,
+                gyroscopic: Gyroscopic::Auto,
+                tolerance: 1e-8,
+                limit: 20,
+            },
         },
         nodes,
         bodies: shapes.into_iter().enumerate().map(body).collect(),
@@ -93,19 +94,16 @@ pub fn model() -> Model {
                 chosen: false,
             }),
         ],
-        riders: vec![],
-        joints: vec![],
-        held: vec![Held { node: 0, dof: 0, motion: None }, Held { node: 0, dof: 5, motion: None }],
-        amplitudes: vec![],
-        loads: vec![],
-        pressures: vec![],
-        gravity: Vec3::zeros(),
-        base_accelerations: vec![],
+        constraints: Constraints {
+            restraints: vec![Restraint { node: 0, dof: 0, motion: None }, Restraint { node: 0, dof: 5, motion: None }],
+            ..Constraints::default()
+        },
+        loading: Loading::default(),
         damping: Damping::default(),
         expects: vec![],
-        rigid: vec![],
-        mesh: None,
+        origin: Origin::default(),
         output: Output {
+            units: None,
             nodes: vec![2, 0],
             cadence: Cadence::Steps(1),
             energy: true,

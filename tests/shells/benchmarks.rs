@@ -227,7 +227,7 @@ fn pinched_cylinder_on_diaphragms() {
         let mut model = read(&deck);
         model.output.reactions = true;
         let (crown, side) = (support::node(&model, "crown"), support::node(&model, "side"));
-        let held = model.held.iter().position(|h| h.node == crown && h.dof == 2).unwrap();
+        let held = model.constraints.restraints.iter().position(|h| h.node == crown && h.dof == 2).unwrap();
         let done = support::run(&model, &mut |frame| {
             let [w, u] = [(crown, 2), (side, 0)].map(|(n, d)| frame.state.nodes[n].x[d] - frame.model.nodes[n].x[d]);
             vec![-frame.reactions[held] / 3000.0, -w, u]

@@ -94,7 +94,7 @@ fn panel(kind: &str, [n, m]: [usize; 2], step: f64) -> Model {
         let v = 5000.0 * (1.5 * angle).cos().powi(2) * along.cos().powi(2);
         node.v = -v * Vec3::new(angle.sin(), 0.0, angle.cos());
     }
-    for held in &model.held {
+    for held in &model.constraints.restraints {
         if held.dof < 3 {
             model.nodes[held.node].v[held.dof] = 0.0;
         }
@@ -163,7 +163,7 @@ fn cap(kind: &str, n: usize, plastic: bool, step: f64) -> Model {
         }
     }
     let load = |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude: None };
-    model.loads = forces.into_iter().enumerate().map(load).collect();
+    model.loading.nodal = forces.into_iter().enumerate().map(load).collect();
     model
 }
 

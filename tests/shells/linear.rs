@@ -93,7 +93,7 @@ fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
         follower: false,
         amplitude: None,
     };
-    model.loads = forces.iter().enumerate().map(as_load).collect();
+    model.loading.nodal = forces.iter().enumerate().map(as_load).collect();
     let end = support::node(&model, "end");
     let z: Vec<f64> = model.nodes.iter().map(|node| node.x.z).collect();
     let done = support::run_to_the_end(&model, &mut |frame| {

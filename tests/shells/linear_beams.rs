@@ -48,7 +48,7 @@ fn ladder(title: &str, row: &Row, meshes: &[usize], of: impl Fn(usize) -> f64) {
 
 /// Deflections over P; the matrix of the first iteration serves the others.
 fn deflections(mut model: Model, at: &[(&str, usize)]) -> Vec<f64> {
-    model.iteration.update = Update::Step;
+    model.solution.iteration.update = Update::Step;
     displacements(&model, at)[1].iter().map(|u| u / P).collect()
 }
 
@@ -90,7 +90,7 @@ fn straight(kind: &str, shape: &str, [n, across]: [usize; 2], row: &str) -> f64 
             let corner = y.min(0.2 - y) < 1e-9;
             let share = P / across as f64 * if corner { 0.5 } else { 1.0 };
             let (force, moment) = (share * force, share * moment);
-            model.loads.push(Load { node: index, force, moment, follower: false, amplitude: None });
+            model.loading.nodal.push(Load { node: index, force, moment, follower: false, amplitude: None });
         }
         // Bilinear in each published element.
         let k = (x.floor() as usize).min(5);

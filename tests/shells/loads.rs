@@ -18,8 +18,8 @@ fn square(n: usize, thickness: f64, kind: &str, rest: &str) -> Model {
 
 /// Sum of the dead forces, and of their moments about the origin.
 fn resultant(model: &Model) -> [Vec3; 2] {
-    let force = model.loads.iter().map(|load| load.force).sum();
-    [force, model.loads.iter().map(|load| model.nodes[load.node].x.cross(&load.force)).sum()]
+    let force = model.loading.nodal.iter().map(|load| load.force).sum();
+    [force, model.loading.nodal.iter().map(|load| model.nodes[load.node].x.cross(&load.force)).sum()]
 }
 
 /// Resultants of pressure, of force per area and per length, on a flat patch (exact) and on half a cylinder, where pressure is
@@ -96,7 +96,10 @@ fn one_element() {
                 "[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n[[loads]]\nat = \"plate\"\npressure = -1.0\nfollower = {follower}\n"
             );
             let model = square(1, 0.1, kind, &rest);
-            assert_eq!((model.pressures.len(), model.loads.is_empty()), (usize::from(follower), follower));
+            assert_eq!(
+                (model.loading.pressures.len(), model.loading.nodal.is_empty()),
+                (usize::from(follower), follower)
+            );
             let done = support::run_to_the_end(&model, &mut |frame| {
                 let at = |label| frame.state.nodes[support::node(frame.model, label)].x;
                 vec![at("b").z, at("c").z]

@@ -35,14 +35,16 @@ pub fn of_joint(joint: &JointState) -> [f64; 6] {
 
 fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
     let Frame { model, step, state, derived, .. } = *frame;
-    model.held.iter().zip(frame.reactions).try_for_each(|(held, value)| {
+    model.constraints.restraints.iter().zip(frame.reactions).try_for_each(|(held, value)| {
         let node = &model.nodes[held.node];
         table.row(step, state.time).text(&node.label).text(DIRECTIONS[held.dof]).number(*value).end()
     })?;
     // A joint that holds a node to its support carries what the support does.
-    model.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(|(joint, state_of)| {
-        DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
-            table.row(step, state.time).text(&joint.name).text(direction).number(value).end()
-        })
-    })
+    model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(
+        |(joint, state_of)| {
+            DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
+                table.row(step, state.time).text(&joint.name).text(direction).number(value).end()
+            })
+        },
+    )
 }

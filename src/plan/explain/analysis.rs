@@ -21,8 +21,8 @@ pub fn explain(text: &mut Explanation, model: &Model) {
                 _ => format!("in {steps} steps of {}", analysis.nominal_step()),
             };
             text.add("analysis", format!("dynamic, to t = {end} {how}"));
-            text.add("scheme", model.scheme.in_words());
-            text.notes.extend(model.scheme.note().map(str::to_owned));
+            text.add("scheme", model.solution.scheme.in_words());
+            text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
     }
 }

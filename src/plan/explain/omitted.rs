@@ -8,8 +8,8 @@ use std::ops::Range;
 
 pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     let mut lines = degrees_of_freedom(plan, system);
-    if !model.joints.is_empty() {
-        let all: usize = model.joints.iter().map(|joint| joint.rows.len()).sum();
+    if !model.constraints.joints.is_empty() {
+        let all: usize = model.constraints.joints.iter().map(|joint| joint.rows.len()).sum();
         let kept = system.multipliers();
         if all > kept {
             lines.push(format!("{} constraint equations of joints: out of the plane of the motion", all - kept));
@@ -75,7 +75,10 @@ fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
 
 fn gyroscopic(plan: &Plan, model: &Model, system: &System) -> Option<&'static str> {
     let turning = system.inertias.iter().any(|i| {
-        i.rotary && (3..6).any(|dof| plan.is_unknown(i.node, dof) || model.riders.iter().any(|r| r.node == i.node))
+        i.rotary
+            && (3..6).any(|dof| {
+                plan.is_unknown(i.node, dof) || model.constraints.dependents.iter().any(|r| r.node == i.node)
+            })
     });
     match turning {
         false => Some("gyroscopic terms: no rotary inertia is in rotation"),

@@ -18,7 +18,7 @@ pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec
         }
     }
     let line = |(joint, words): (usize, Vec<&str>)| {
-        let name = &model.joints[joint].name;
+        let name = &model.constraints.joints[joint].name;
         let (are, these) = if words.len() == 1 { ("is", "this reaction") } else { ("are", "these reactions") };
         format!("joint `{name}`: {} {are} redundant; the joints share {these} by least norm", joined(&words))
     };

@@ -10,10 +10,10 @@ use crate::system::System;
 
 pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &System) {
     text.add("scene", counts(model));
-    if let Some(MeshFile { path, nodes, elements, used, .. }) = &model.mesh {
+    if let Some(MeshFile { path, nodes, elements, used, .. }) = &model.origin.mesh {
         text.add("mesh", format!("`{path}`: {nodes} nodes, {elements} elements, {used} of them in parts"));
     }
-    for rigid in &model.rigid {
+    for rigid in &model.origin.rigid {
         let body = &model.bodies[rigid.body];
         let words: Vec<&str> = rigid.parts.iter().map(String::as_str).collect();
         let (of, mass, elements) = (joined(&words), short(body.mass), rigid.elements);
@@ -38,8 +38,10 @@ fn counts(model: &Model) -> String {
         (of_kind.map(Part::counted).sum(), kind.counted_as())
     });
     let before = [(model.nodes.len(), ["node", "nodes"]), (model.bodies.len(), ["body", "bodies"])];
-    let after =
-        [(model.riders.len(), ["dependent node", "dependent nodes"]), (model.joints.len(), ["joint", "joints"])];
+    let after = [
+        (model.constraints.dependents.len(), ["dependent node", "dependent nodes"]),
+        (model.constraints.joints.len(), ["joint", "joints"]),
+    ];
     let all = [&before[..], &parts, &after].concat();
     let counted = |(count, [one, more]): (usize, [&str; 2])| format!("{count} {}", if count == 1 { one } else { more });
     all.into_iter().filter(|(count, _)| *count > 0).map(counted).collect::<Vec<_>>().join(", ")

@@ -19,7 +19,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
 }
 
 fn iteration(model: &Model) -> &'static str {
-    match model.iteration.method {
+    match model.solution.iteration.method {
         _ if model.analysis.step_length.is_arc_length() => {
             "tangent stiffness (Newton): arc length needs the path's tangent"
         }
@@ -33,7 +33,7 @@ fn iteration(model: &Model) -> &'static str {
 
 fn matrix(plan: &Plan, model: &Model, system: &System) -> &'static str {
     match plan.kind {
-        Factorization::BlockLu if model.iteration.gyroscopic == Gyroscopic::Right => {
+        Factorization::BlockLu if model.solution.iteration.gyroscopic == Gyroscopic::Right => {
             "tangent without gyroscopic terms (these are in the residual), sparse LU by nodal blocks"
         }
         Factorization::BlockLu => "consistent unsymmetric tangent, sparse LU by nodal blocks",
@@ -45,8 +45,8 @@ fn matrix(plan: &Plan, model: &Model, system: &System) -> &'static str {
 }
 
 fn formed(plan: &Plan, model: &Model, system: &System) -> &'static str {
-    let mixes = system.yields() && model.iteration.method != Method::TangentStiffness;
-    match (plan.linear, model.iteration.update) {
+    let mixes = system.yields() && model.solution.iteration.method != Method::TangentStiffness;
+    match (plan.linear, model.solution.iteration.update) {
         _ if model.analysis.step_length.is_arc_length() => "in every iteration: arc length needs the path's tangent",
         (true, _) => "once per step length: the scene is linear",
         (_, Update::Iteration) => "in every iteration",

@@ -86,7 +86,7 @@ impl ArcLengthController {
     pub fn settle(&mut self, march: &mut March) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-        if residual::gather(cx, ws, &scale) > cx.model.iteration.tolerance {
+        if residual::gather(cx, ws, &scale) > cx.model.solution.iteration.tolerance {
             let scheme = load_steps::coefficients();
             let settled = self.newton.stage(cx, ws, state, &Stage::from(&scheme), 0.0);
             settled.map_err(|failure| march.failed(failure))?;

@@ -87,7 +87,7 @@ impl<'a> ErrorController<'a> {
         ErrorController {
             stepper,
             tolerance,
-            constant: MEAN * error_constant(&*cx.model.scheme),
+            constant: MEAN * error_constant(&*cx.model.solution.scheme),
             length: first,
             longest: cx.model.analysis.end_time / FEWEST,
             lasting_intensity: None,

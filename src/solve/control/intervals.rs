@@ -54,18 +54,19 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
         }
     }
     let driving = || {
-        let loads = model.loads.iter().filter_map(|load| load.amplitude);
-        let pressures = model.pressures.iter().filter_map(|load| load.amplitude);
-        loads.chain(pressures).chain(model.base_accelerations.iter().map(|base| base.amplitude))
+        let loads = model.loading.nodal.iter().filter_map(|load| load.amplitude);
+        let pressures = model.loading.pressures.iter().filter_map(|load| load.amplitude);
+        loads.chain(pressures).chain(model.loading.base_accelerations.iter().map(|base| base.amplitude))
     };
     for amplitude in driving() {
-        out.extend(model.amplitudes[amplitude].jumps().iter().map(|jump| ending(jump.time, false, true)));
+        out.extend(model.loading.amplitudes[amplitude].jumps().iter().map(|jump| ending(jump.time, false, true)));
     }
     if model.analysis.step_length.is_automatic() {
         // Nothing that begins and ends within a step may be missed, and errors are those of smooth motion.
-        let motions = model.held.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
+        let motions =
+            model.constraints.restraints.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
-            out.extend(model.amplitudes[amplitude].kinks().into_iter().map(|time| ending(time, false, false)));
+            out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| ending(time, false, false)));
         }
     }
     out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));

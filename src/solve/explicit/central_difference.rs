@@ -88,7 +88,7 @@ impl CentralDifferenceStepper {
         to: f64,
     ) -> Result<StepReport, Failure> {
         let dt = to - state.time;
-        let scheme = cx.model.scheme.coefficients(dt);
+        let scheme = cx.model.solution.scheme.coefficients(dt);
         contacts::check_length(cx, state, dt)?;
         self.critical.update_if_due(cx, ws, &mut self.accelerations, state, dt)?;
         self.check_stability(dt)?;

@@ -7,7 +7,7 @@ use super::inner_product::{apply_mass, times_applied};
 use crate::integrators::central_difference::longest_step;
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, bottom, join, top};
-use crate::model::{Model, may_stiffen};
+use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -78,7 +78,7 @@ impl CriticalStep {
             steps: 0,
             steps_since_cutback: 0,
             holdoff: STEPS,
-            stiffens: may_stiffen(model),
+            stiffens: model.may_stiffen(),
             max_aMa: 0.0,
             max_spin: 0.0,
             met: false,

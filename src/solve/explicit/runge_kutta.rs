@@ -49,15 +49,15 @@ impl RungeKuttaStepper {
     pub fn new(cx: &Context, tableau: &'static Tableau) -> Result<Self, TooLarge> {
         let model = cx.model;
         let changes = |amplitude: Option<usize>| amplitude.is_some();
-        let varying = model.loads.iter().any(|load| changes(load.amplitude))
-            || model.pressures.iter().any(|load| changes(load.amplitude))
-            || !model.base_accelerations.is_empty();
+        let varying = model.loading.nodal.iter().any(|load| changes(load.amplitude))
+            || model.loading.pressures.iter().any(|load| changes(load.amplitude))
+            || !model.loading.base_accelerations.is_empty();
         Ok(RungeKuttaStepper {
             accelerations: Accelerations::new(cx)?,
             stages: vec![[Vec6::zeros(); 2]; tableau.stages() * cx.independent_nodes.len()],
             tableau,
             varying,
-            driven: model.held.iter().any(|held| held.motion.is_some()),
+            driven: model.constraints.restraints.iter().any(|held| held.motion.is_some()),
             work: WorkQuadrature::default(),
         })
     }
@@ -145,7 +145,7 @@ impl RungeKuttaStepper {
             set_rates(&mut ws.increments[node], &motion);
         }
         update_dependent_nodes(cx, ws, &state.nodes);
-        let scheme = cx.model.scheme.coefficients(dt);
+        let scheme = cx.model.solution.scheme.coefficients(dt);
         self.accelerations.project(cx, ws, state, &scheme, dt)?;
         let mut account = Account::default();
         if cx.system.history > 0 {
@@ -156,7 +156,7 @@ impl RungeKuttaStepper {
         joints::check(cx, ws)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         if cx.wants_forces {
-            for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.held) {
+            for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
                 *reaction = -ws.forces.on_nodes[held.node][held.dof];
             }
             self.work.add_to(&mut state.work);
@@ -259,7 +259,7 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     } else {
         ws.prescribed.instant.copy_from_slice(&ws.prescribed.end);
     }
-    for (i, held) in cx.model.held.iter().enumerate().filter(|(_, held)| held.motion.is_some()) {
+    for (i, held) in cx.model.constraints.restraints.iter().enumerate().filter(|(_, held)| held.motion.is_some()) {
         let (from, now) = (&ws.prescribed.start[i], &ws.prescribed.instant[i]);
         let increment = &mut ws.increments[held.node];
         // A rotation that goes with others which are free is that of its rate alone.

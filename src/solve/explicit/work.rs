@@ -37,7 +37,7 @@ impl WorkQuadrature {
 
     /// Adds the share of the reactions at hand on directions that are driven.
     pub fn add_reactions(&mut self, cx: &Context, ws: &Workspace, weight: f64) {
-        let held = cx.model.held.iter().zip(&ws.prescribed.instant);
+        let held = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
         let power = held.map(|(held, given)| -ws.forces.on_nodes[held.node][held.dof] * given.v).sum::<f64>();
         self.external += weight * power;
     }

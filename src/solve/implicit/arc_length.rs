@@ -69,14 +69,14 @@ impl ArcLengthConstraint {
         ArcLengthConstraint {
             rate: vec![0.0; cx.plan.unknowns],
             loading: Loading {
-                factors: Vec::with_capacity(cx.model.loads.len()),
-                pressures: Vec::with_capacity(cx.model.pressures.len()),
+                factors: Vec::with_capacity(cx.model.loading.nodal.len()),
+                pressures: Vec::with_capacity(cx.model.loading.pressures.len()),
                 ..Loading::default()
             },
             forces: ws.forces.clone(),
             gaps: vec![0.0; cx.system.multipliers()],
             last: vec![Vec6::zeros(); ws.increments.len()],
-            driven: cx.model.held.iter().any(|held| held.motion.is_some()),
+            driven: cx.model.constraints.restraints.iter().any(|held| held.motion.is_some()),
             weight: cx.length * cx.length,
         }
     }

@@ -60,7 +60,7 @@ impl<'a> Composite<'a> {
     ) -> Result<StepReport, Failure> {
         let dt = to - state.time;
         let between = state.time + self.scheme.split() * dt;
-        let first = newton.stage(cx, ws, state, &Stage::from(&cx.model.scheme.coefficients(dt)), between)?;
+        let first = newton.stage(cx, ws, state, &Stage::from(&cx.model.solution.scheme.coefficients(dt)), between)?;
         self.look_back(cx, ws, state, dt);
         let scheme = self.scheme.second(dt);
         let stage = Stage { scheme: &scheme, start_rates: Some(&self.start_rates) };

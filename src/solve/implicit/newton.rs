@@ -58,8 +58,8 @@ impl Progress {
     fn begin(cx: &Context, to: f64, exact: bool) -> Progress {
         Progress {
             report: StepReport::begin(to),
-            convergence: Convergence::new(cx.model.iteration.tolerance, exact),
-            limit: cx.model.iteration.limit,
+            convergence: Convergence::new(cx.model.solution.iteration.tolerance, exact),
+            limit: cx.model.solution.iteration.limit,
             time_error: 0.0,
         }
     }
@@ -78,9 +78,9 @@ impl Newton {
         let Context { model, plan, system, length, .. } = *cx;
         // Load steps are long and few, and there is no mass to steady an old matrix; along a path an old one leads astray.
         let along = model.analysis.step_length.is_arc_length();
-        let method = if along { Method::TangentStiffness } else { model.iteration.method };
+        let method = if along { Method::TangentStiffness } else { model.solution.iteration.method };
         let mixes = system.yields() && method != Method::TangentStiffness;
-        let update = match (model.analysis.kind, model.iteration.update) {
+        let update = match (model.analysis.kind, model.solution.iteration.update) {
             _ if along => Update::Iteration,
             (AnalysisKind::Static, Update::Auto) if !mixes => Update::Iteration,
             (_, update) => update,
@@ -209,7 +209,7 @@ impl Newton {
                     if !self.insist(cx, ws, state, stage, &mut progress) {
                         return Err(not_converged(cx, ws, &progress.report));
                     }
-                    progress.limit += cx.model.iteration.limit;
+                    progress.limit += cx.model.solution.iteration.limit;
                 }
             }
         }
@@ -326,7 +326,7 @@ impl Newton {
         }
         let fresh = report.factorizations > 0;
         let judgement = convergence.judge(size, report.residual);
-        if *time_error <= cx.model.iteration.tolerance
+        if *time_error <= cx.model.solution.iteration.tolerance
             && has_converged(cx, ws, correction, fresh, report.residual, &judgement)
         {
             return Ok(Verdict::Converged);
@@ -393,7 +393,7 @@ fn has_converged(
     residual: f64,
     judgement: &Judgement,
 ) -> bool {
-    let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.iteration.tolerance;
+    let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.solution.iteration.tolerance;
     let rounding = judgement.stalled() && is_rounding(cx, ws, correction, fresh && sure);
     rounding || sure && judgement.converged()
 }

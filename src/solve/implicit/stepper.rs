@@ -22,7 +22,7 @@ impl<'a> Implicit<'a> {
     /// # Errors
     /// There is no memory for the projection onto joints.
     pub fn new(cx: &Context<'a>) -> Result<Self, TooLarge> {
-        let composite = match cx.model.scheme.stepping() {
+        let composite = match cx.model.solution.scheme.stepping() {
             Stepping::Composite(stages) if cx.is_dynamic() => Some(Composite::new(stages, cx.model.nodes.len())),
             _ => None,
         };
@@ -59,5 +59,5 @@ impl<'a> Implicit<'a> {
 }
 
 fn coefficients(cx: &Context, dt: f64) -> Coefficients {
-    if cx.is_dynamic() { cx.model.scheme.coefficients(dt) } else { load_steps::coefficients() }
+    if cx.is_dynamic() { cx.model.solution.scheme.coefficients(dt) } else { load_steps::coefficients() }
 }

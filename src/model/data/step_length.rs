@@ -1,6 +1,6 @@
 //! How the steps of a run get their lengths: all alike, by their error, by what is stable, or along a path of equilibria.
 
-use super::{Model, Part, Passage};
+use super::passage::Passage;
 
 /// The relative error that automatic steps allow the displacements of a run unless the deck says otherwise.
 pub const ERROR_TOLERANCE: f64 = 1e-3;
@@ -8,10 +8,10 @@ pub const ERROR_TOLERANCE: f64 = 1e-3;
 pub const FIRST_STEP: f64 = 5e-3;
 /// Automatic steps of central differences as a part of the critical time step. Beam elements that bend far are lost at 0.9
 /// already, at 0.86 not: what is stable as the scene lies may grow where its stiffness swings.
-const SAFE: f64 = 0.8;
+pub(super) const SAFE: f64 = 0.8;
 /// The same where links or contacts may stiffen: they cut steps, and a mode at a part p of the limit has up to 1/(1 − p²) of its
 /// energy at a step, which a shorter one takes for all there is.
-const SAFE_WHERE_STRUCK: f64 = 0.5;
+pub(super) const SAFE_WHERE_STRUCK: f64 = 0.5;
 
 /// How the steps of a run get their lengths.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,14 +49,4 @@ impl StepLength {
     pub fn is_arc_length(&self) -> bool {
         matches!(self, StepLength::ArcLength(_))
     }
-}
-
-/// The part of the critical time step that automatic steps of central differences take.
-pub fn stable_fraction(model: &Model) -> f64 {
-    if may_stiffen(model) { SAFE_WHERE_STRUCK } else { SAFE }
-}
-
-/// True where something may resist more than it does as it lies, all at once.
-pub fn may_stiffen(model: &Model) -> bool {
-    model.parts.iter().any(Part::may_stiffen)
 }

@@ -1,7 +1,8 @@
 //! The parts of a scene that resist: beams, bars, shells, links and contacts. What other rooms ask of any part is answered here,
 //! so that one more kind is a variant of [`Part`] and the answers that the compiler then misses.
 
-use super::{MassKind, Model, Node};
+use super::node::Node;
+use crate::deck::beams::MassKind;
 use crate::elements::beam;
 use crate::elements::contact::{self, Point, Surface};
 use crate::elements::link::Law;
@@ -10,7 +11,7 @@ use crate::materials;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
 
-/// A part of the scene; [`Model::parts`] lists them kind by kind in the order of the variants.
+/// A part of the scene; [`super::Model::parts`] lists them kind by kind in the order of the variants.
 #[derive(Debug, Clone)]
 pub enum Part {
     Beam(Beam),
@@ -50,7 +51,7 @@ pub struct BeamElement {
     pub nodes: [usize; 5],
     /// Columns: section axes x (along the beam), y, z in global components at t = 0.
     pub frame: Mat3,
-    /// Index into [`Model::stiffnesses`].
+    /// Index into [`super::Model::stiffnesses`].
     pub section: usize,
 }
 
@@ -153,7 +154,7 @@ pub enum Drawing<'p> {
 }
 
 impl PartKind {
-    /// In the order of [`Model::parts`].
+    /// In the order of [`super::Model::parts`].
     pub const ALL: [PartKind; 5] = [PartKind::Beam, PartKind::Bar, PartKind::Shell, PartKind::Link, PartKind::Contact];
 
     /// The word for one part, in files and messages.
@@ -355,37 +356,3 @@ macro_rules! part_types {
 }
 
 part_types! { Beam Bar Shell Link Contact }
-
-impl Model {
-    /// Adds a part after those of its kind and returns its place in [`Model::parts`]. Places of parts of later kinds move up.
-    pub fn add(&mut self, part: impl Into<Part>) -> usize {
-        let part = part.into();
-        let place = self.parts.partition_point(|other| other.kind() <= part.kind());
-        self.parts.insert(place, part);
-        place
-    }
-
-    /// The parts of one type, in deck order: `model.each::<Shell>()`.
-    pub fn each<T: PartType + 'static>(&self) -> impl Iterator<Item = &T> {
-        self.parts.iter().filter_map(T::of)
-    }
-
-    /// The parts of one type, in deck order, to be changed.
-    pub fn each_mut<T: PartType + 'static>(&mut self) -> impl Iterator<Item = &mut T> {
-        self.parts.iter_mut().filter_map(T::of_mut)
-    }
-
-    /// Number of parts of a kind.
-    pub fn count(&self, kind: PartKind) -> usize {
-        self.parts.iter().filter(|part| part.kind() == kind).count()
-    }
-
-    pub fn has(&self, kind: PartKind) -> bool {
-        self.count(kind) > 0
-    }
-
-    /// True where the material of any part yields.
-    pub fn yields(&self) -> bool {
-        self.parts.iter().any(Part::yields)
-    }
-}

@@ -1,0 +1,113 @@
+//! The scene as a whole.
+
+use super::analysis::{Analysis, Solution};
+use super::constraints::Constraints;
+use super::expect::Expect;
+use super::loading::{Damping, Loading};
+use super::node::{Body, Mass, Node};
+use super::output::Output;
+use super::part::{Part, PartKind, PartType};
+use super::step_length::{SAFE, SAFE_WHERE_STRUCK};
+use super::study::Study;
+use crate::sections::Stiffness;
+
+/// A scene, checked and ready to be planned.
+#[derive(Debug, Clone)]
+pub struct Model {
+    pub title: String,
+    pub analysis: Analysis,
+    pub solution: Solution,
+    pub nodes: Vec<Node>,
+    pub bodies: Vec<Body>,
+    pub masses: Vec<Mass>,
+    /// Section stiffnesses and inertias, shared by the elements that name them.
+    pub stiffnesses: Vec<Stiffness>,
+    /// Beams, then bars, shells, links and contacts, each kind in deck order: the order of numbering, assembly and rows.
+    pub parts: Vec<Part>,
+    pub constraints: Constraints,
+    pub loading: Loading,
+    pub damping: Damping,
+    pub expects: Vec<Expect>,
+    pub origin: Origin,
+    pub output: Output,
+    /// What `rdsolve study` goes over.
+    pub study: Option<Study>,
+}
+
+impl Model {
+    /// Adds a part after those of its kind and returns its place in [`Model::parts`]. Places of parts of later kinds move up.
+    pub fn add(&mut self, part: impl Into<Part>) -> usize {
+        let part = part.into();
+        let place = self.parts.partition_point(|other| other.kind() <= part.kind());
+        self.parts.insert(place, part);
+        place
+    }
+
+    /// The parts of one type, in deck order: `model.each::<Shell>()`.
+    pub fn each<T: PartType + 'static>(&self) -> impl Iterator<Item = &T> {
+        self.parts.iter().filter_map(T::of)
+    }
+
+    /// The parts of one type, in deck order, to be changed.
+    pub fn each_mut<T: PartType + 'static>(&mut self) -> impl Iterator<Item = &mut T> {
+        self.parts.iter_mut().filter_map(T::of_mut)
+    }
+
+    /// Number of parts of a kind.
+    pub fn count(&self, kind: PartKind) -> usize {
+        self.parts.iter().filter(|part| part.kind() == kind).count()
+    }
+
+    pub fn has(&self, kind: PartKind) -> bool {
+        self.count(kind) > 0
+    }
+
+    /// True where the material of any part yields.
+    pub fn yields(&self) -> bool {
+        self.parts.iter().any(Part::yields)
+    }
+
+    /// True where something may resist more than it does as it lies, all at once.
+    pub fn may_stiffen(&self) -> bool {
+        self.parts.iter().any(Part::may_stiffen)
+    }
+
+    /// The part of the critical time step that automatic steps of central differences take.
+    pub fn stable_fraction(&self) -> f64 {
+        if self.may_stiffen() { SAFE_WHERE_STRUCK } else { SAFE }
+    }
+}
+
+/// Where parts come from that the model no longer holds as the deck has them.
+#[derive(Debug, Clone, Default)]
+pub struct Origin {
+    /// The mesh file that the deck names.
+    pub mesh: Option<MeshFile>,
+    /// Bodies made of parts, whose elements have left the model.
+    pub rigid: Vec<Rigid>,
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone)]
+pub struct Rigid {
+    /// Index into [`Model::bodies`].
+    pub body: usize,
+    /// "shell `roof`".
+    pub parts: Vec<String>,
+    /// Elements left out.
+    pub elements: usize,
+}
+
+/// The mesh file that the deck names.
+#[derive(Debug, Clone)]
+pub struct MeshFile {
+    /// As messages name it.
+    pub path: String,
+    /// SHA-256 of its bytes.
+    pub digest: [u8; 32],
+    /// In the file.
+    pub nodes: usize,
+    pub elements: usize,
+    /// Of these, in parts of the deck.
+    pub used: usize,
+}
