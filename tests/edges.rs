@@ -276,7 +276,7 @@ fn loads_beyond_reason_end_soon() {
                 0 => assert!(force < 1e9 && *z.last().unwrap() < -1.0, "{force:e}: the strip follows its load: {z:?}"),
                 _ => {
                     ended.assert(4, &["error: at t = "]);
-                    let named = ["the largest unbalanced forces are", "cut into 1024 pieces", "is singular at `"];
+                    let named = ["the largest unbalanced forces are", "cut into 1024 substeps", "is singular at `"];
                     assert!(named.iter().any(|words| ended.said.contains(words)), "{}", ended.said);
                     assert_eq!(ended.result()["status"], "not-converged");
                 }

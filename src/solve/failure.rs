@@ -8,23 +8,23 @@ use std::fmt;
 /// A step that was given up.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Failure {
-    /// The matrix has a vanishing pivot at this direction.
+    /// The matrix has a vanishing pivot in this direction.
     Singular { label: String, direction: &'static str },
     /// Iterations did not contract.
     NotConverged { iterations: usize, largest: Vec<Largest> },
     /// Joints could not be closed at the end of a step.
     Apart { largest: Vec<Largest> },
-    /// A step of the deck, or some in a row, need too many pieces; why the last was cut.
-    Crawling { steps: usize, pieces: usize, dt: f64, cause: Box<Failure> },
+    /// A step of the deck, or some in a row, need too many substeps; why the last was cut back.
+    Crawling { steps: usize, substeps: usize, dt: f64, cause: Box<Failure> },
     /// No equilibrium lies on the arc of a step.
     Bend { largest: Vec<Largest> },
     /// Nothing moves with the time that could lead on along a path.
     Idle { time: f64 },
-    /// A path went on for ever.
+    /// A path came to no end in the steps it was given.
     Endless { steps: usize },
     /// A step would go through a surface, or into an impact that it does not resolve.
     Contact { name: String },
-    /// A step of central differences is longer than the fastest mode bears; whether steps find their own length.
+    /// A step of central differences is longer than the critical time step; whether steps find their own length.
     Unstable { dt: f64, longest: f64, automatic: bool },
     /// Central differences have made so many times the energy that there was.
     Growing { made: f64 },
@@ -32,7 +32,7 @@ pub enum Failure {
     Turned { dt: f64 },
     /// The error of a step is larger than what is allowed.
     Inaccurate { dt: f64 },
-    /// A number stopped being one.
+    /// The motion left the range of numbers.
     NotFinite { largest: Vec<Largest> },
 }
 
@@ -51,7 +51,7 @@ impl Failure {
     }
 }
 
-/// Of an unknown: its node and direction, or its joint and what that holds.
+/// Names an unknown: its node and direction, or its joint and what that constrains.
 fn name(model: &Model, plan: &Plan, system: &System, row: usize) -> (String, &'static str) {
     match plan.directions.get(row) {
         Some(&(node, dof)) => (model.nodes[node].label.clone(), DIRECTIONS[dof]),
@@ -94,86 +94,93 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<Largest>
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let list = |f: &mut fmt::Formatter, largest: &[Largest]| {
-            largest.iter().try_for_each(|l| match l.residual.is_finite() {
-                true => write!(f, "\n  {} {}: {:.3e}", l.label, l.direction, l.residual),
-                false => write!(f, "\n  {} {}: beyond all numbers", l.label, l.direction),
-            })
+        f.write_str(&self.message())?;
+        let (Failure::NotConverged { largest, .. }
+        | Failure::Apart { largest }
+        | Failure::Bend { largest }
+        | Failure::NotFinite { largest }) = self
+        else {
+            return Ok(());
         };
+        largest.iter().try_for_each(|l| match l.residual.is_finite() {
+            true => write!(f, "\n  {} {}: {:.3e}", l.label, l.direction, l.residual),
+            false => write!(f, "\n  {} {}: beyond all numbers", l.label, l.direction),
+        })
+    }
+}
+
+impl Failure {
+    /// What happened and what helps, without the list of the largest residuals or gaps.
+    fn message(&self) -> String {
         match self {
-            Failure::Singular { label, direction } => write!(
-                f,
+            Failure::Singular { label, direction } => format!(
                 "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
                  a mechanism, a bifurcation, or a motion beyond what the model can bear)"
             ),
-            Failure::NotConverged { iterations, largest } => {
-                write!(f, "no convergence in {iterations} iterations; the largest unbalanced forces are")?;
-                list(f, largest)
+            Failure::NotConverged { iterations, .. } => {
+                format!("no convergence in {iterations} iterations; the largest unbalanced forces are")
             }
-            Failure::Apart { largest } => {
-                write!(
-                    f,
-                    "joints cannot be closed at the end of the step (given motions or joints contradict each other, or the step is too long); \
-                     the widest gaps are"
-                )?;
-                list(f, largest)
+            Failure::NotFinite { .. } => {
+                "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
             }
-            Failure::Crawling { steps, pieces, dt, cause } => {
-                let steps =
-                    if *steps == 1 { "the step was".to_owned() } else { format!("the last {steps} steps were") };
-                write!(
-                    f,
-                    "{steps} cut into {pieces} pieces, the last of {dt:.1e}, without coming to an end: the loads are too large or \
-                     `time_step` is too long for this motion; the last cut was made because of this: {cause}"
-                )
+            Failure::Apart { .. } => {
+                "joints cannot be closed at the end of the step (prescribed motions or joints contradict \
+                                      each other, or the step is too long); the widest gaps are"
+                    .to_owned()
             }
-            Failure::Bend { largest } => {
-                write!(
-                    f,
-                    "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are"
-                )?;
-                list(f, largest)
-            }
-            Failure::Idle { time } => {
-                write!(f, "no load or held motion changes with the time at t = {time}: nothing leads on along the path")
-            }
-            Failure::Endless { steps } => write!(
-                f,
-                "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"
-            ),
-            Failure::Contact { name } => write!(
-                f,
+            Failure::Contact { name } => format!(
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
             ),
+            Failure::Bend { .. } | Failure::Idle { .. } | Failure::Endless { .. } => self.message_of_path(),
+            _ => self.message_of_length(),
+        }
+    }
+
+    /// The message where a path of equilibria cannot be followed.
+    fn message_of_path(&self) -> String {
+        match self {
+            Failure::Idle { time } => format!(
+                "no load or prescribed motion changes with the time at t = {time}: nothing leads on along the path"
+            ),
+            Failure::Endless { steps } => format!(
+                "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"
+            ),
+            _ => "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are"
+                .to_owned(),
+        }
+    }
+
+    /// The message where steps are too long or too many.
+    fn message_of_length(&self) -> String {
+        match self {
+            Failure::Crawling { steps, substeps, dt, cause } => {
+                let steps =
+                    if *steps == 1 { "the step was".to_owned() } else { format!("the last {steps} steps were") };
+                format!(
+                    "{steps} cut into {substeps} substeps, the last of {dt:.1e}, without reaching the end: the loads are too \
+                     large or `time_step` is too long for this motion; the last cutback was made because of this: {cause}"
+                )
+            }
             Failure::Unstable { dt, longest, automatic } => {
-                let help = if *automatic {
-                    "smaller loads, a smaller `least_step`"
-                } else {
-                    "a shorter `time_step`, \"auto\""
+                let help = match automatic {
+                    true => "smaller loads, a smaller `least_step`",
+                    false => "a shorter `time_step`, \"auto\"",
                 };
-                write!(
-                    f,
-                    "a step of {dt:.3e} is too long for central differences: the fastest mode of the scene bears \
+                format!(
+                    "a step of {dt:.3e} is too long for central differences: the critical time step (stability limit) is \
                      {longest:.3e} ({help}, or an implicit scheme)"
                 )
             }
-            Failure::Growing { made } => write!(
-                f,
-                "the motion grows by itself: central differences have made {made:.1e} times the energy that there was; their \
-                 steps are too long for this motion (a shorter `time_step`, or an implicit scheme)"
+            Failure::Growing { made } => format!(
+                "energy growth: central differences have made {made:.1e} times the energy that there was; their steps are too \
+                 long for this motion (a shorter `time_step`, or an implicit scheme)"
             ),
-            Failure::Turned { dt } => write!(f, "in a step of {dt:.3e} something turns by more than 3 radians"),
-            Failure::Inaccurate { dt } => {
-                write!(
-                    f,
-                    "the error of a step of {dt:.3e} is larger than `error_tolerance` allows, however short steps are"
-                )
-            }
-            Failure::NotFinite { largest } => {
-                write!(f, "the motion left the range of numbers; the largest unbalanced forces are")?;
-                list(f, largest)
-            }
+            Failure::Turned { dt } => format!("in a step of {dt:.3e} something turns by more than 3 radians"),
+            Failure::Inaccurate { dt } => format!(
+                "the error of a step of {dt:.3e} is larger than `error_tolerance` allows, however short steps are"
+            ),
+            _ => String::new(),
         }
     }
 }

@@ -122,8 +122,8 @@ pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme:
 
 /// Moves dependent nodes after their masters, from where they were at `start`.
 pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) {
-    for link in &cx.system.attachments {
-        link.follow(&mut ws.trial, &mut ws.increments, &start[link.node]);
+    for dependent in &cx.system.attachments {
+        dependent.follow(&mut ws.trial, &mut ws.increments, &start[dependent.node]);
     }
 }
 

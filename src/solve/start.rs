@@ -97,10 +97,10 @@ fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
         }
     }
     // Where a prescribed motion starts turned, dependent nodes start turned in the directions that follow.
-    for link in &cx.system.attachments {
-        let turn = rotation::log(&state.nodes[link.master].q);
-        let following = Vec3::from_fn(|i, _| if link.dofs[3 + i] { turn[i] } else { 0.0 });
-        let node = &mut state.nodes[link.node];
+    for dependent in &cx.system.attachments {
+        let turn = rotation::log(&state.nodes[dependent.master].q);
+        let following = Vec3::from_fn(|i, _| if dependent.dofs[3 + i] { turn[i] } else { 0.0 });
+        let node = &mut state.nodes[dependent.node];
         node.q = rotation::exp(&following) * node.q;
     }
 }
@@ -116,9 +116,9 @@ fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut
         let (d, dd) = (join(&node.v, &node.omega), join(&node.a, &node.alpha));
         *increment = Increment { q: Vec6::zeros(), d, dd };
     }
-    for link in &cx.system.attachments {
-        let start = nodes[link.node];
-        link.follow(nodes, &mut ws.increments, &start);
+    for dependent in &cx.system.attachments {
+        let start = nodes[dependent.node];
+        dependent.follow(nodes, &mut ws.increments, &start);
     }
 }
 

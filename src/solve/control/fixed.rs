@@ -93,8 +93,8 @@ impl<'a> FixedController<'a> {
         let most = MOST_SUBSTEPS[usize::from(march.cx.system.has_contacts())];
         match &step.cause {
             Some(cause) if substeps + step.taken >= most && step.at < WHOLE => {
-                let (steps, pieces, cause) = (steps + 1, substeps + step.taken, Box::new(cause.clone()));
-                Err(march.failed(Failure::Crawling { steps, pieces, dt, cause }))
+                let (steps, substeps, cause) = (steps + 1, substeps + step.taken, Box::new(cause.clone()));
+                Err(march.failed(Failure::Crawling { steps, substeps, dt, cause }))
             }
             _ => Ok(()),
         }

@@ -158,10 +158,10 @@ impl Accelerations {
 
     /// Goes through the directions that depend on a master: what is missing there, beside the acceleration of the trial motion.
     fn visit_dependent_directions(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
-        for link in &cx.system.attachments {
-            let (missing, node) = (&mut self.missing[link.node], &ws.trial[link.node]);
+        for dependent in &cx.system.attachments {
+            let (missing, node) = (&mut self.missing[dependent.node], &ws.trial[dependent.node]);
             let now = join(&node.a, &node.alpha);
-            (0..6).filter(|&i| link.dofs[i]).for_each(|i| visit(&mut missing[i], now[i]));
+            (0..6).filter(|&i| dependent.dofs[i]).for_each(|i| visit(&mut missing[i], now[i]));
         }
     }
 
@@ -203,16 +203,16 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Fa
 
 /// Writes the accelerations of dependent nodes from those of their masters.
 fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
-    for link in &cx.system.attachments {
-        let master = ws.trial[link.master];
-        let S = link.arm(&master);
+    for dependent in &cx.system.attachments {
+        let master = ws.trial[dependent.master];
+        let S = dependent.arm(&master);
         let a = master.a + master.alpha.cross(&S) + master.omega.cross(&master.omega.cross(&S));
-        let node = &mut ws.trial[link.node];
+        let node = &mut ws.trial[dependent.node];
         for i in 0..3 {
-            if link.dofs[i] {
+            if dependent.dofs[i] {
                 node.a[i] = a[i];
             }
-            if link.dofs[3 + i] {
+            if dependent.dofs[3 + i] {
                 node.alpha[i] = master.alpha[i];
             }
         }

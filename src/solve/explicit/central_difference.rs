@@ -237,3 +237,64 @@ fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> Motion {
     let both = (old + join(&a, &alpha)) * (0.5 * dt);
     Motion { v: start.v + top(&both), omega: start.omega + bottom(&both), a, alpha }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Source;
+    use crate::model;
+    use crate::plan::Plan;
+    use crate::solve::start::start;
+    use crate::system::System;
+
+    /// Steps that are refused, here by the limit, are not counted.
+    #[test]
+    fn refused_steps_are_not_counted() {
+        let dt = 0.1;
+        let text = format!(
+            r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = {dt}
+[integrator]
+scheme = "central-difference"
+[[bodies]]
+name = "bob"
+center = [1.0, 0.0, 0.0]
+mass = 1.0
+inertia = [0.1, 0.1, 0.1]
+[[joints]]
+name = "pivot"
+kind = "ball"
+from = {{ body = "bob", point = [0.0, 0.0, 0.0] }}
+to = {{ ground = [0.0, 0.0, 0.0] }}
+[[links]]
+name = "spring"
+from = {{ ground = [1.0, 1.0, 0.0] }}
+to = {{ body = "bob" }}
+stiffness = 1e4
+[output]
+interval = 1.0
+"#
+        );
+        let source = Source::new("deck.toml", &text, &[]);
+        let (model, problems) = model::read(&source);
+        let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
+        let model = model.unwrap_or_else(|| panic!("{}", drawn.join("\n")));
+        let system = System::new(&model).unwrap();
+        let plan = Plan::new(&model, &system, 1);
+        let cx = Context::new(&model, &plan, &system, true, false);
+        let mut ws = Workspace::new(&cx).unwrap();
+        let mut stepper = CentralDifferenceStepper::new(&cx).unwrap();
+        let (mut state, _) = start(&cx, &mut ws).unwrap();
+        stepper.restart(&cx, &mut ws, &mut state);
+        for _ in 0..2 {
+            let failure = stepper.step(&cx, &mut ws, &mut state, dt).unwrap_err();
+            assert!(matches!(failure, Failure::Unstable { .. }), "{failure}");
+        }
+        assert_eq!(stepper.critical.counts(), [0, 0]);
+        // The limit was measured with nothing taken since.
+        assert!(!stepper.critical.is_struck(4.0 * state.work.accelerations));
+    }
+}
