@@ -145,7 +145,7 @@ fn one_word_makes_a_part_rigid() {
         .replace("[[loads]]\nat = \"plate\"\npressure = 2000.0\namplitude = \"push\"\n", "")
         .replace("at = \"plate.edge3\"", "at = \"plate.edge1\"");
     let left = model(&free);
-    let ridden = left.riders.iter().filter(|rider| rider.master == left.bodies[0].node).count();
+    let ridden = left.constraints.dependents.iter().filter(|rider| rider.master == left.bodies[0].node).count();
     // Four corners, and three more nodes along edge1, which a load names.
     assert_eq!(ridden, 7, "{:?}", left.nodes.iter().map(|node| node.label.as_str()).collect::<Vec<_>>());
     let system = System::new(&rigid).unwrap();

@@ -224,13 +224,13 @@ fn an_edge_of_a_shell_on_a_body() {
     // Equilibrium of the whole in its deformed place: force and moment about the foot.
     let x = &last.0;
     let (mut f, mut m) = (Vec3::zeros(), Vec3::zeros());
-    for load in &straight.loads {
+    for load in &straight.loading.nodal {
         f += load.force;
         m += (x[load.node] - x[foot]).cross(&load.force);
     }
     let moved = (x[node(&straight, "b")] - straight.nodes[node(&straight, "b")].x).norm();
     assert!(moved > 0.05, "large: {moved}");
-    let held: Vec<(usize, usize)> = straight.held.iter().map(|held| (held.node, held.dof)).collect();
+    let held: Vec<(usize, usize)> = straight.constraints.restraints.iter().map(|held| (held.node, held.dof)).collect();
     for ((at, dof), reaction) in held.iter().zip(&last.1) {
         assert_eq!(*at, foot);
         let exact = if *dof < 3 { -f[*dof] } else { -m[*dof - 3] };
