@@ -1,9 +1,11 @@
 //! From the matrices of elements and masses to the matrix of the system, through slots computed once. What belongs to a
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
+use super::dofs::DofMap;
 use super::joints::{self, Diagonal};
+use super::loads::{Loading, follower_stiffness};
+use super::system::{Forces, System};
 use super::tiles::Tiles;
-use super::{DofMap, Forces, Loading, System, follower_stiffness};
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};

@@ -1,9 +1,9 @@
 //! From the model's parts to blocks of like elements and to masses at nodes.
 
-use super::inertia::{ConsistentMass, Lumped};
+use super::group::Group;
+use super::inertia::{ConsistentMass, Inertia, Lumped};
 use super::lanes::MOST_IN_GROUP;
-use super::results::Watched;
-use super::{Group, Inertia};
+use super::watched::Watched;
 use crate::constraints::joint::{Joint, Row};
 use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};

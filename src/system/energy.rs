@@ -1,6 +1,7 @@
 //! Energies and momenta of a state.
 
-use super::{System, lanes};
+use super::lanes;
+use super::system::System;
 use crate::math::Vec3;
 use crate::model::{Model, Part, PartKind};
 use crate::state::{Configuration, State};

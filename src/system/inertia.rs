@@ -1,9 +1,9 @@
 //! Mass of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: m and J₀ at a node, the
 //! Newton-Euler equations (33); what falls on one node is summed once, before the run.
 
-use super::Scale;
+use super::scale::Scale;
 use crate::elements::Force;
-use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, quadrature, skew, top};
+use crate::math::{Mat3, Mat6, Vec3, quadrature, skew};
 use crate::state::Node;
 
 /// Mass and inertia at a node; `J0` in the axes that were global at t = 0.
@@ -164,46 +164,5 @@ impl ConsistentMass {
         self.pairs().fold((Vec3::zeros(), Vec3::zeros()), |(p, l), (a, b, m)| {
             (p + m * nodes[b].v, l + m * nodes[a].x.cross(&nodes[b].v))
         })
-    }
-}
-
-impl super::System {
-    /// Small motions of riders from those of their masters, about the nodes as they lie: D of (48).
-    pub fn carry(&self, nodes: &[Node], motions: &mut [Vec6]) {
-        for rider in &self.attachments {
-            let carried = rider.D(nodes) * motions[rider.master];
-            for i in (0..6).filter(|&i| rider.dofs[i]) {
-                motions[rider.node][i] = carried[i];
-            }
-        }
-    }
-
-    /// M times small motions per node, into the forces of nodes that do not ride. Riders are carried first.
-    pub fn weigh(&self, nodes: &[Node], motions: &mut [Vec6], forces: &mut super::Forces) {
-        self.carry(nodes, motions);
-        let F = &mut forces.on_nodes[..];
-        F.fill([0.0; 6]);
-        for inertia in &self.inertias {
-            let of = &motions[inertia.node];
-            let mut f = [0.0; 6];
-            for i in 0..3 {
-                f[i] = inertia.mass * of[i];
-            }
-            if inertia.rotary {
-                let m = inertia.J(&nodes[inertia.node]) * bottom(of);
-                f[3..].copy_from_slice(m.as_slice());
-            }
-            F[inertia.node] = f;
-        }
-        for mass in &self.consistent {
-            for (a, b, m) in mass.pairs() {
-                crate::elements::subtract(&mut F[a], 0, &(-m * top(&motions[b])));
-            }
-        }
-        self.lift(nodes, forces);
-    }
-
-    pub(crate) fn consistent_masses(&self) -> &[ConsistentMass] {
-        &self.consistent
     }
 }

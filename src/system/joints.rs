@@ -7,62 +7,17 @@
 //! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Rows that say the same twice share what they carry by
 //! least norm: ε decides, and leaves a fraction ε of a gap to the next iteration.
 
-use super::{DofMap, Forces, Scale, System};
+use super::dofs::DofMap;
+use super::multipliers::{Multipliers, SHARED};
+use super::scale::Scale;
+use super::system::{Forces, System};
 use crate::constraints::joint::{Joint, MOST_ROWS, Row};
 use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6};
 use crate::state::Node;
 
-/// ε: a repeated row is felt as 1e-16/ε of a length, and a gap shrinks by ε in an iteration.
-pub(super) const SHARED: f64 = 1e-7;
-
 /// Directions of a local matrix: two nodes, and the joint's multipliers as a third.
 pub(super) const WIDTH: usize = 6 + 6 + MOST_ROWS;
-
-/// What joints carry, a number for each row of all joints.
-#[derive(Debug, Clone, Default)]
-pub struct Multipliers {
-    /// λ: forces and moments. Written by the iteration.
-    pub values: Vec<f64>,
-    /// c: how far the joints gape. Written by [`System::residual`].
-    pub gaps: Vec<f64>,
-    /// s. Written by the tangent.
-    penalties: Vec<f64>,
-}
-
-impl Multipliers {
-    pub fn new(rows: usize) -> Self {
-        Multipliers { values: vec![0.0; rows], gaps: vec![0.0; rows], penalties: vec![0.0; rows] }
-    }
-
-    /// All but the gaps of another.
-    pub fn copy_from(&mut self, other: &Multipliers) {
-        self.values.copy_from_slice(&other.values);
-        self.penalties.copy_from_slice(&other.penalties);
-    }
-
-    /// The right-hand side of the second equation.
-    #[inline]
-    pub fn ask(&self, tail: &mut [f64]) {
-        for ((r, s), c) in tail.iter_mut().zip(&self.penalties).zip(&self.gaps) {
-            *r = -s * (1.0 + SHARED) * c;
-        }
-    }
-
-    /// From δμ to δλ/s.
-    #[inline]
-    pub fn shift(&self, tail: &mut [f64]) {
-        tail.iter_mut().zip(&self.gaps).for_each(|(r, c)| *r -= c);
-    }
-
-    /// λ ← λ + s times what [`Multipliers::shift`] has left.
-    #[inline]
-    pub fn add(&mut self, tail: &[f64]) {
-        for ((value, s), r) in self.values.iter_mut().zip(&self.penalties).zip(tail) {
-            *value += s * r;
-        }
-    }
-}
 
 /// Force and moment that a joint exerts on its first node, global components.
 #[derive(Debug, Clone, Copy, PartialEq)]

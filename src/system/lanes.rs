@@ -1,7 +1,7 @@
 //! Large scenes on several threads: which groups of elements go side by side, and how what they give is summed. The cut rests
 //! on the scene alone and sums keep their order, so bits do not depend on the number of threads.
 
-use super::{Group, System};
+use super::group::Group;
 use crate::elements::Force;
 use crate::state::Configuration;
 use rayon::prelude::*;
@@ -30,8 +30,7 @@ pub(super) fn is_large(groups: &[Group]) -> bool {
 }
 
 /// None in a small scene.
-pub(super) fn lanes(system: &System) -> Vec<Lane> {
-    let groups = &system.groups;
+pub(super) fn lanes(groups: &[Group]) -> Vec<Lane> {
     if !is_large(groups) {
         return Vec::new();
     }

@@ -1,7 +1,8 @@
 //! Accelerations from forces where each moving node is a rigid body of its own: its mass and inertia, with those of all that
 //! rides on it, about the centre that they have together. In body axes these never change, so nothing is ever factorised.
 
-use super::{DofMap, System};
+use super::dofs::DofMap;
+use super::system::System;
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
 use crate::state::Node;

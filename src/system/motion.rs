@@ -1,6 +1,6 @@
 //! What is given over time: factors of loads, the field of gravity and ground acceleration, motion of held directions.
 
-use super::Loading;
+use super::loads::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, History, Model, Motion, Restraint};

@@ -1,6 +1,6 @@
 //! Scenes that move in a plane.
 
-use super::Inertia;
+use super::inertia::Inertia;
 use crate::constraints::attachment::Attachment;
 use crate::math::{Mat3, Vec3, skew};
 use crate::model::{BeamElement, Link, LinkKind, Model, Part};

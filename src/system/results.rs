@@ -1,8 +1,7 @@
 //! What elements feel, for output: forces of links, stress resultants of beams.
 
-use super::System;
-use crate::elements::bushing::Bushing;
-use crate::elements::link::Link;
+use super::system::System;
+use super::watched::Watched;
 use crate::elements::{Point, Resultants};
 use crate::math::{Mat3, Vec3};
 use crate::model::{Beam, Model, PartType, Shell};
@@ -40,12 +39,6 @@ pub struct ShellState {
     /// Its number in the deck's part.
     pub element: usize,
     pub at: Resultants,
-}
-
-/// A link as the deck lists it, apart from the blocks that integrate it.
-pub enum Watched {
-    Line(Link),
-    Bushing(Bushing),
 }
 
 impl System {

@@ -73,7 +73,9 @@ fn shaken_ground_is_supports_that_move() {
             drive(&mut moved, foot, 0, displacement, size, History::Displacement);
             let (mut felt, _) = mast(dt);
             felt.loading.amplitudes.push(acceleration.clone());
-            felt.loading.base_accelerations.push(BaseAcceleration { direction: Vec3::x() * size * scale, amplitude: 0 });
+            felt.loading
+                .base_accelerations
+                .push(BaseAcceleration { direction: Vec3::x() * size * scale, amplitude: 0 });
             let (moved, felt) = (run(&moved), run(&felt));
             let mut worst = 0.0f64;
             for (a, b) in moved.states.iter().zip(&felt.states) {

@@ -1,0 +1,35 @@
+//! Magnitudes of forces and moments.
+
+use crate::elements::Force;
+use crate::math::{Vec3, larger};
+
+/// Magnitudes against which a residual is judged.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Scale {
+    pub force: f64,
+    pub moment: f64,
+}
+
+impl Scale {
+    #[inline]
+    pub(super) fn meet_force(&mut self, f: &Vec3) {
+        self.force = f.iter().fold(self.force, |most, f| larger(most, f.abs()));
+    }
+
+    #[inline]
+    pub(super) fn meet_moment(&mut self, m: &Vec3) {
+        self.moment = m.iter().fold(self.moment, |most, m| larger(most, m.abs()));
+    }
+
+    #[inline]
+    pub(super) fn meet(&mut self, forces: &[Force]) {
+        let mut most = [0.0; 6];
+        for f in forces {
+            for i in 0..6 {
+                most[i] = larger(most[i], f[i].abs());
+            }
+        }
+        self.force = larger(self.force, larger(most[0], larger(most[1], most[2])));
+        self.moment = larger(self.moment, larger(most[3], larger(most[4], most[5])));
+    }
+}

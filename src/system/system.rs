@@ -1,0 +1,325 @@
+//! Everything that acts on the nodes of a scene, and the residual that it leaves.
+
+use super::group::Group;
+use super::inertia::{ConsistentMass, Inertia};
+use super::lanes::Lane;
+use super::loads::{Loading, load_on};
+use super::multipliers::Multipliers;
+use super::scale::Scale;
+use super::watched::Watched;
+use super::{build, lanes, plane};
+use crate::constraints::attachment::{self, Attachment};
+use crate::constraints::joint::Joint;
+use crate::elements::Force;
+use crate::materials::Dissipation;
+use crate::math::{Vec3, Vec6, bottom, rotation, top};
+use crate::model::{self, Model, PartKind};
+use crate::state::{Configuration, Node};
+
+/// Everything that acts on the nodes. Constant over a run.
+pub struct System {
+    pub groups: Vec<Group>,
+    /// Numbers that material points remember.
+    pub history: usize,
+    /// At most one per node, by node.
+    pub inertias: Vec<Inertia>,
+    pub(super) consistent: Vec<ConsistentMass>,
+    /// Masters before their riders.
+    pub attachments: Vec<Attachment>,
+    /// In the order of the model's list, without the rows that a plane motion does not need.
+    pub joints: Vec<Joint>,
+    pub(super) watched: Vec<Watched>,
+    /// Where their groups begin; they are the last.
+    pub(super) contacts: usize,
+    pub(super) loads: Vec<model::Load>,
+    pub(super) pressures: Vec<model::Pressure>,
+    pub(super) nodal_damping: Vec<model::NodalDamping>,
+    pub(super) mass_damping: f64,
+    /// The matrix may hold C(r) (37).
+    pub(super) gyroscopic: bool,
+    /// The global axis normal to the motion, where the scene is plane.
+    pub plane: Option<usize>,
+    /// Inertia does not act in a static analysis; weight does.
+    pub(super) dynamic: bool,
+}
+
+/// What acts, as the residual leaves it. Written by [`System::residual`].
+#[derive(Debug, Clone)]
+pub struct Forces {
+    /// f_ext − f_int − C v − M a per node; what falls on a constrained direction has been handed to the master.
+    pub on_nodes: Vec<Force>,
+    /// The forces so handed over, in the order of [`System::attachments`].
+    pub on_riders: Vec<Vec3>,
+    pub multipliers: Multipliers,
+    lanes: Vec<Lane>,
+    threads: bool,
+}
+
+impl Forces {
+    /// For one thread.
+    pub fn new(system: &System, nodes: usize) -> Self {
+        Forces {
+            on_nodes: vec![[0.0; 6]; nodes],
+            on_riders: vec![Vec3::zeros(); system.attachments.len()],
+            multipliers: Multipliers::new(system.multipliers()),
+            lanes: lanes::lanes(&system.groups),
+            threads: false,
+        }
+    }
+
+    /// The same, summed on several threads where that pays.
+    pub fn on_threads(self, threads: usize) -> Self {
+        Forces { threads: threads > 1, ..self }
+    }
+}
+
+impl System {
+    /// # Errors
+    /// A cycle among attachments, which [`crate::model`] excludes.
+    pub fn new(model: &Model) -> Result<System, String> {
+        let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
+        let attachments =
+            model.constraints.dependents.iter().map(|r| Attachment::new(r.node, r.master, &x, r.dofs)).collect();
+        let attachments = attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?;
+        let (inertias, consistent) = build::masses(model, &x);
+        let plane = plane::normal(model, &inertias, &attachments);
+        let (groups, watched) = build::groups(model, &x, plane);
+        let joints = build::joints(model, &x, plane);
+        let contacts = groups.iter().position(|group| group.kind == PartKind::Contact);
+        Ok(System {
+            history: groups.last().map_or(0, |group| group.history.end),
+            contacts: contacts.unwrap_or(groups.len()),
+            groups,
+            inertias,
+            consistent,
+            attachments,
+            joints,
+            gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
+            plane,
+            watched,
+            loads: model.loading.nodal.clone(),
+            pressures: model.loading.pressures.clone(),
+            nodal_damping: model.damping.nodal.clone(),
+            mass_damping: model.damping.mass_factor,
+            dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,
+        })
+    }
+
+    /// Masses at nodes, what rides on what, and the joints, without all that resists: what joints are closed with.
+    pub fn bare(&self) -> System {
+        System {
+            groups: Vec::new(),
+            contacts: 0,
+            history: 0,
+            inertias: self.inertias.clone(),
+            consistent: self.consistent.clone(),
+            attachments: self.attachments.clone(),
+            joints: self.joints.clone(),
+            watched: Vec::new(),
+            loads: Vec::new(),
+            pressures: Vec::new(),
+            nodal_damping: Vec::new(),
+            mass_damping: 0.0,
+            gyroscopic: false,
+            plane: self.plane,
+            dynamic: self.dynamic,
+        }
+    }
+
+    /// Sums f_ext − f_int − C v − M a per node and hands the forces on constrained directions to their masters (58).
+    /// Returns the magnitude of what was summed.
+    pub fn residual(&self, now: &Configuration, loading: &Loading, forces: &mut Forces) -> Scale {
+        let nodes = now.nodes;
+        let F = &mut forces.on_nodes[..];
+        F.fill([0.0; 6]);
+        let mut scale = Scale::default();
+        lanes::subtract_forces(&self.groups, now, &mut forces.lanes, forces.threads, F);
+        scale.meet(F);
+        for inertia in &self.inertias {
+            let node = &nodes[inertia.node];
+            let mut f = inertia.force(node, &loading.field, self.dynamic, &mut scale);
+            if self.mass_damping > 0.0 {
+                inertia.add_damping(node, self.mass_damping, &mut f);
+            }
+            for (sum, f) in F[inertia.node].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
+        for mass in &self.consistent {
+            mass.add_forces(nodes, &loading.field, self.dynamic, self.mass_damping, F);
+        }
+        for damping in &self.nodal_damping {
+            let node = &nodes[damping.node];
+            crate::elements::subtract(&mut F[damping.node], 0, &(damping.translation * node.v));
+            crate::elements::subtract(&mut F[damping.node], 3, &(damping.rotation * node.omega));
+        }
+        self.add_loads(nodes, loading, F, &mut scale);
+        self.join(nodes, forces, &mut scale);
+        self.lift(nodes, forces);
+        scale
+    }
+
+    /// Loads and weight alone, in a static analysis: with rates for a loading, how the residual changes with the time.
+    pub fn external(&self, nodes: &[Node], loading: &Loading, forces: &mut Forces) {
+        let F = &mut forces.on_nodes[..];
+        let mut scale = Scale::default();
+        F.fill([0.0; 6]);
+        for inertia in &self.inertias {
+            let f = inertia.force(&nodes[inertia.node], &loading.field, false, &mut scale);
+            for (sum, f) in F[inertia.node].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
+        for mass in &self.consistent {
+            mass.add_forces(nodes, &loading.field, false, 0.0, F);
+        }
+        self.add_loads(nodes, loading, F, &mut scale);
+        self.lift(nodes, forces);
+    }
+
+    fn add_loads(&self, nodes: &[Node], loading: &Loading, F: &mut [Force], scale: &mut Scale) {
+        for (load, factor) in self.loads.iter().zip(&loading.factors) {
+            let (f, m) = load_on(load, *factor, &nodes[load.node]);
+            let f = [f.x, f.y, f.z, m.x, m.y, m.z];
+            scale.meet(&[f]);
+            for (sum, f) in F[load.node].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
+        for (load, p) in self.pressures.iter().zip(&loading.pressures) {
+            for face in &load.faces {
+                scale.force = scale.force.max(face.add_forces(*p, nodes, F));
+            }
+        }
+    }
+
+    pub(super) fn lift(&self, nodes: &[Node], forces: &mut Forces) {
+        let F = &mut forces.on_nodes[..];
+        for (rider, force) in self.attachments.iter().zip(&mut forces.on_riders).rev() {
+            *force = Vec3::new(F[rider.node][0], F[rider.node][1], F[rider.node][2]);
+            rider.lift(nodes, F);
+        }
+    }
+
+    /// Work of loads and weight over a step, by the mean of the forces at its ends; of pressures that follow, by the volume
+    /// that faces sweep.
+    pub fn external_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> f64 {
+        let field = 0.5 * (from.1.field + to.1.field);
+        let moved = |node: usize| to.0[node].relative_position(&from.0[node]);
+        let mut work = 0.0;
+        if field != Vec3::zeros() {
+            work += self.inertias.iter().map(|i| i.mass * field.dot(&moved(i.node))).sum::<f64>();
+            let weight = |mass: &ConsistentMass| mass.pairs().map(|(a, _, m)| m * field.dot(&moved(a))).sum::<f64>();
+            work += self.consistent.iter().map(weight).sum::<f64>();
+        }
+        for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
+            let (a, b) = (&from.0[load.node], &to.0[load.node]);
+            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
+            work += 0.5 * (f_a + f_b).dot(&b.relative_position(a));
+            if load.moment != Vec3::zeros() {
+                work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.q * a.q.conjugate())));
+            }
+        }
+        for (load, (p0, p1)) in self.pressures.iter().zip(from.1.pressures.iter().zip(&to.1.pressures)) {
+            work += load.faces.iter().map(|face| face.work([*p0, *p1], from.0, to.0)).sum::<f64>();
+        }
+        work
+    }
+
+    /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
+    /// became of the work of plastic strains on it.
+    pub fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64], threads: usize) -> Dissipation {
+        lanes::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
+            if group.history.is_empty() {
+                return Dissipation::default();
+            }
+            group.block.update_history(&group.share(now), part, history)
+        })
+    }
+
+    /// True where work on elements is worth that many threads.
+    pub(super) fn splits(&self, threads: usize) -> bool {
+        threads > 1 && lanes::is_large(&self.groups)
+    }
+
+    /// Power that dampers take.
+    pub fn damping_power(&self, now: &Configuration, threads: usize) -> f64 {
+        let nodes = now.nodes;
+        let mut power: f64 =
+            lanes::sum(&self.groups, self.splits(threads), &|group| group.block.damping_power(&group.share(now)));
+        if self.mass_damping > 0.0 {
+            let twice = 2.0 * self.mass_damping;
+            power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
+            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes)).sum::<f64>();
+        }
+        for d in &self.nodal_damping {
+            let node = &nodes[d.node];
+            power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
+        }
+        power
+    }
+
+    /// True where fibres that strain alike in a plane motion are one.
+    pub fn merges_fibres(&self, part: &model::Beam) -> bool {
+        part.yielding.is_some() && build::in_plane(part, self.plane).is_some()
+    }
+
+    pub fn nodal_damping(&self) -> &[model::NodalDamping] {
+        &self.nodal_damping
+    }
+
+    /// True when anything takes energy by rate.
+    pub fn is_damped(&self) -> bool {
+        self.mass_damping > 0.0 || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
+    }
+
+    /// True when no term of the equation of motion depends on the motion other than linearly, with a constant matrix.
+    pub fn is_linear(&self) -> bool {
+        self.groups.iter().all(|g| g.block.is_linear())
+            && self.attachments.is_empty()
+            && self.joints.is_empty()
+            && self.loads.iter().all(|l| !l.follower)
+            && self.pressures.is_empty()
+    }
+}
+
+impl System {
+    /// Small motions of riders from those of their masters, about the nodes as they lie: D of (48).
+    pub fn carry(&self, nodes: &[Node], motions: &mut [Vec6]) {
+        for rider in &self.attachments {
+            let carried = rider.D(nodes) * motions[rider.master];
+            for i in (0..6).filter(|&i| rider.dofs[i]) {
+                motions[rider.node][i] = carried[i];
+            }
+        }
+    }
+
+    /// M times small motions per node, into the forces of nodes that do not ride. Riders are carried first.
+    pub fn weigh(&self, nodes: &[Node], motions: &mut [Vec6], forces: &mut Forces) {
+        self.carry(nodes, motions);
+        let F = &mut forces.on_nodes[..];
+        F.fill([0.0; 6]);
+        for inertia in &self.inertias {
+            let of = &motions[inertia.node];
+            let mut f = [0.0; 6];
+            for i in 0..3 {
+                f[i] = inertia.mass * of[i];
+            }
+            if inertia.rotary {
+                let m = inertia.J(&nodes[inertia.node]) * bottom(of);
+                f[3..].copy_from_slice(m.as_slice());
+            }
+            F[inertia.node] = f;
+        }
+        for mass in &self.consistent {
+            for (a, b, m) in mass.pairs() {
+                crate::elements::subtract(&mut F[a], 0, &(-m * top(&motions[b])));
+            }
+        }
+        self.lift(nodes, forces);
+    }
+
+    pub(crate) fn consistent_masses(&self) -> &[ConsistentMass] {
+        &self.consistent
+    }
+}
