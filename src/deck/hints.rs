@@ -1,7 +1,12 @@
 //! Words that other programs have for what ours has another word for. A user who guesses one is told ours.
 //!
-//! A row is only used where one of our words is known in the table at hand, so that the same guess may mean `area` in a section
+//! Words for schemes, sections and joints stand with these, see [`Kind`]. A row is only used where one of our words is known in the table at hand, so that the same guess may mean `area` in a section
 //! and nothing elsewhere. What stands in another place of the deck has a sentence of its own.
+
+use crate::constraints::joints::JOINTS;
+use crate::integrators::SCHEMES;
+use crate::sections::SECTIONS;
+use crate::words::kinds::Kind;
 
 /// Guessed words, and ours: the first that is known where the guess stands.
 type Row = (&'static [&'static str], &'static [&'static str]);
@@ -112,29 +117,13 @@ const VALUES: &[Row] = &[
     (&["newton", "newton-raphson", "full-newton"], &["tangent-stiffness", "iteration"]),
     (&["modified-newton", "modified_newton"], &["step", "initial-load"]),
     (&["initial-stiffness", "elastic"], &["initial-load", "elastic"]),
-    (&["trapezoidal", "average-acceleration", "constant-average-acceleration"], &["newmark"]),
-    (&["hilber-hughes-taylor", "hht", "HHT"], &["hht-alpha"]),
-    (&["chung-hulbert", "generalised-alpha", "gen-alpha"], &["generalized-alpha"]),
-    (&["verlet", "leapfrog", "leap-frog", "explicit"], &["central-difference"]),
-    (&["rk4", "rk45", "dopri5", "dopri853", "dormand-prince", "ode45"], &["runge-kutta"]),
     (&["linear-elastic", "isotropic", "linear"], &["elastic"]),
     (
         &["plastic", "j2", "von-mises", "bilinear", "elastoplastic", "perfectly-plastic", "Steel01"],
         &["elastic-plastic"],
     ),
     (&["perzyna", "viscoplastic", "rate-dependent", "cowper-symonds"], &["elastic-viscoplastic", "power"]),
-    (&["rect", "solid", "rectangular", "square"], &["rectangle"]),
-    (&["pipe", "circle", "circular", "round", "hollow-circle", "cylinder"], &["tube"]),
-    (&["rhs", "shs", "hollow", "rectangular-hollow"], &["box"]),
-    (&["i-beam", "h", "h-beam", "wide-flange", "ipe", "w"], &["i"]),
-    (&["channel", "u", "upn"], &["c"]),
-    (&["angle"], &["l"]),
-    (&["arbitrary", "numbers", "user"], &["general"]),
-    (&["pin", "pinned", "rotational"], &["hinge", "translations", "revolute"]),
-    (&["translational", "sliding"], &["slider", "prismatic"]),
-    (&["weld", "welded", "clamp", "rigid", "lock"], &["fixed"]),
-    (&["cardan", "hooke", "u-joint"], &["universal"]),
-    (&["rod", "rigid-link"], &["distance"]),
+    (&["pin", "pinned"], &["translations"]),
     (&["fixed", "encastre", "clamped", "fully-fixed", "built-in"], &["all"]),
     (&["simply-supported", "displacements", "xyz"], &["translations"]),
     (&["halfspace", "half-space", "floor", "wall"], &["plane"]),
@@ -168,6 +157,15 @@ const NO_VALUES: &[(&[&str], &str)] = &[
     (&["johnson-cook", "hyperelastic", "concrete"], "the material models are elastic and J2 plasticity"),
 ];
 
+/// The kind that a guessed word is meant to be, by what the kinds themselves say.
+fn kind(guess: &str, known: &[&str]) -> Option<&'static str> {
+    fn words<M>(list: &'static [&'static Kind<M>]) -> impl Iterator<Item = Row> {
+        list.iter().map(|kind| (kind.guesses, std::slice::from_ref(&kind.word)))
+    }
+    let all: Vec<Row> = words(&SCHEMES).chain(words(&SECTIONS)).chain(words(&JOINTS)).collect();
+    ours(&all, guess, known)
+}
+
 /// Our word for a guessed one among those known here.
 fn ours(rows: &[Row], guess: &str, known: &[&str]) -> Option<&'static str> {
     let of = rows.iter().filter(|(guesses, _)| guesses.contains(&guess)).flat_map(|(_, ours)| ours.iter());
@@ -189,7 +187,7 @@ pub fn value(guess: &str, known: &[&str]) -> Option<String> {
     if guess == "cowper-symonds" && known.contains(&"power") {
         return Some("Cowper-Symonds is the law \"power\", with rate = D and exponent = q".to_owned());
     }
-    let word = ours(VALUES, guess, known).map(|word| format!("that is `{word}` here"));
+    let word = kind(guess, known).or_else(|| ours(VALUES, guess, known)).map(|word| format!("that is `{word}` here"));
     word.or_else(|| NO_VALUES.iter().find(|(guesses, _)| guesses.contains(&guess)).map(|(_, hint)| (*hint).to_owned()))
 }
 
@@ -242,6 +240,7 @@ mod tests {
         assert_eq!(key("torque", &["axis"]), None);
         assert_eq!(key("dt", &["end_time", "time_step"]), Some("time_step"));
         assert_eq!(value("encastre", &["all", "translations"]).unwrap(), "that is `all` here");
+        assert_eq!(value("verlet", &["newmark", "central-difference"]).unwrap(), "that is `central-difference` here");
         assert!(value("cowper-symonds", &["power", "linear"]).unwrap().contains("exponent = q"));
         assert!(value("hex", &["quadrilateral"]).unwrap().contains("no solid elements"));
         assert!(elsewhere("extends").unwrap().contains("--set"));

@@ -57,7 +57,7 @@ pub struct Deck {
     pub materials: Named<Table<materials::Material>>,
     /// Cross sections of beams by name.
     #[serde(default)]
-    pub sections: Named<Table<sections::Section>>,
+    pub sections: Named<OneOf<sections::Section>>,
     /// Points by name, [x, y, z] at t = 0 in global coordinates; every one becomes a node.
     #[serde(default)]
     pub points: Named<Vector>,

@@ -15,6 +15,7 @@ use crate::words::kinds::{Form, Key};
 pub static KIND: SchemeKind = SchemeKind {
     word: "bathe",
     aliases: &["tr-bdf2"],
+    guesses: &[],
     about: "The trapezoidal rule, then backward differences: two stages. Implicit, second order, unconditionally stable; it \
             removes what the step does not resolve.",
     keys: &[Key {

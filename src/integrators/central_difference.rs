@@ -17,6 +17,7 @@ use crate::math::rotation::RotationUpdate;
 pub static KIND: SchemeKind = SchemeKind {
     word: "central-difference",
     aliases: &[],
+    guesses: &["verlet", "leapfrog", "leap-frog", "explicit"],
     about: "Explicit, of second order: no matrix but the masses; steps must be shorter than the highest mode allows (omega dt <= 2). \
             time_step = \"auto\" takes 0.8 of the critical time step, 0.5 where contacts or links may stiffen.",
     keys: &[],

@@ -16,6 +16,7 @@ use crate::words::kinds::{Form, Key};
 pub static KIND: SchemeKind = SchemeKind {
     word: "generalized-alpha",
     aliases: &[],
+    guesses: &["chung-hulbert", "generalised-alpha", "gen-alpha"],
     about: "Chung and Hulbert: of all one-stage schemes with a given damping of high modes the one that damps low modes least. \
             Implicit, of second order, unconditionally stable.",
     keys: &[Key {

@@ -12,6 +12,7 @@ use crate::words::kinds::{Form, Key};
 pub static KIND: SchemeKind = SchemeKind {
     word: "hht-alpha",
     aliases: &["hht"],
+    guesses: &["hilber-hughes-taylor", "HHT"],
     about: "Hilber, Hughes and Taylor: damps high modes and is of second order. Implicit, unconditionally stable.",
     keys: &[Key {
         name: "alpha",

@@ -13,6 +13,7 @@ use crate::words::kinds::{Form, Given, Key};
 pub static KIND: SchemeKind = SchemeKind {
     word: "newmark",
     aliases: &[],
+    guesses: &["trapezoidal", "average-acceleration", "constant-average-acceleration"],
     about: "Newmark's family; by default the trapezoidal rule, which damps nothing. Implicit; second order with gamma = 0.5, \
             else first.",
     keys: &[

@@ -18,6 +18,7 @@ use crate::words::kinds::{Form, Key};
 pub static KIND: SchemeKind = SchemeKind {
     word: "runge-kutta",
     aliases: &[],
+    guesses: &["rk4", "rk45", "dopri5", "dopri853", "dormand-prince", "ode45"],
     about: "Dormand and Prince, explicit, of high order: for scenes that are not stiff. It does not take material that yields.",
     keys: &[Key {
         name: "order",

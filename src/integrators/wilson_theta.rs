@@ -16,6 +16,7 @@ const STABLE_THETA: f64 = 1.366;
 pub static KIND: SchemeKind = SchemeKind {
     word: "wilson-theta",
     aliases: &["wilson"],
+    guesses: &[],
     about: "Linear acceleration over theta steps, with equilibrium at the end of these. Implicit, of second order; damps high modes.",
     keys: &[Key {
         name: "theta",

@@ -6,8 +6,8 @@ use super::nodes::{Nodes, Topology};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
+use super::sections::half_depth;
 use crate::deck::contacts as words;
-use crate::deck::words::Maybe;
 use crate::diagnostic::At;
 use crate::elements::contact::{MOST_NODES, Point};
 use crate::math::{Vec3, quadrature};
@@ -209,12 +209,7 @@ impl<'d> Finder<'_, 'd> {
         let name = self.scene.deck.beams[beam].section.as_ref();
         let section =
             name.and_then(|name| Some(&self.scene.deck.sections.0[self.scene.deck.sections.position(name)?].1));
-        let Some(section) = section else { return 0.0 };
-        let value = |key: &Maybe<f64>| key.as_ref().map_or(0.0, |at| at.value);
-        let wide = value(&section.width).max(value(&section.top_width)).max(value(&section.bottom_width));
-        let (low, high) = (wide.min(value(&section.height)), wide.max(value(&section.height)));
-        let side = if low > 0.0 { low } else { high };
-        (0.5 * side).max(value(&section.radius)).max(0.5 * value(&section.diameter))
+        section.map_or(0.0, half_depth)
     }
 
     /// Finds points of a body's shape, as nodes that are rigidly attached to the body.

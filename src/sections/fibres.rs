@@ -24,7 +24,7 @@
 //! it. A uniform mode would give the rectangle 0.91, but yields at the edges where no shear is: under bending and up to 0.7 of
 //! A τ_Y the parabola lies nearer to Drucker's M/M_p = 1 − (Q/A τ_Y)⁴ (1956, J. Appl. Mech. 23, 509-514).
 
-use super::Section;
+use super::section::Section;
 use crate::math::{Mat3, Vec3};
 
 /// A part of a section that has one stress.
@@ -102,35 +102,43 @@ pub fn flattened(fibres: &[Fibre], along_z: bool) -> Vec<Fibre> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sections::Shape;
+    use crate::sections::SectionShape;
+    use crate::sections::c::C;
+    use crate::sections::general::General;
+    use crate::sections::hollow_box::HollowBox;
+    use crate::sections::i::I;
+    use crate::sections::l::L;
+    use crate::sections::rectangle::Rectangle;
     use crate::sections::tests::close;
+    use crate::sections::tube::Tube;
     use rand::{RngExt, SeedableRng, rngs::SmallRng};
     use std::f64::consts::PI;
 
-    fn random_shapes() -> Vec<Shape> {
+    fn random_shapes() -> Vec<Box<dyn SectionShape>> {
         let mut random = SmallRng::seed_from_u64(5);
         let mut shapes = Vec::new();
         for _ in 0..20 {
             let mut r = |low: f64, high: f64| random.random_range(low..high);
             let (h, w) = (r(0.05, 0.5), r(0.05, 0.5));
             let (t, u, v) = (r(1e-3, 0.012), r(1e-3, 0.012), r(1e-3, 0.012));
-            shapes.extend([
-                Shape::Rectangle { width: w, height: h },
-                Shape::Tube { radius: w, thickness: t },
-                Shape::Tube { radius: w, thickness: w * r(0.5, 1.0) },
-                Shape::Tube { radius: w, thickness: w },
-                Shape::Box { width: w, height: h, web: t, flange: u },
-                Shape::I {
+            let more: [Box<dyn SectionShape>; 8] = [
+                Box::new(Rectangle { width: w, height: h }),
+                Box::new(Tube { radius: w, thickness: t }),
+                Box::new(Tube { radius: w, thickness: w * r(0.5, 1.0) }),
+                Box::new(Tube { radius: w, thickness: w }),
+                Box::new(HollowBox { width: w, height: h, web: t, flange: u }),
+                Box::new(I {
                     height: h,
                     top_width: w,
                     bottom_width: r(0.05, 0.5),
                     web: t,
                     top_flange: u,
                     bottom_flange: v,
-                },
-                Shape::C { height: h, width: w, web: t, flange: u },
-                Shape::L { height: h, width: w, vertical: t, horizontal: u },
-            ]);
+                }),
+                Box::new(C { height: h, width: w, web: t, flange: u }),
+                Box::new(L { height: h, width: w, vertical: t, horizontal: u }),
+            ];
+            shapes.extend(more);
         }
         shapes
     }
@@ -216,15 +224,15 @@ mod tests {
         let (t, u): (f64, f64) = (0.006, 0.008);
         let plates = |b: f64, h: f64, webs: f64| b * u * (h - u) + webs * (0.5 * h - u).powi(2);
         for (shape, exact, bound) in [
-            (Shape::Rectangle { width: 0.1, height: 0.2 }, 0.1 * 0.2 * 0.2 / 4.0, 1e-12),
-            (Shape::Box { width: 0.1, height: 0.2, web: t, flange: u }, plates(0.1, 0.2, 2.0 * t), 1e-3),
+            (Rectangle { width: 0.1, height: 0.2 }, 0.1 * 0.2 * 0.2 / 4.0, 1e-12),
+            (HollowBox { width: 0.1, height: 0.2, web: t, flange: u }, plates(0.1, 0.2, 2.0 * t), 1e-3),
             (
-                Shape::I { height: 0.2, top_width: 0.1, bottom_width: 0.1, web: t, top_flange: u, bottom_flange: u },
+                I { height: 0.2, top_width: 0.1, bottom_width: 0.1, web: t, top_flange: u, bottom_flange: u },
                 plates(0.1, 0.2, t),
                 1e-12,
             ),
-            (Shape::Tube { radius: 0.1, thickness: 0.002 }, 4.0 / 3.0 * (1e-3 - 0.098f64.powi(3)), 5e-3),
-            (Shape::Tube { radius: 0.1, thickness: 0.1 }, 4.0 / 3.0 * 1e-3, 5e-3),
+            (Tube { radius: 0.1, thickness: 0.002 }, 4.0 / 3.0 * (1e-3 - 0.098f64.powi(3)), 5e-3),
+            (Tube { radius: 0.1, thickness: 0.1 }, 4.0 / 3.0 * 1e-3, 5e-3),
         ] {
             let fibres = shape.fibres(&[]).unwrap();
             close(moment(&fibres, 1e6, 0.0), exact, bound);
@@ -238,17 +246,17 @@ mod tests {
     fn plastic_shear_and_torque() {
         let twist = [0.0, 0.0, 1.0];
         for thickness in [0.002, 0.04, 0.1] {
-            let tube = Shape::Tube { radius: 0.1, thickness }.fibres(&[]).unwrap();
+            let tube = Tube { radius: 0.1, thickness }.fibres(&[]).unwrap();
             close(capacity(&tube, twist), 2.0 * PI / 3.0 * (1e-3 - (0.1 - thickness).powi(3)), 1e-12);
         }
-        let tube = Shape::Tube { radius: 0.1, thickness: 1e-4 };
+        let tube = Tube { radius: 0.1, thickness: 1e-4 };
         let area = tube.section().unwrap().area;
         close(capacity(&tube.fibres(&[]).unwrap(), [0.0, 1.0, 0.0]), 2.0 / PI * area, 5e-3);
         let t = 0.002;
-        let cell = Shape::Box { width: 0.1, height: 0.2, web: t, flange: t }.fibres(&[]).unwrap();
+        let cell = HollowBox { width: 0.1, height: 0.2, web: t, flange: t }.fibres(&[]).unwrap();
         close(capacity(&cell, twist), 2.0 * (0.1 - t) * (0.2 - t) * t, 1e-3);
         for (height, above) in [(0.1, 0.047), (0.2, 0.043), (1.0, 0.010)] {
-            let rectangle = Shape::Rectangle { width: 0.1, height }.fibres(&[]).unwrap();
+            let rectangle = Rectangle { width: 0.1, height }.fibres(&[]).unwrap();
             let sand_heap = 0.1 * 0.1 * (3.0 * height - 0.1) / 6.0;
             close(capacity(&rectangle, twist), sand_heap * (1.0 + above), 2e-3);
             close(capacity(&rectangle, [0.0, 1.0, 0.0]), 5.0 / 6.0 * 0.1 * height, 1e-3);
@@ -258,7 +266,7 @@ mod tests {
     /// The default on a rectangle against the closed form, ideally plastic, without and with an axial force.
     #[test]
     fn moment_and_curvature_of_a_rectangle() {
-        let fibres = Shape::Rectangle { width: 1.0, height: 2.0 }.fibres(&[]).unwrap();
+        let fibres = Rectangle { width: 1.0, height: 2.0 }.fibres(&[]).unwrap();
         let exact = |kappa: f64| if kappa < 1.0 { 2.0 / 3.0 * kappa } else { 1.0 - 1.0 / (3.0 * kappa * kappa) };
         for i in 1..200 {
             let kappa = 0.1 * f64::from(i);
@@ -296,12 +304,12 @@ mod tests {
 
     #[test]
     fn counts_out_of_range_are_named() {
-        let rectangle = Shape::Rectangle { width: 1.0, height: 1.0 };
+        let rectangle = Rectangle { width: 1.0, height: 1.0 };
         assert_eq!(rectangle.fibres(&[4]).unwrap().len(), 16);
         assert!(rectangle.fibres(&[7]).unwrap_err().contains("must be even"));
         assert!(rectangle.fibres(&[4, 4, 4]).unwrap_err().contains("two at most"));
-        assert!(Shape::Tube { radius: 1.0, thickness: 0.1 }.fibres(&[2]).unwrap_err().contains("4 fibres around"));
-        let general = Shape::General { area: 1.0, moments: [1.0; 2], Iyz: 0.0, torsion: 1.0, shear_areas: [1.0; 2] };
+        assert!(Tube { radius: 1.0, thickness: 0.1 }.fibres(&[2]).unwrap_err().contains("4 fibres around"));
+        let general = General { area: 1.0, moments: [1.0; 2], Iyz: 0.0, torsion: 1.0, shear_areas: [1.0; 2] };
         assert!(general.fibres(&[]).unwrap_err().contains("no fibres"));
     }
 }

@@ -2,148 +2,29 @@
 //!
 //! A shape lies in the y-z plane of the beam, width along y and height along z. Every constructor answers with the section
 //! about its centroid, or with what is wrong in the deck's words.
+//!
+//! The shape of a section is a file of its own and an entry of [`SECTIONS`].
 
-mod closed;
-mod fibres;
-mod open;
+pub mod c;
+pub mod dimensions;
+pub mod fibres;
+pub mod general;
+pub mod hollow_box;
+pub mod i;
+pub mod l;
 mod profile;
-mod shape;
-mod solid;
+pub mod rectangle;
+pub mod section;
+pub mod section_shape;
+pub mod tube;
 mod wall;
 
 pub use fibres::{Fibre, flattened};
-pub use shape::Shape;
+pub use section::{Section, Stiffness};
+pub use section_shape::{CrossSection, SectionKind, SectionShape};
 
-use crate::math::Mat3;
-
-/// Geometry of a cross section, axes parallel to the section's y and z through the centroid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Section {
-    pub area: f64,
-    /// ∫z² dA.
-    pub Iy: f64,
-    /// ∫y² dA.
-    pub Iz: f64,
-    /// ∫yz dA.
-    pub Iyz: f64,
-    /// Saint-Venant torsion constant.
-    pub torsion: f64,
-    /// Shear areas: yy, zz and the product yz, which couples the two directions where Iyz does.
-    pub shear: [f64; 3],
-    /// Shear centre (y_s, z_s) from the centroid.
-    pub shear_center: [f64; 2],
-}
-
-impl Section {
-    /// A section given by its numbers; `moments` = [Iy, Iz]. The shear centre is the centroid.
-    ///
-    /// Errors: a number that is not positive and finite, or a product of inertia too large for the moments.
-    pub fn general(
-        area: f64,
-        moments: [f64; 2],
-        Iyz: f64,
-        torsion: f64,
-        shear_areas: [f64; 2],
-    ) -> Result<Section, String> {
-        let [Iy, Iz] = moments;
-        let [y, z] = shear_areas;
-        positive(&[
-            ("area", area),
-            ("moments", Iy),
-            ("moments", Iz),
-            ("torsion_constant", torsion),
-            ("shear_areas", y),
-            ("shear_areas", z),
-        ])?;
-        if Iyz.is_nan() || Iyz * Iyz >= Iy * Iz {
-            return Err(format!(
-                "`product_moment` is {Iyz}, but must be smaller in size than the geometric mean of the moments, {}",
-                (Iy * Iz).sqrt()
-            ));
-        }
-        Ok(Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, 0.0], shear_center: [0.0; 2] })
-    }
-
-    /// Stiffness and inertia per length of a section of one elastic material.
-    ///
-    /// The strain at (y, z) is Γ₁ + z κ₂ − y κ₃; shear acts on the strain of the shear centre r_s, Γ + κ×r_s.
-    pub fn stiffness(&self, E: f64, nu: f64, density: f64) -> Stiffness {
-        let Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, yz], shear_center: [ys, zs] } = *self;
-        let G = 0.5 * E / (1.0 + nu);
-        // (Γ + κ×r_s)₂ = Γ₂ − z_s κ₁,  (Γ + κ×r_s)₃ = Γ₃ + y_s κ₁: shear forces of a unit twist, and their moment.
-        let (Qy, Qz) = (G * (yz * ys - y * zs), G * (z * ys - yz * zs));
-        Stiffness {
-            N: Mat3::new(E * area, 0.0, 0.0, 0.0, G * y, G * yz, 0.0, G * yz, G * z),
-            M: Mat3::new(G * torsion + ys * Qz - zs * Qy, 0.0, 0.0, 0.0, E * Iy, -E * Iyz, 0.0, -E * Iyz, E * Iz),
-            NM: Mat3::new(0.0, 0.0, 0.0, Qy, 0.0, 0.0, Qz, 0.0, 0.0),
-            mass_per_length: density * area,
-            inertia_per_length: density * Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz),
-        }
-    }
-}
-
-/// What a beam feels of its section, in section axes (x along the beam) about the centroid.
-/// (N, Q_y, Q_z) = N·Γ + NM·κ, (T, M_y, M_z) = NMᵀ·Γ + M·κ.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stiffness {
-    pub N: Mat3,
-    pub M: Mat3,
-    /// Nonzero where the shear centre is off the centroid.
-    pub NM: Mat3,
-    pub mass_per_length: f64,
-    /// Rotary inertia per length, about the centroid.
-    pub inertia_per_length: Mat3,
-}
-
-impl Stiffness {
-    /// Stiffnesses and inertias given as such: shear and bending about y and z, inertia about x, y, z.
-    pub fn general(
-        axial: f64,
-        shear: [f64; 2],
-        torsion: f64,
-        bending: [f64; 2],
-        mass_per_length: f64,
-        inertia: [f64; 3],
-    ) -> Stiffness {
-        Stiffness {
-            N: Mat3::from_diagonal(&[axial, shear[0], shear[1]].into()),
-            M: Mat3::from_diagonal(&[torsion, bending[0], bending[1]].into()),
-            NM: Mat3::zeros(),
-            mass_per_length,
-            inertia_per_length: Mat3::from_diagonal(&inertia.into()),
-        }
-    }
-}
-
-/// Area, centroid, and moments about the centroid of rectangles side by side, each as (y, z) of its centre, width, height.
-fn rectangles(parts: &[([f64; 2], f64, f64)]) -> (f64, [f64; 2], [f64; 3]) {
-    let area = parts.iter().map(|(_, w, h)| w * h).sum::<f64>();
-    let mean = |axis: usize| parts.iter().map(|(c, w, h)| w * h * c[axis]).sum::<f64>() / area;
-    let center = [mean(0), mean(1)];
-    let mut moments = [0.0; 3];
-    for (c, w, h) in parts {
-        let (y, z) = (c[0] - center[0], c[1] - center[1]);
-        moments[0] += w * h * (z * z + h * h / 12.0);
-        moments[1] += w * h * (y * y + w * w / 12.0);
-        moments[2] += w * h * y * z;
-    }
-    (area, center, moments)
-}
-
-fn positive(dimensions: &[(&str, f64)]) -> Result<(), String> {
-    match dimensions.iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
-        Some((key, value)) => Err(format!("`{key}` is {value}, but must be a positive number")),
-        None => Ok(()),
-    }
-}
-
-/// `part` must be smaller than `whole`; `rule` says why.
-fn smaller(part: (&str, f64), whole: (&str, f64), rule: &str) -> Result<(), String> {
-    if part.1 < whole.1 {
-        return Ok(());
-    }
-    Err(format!("`{}` is {}, but {rule} {} = {}", part.0, part.1, whole.0, whole.1))
-}
+pub static SECTIONS: [&SectionKind; 7] =
+    [&rectangle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
 
 #[cfg(test)]
 mod tests {

@@ -55,6 +55,8 @@ pub struct Kind<M: 'static> {
     pub word: &'static str,
     /// Other words for it.
     pub aliases: &'static [&'static str],
+    /// Words that other programs have for it: whoever writes one is told ours.
+    pub guesses: &'static [&'static str],
     /// What it is, for the reference of the deck.
     pub about: &'static str,
     pub keys: &'static [Key],
@@ -411,6 +413,11 @@ pub struct Given<'t> {
 impl<'t> Given<'t> {
     pub fn new(what: &'t str, span: &'t Span, values: &'t Values, unreadable: Vec<&'t str>) -> Self {
         Given { what, span, values, unreadable, problems: Vec::new() }
+    }
+
+    /// All values of the table.
+    pub fn values(&self) -> &'t Values {
+        self.values
     }
 
     /// Reports keys that `kind` does not take; `what` is a thing of that kind.

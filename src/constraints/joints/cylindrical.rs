@@ -6,6 +6,7 @@ use crate::constraints::joint::rotations;
 pub static KIND: JointKind = JointKind {
     word: "cylindrical",
     aliases: &["cylinder"],
+    guesses: &[],
     about: "The rotation about `axis` and the displacement along it are free. 4 constraint equations.",
     keys: &[AXIS],
     make: Make {

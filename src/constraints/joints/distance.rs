@@ -6,6 +6,7 @@ use crate::constraints::joint::Row;
 pub static KIND: JointKind = JointKind {
     word: "distance",
     aliases: &[],
+    guesses: &["rod", "rigid-link"],
     about: "All is free but the distance of the ends: a rigid rod without mass. 1 constraint equation.",
     keys: &[],
     make: Make { axes: no_axis, ends_meet: false, rows: |_, d| vec![Row::Distance { length: d.norm() }] },

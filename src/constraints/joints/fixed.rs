@@ -6,6 +6,7 @@ use crate::constraints::joint::rotations;
 pub static KIND: JointKind = JointKind {
     word: "fixed",
     aliases: &["weld"],
+    guesses: &["welded", "clamp", "rigid", "lock"],
     about: "Nothing is free: the ends are welded together. 6 constraint equations.",
     keys: &[],
     make: Make { axes: no_axis, ends_meet: true, rows: |axes, d| meeting(d, rotations([true; 3], axes)) },

@@ -6,6 +6,7 @@ use crate::constraints::joint::rotations;
 pub static KIND: JointKind = JointKind {
     word: "prismatic",
     aliases: &["slider"],
+    guesses: &["translational", "sliding"],
     about: "The displacement along `axis` is free. 5 constraint equations.",
     keys: &[AXIS],
     make: Make { axes: one_axis, ends_meet: true, rows: |axes, d| sliding(axes, d, rotations([true; 3], axes)) },

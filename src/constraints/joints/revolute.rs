@@ -6,6 +6,7 @@ use crate::constraints::joint::rotations;
 pub static KIND: JointKind = JointKind {
     word: "revolute",
     aliases: &["hinge"],
+    guesses: &["pin", "pinned", "rotational"],
     about: "The rotation about `axis` is free. 5 constraint equations.",
     keys: &[AXIS],
     make: Make { axes: one_axis, ends_meet: true, rows: |axes, d| meeting(d, rotations([false, true, true], axes)) },

@@ -5,6 +5,7 @@ use super::kind::{JointKind, Make, meeting, no_axis};
 pub static KIND: JointKind = JointKind {
     word: "spherical",
     aliases: &["ball"],
+    guesses: &["ball-and-socket"],
     about: "Three rotations are free: a ball-and-socket joint. 3 constraint equations.",
     keys: &[],
     make: Make { axes: no_axis, ends_meet: true, rows: |_, d| meeting(d, Vec::new()) },

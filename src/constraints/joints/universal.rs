@@ -8,6 +8,7 @@ use crate::words::kinds::{Form, Given, Key};
 pub static KIND: JointKind = JointKind {
     word: "universal",
     aliases: &["cardan"],
+    guesses: &["hooke", "u-joint"],
     about: "The rotations about `axis` and `cross_axis`, the two arms of a cross, are free. 4 constraint equations.",
     keys: &[
         Key {

@@ -1,8 +1,70 @@
-//! Closed thin-walled shapes.
+//! The rectangular hollow section.
 
+use super::dimensions::{positive, smaller};
+use super::fibres::Fibre;
 use super::profile::Profile;
+use super::section::Section;
+use super::section_shape::{CrossSection, Make, SectionKind, SectionShape, check_walls};
 use super::wall::Wall;
-use super::{Section, positive, smaller};
+use crate::words::kinds::{Form, Given, Key};
+
+pub static KIND: SectionKind = SectionKind {
+    word: "box",
+    aliases: &[],
+    guesses: &["rhs", "shs", "hollow", "rectangular-hollow"],
+    about: "A rectangular hollow section.",
+    keys: &[
+        Key { name: "width", form: Form::Number, about: "Length along local y, above 0." },
+        Key { name: "height", form: Form::Number, about: "Length along local z, above 0." },
+        Key {
+            name: "thickness",
+            form: Form::Numbers,
+            about: "Thickness of the walls: one value, or that of the walls normal to y and that of those normal to z.",
+        },
+        Key {
+            name: "fibres",
+            form: Form::Counts,
+            about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 2].",
+        },
+    ],
+    make: Make { read: read, takes_material: |_| true },
+};
+
+fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
+    check_walls(given, 2)?;
+    let (width, height) = (given.require_positive("width"), given.require_positive("height"));
+    let walls = given.require("thickness")?;
+    let (web, flange) = (*walls.first()?, *walls.last()?);
+    Some(CrossSection::Shape(Box::new(HollowBox { width: width?, height: height?, web, flange })))
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct HollowBox {
+    pub width: f64,
+    pub height: f64,
+    /// Thickness of the two walls normal to y.
+    pub web: f64,
+    /// Thickness of the two walls normal to z.
+    pub flange: f64,
+}
+
+impl SectionShape for HollowBox {
+    fn section(&self) -> Result<Section, String> {
+        Section::box_(self.width, self.height, self.web, self.flange)
+    }
+
+    fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
+        Ok([8, 2])
+    }
+
+    fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
+        Ok(cell(self.width, self.height, self.web, self.flange)?.fibres(counts))
+    }
+
+    fn half_depth(&self) -> f64 {
+        0.5 * self.width.min(self.height)
+    }
+}
 
 impl Section {
     /// Rectangular hollow section; `web` is the thickness of the two walls normal to y, `flange` of those normal to z.
@@ -15,7 +77,7 @@ impl Section {
 }
 
 /// The walls of a box, counter-clockwise; the webs take the corners.
-pub fn cell(width: f64, height: f64, web: f64, flange: f64) -> Result<Profile, String> {
+fn cell(width: f64, height: f64, web: f64, flange: f64) -> Result<Profile, String> {
     positive(&[("width", width), ("height", height), ("thickness", web), ("thickness", flange)])?;
     smaller(("thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
     smaller(("thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;

@@ -1,8 +1,57 @@
-//! Full shapes: rectangle and circle; the circle with a hole of any size lies between the full one and the thin tube.
+//! The rectangle.
 
+use super::dimensions::positive;
 use super::fibres::{Fibre, pairs};
-use super::{Section, positive};
-use std::f64::consts::{PI, TAU};
+use super::section::Section;
+use super::section_shape::{CrossSection, Make, SectionKind, SectionShape};
+use crate::words::kinds::{Form, Given, Key};
+use std::f64::consts::PI;
+
+pub static KIND: SectionKind = SectionKind {
+    word: "rectangle",
+    aliases: &[],
+    guesses: &["rect", "solid", "rectangular", "square"],
+    about: "A solid rectangle.",
+    keys: &[
+        Key { name: "width", form: Form::Number, about: "Length along local y, above 0." },
+        Key { name: "height", form: Form::Number, about: "Length along local z, above 0." },
+        Key {
+            name: "fibres",
+            form: Form::Counts,
+            about: "Fibres along y and along z, even numbers, where the material yields; one number holds for both. Default: [12, 12].",
+        },
+    ],
+    make: Make { read: read, takes_material: |_| true },
+};
+
+fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
+    let (width, height) = (given.require_positive("width"), given.require_positive("height"));
+    Some(CrossSection::Shape(Box::new(Rectangle { width: width?, height: height? })))
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rectangle {
+    pub width: f64,
+    pub height: f64,
+}
+
+impl SectionShape for Rectangle {
+    fn section(&self) -> Result<Section, String> {
+        Section::rectangle(self.width, self.height)
+    }
+
+    fn default_fibres(&self, first: Option<usize>) -> Result<[usize; 2], String> {
+        Ok(first.map_or([12; 2], |n| [n; 2]))
+    }
+
+    fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
+        Ok(rectangle_fibres(self.width, self.height, counts))
+    }
+
+    fn half_depth(&self) -> f64 {
+        0.5 * self.width.min(self.height)
+    }
+}
 
 impl Section {
     /// Solid rectangle.
@@ -19,36 +68,6 @@ impl Section {
             shear_center: [0.0; 2],
         })
     }
-
-    /// Circular tube; a thickness equal to the radius is a solid round.
-    ///
-    /// Shear factor: Cowper 1966 (J. Appl. Mech. 33, 335-340) for the hollow circle at ν = 0, as the section knows no
-    /// material: 6/7 when solid, 1/2 when thin.
-    pub fn tube(outer_radius: f64, thickness: f64) -> Result<Section, String> {
-        positive(&[("radius", outer_radius), ("thickness", thickness)])?;
-        if thickness > outer_radius {
-            return Err(format!(
-                "`thickness` is {thickness}, but a wall cannot be thicker than radius = {outer_radius} (a solid round)"
-            ));
-        }
-        let inner_radius = outer_radius - thickness;
-        let squares = outer_radius * outer_radius + inner_radius * inner_radius;
-        let area = PI * thickness * (outer_radius + inner_radius);
-        let I = 0.25 * area * squares;
-        // k = 6 (1 + m²)² / (7 (1 + m²)² + 20 m²), m = inner/outer radius.
-        let m2 = (inner_radius / outer_radius).powi(2);
-        let a = (1.0 + m2).powi(2);
-        let shear = 6.0 * a / (7.0 * a + 20.0 * m2) * area;
-        Ok(Section {
-            area,
-            Iy: I,
-            Iz: I,
-            Iyz: 0.0,
-            torsion: 2.0 * I,
-            shear: [shear, shear, 0.0],
-            shear_center: [0.0; 2],
-        })
-    }
 }
 
 /// J = a b³/3 (1 − 192/π⁵ (b/a) Σ_{n odd} tanh(nπa/2b)/n⁵), a ≥ b (Timoshenko & Goodier, Theory of Elasticity, art. 109).
@@ -62,7 +81,7 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
 
 /// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), which no fibre at the edges feels; twist is
 /// Saint-Venant's.
-pub fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
+fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
     let parabola = |x: f64| 1.25 * (1.0 - x * x);
     let mut fibres = Vec::new();
     for (x, w_y) in pairs(along_y) {
@@ -96,32 +115,6 @@ fn rectangle_twist(width: f64, height: f64, y: f64, z: f64) -> [f64; 2] {
     if flat { [across, -along] } else { [along, -across] }
 }
 
-/// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free
-/// surfaces, Saint-Venant's flexure at ν = 0, whose energy gives Cowper's factor; twist is r along the circle.
-pub fn tube_fibres(outer: f64, inner: f64, shear_area: f64, [around, through]: [usize; 2]) -> Vec<Fibre> {
-    let (R2, r2) = (outer * outer, inner * inner);
-    let factor = shear_area / (0.25 * PI * (R2 * R2 - r2 * r2));
-    let mut fibres = Vec::new();
-    for (x, w) in pairs(through) {
-        let r = 0.5 * (outer + inner + x * (outer - inner));
-        let square = r * r;
-        // f′ vanishes at both radii.
-        let slope = 0.375 * factor * (R2 + r2 - R2 * r2 / square - square);
-        let ratio = 0.375 * factor * (R2 + r2 + R2 * r2 / square - square / 3.0); // f/r
-        let area = 0.5 * w * (outer - inner) * r * TAU / around as f64;
-        for i in 0..around {
-            let (sin, cos) = ((i as f64 + 0.5) * TAU / around as f64).sin_cos();
-            let mixed = (slope - ratio) * sin * cos;
-            let shear = [
-                [slope * cos * cos + ratio * sin * sin, mixed, -r * sin],
-                [mixed, slope * sin * sin + ratio * cos * cos, r * cos],
-            ];
-            fibres.push(Fibre { area, y: r * cos, z: r * sin, shear });
-        }
-    }
-    fibres
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,33 +136,9 @@ mod tests {
         close(rectangle_torsion(a, b), a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum), 1e-14);
     }
 
-    /// The tube between its limits: exact differences of full circles, all to round-off.
-    #[test]
-    fn thick_tube_is_a_circle_less_a_circle() {
-        let (outer, inner): (f64, f64) = (0.05, 0.02);
-        let tube = Section::tube(outer, outer - inner).unwrap();
-        close(tube.area, PI * (outer.powi(2) - inner.powi(2)), 1e-14);
-        close(tube.Iy, PI / 4.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
-        close(tube.torsion, PI / 2.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
-        let round = Section::tube(outer, outer).unwrap();
-        close(round.shear[0], 6.0 / 7.0 * round.area, 1e-15);
-        close(round.Iz, PI / 4.0 * outer.powi(4), 1e-15);
-    }
-
-    /// Corrections are of the order t/R = 1e-6 squared for the shear factor, and first order for the moments about R.
-    #[test]
-    fn thin_tube_has_shear_factor_one_half() {
-        let (R, t) = (1.0, 1e-6);
-        let tube = Section::tube(R, t).unwrap();
-        close(tube.shear[1], 0.5 * tube.area, 1e-11);
-        close(tube.area, 2.0 * PI * R * t, 1e-6);
-        close(tube.torsion, 2.0 * PI * R.powi(3) * t, 2e-6);
-    }
-
     #[test]
     fn nonsense_is_named() {
         assert_eq!(Section::rectangle(0.0, 1.0).unwrap_err(), "`width` is 0, but must be a positive number");
         assert_eq!(Section::rectangle(1.0, f64::NAN).unwrap_err(), "`height` is NaN, but must be a positive number");
-        assert!(Section::tube(0.1, 0.2).unwrap_err().starts_with("`thickness` is 0.2, but a wall cannot be thicker"));
     }
 }

@@ -1,0 +1,32 @@
+//! What shapes of sections share: checks of dimensions, and rectangles side by side.
+
+/// Area, centroid, and moments about the centroid of rectangles side by side, each as (y, z) of its centre, width, height.
+pub fn rectangles(parts: &[([f64; 2], f64, f64)]) -> (f64, [f64; 2], [f64; 3]) {
+    let area = parts.iter().map(|(_, w, h)| w * h).sum::<f64>();
+    let mean = |axis: usize| parts.iter().map(|(c, w, h)| w * h * c[axis]).sum::<f64>() / area;
+    let center = [mean(0), mean(1)];
+    let mut moments = [0.0; 3];
+    for (c, w, h) in parts {
+        let (y, z) = (c[0] - center[0], c[1] - center[1]);
+        moments[0] += w * h * (z * z + h * h / 12.0);
+        moments[1] += w * h * (y * y + w * w / 12.0);
+        moments[2] += w * h * y * z;
+    }
+    (area, center, moments)
+}
+
+/// Every dimension must be a positive number.
+pub fn positive(dimensions: &[(&str, f64)]) -> Result<(), String> {
+    match dimensions.iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+        Some((key, value)) => Err(format!("`{key}` is {value}, but must be a positive number")),
+        None => Ok(()),
+    }
+}
+
+/// `part` must be smaller than `whole`; `rule` says why.
+pub fn smaller(part: (&str, f64), whole: (&str, f64), rule: &str) -> Result<(), String> {
+    if part.1 < whole.1 {
+        return Ok(());
+    }
+    Err(format!("`{}` is {}, but {rule} {} = {}", part.0, part.1, whole.0, whole.1))
+}

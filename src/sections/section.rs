@@ -1,0 +1,73 @@
+//! The numbers of a cross section, and what a beam feels of it.
+
+use crate::math::Mat3;
+
+/// Geometry of a cross section, axes parallel to the section's y and z through the centroid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    pub area: f64,
+    /// ∫z² dA.
+    pub Iy: f64,
+    /// ∫y² dA.
+    pub Iz: f64,
+    /// ∫yz dA.
+    pub Iyz: f64,
+    /// Saint-Venant torsion constant.
+    pub torsion: f64,
+    /// Shear areas: yy, zz and the product yz, which couples the two directions where Iyz does.
+    pub shear: [f64; 3],
+    /// Shear centre (y_s, z_s) from the centroid.
+    pub shear_center: [f64; 2],
+}
+
+impl Section {
+    /// Stiffness and inertia per length of a section of one elastic material.
+    ///
+    /// The strain at (y, z) is Γ₁ + z κ₂ − y κ₃; shear acts on the strain of the shear centre r_s, Γ + κ×r_s.
+    pub fn stiffness(&self, E: f64, nu: f64, density: f64) -> Stiffness {
+        let Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, yz], shear_center: [ys, zs] } = *self;
+        let G = 0.5 * E / (1.0 + nu);
+        // (Γ + κ×r_s)₂ = Γ₂ − z_s κ₁,  (Γ + κ×r_s)₃ = Γ₃ + y_s κ₁: shear forces of a unit twist, and their moment.
+        let (Qy, Qz) = (G * (yz * ys - y * zs), G * (z * ys - yz * zs));
+        Stiffness {
+            N: Mat3::new(E * area, 0.0, 0.0, 0.0, G * y, G * yz, 0.0, G * yz, G * z),
+            M: Mat3::new(G * torsion + ys * Qz - zs * Qy, 0.0, 0.0, 0.0, E * Iy, -E * Iyz, 0.0, -E * Iyz, E * Iz),
+            NM: Mat3::new(0.0, 0.0, 0.0, Qy, 0.0, 0.0, Qz, 0.0, 0.0),
+            mass_per_length: density * area,
+            inertia_per_length: density * Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz),
+        }
+    }
+}
+
+/// What a beam feels of its section, in section axes (x along the beam) about the centroid.
+/// (N, Q_y, Q_z) = N·Γ + NM·κ, (T, M_y, M_z) = NMᵀ·Γ + M·κ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stiffness {
+    pub N: Mat3,
+    pub M: Mat3,
+    /// Nonzero where the shear centre is off the centroid.
+    pub NM: Mat3,
+    pub mass_per_length: f64,
+    /// Rotary inertia per length, about the centroid.
+    pub inertia_per_length: Mat3,
+}
+
+impl Stiffness {
+    /// Stiffnesses and inertias given as such: shear and bending about y and z, inertia about x, y, z.
+    pub fn general(
+        axial: f64,
+        shear: [f64; 2],
+        torsion: f64,
+        bending: [f64; 2],
+        mass_per_length: f64,
+        inertia: [f64; 3],
+    ) -> Stiffness {
+        Stiffness {
+            N: Mat3::from_diagonal(&[axial, shear[0], shear[1]].into()),
+            M: Mat3::from_diagonal(&[torsion, bending[0], bending[1]].into()),
+            NM: Mat3::zeros(),
+            mass_per_length,
+            inertia_per_length: Mat3::from_diagonal(&inertia.into()),
+        }
+    }
+}
