@@ -1,6 +1,6 @@
 //! `rdsolve study deck.toml`: error against run time over a grid of settings; `--rigidify`: what rigid parts would cost and save.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -12,7 +12,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::load;
 use super::signals::stop_on_signals;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Source};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::study::{Fault, Options, Status, rigidify, study as studied, text};
@@ -113,21 +113,44 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     }
     // The model is sound, so there is a deck.
     let (Some(deck), _) = crate::deck::read(&loaded.source) else { return Err(Exit::Internal) };
-    let options = Options {
-        deck: args.deck.clone(),
-        sets: args.sets.clone(),
-        folder: folder.clone(),
-        threads: usize::from(args.threads),
-        repeats: usize::from(args.repeats),
-        budget: args.budget,
-        quiet: args.quiet,
-    };
-    let problems = if args.rigidify { Vec::new() } else { massless(&loaded.model)? };
+    if !args.rigidify {
+        let problems = massless(&loaded.model)?;
+        if !problems.is_empty() {
+            return Err(exit(Fault::Deck(problems), &loaded.source));
+        }
+    }
     let stop = Arc::new(AtomicBool::new(false));
-    let fault = |fault: Fault| match fault {
+    stop_on_signals(&stop).map_err(|error| exit(error.into(), &loaded.source))?;
+    let (model, options) = (&loaded.model, args.options(&folder));
+    let found = if args.rigidify {
+        let advice = rigidify(model, &deck, &options, &stop);
+        advice.map(|advice| (advice.text(), advice.stopped, advice.base.status == Status::Done))
+    } else {
+        let found = studied(model, &deck, &options, &stop);
+        found.map(|found| (text(&found), found.stopped, found.runs.iter().any(|run| run.status == Status::Done)))
+    };
+    let (text, stopped, any) = found.map_err(|fault| exit(fault, &loaded.source))?;
+    print(&text)?;
+    if !args.quiet {
+        say(&format!("results in {}", folder.display()));
+    }
+    if stopped {
+        complain("stopped by a signal; the runs that were complete have been written");
+        return Err(Exit::Stopped);
+    }
+    if !any {
+        complain("no run completed");
+        return Err(Exit::NotConverged);
+    }
+    Ok(())
+}
+
+/// Says why there is no study.
+fn exit(fault: Fault, source: &Source) -> Exit {
+    match fault {
         Fault::Deck(problems) => {
-            show(&problems, &loaded.source);
-            complain(&format!("`{}` cannot be studied: {}", loaded.source.path, counted(problems.len(), "error")));
+            show(&problems, source);
+            complain(&format!("`{}` cannot be studied: {}", source.path, counted(problems.len(), "error")));
             Exit::DeckInvalid
         }
         Fault::Io(error) if error.kind() == std::io::ErrorKind::Interrupted => {
@@ -138,31 +161,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
             complain(&format!("the study cannot go on: {error}"));
             Exit::InputOutput
         }
-    };
-    if !problems.is_empty() {
-        return Err(fault(Fault::Deck(problems)));
     }
-    stop_on_signals(&stop).map_err(|error| fault(error.into()))?;
-    let (text, stopped, any) = if args.rigidify {
-        let advice = rigidify(&loaded.model, &deck, &options, &stop).map_err(fault)?;
-        (advice.text(), advice.stopped, advice.base.status == Status::Done)
-    } else {
-        let found = studied(&loaded.model, &deck, &options, &stop).map_err(fault)?;
-        (text(&found), found.stopped, found.runs.iter().any(|run| run.status == Status::Done))
-    };
-    print(&text)?;
-    if !args.quiet {
-        say(&format!("results in {}", folder.display()));
-    }
-    if stopped {
-        complain("stopped by a signal; what there is has been written");
-        return Err(Exit::Stopped);
-    }
-    if !any {
-        complain("no run came to its end");
-        return Err(Exit::NotConverged);
-    }
-    Ok(())
 }
 
 /// What the explicit schemes of a study lack.
@@ -183,6 +182,18 @@ fn massless(model: &Model) -> Result<Vec<Diagnostic>, Exit> {
 }
 
 impl StudyArgs {
+    fn options(&self, folder: &Path) -> Options {
+        Options {
+            deck: self.deck.clone(),
+            sets: self.sets.clone(),
+            folder: folder.to_owned(),
+            threads: usize::from(self.threads),
+            repeats: usize::from(self.repeats),
+            budget: self.budget,
+            quiet: self.quiet,
+        }
+    }
+
     /// Options that stand for keys of `[study]`, with their values in TOML.
     fn keys(&self) -> Result<Vec<(&'static str, String)>, Exit> {
         // Strings of JSON are strings of TOML.

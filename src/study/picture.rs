@@ -2,7 +2,9 @@
 //! and dark paper.
 
 use super::found::Found;
+use super::grid::Line;
 use super::run::Run;
+use super::table::{resolution, seconds};
 use crate::names::short;
 use crate::output::report::html::escaped;
 
@@ -60,20 +62,45 @@ pub fn draw(found: &Found) -> String {
     let letters = found.grid.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0).max(28);
     let whole = left + width + 52.0 + LETTER * letters as f64;
     let (x, y) = (Axis::new(&times, [left, left + width]), Axis::new(&errors, [top + height, top]));
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {whole:.0} {HEIGHT}\" class=\"study\" role=\"img\" \
+    let mut out = open(whole) + &axes(&x, &y, found);
+    for (index, setting) in found.grid.lines.iter().enumerate() {
+        let of_line: Vec<&Run> = runs.iter().copied().filter(|run| run.line == index).collect();
+        out += &curve(index, setting, &of_line, [&x, &y]);
+    }
+    if runs.is_empty() {
+        out += &text("middle", left + 0.5 * width, top + 0.5 * height, "no run has an error");
+    }
+    if runs.iter().any(|run| !run.resolved) {
+        let at = top + height + 42.0;
+        out += &text("start", left + width + 16.0, at, "hollow: an upper bound, below the");
+        out += &text("start", left + width + 16.0, at + 16.0, "resolution of the reference");
+    }
+    out + "</svg>\n"
+}
+
+/// The beginning, with the styles.
+fn open(width: f64) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {HEIGHT}\" class=\"study\" role=\"img\" \
          aria-label=\"Error against run time\">\n<style>\n.study {{ font: 13px sans-serif; }}\n.study text {{ fill: #30353b; }}\n\
          .study .rule {{ stroke: #808890; stroke-opacity: .25; }}\n.study .part {{ stroke-opacity: .12; }}\n\
          .study .edge {{ fill: none; stroke: #808890; }}\n.study .wanted {{ stroke: #808890; stroke-dasharray: 3 3; }}\n\
-         @media (prefers-color-scheme: dark) {{ .study text {{ fill: #d5d9dd; }} }}\n</style>
-"
-    );
-    let line = |class: &str, [x1, y1, x2, y2]: [f64; 4]| {
-        format!("<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>\n")
-    };
-    let text = |anchor: &str, x: f64, y: f64, text: &str| {
-        format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{}</text>\n", escaped(text))
-    };
+         @media (prefers-color-scheme: dark) {{ .study text {{ fill: #d5d9dd; }} }}\n</style>\n"
+    )
+}
+
+fn line(class: &str, [x1, y1, x2, y2]: [f64; 4]) -> String {
+    format!("<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>\n")
+}
+
+fn text(anchor: &str, x: f64, y: f64, text: &str) -> String {
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{}</text>\n", escaped(text))
+}
+
+/// The frame with its rules, the errors asked for, and what the axes are.
+fn axes(x: &Axis, y: &Axis, found: &Found) -> String {
+    let [left, top, width, height] = FRAME;
+    let mut out = String::new();
     for (value, decade) in x.marks() {
         let at = x.at(value);
         out += &line(if decade { "rule" } else { "rule part" }, [at, top, at, top + height]);
@@ -92,44 +119,37 @@ pub fn draw(found: &Found) -> String {
     }
     out += &text("middle", left + 0.5 * width, top + height + 42.0, "run time of the time stepping (s)");
     let middle = top + 0.5 * height;
-    out += &format!(
-        "<text x=\"18\" y=\"{middle:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 {middle:.1})\">relative error</text>\n"
-    );
-    for (index, setting) in found.grid.lines.iter().enumerate() {
-        let (colour, dash) = (COLOURS[index % COLOURS.len()], DASHES[index / COLOURS.len() % DASHES.len()]);
-        let of_line: Vec<&&Run> = runs.iter().filter(|run| run.line == index).collect();
-        let points: Vec<String> =
-            of_line.iter().filter_map(|run| Some(format!("{:.1},{:.1}", x.at(run.loop_s), y.at(run.error?)))).collect();
-        let dashes = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
-        let stroke = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
-        out += &format!("<polyline points=\"{}\" fill=\"none\" {stroke}{dashes}/>\n", points.join(" "));
-        for run in of_line {
-            let Some(error) = run.error else { continue };
-            let title = format!(
-                "{}, {}: error {}{error:.2e}, loop {} s",
-                setting.label,
-                super::table::resolution(setting, run.resolution),
-                if run.resolved { "" } else { "at most " },
-                super::table::seconds(run.loop_s)
-            );
-            out += &mark(index, x.at(run.loop_s), y.at(error), colour, run.resolved, &title);
-        }
-        let (at, row) = (left + width + 16.0, top + 12.0 + 20.0 * index as f64);
-        if row < top + height + 30.0 {
-            out += &format!("<line x1=\"{at}\" y1=\"{row}\" x2=\"{}\" y2=\"{row}\" {stroke}{dashes}/>\n", at + 24.0);
-            out += &mark(index, at + 12.0, row, colour, true, &setting.label);
-            out += &text("start", at + 32.0, row + 4.0, &setting.label);
-        }
+    let turned = format!("text-anchor=\"middle\" transform=\"rotate(-90 18 {middle:.1})\"");
+    out + &format!("<text x=\"18\" y=\"{middle:.1}\" {turned}>relative error</text>\n")
+}
+
+/// The runs of a setting, joined, and its entry in the legend.
+fn curve(index: usize, setting: &Line, runs: &[&Run], [x, y]: [&Axis; 2]) -> String {
+    let [left, top, width, height] = FRAME;
+    let (colour, dash) = (COLOURS[index % COLOURS.len()], DASHES[index / COLOURS.len() % DASHES.len()]);
+    let points: Vec<String> =
+        runs.iter().filter_map(|run| Some(format!("{:.1},{:.1}", x.at(run.loop_s), y.at(run.error?)))).collect();
+    let dashes = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
+    let stroke = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
+    let mut out = format!("<polyline points=\"{}\" fill=\"none\" {stroke}{dashes}/>\n", points.join(" "));
+    for run in runs {
+        let Some(error) = run.error else { continue };
+        let title = format!(
+            "{}, {}: error {}{error:.2e}, time stepping {} s",
+            setting.label,
+            resolution(setting, run.resolution),
+            if run.resolved { "" } else { "at most " },
+            seconds(run.loop_s)
+        );
+        out += &mark(index, x.at(run.loop_s), y.at(error), colour, run.resolved, &title);
     }
-    if runs.is_empty() {
-        out += &text("middle", left + 0.5 * width, middle, "no run has an error");
+    let (at, row) = (left + width + 16.0, top + 12.0 + 20.0 * index as f64);
+    if row < top + height + 30.0 {
+        out += &format!("<line x1=\"{at}\" y1=\"{row}\" x2=\"{}\" y2=\"{row}\" {stroke}{dashes}/>\n", at + 24.0);
+        out += &mark(index, at + 12.0, row, colour, true, &setting.label);
+        out += &text("start", at + 32.0, row + 4.0, &setting.label);
     }
-    if runs.iter().any(|run| !run.resolved) {
-        let at = top + height + 42.0;
-        out += &text("start", left + width + 16.0, at, "hollow: an upper bound, below the");
-        out += &text("start", left + width + 16.0, at + 16.0, "resolution of the reference");
-    }
-    out + "</svg>\n"
+    out
 }
 
 /// A shape of its own for each line, hollow where the error is a bound.

@@ -1,6 +1,6 @@
 //! The moving scene out of the grids of the fields: triangles, lines and edges, where they are over time, and what cells carry.
 
-use super::{Scene, numbers};
+use super::data::{Scene, numbers};
 use crate::output::at;
 use crate::output::table_reader::{TableReader, fields, text};
 use base64::prelude::{BASE64_STANDARD, Engine};

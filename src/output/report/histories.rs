@@ -1,6 +1,6 @@
 //! What tables say over time, thinned to what a page can carry: every so many times, and of too many names some, evenly.
 
-use super::numbers;
+use super::data::numbers;
 use crate::output::table_reader::{TableReader, fields, is_key, number, text};
 use crate::output::tables;
 use crate::quantities::Column;

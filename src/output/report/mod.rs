@@ -3,6 +3,7 @@
 //!
 //! Bounded: histories and grids are thinned, which the page says.
 
+mod data;
 mod grids;
 mod histories;
 pub(crate) mod html;
@@ -12,9 +13,9 @@ mod result;
 use super::disk::at;
 use super::tables::{self, TABLES};
 use crate::quantities::{ENERGY, Unit};
-use base64::prelude::{BASE64_STANDARD, Engine};
+use data::Scene;
 use histories::History;
-use html::{data, escaped};
+use html::escaped;
 use serde_json::{Value, json};
 use std::fs;
 use std::io;
@@ -29,31 +30,6 @@ const SCRIPTS: [&str; 5] = [
     include_str!("scene.js"),
     include_str!("main.js"),
 ];
-
-/// What moves.
-#[derive(Default)]
-struct Scene {
-    times: Vec<f32>,
-    /// Undeformed, three numbers a point.
-    x0: Vec<f32>,
-    /// Displacements, by time and point.
-    u: Vec<f32>,
-    /// Three points each, and the cells they belong to.
-    triangles: Vec<u32>,
-    triangle_cells: Vec<u32>,
-    /// Two points each.
-    lines: Vec<u32>,
-    line_cells: Vec<u32>,
-    edges: Vec<u32>,
-    /// What each cell is part of.
-    kinds: Vec<u8>,
-    /// Names, and numbers by time and cell.
-    fields: Vec<(String, Vec<f32>)>,
-    /// Names of the points, where they are all there is to see.
-    labels: Vec<String>,
-    /// Times there are.
-    all: usize,
-}
 
 /// The page of a folder; an error names what cannot be read.
 pub fn page(folder: &Path) -> io::Result<String> {
@@ -99,7 +75,7 @@ pub fn page(folder: &Path) -> io::Result<String> {
         ("{{notes}}", notes),
         ("{{numbers}}", result.numbers()),
         ("{{texts}}", result.texts()),
-        ("{{data}}", data("data", &all)),
+        ("{{data}}", html::data("data", &all)),
         ("{{script}}", scripts),
     ];
     Ok(filled(PAGE, &parts))
@@ -175,11 +151,6 @@ fn result_json(path: &Path) -> io::Result<Value> {
         Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(Value::Null),
         read => serde_json::from_slice(&read.map_err(|e| at(path, e))?).map_err(|e| at(path, e.into())),
     }
-}
-
-/// As the page reads them: base64 of little-endian Float32.
-fn numbers(values: &[f32]) -> String {
-    BASE64_STANDARD.encode(values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>())
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The moving scene where there are no grids: nodes and bodies as points, nodes numbered in a row (`beam[1]`, `beam[2]`) joined
 //! by lines.
 
-use super::Scene;
+use super::data::Scene;
 use super::histories::History;
 
 /// Times at most.
