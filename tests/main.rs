@@ -26,6 +26,7 @@ mod paths;
 mod plasticity;
 mod properties;
 mod report;
+mod resultants;
 mod safety_cab;
 mod schemes;
 mod shells;

@@ -1,6 +1,7 @@
 //! Curved surfaces, rims, landings that a step hardly sees, and every scheme.
 
-use super::{go, read};
+use super::go;
+use crate::support::read_deck as read;
 use rdsolve::solve::Frame;
 
 fn energies(frame: &Frame) -> Vec<f64> {

@@ -1,6 +1,7 @@
 //! What falls, flies and lands: restitution, energies, momenta, and surfaces that hold whatever the step.
 
-use super::{go, read};
+use super::go;
+use crate::support::read_deck as read;
 use crate::support::slope;
 use rdsolve::model::Contact;
 use rdsolve::solve::Frame;

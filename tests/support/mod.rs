@@ -4,11 +4,12 @@
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::output::expect::{Expectations, Verdict};
-use rdsolve::output::wanted;
+use rdsolve::output::{Files, wanted};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run};
 use rdsolve::state::Node;
 use rdsolve::system::System;
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -148,4 +149,47 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
     let mean = |of: &dyn Fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n;
     let (mx, my) = (mean(&|p| p.0), mean(&|p| p.1));
     mean(&|p| (p.0 - mx) * (p.1 - my)) / mean(&|p| (p.0 - mx).powi(2))
+}
+
+/// The model of a deck's text.
+pub fn read_deck(text: &str) -> Model {
+    let source = Source::new("deck.toml", text, &[]);
+    let (model, problems) = model::read(&source);
+    model
+        .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
+}
+
+/// The tables that a run writes.
+pub struct Tables(tempfile::TempDir);
+
+/// Runs a model to its end and keeps its tables.
+pub fn tables_of(model: &Model) -> Tables {
+    let folder = tempfile::tempdir().unwrap();
+    let (system, stop) = (System::new(model).expect("a system"), AtomicBool::new(false));
+    let plan = Plan::new(model, &system, 1);
+    let mut files = Files::open(folder.path(), model, None).unwrap();
+    let (outcome, _) = Run::new(model, &system, &plan, wanted(model), &stop).unwrap().run(&mut files);
+    assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+    files.finish().unwrap();
+    Tables(folder)
+}
+
+impl Tables {
+    pub fn rows(&self, file: &str) -> Vec<Row> {
+        let mut reader = csv::Reader::from_path(self.0.path().join(file)).unwrap();
+        reader.deserialize().map(|row| Row(row.unwrap())).collect()
+    }
+}
+
+/// A row of a table by the names of its columns.
+pub struct Row(HashMap<String, String>);
+
+impl Row {
+    pub fn text(&self, column: &str) -> &str {
+        self.0.get(column).unwrap_or_else(|| panic!("no column `{column}`"))
+    }
+
+    pub fn number(&self, column: &str) -> f64 {
+        self.text(column).parse().unwrap_or_else(|_| panic!("{column}: {}", self.text(column)))
+    }
 }
