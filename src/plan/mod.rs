@@ -72,7 +72,7 @@ impl Plan {
             nodes,
         };
         if !system.joints.is_empty() {
-            plan.repeated = repeated::repeated(model, system, &plan);
+            plan.repeated = repeated::repeated(model, system, &plan.dofs);
         }
         plan
     }

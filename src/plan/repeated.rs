@@ -1,11 +1,10 @@
 //! Rows of joints that say at t = 0 what others say already: a closed loop of hinges in a plane holds the plane many times.
 
-use super::Plan;
 use crate::math::Vec3;
 use crate::model::Model;
 use crate::state::Node;
-use crate::system::System;
 use crate::system::assembly;
+use crate::system::{DofMap, System};
 
 /// Part of a row that must be new for it to say something.
 const NEW: f64 = 1e-8;
@@ -13,9 +12,9 @@ const NEW: f64 = 1e-8;
 const MOST: f64 = 5e7;
 
 /// Numbers of the multipliers whose rows depend on those before them; `None`: too many to tell.
-pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize>> {
-    let directions = plan.directions.len();
-    let count = plan.unknowns - directions;
+pub fn repeated(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
+    let directions = dofs.directions().len();
+    let count = dofs.unknowns() - directions;
     let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
     let roots = assembly::roots(system, nodes.len());
     let carry = assembly::carries(system, &nodes, &roots);
@@ -35,7 +34,7 @@ pub fn repeated(model: &Model, system: &System, plan: &Plan) -> Option<Vec<usize
                 for (&root, T) in roots[node].iter().zip(&carry[node]) {
                     let G = T.tr_mul(&G);
                     for dof in 0..6 {
-                        let Some(row) = plan.dofs.row(root, dof) else { continue };
+                        let Some(row) = dofs.row(root, dof) else { continue };
                         let at = *column[row].get_or_insert_with(|| {
                             columns += 1;
                             columns - 1
