@@ -89,7 +89,7 @@ impl Attachment {
 
     /// Hands the force on the constrained directions over to the master: F_d += Dᵀ F_b.
     #[inline]
-    pub fn lift(&self, nodes: &[Node], F: &mut [[f64; 6]]) {
+    pub fn transfer_to_masters(&self, nodes: &[Node], F: &mut [[f64; 6]]) {
         let mut f = F[self.node];
         if self.rigid {
             F[self.node] = [0.0; 6];

@@ -1,13 +1,13 @@
 //! What explicit schemes need to know of a scene: masses, and which directions have none.
 
 use super::Plan;
-use super::place::Why;
+use super::place::DofStatus;
 use crate::diagnostic::Diagnostic;
 use crate::integrators::Stepping;
 use crate::model::{DIRECTIONS, Model};
 use crate::system::System;
+use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
-use crate::system::ties::Ties;
 
 /// Named at most; more are counted.
 const MOST: usize = 5;
@@ -25,7 +25,7 @@ impl Plan {
                 "mass matrix (and joints), factorized at every evaluation: it couples several nodes".to_string(),
             ];
         };
-        match (system.multipliers(), Ties::new(system, &masses, self.shares())) {
+        match (system.multipliers(), ConstraintSchur::new(system, &masses, self.shares())) {
             (0, _) => vec!["block-diagonal masses: nothing is factorized".to_string()],
             (rows, Some(_)) => vec![format!(
                 "block-diagonal masses; a dense system of the {rows} constraint equations of joints at every evaluation"
@@ -44,7 +44,7 @@ impl Plan {
                 masses.blocks.iter().filter_map(|block| block.massless().map(|dof| (block.node, dof))).collect()
             }
             None => {
-                let heavy = system.massive(model.nodes.len());
+                let heavy = system.has_mass(model.nodes.len());
                 self.directions.iter().filter(|(node, dof)| !heavy[*node][usize::from(*dof > 2)]).copied().collect()
             }
         };
@@ -80,7 +80,7 @@ impl Plan {
             model.constraints.dependents.iter().find(|rider| rider.node == node).map(|rider| rider.master)
         };
         let moves = |mut node: usize, dof: usize| {
-            while let (Why::Rides, Some(next)) = (self.nodes[node][dof], master(node)) {
+            while let (DofStatus::Dependent, Some(next)) = (self.nodes[node][dof], master(node)) {
                 node = next;
             }
             let driven = || {
@@ -90,10 +90,10 @@ impl Plan {
                     .iter()
                     .any(|held| (held.node, held.dof) == (node, dof) && held.motion.is_some())
             };
-            self.nodes[node][dof] == Why::Unknown || driven()
+            self.nodes[node][dof] == DofStatus::Unknown || driven()
         };
         let half = model.constraints.dependents.iter().filter(|rider| {
-            (3..6).any(|dof| self.nodes[rider.node][dof] == Why::Unknown)
+            (3..6).any(|dof| self.nodes[rider.node][dof] == DofStatus::Unknown)
                 && (3..6).any(|dof| rider.dofs[dof] && moves(rider.master, dof))
         });
         let error = |rider: &crate::model::DependentNode| {

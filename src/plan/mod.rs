@@ -39,7 +39,7 @@ pub struct Plan {
 impl Plan {
     pub fn new(model: &Model, system: &System, threads: usize) -> Plan {
         let nodes = place::place(model, system);
-        let unknown = nodes.iter().map(|place| place.map(|why| why == place::Why::Unknown));
+        let unknown = nodes.iter().map(|place| place.map(|why| why == place::DofStatus::Unknown));
         let dofs = DofMap::new(unknown, &system.joints);
         let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.solution.scheme.is_explicit();
         let structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
@@ -54,7 +54,7 @@ impl Plan {
             .for_each(|held| driven[held.node][held.dof] = true);
         let count = |of: &dyn Fn(usize) -> bool| (3..6).filter(|&dof| of(dof)).count();
         let turns = |node: usize| {
-            let unknown = count(&|dof| nodes[node][dof] == place::Why::Unknown);
+            let unknown = count(&|dof| nodes[node][dof] == place::DofStatus::Unknown);
             unknown > 0 && unknown + count(&|dof| driven[node][dof]) > 1
         };
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
@@ -107,13 +107,13 @@ impl Plan {
     }
 
     /// How many of these degrees of freedom of all nodes are what they are for this reason.
-    fn count(&self, why: place::Why, dofs: std::ops::Range<usize>) -> usize {
+    fn count(&self, why: place::DofStatus, dofs: std::ops::Range<usize>) -> usize {
         self.nodes.iter().map(|node| node[dofs.clone()].iter().filter(|&&of| of == why).count()).sum()
     }
 
     /// True for directions that ride, are held or are left out: their increments do not come from the solution.
     pub fn is_unknown(&self, node: usize, dof: usize) -> bool {
-        self.nodes[node][dof] == place::Why::Unknown
+        self.nodes[node][dof] == place::DofStatus::Unknown
     }
 }
 

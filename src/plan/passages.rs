@@ -1,7 +1,7 @@
 //! Displacements that a path is to land on, but which the plan leaves out: they stay zero.
 
 use super::Plan;
-use super::place::Why;
+use super::place::DofStatus;
 use crate::diagnostic::Diagnostic;
 use crate::model::{ArcLength, DIRECTIONS, Model, Passage, StepLength, When};
 
@@ -24,11 +24,11 @@ impl Plan {
         let &Passage { node, dof, place: [start, end], .. } = passage;
         let why = match self.nodes[node][dof] {
             // What rides moves with its master, which the deck allows or not.
-            Why::Unknown | Why::Rides => return None,
-            Why::Held => "a support gives it",
-            Why::Nothing => "nothing acts on it",
-            Why::Still => "nothing sets it moving",
-            Why::Plane => "the scene is plane, and this is normal to it",
+            DofStatus::Unknown | DofStatus::Dependent => return None,
+            DofStatus::Restrained => "a support gives it",
+            DofStatus::Nothing => "nothing acts on it",
+            DofStatus::Inactive => "nothing sets it moving",
+            DofStatus::Plane => "the scene is plane, and this is normal to it",
         };
         let message = format!("{} of `{}` never changes: {why}", DIRECTIONS[dof], model.nodes[node].label);
         Some(Diagnostic::error(message).at(&(start..end)).hint("name a displacement that is an unknown"))

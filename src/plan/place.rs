@@ -8,37 +8,40 @@ use crate::system::System;
 
 /// Why a direction is what it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Why {
+pub enum DofStatus {
     Unknown,
-    Held,
-    Rides,
+    /// At rest, or its motion is prescribed.
+    Restrained,
+    /// Taken from a master.
+    Dependent,
     /// No element, inertia or link acts on it.
     Nothing,
     /// Only inertia acts, and nothing can set it moving.
-    Still,
+    Inactive,
     /// Out of the plane of a plane scene.
     Plane,
 }
 
-pub type Place = [Why; 6];
+pub type Place = [DofStatus; 6];
 
 pub fn place(model: &Model, system: &System) -> Vec<Place> {
     let n = model.nodes.len();
     let resisted = resistance(system, n);
     let moved = causes(model, system, &resisted);
     let normal = system.plane;
-    let mut places = vec![[Why::Nothing; 6]; n];
+    let mut places = vec![[DofStatus::Nothing; 6]; n];
     for inertia in &system.inertias {
         for dof in 0..6 {
             if dof < 3 || inertia.rotary {
-                places[inertia.node][dof] = if moved[inertia.node][dof] { Why::Unknown } else { Why::Still };
+                places[inertia.node][dof] =
+                    if moved[inertia.node][dof] { DofStatus::Unknown } else { DofStatus::Inactive };
             }
         }
     }
     for (place, resisted) in places.iter_mut().zip(&resisted) {
         for dof in 0..6 {
             if resisted[dof] {
-                place[dof] = Why::Unknown;
+                place[dof] = DofStatus::Unknown;
             }
         }
     }
@@ -46,19 +49,19 @@ pub fn place(model: &Model, system: &System) -> Vec<Place> {
         for place in &mut places {
             for (dof, why) in place.iter_mut().enumerate() {
                 let out = if dof < 3 { dof == normal } else { dof - 3 != normal };
-                if out && *why == Why::Unknown {
-                    *why = Why::Plane;
+                if out && *why == DofStatus::Unknown {
+                    *why = DofStatus::Plane;
                 }
             }
         }
     }
     for rider in &model.constraints.dependents {
         for dof in (0..6).filter(|&d| rider.dofs[d]) {
-            places[rider.node][dof] = Why::Rides;
+            places[rider.node][dof] = DofStatus::Dependent;
         }
     }
     for held in &model.constraints.restraints {
-        places[held.node][held.dof] = Why::Held;
+        places[held.node][held.dof] = DofStatus::Restrained;
     }
     places
 }

@@ -1,6 +1,6 @@
 //! What the omissions of a plan save: the matrix with each of them undone, against that of the plan.
 
-use super::place::Why;
+use super::place::DofStatus;
 use super::{Plan, grouped};
 use crate::linear::{Factorization, Structure, operations};
 use crate::model::{AnalysisKind, Model};
@@ -28,9 +28,9 @@ impl Plan {
             }
         };
         let kept = [
-            (Why::Plane, "degrees of freedom out of the plane"),
-            (Why::Still, "inactive degrees of freedom"),
-            (Why::Held, "restrained degrees of freedom"),
+            (DofStatus::Plane, "degrees of freedom out of the plane"),
+            (DofStatus::Inactive, "inactive degrees of freedom"),
+            (DofStatus::Restrained, "restrained degrees of freedom"),
         ];
         for (why, what) in kept {
             let sizes = self.sizes_with(why);
@@ -49,7 +49,7 @@ impl Plan {
     }
 
     /// Unknowns of each node and joint with the directions omitted for this reason kept.
-    fn sizes_with(&self, why: Why) -> Vec<usize> {
+    fn sizes_with(&self, why: DofStatus) -> Vec<usize> {
         let mut sizes: Vec<usize> = self.dofs.each().iter().map(NodeRows::count).collect();
         for (size, place) in sizes.iter_mut().zip(&self.nodes) {
             *size += place.iter().filter(|reason| **reason == why).count();
@@ -59,7 +59,7 @@ impl Plan {
 
     /// Riders with unknowns of their own and a multiplier for each direction that rides.
     fn with_multipliers(&self, system: &System) -> Structure {
-        let mut sizes = self.sizes_with(Why::Rides);
+        let mut sizes = self.sizes_with(DofStatus::Dependent);
         let nodes = sizes.len();
         sizes.extend(system.attachments.iter().map(|rider| rider.dofs.iter().filter(|&&rides| rides).count()));
         grouped(&sizes, loose_cliques(system, nodes), system.joints.len() + system.attachments.len())

@@ -49,7 +49,7 @@ impl ConstraintProjection {
     pub fn new(plan: &Plan, system: &System, nodes: usize) -> Result<Self, TooLarge> {
         let bare = system.bare();
         let (solver, assembly) = plan.build_bare(&bare)?;
-        let has_mass = bare.massive(nodes);
+        let has_mass = bare.has_mass(nodes);
         let slots = |massless: bool| {
             let directions = plan.directions.iter().enumerate();
             let kept = directions.filter(|(_, (node, dof))| !massless || !has_mass[*node][usize::from(*dof > 2)]);

@@ -414,7 +414,7 @@ impl Assembly {
             add(load.node, 0, f);
             add(load.node, 3, m);
         }
-        for (rider, f) in system.attachments.iter().zip(&forces.on_riders) {
+        for (rider, f) in system.attachments.iter().zip(&forces.on_dependents) {
             add(rider.master, 3, -rider.arm_stiffness(nodes, f));
         }
     }

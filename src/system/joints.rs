@@ -65,11 +65,11 @@ impl System {
     pub fn joint_forces(&self, nodes: &[Node], forces: &mut Forces) {
         forces.on_nodes.fill([0.0; 6]);
         self.join(nodes, forces, &mut Scale::default());
-        self.lift(nodes, forces);
+        self.transfer_to_masters(nodes, forces);
     }
 
     /// Per node: whether anything gives its translations, its rotations mass.
-    pub fn massive(&self, nodes: usize) -> Vec<[bool; 2]> {
+    pub fn has_mass(&self, nodes: usize) -> Vec<[bool; 2]> {
         let mut massive = vec![[false; 2]; nodes];
         self.inertias.iter().for_each(|inertia| massive[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);
         for node in self.consistent.iter().flat_map(|mass| &mass.nodes) {

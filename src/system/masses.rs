@@ -216,7 +216,7 @@ impl MassBlock {
     }
 
     /// What angular velocities make of mass off the node and of inertia: m ω × (ω × s), and ω × J ω about the centre.
-    fn whirl(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
+    fn gyroscopic_force(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
         let s = R * self.s0;
         let f = self.mass * omega.cross(&omega.cross(&s));
         join(&f, &(omega.cross(&(R * (self.J0 * R.tr_mul(omega)))) + s.cross(&f)))
@@ -238,7 +238,8 @@ impl MassBlock {
             for _ in 0..if self.kind == Kind::Held { CORRECTIONS } else { 0 } {
                 let R = now.R();
                 let given = |i: usize| if self.free[3 + i] { end.omega[i] } else { now.omega[i] };
-                let change = self.whirl(&R, &Vec3::from_fn(|i, _| given(i))) - self.whirl(&R, &now.omega);
+                let change =
+                    self.gyroscopic_force(&R, &Vec3::from_fn(|i, _| given(i))) - self.gyroscopic_force(&R, &now.omega);
                 let F = Vec6::from(*F) - change;
                 end = mean(self.accelerate(now, F.as_ref()));
             }

@@ -3,6 +3,7 @@
 
 pub mod assembly;
 mod build;
+pub mod constraint_schur;
 mod contacts;
 mod dofs;
 pub mod energy;
@@ -18,7 +19,6 @@ mod plane;
 pub mod results;
 mod scale;
 mod system;
-pub mod ties;
 mod tiles;
 mod watched;
 

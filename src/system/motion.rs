@@ -29,13 +29,13 @@ pub struct Drive<'a> {
     slack: f64,
     /// Of each amplitude, then of each held direction, along a path: its iterates pass the ends of the run, and what is given
     /// there must go on.
-    loads: Vec<Beyond>,
-    motions: Vec<Beyond>,
+    loads: Vec<Extrapolation>,
+    motions: Vec<Extrapolation>,
 }
 
 /// A given function as a line beyond the ends of a run.
 #[derive(Debug, Clone, Copy)]
-struct Beyond {
+struct Extrapolation {
     begin: f64,
     end: f64,
     /// Before the beginning its slope there; after the end, where only iterates come, the slope of the chord over the last
@@ -46,10 +46,10 @@ struct Beyond {
 /// Part of a run.
 const TAIL: f64 = 0.01;
 
-impl Beyond {
-    fn new(begin: f64, end: f64, value: impl Fn(f64) -> f64, rate: impl Fn(f64) -> f64) -> Beyond {
+impl Extrapolation {
+    fn new(begin: f64, end: f64, value: impl Fn(f64) -> f64, rate: impl Fn(f64) -> f64) -> Extrapolation {
         let tail = TAIL * (end - begin);
-        Beyond { begin, end, slopes: [rate(begin), (value(end) - value(end - tail)) / tail] }
+        Extrapolation { begin, end, slopes: [rate(begin), (value(end) - value(end - tail)) / tail] }
     }
 
     /// Outside the run: its nearest end, and the slope there.
@@ -75,12 +75,13 @@ impl<'a> Drive<'a> {
         if model.analysis.step_length.is_arc_length() {
             let end = model.analysis.end_time;
             let loads = model.loading.amplitudes.iter();
-            drive.loads = loads.map(|a| Beyond::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
+            drive.loads =
+                loads.map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
             let beyond = |held: &Restraint| {
-                let Some(motion) = &held.motion else { return Beyond::new(0.0, end, |_| 0.0, |_| 0.0) };
+                let Some(motion) = &held.motion else { return Extrapolation::new(0.0, end, |_| 0.0, |_| 0.0) };
                 let amplitude = &model.loading.amplitudes[motion.amplitude];
                 let given = |t: f64| prescribed(motion, amplitude, t);
-                Beyond::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
+                Extrapolation::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
             };
             drive.motions = model.constraints.restraints.iter().map(beyond).collect();
         }

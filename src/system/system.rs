@@ -49,7 +49,7 @@ pub struct Forces {
     /// f_ext − f_int − C v − M a per node; what falls on a constrained direction has been handed to the master.
     pub on_nodes: Vec<Force>,
     /// The forces so handed over, in the order of [`System::attachments`].
-    pub on_riders: Vec<Vec3>,
+    pub on_dependents: Vec<Vec3>,
     pub multipliers: Multipliers,
     lanes: Vec<Lane>,
     threads: bool,
@@ -60,7 +60,7 @@ impl Forces {
     pub fn new(system: &System, nodes: usize) -> Self {
         Forces {
             on_nodes: vec![[0.0; 6]; nodes],
-            on_riders: vec![Vec3::zeros(); system.attachments.len()],
+            on_dependents: vec![Vec3::zeros(); system.attachments.len()],
             multipliers: Multipliers::new(system.multipliers()),
             lanes: lanes::lanes(&system.groups),
             threads: false,
@@ -155,7 +155,7 @@ impl System {
         }
         self.add_loads(nodes, loading, F, &mut scale);
         self.join(nodes, forces, &mut scale);
-        self.lift(nodes, forces);
+        self.transfer_to_masters(nodes, forces);
         scale
     }
 
@@ -174,7 +174,7 @@ impl System {
             mass.add_forces(nodes, &loading.field, false, 0.0, F);
         }
         self.add_loads(nodes, loading, F, &mut scale);
-        self.lift(nodes, forces);
+        self.transfer_to_masters(nodes, forces);
     }
 
     fn add_loads(&self, nodes: &[Node], loading: &Loading, F: &mut [Force], scale: &mut Scale) {
@@ -193,11 +193,11 @@ impl System {
         }
     }
 
-    pub(super) fn lift(&self, nodes: &[Node], forces: &mut Forces) {
+    pub(super) fn transfer_to_masters(&self, nodes: &[Node], forces: &mut Forces) {
         let F = &mut forces.on_nodes[..];
-        for (rider, force) in self.attachments.iter().zip(&mut forces.on_riders).rev() {
+        for (rider, force) in self.attachments.iter().zip(&mut forces.on_dependents).rev() {
             *force = Vec3::new(F[rider.node][0], F[rider.node][1], F[rider.node][2]);
-            rider.lift(nodes, F);
+            rider.transfer_to_masters(nodes, F);
         }
     }
 
@@ -316,7 +316,7 @@ impl System {
                 crate::elements::subtract(&mut F[a], 0, &(-m * top(&motions[b])));
             }
         }
-        self.lift(nodes, forces);
+        self.transfer_to_masters(nodes, forces);
     }
 
     pub(crate) fn consistent_masses(&self) -> &[ConsistentMass] {

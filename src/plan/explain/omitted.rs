@@ -2,7 +2,7 @@
 
 use crate::model::{AnalysisKind, MassKind, Model, Part};
 use crate::plan::Plan;
-use crate::plan::place::Why;
+use crate::plan::place::DofStatus;
 use crate::system::System;
 use std::ops::Range;
 
@@ -24,17 +24,17 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
     let axis = ["x", "y", "z"][system.plane.unwrap_or(0)];
     let plane =
         format!("degrees of freedom out of the plane normal to {axis}: the scene is plane, nothing excites them");
-    let reasons: [(Why, Range<usize>, &str); 6] = [
-        (Why::Held, 0..6, "restrained or prescribed degrees of freedom"),
+    let reasons: [(DofStatus, Range<usize>, &str); 6] = [
+        (DofStatus::Restrained, 0..6, "restrained or prescribed degrees of freedom"),
         (
-            Why::Rides,
+            DofStatus::Dependent,
             0..6,
             "degrees of freedom of dependent nodes: eliminated at element level, the nodes being rigidly attached",
         ),
-        (Why::Nothing, 0..3, "translations without element or mass"),
-        (Why::Nothing, 3..6, "rotations without element or rotary inertia"),
-        (Why::Still, 0..6, "inactive degrees of freedom: free masses that nothing sets in motion"),
-        (Why::Plane, 0..6, &plane),
+        (DofStatus::Nothing, 0..3, "translations without element or mass"),
+        (DofStatus::Nothing, 3..6, "rotations without element or rotary inertia"),
+        (DofStatus::Inactive, 0..6, "inactive degrees of freedom: free masses that nothing sets in motion"),
+        (DofStatus::Plane, 0..6, &plane),
     ];
     let counted = reasons.into_iter().map(|(why, dofs, what)| (plan.count(why, dofs), what));
     counted.filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()
@@ -82,7 +82,7 @@ fn gyroscopic(plan: &Plan, model: &Model, system: &System) -> Option<&'static st
     });
     match turning {
         false => Some("gyroscopic terms: no rotary inertia is in rotation"),
-        true if plan.count(Why::Plane, 0..6) > 0 => Some("gyroscopic terms: rotation about one axis only"),
+        true if plan.count(DofStatus::Plane, 0..6) > 0 => Some("gyroscopic terms: rotation about one axis only"),
         true => None,
     }
 }

@@ -14,15 +14,15 @@ use crate::solve::projection::ConstraintProjection;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Increment, State};
 use crate::system::assembly::Weights;
+use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::{Masses, Motion};
-use crate::system::ties::Ties;
 
 /// The masses of a scene and the accelerations that forces cause on them. Allocated once.
 pub struct Accelerations {
     /// Where each moving node is a rigid body of its own.
     pub masses: Option<Masses>,
     /// Where there are such masses and joints.
-    pub ties: Option<Ties>,
+    pub ties: Option<ConstraintSchur>,
     /// Accelerations beyond those of the trial motion, by node.
     pub missing: Vec<Vec6>,
     /// Where masses belong together: motions that the mass is applied to, by node.
@@ -38,7 +38,7 @@ impl Accelerations {
         let nodes = cx.model.nodes.len();
         let (masses, ties) = match cx.plan.masses(cx.system) {
             Some(masses) if cx.system.joints.is_empty() => (Some(masses), None),
-            Some(masses) => match Ties::new(cx.system, &masses, cx.plan.shares()) {
+            Some(masses) => match ConstraintSchur::new(cx.system, &masses, cx.plan.shares()) {
                 Some(ties) => (Some(masses), Some(ties)),
                 None => (None, None),
             },

@@ -9,8 +9,8 @@ use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, apart};
 use crate::solve::motion::update_dependent_nodes;
 use crate::solve::workspace::Workspace;
 use crate::state::{Node, State};
+use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
-use crate::system::ties::Ties;
 
 /// Projects positions and velocities of the trial motion onto the constraints by the least change in the norm of the masses; the
 /// increments follow, their q̇ as rates of the rotation vector.
@@ -35,7 +35,7 @@ fn project_positions(
     cx: &Context,
     ws: &mut Workspace,
     masses: &Masses,
-    ties: &mut Ties,
+    ties: &mut ConstraintSchur,
     change: &mut [Vec6],
     state: &State,
 ) -> Result<(), Failure> {
@@ -71,7 +71,7 @@ fn project_velocities(
     cx: &Context,
     ws: &mut Workspace,
     masses: &Masses,
-    ties: &mut Ties,
+    ties: &mut ConstraintSchur,
     change: &mut [Vec6],
     state: &State,
     dt: f64,
@@ -100,7 +100,7 @@ fn project_velocities(
 }
 
 /// Writes the least change of motion that closes the gaps at hand, by node.
-fn least_change(ties: &mut Ties, masses: &Masses, change: &mut [Vec6]) {
+fn least_change(ties: &mut ConstraintSchur, masses: &Masses, change: &mut [Vec6]) {
     ties.solve();
     masses.blocks.iter().for_each(|block| change[block.node] = Vec6::zeros());
     ties.push(change);

@@ -15,7 +15,7 @@ const MOST: usize = 64;
 const NOTHING: f64 = 1e-12;
 
 /// Allocated once.
-pub struct Ties {
+pub struct ConstraintSchur {
     /// Of each row: the nodes that move the two ends of its joint, where they are unknown.
     rows: Vec<[Option<usize>; 2]>,
     /// Rows of a joint may say what others say.
@@ -34,9 +34,9 @@ pub struct Ties {
     room: Vec<f64>,
 }
 
-impl Ties {
+impl ConstraintSchur {
     /// `None`: too many rows, or an end rides in some directions only.
-    pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<Ties> {
+    pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<ConstraintSchur> {
         let count = system.multipliers();
         if count > MOST {
             return None;
@@ -64,7 +64,17 @@ impl Ties {
         let square = vec![0.0; count * count];
         let x = vec![0.0; count];
         let idle = vec![false; count];
-        Some(Ties { rows, shares, G: zeros.clone(), W: zeros, idle, S: square.clone(), L: square, room: x.clone(), x })
+        Some(ConstraintSchur {
+            rows,
+            shares,
+            G: zeros.clone(),
+            W: zeros,
+            idle,
+            S: square.clone(),
+            L: square,
+            room: x.clone(),
+            x,
+        })
     }
 
     /// Forms and factorises the system for joints as they lie; false where they leave no way to close them.
