@@ -85,7 +85,7 @@ fn stiffness(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     for key in
         KIND.keys.iter().filter(|key| !STIFFNESSES.contains(&key.name) && given.has(key.name)).collect::<Vec<_>>()
     {
-        given.error::<()>(key.name, format!("`{}` means nothing for a section that gives its stiffnesses", key.name));
+        given.error::<()>(key.name, format!("`{}` does not apply to a section that gives its stiffnesses", key.name));
     }
     let axial = given.require_positive("axial_stiffness");
     let shear = given.require_positive_pair("shear_stiffness");

@@ -85,7 +85,7 @@ pub fn pair(given: &mut Given, [both, top, bottom]: [&str; 3]) -> Option<[f64; 2
     if given.has(both) {
         for key in [top, bottom] {
             if given.has(key) {
-                given.error::<()>(key, format!("`{key}` means nothing for a section with `{both}`"));
+                given.error::<()>(key, format!("`{key}` does not apply to a section with `{both}`"));
             }
         }
         return given.positive(both).map(|value| [value, value]);

@@ -306,7 +306,9 @@ impl<'de, C: Kinds> Deserialize<'de> for Word<C> {
                 if let Some(kind) = C::list().iter().find(|kind| kind.is_called(word)) {
                     return Ok(Word(kind));
                 }
-                let known: Vec<&str> = C::list().iter().map(|kind| kind.word).collect();
+                let words =
+                    |kind: &&'static Kind<C::Make>| std::iter::once(kind.word).chain(kind.aliases.iter().copied());
+                let known: Vec<&str> = C::list().iter().flat_map(words).collect();
                 Err(E::custom(format!("unknown variant `{word}`, expected one of `{}`", known.join("`, `"))))
             }
         }
