@@ -120,15 +120,7 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
     }
     let all: BTreeSet<&String> = names.iter().flatten().collect();
     let heads = |name: &str| folders.map(|folder| TableReader::open(&folder.join(name)));
-    let mut known = BTreeSet::new();
-    for &name in &all {
-        for (side, folder) in folders.into_iter().enumerate() {
-            if names[side].contains(name) {
-                let rows = TableReader::open(&folder.join(name))?;
-                known.extend(rows.header.iter().map(|column| format!("{name}:{column}")));
-            }
-        }
-    }
+    let known = columns(folders, &names)?;
     let selectors = settings.columns.iter().chain(settings.tolerances.iter().map(|tolerance| &tolerance.of));
     let takes = |selector: &Selector| {
         *selector == Selector::default()
@@ -173,6 +165,18 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
     Ok(Comparison { tables: compared, only, status, idle, known })
 }
 
+/// The columns of all tables of either side, as `nodes.csv:ux`.
+fn columns(folders: [&Path; 2], names: &[BTreeSet<String>; 2]) -> io::Result<BTreeSet<String>> {
+    let mut known = BTreeSet::new();
+    for (folder, names) in folders.into_iter().zip(names) {
+        for name in names {
+            let rows = TableReader::open(&folder.join(name))?;
+            known.extend(rows.header.iter().map(|column| format!("{name}:{column}")));
+        }
+    }
+    Ok(known)
+}
+
 fn table(
     name: &str,
     rows: [TableReader; 2],
@@ -191,12 +195,7 @@ fn table(
     let has_time = shared.iter().any(|column| column == "time");
     let by_step = by_step && shared.iter().any(|column| column == "step");
     let [first, second] = rows.map(|rows| {
-        let place = |column: &&str| rows.column(column);
-        // Without a time there are no frames.
-        let (step, time) = (place(&"step").filter(|_| has_time), place(&"time").filter(|_| has_time));
-        let keys =
-            shared.iter().map(String::as_str).filter(|column| is_key(column)).filter_map(|c| rows.column(c)).collect();
-        let pick = Pick { step, time, keys, values: values.iter().filter_map(place).collect() };
+        let pick = pick(name, &rows, &shared, &values, has_time);
         (rows, pick)
     });
     let (joined, summaries, all_rows) = std::thread::scope(|scope| {
@@ -237,6 +236,15 @@ fn table(
         columns,
         judged,
     })
+}
+
+/// Which columns of one side are read.
+fn pick(name: &str, rows: &TableReader, shared: &[String], values: &[&str], has_time: bool) -> Pick {
+    let place = |column: &str| rows.column(column);
+    // Without a time there are no frames.
+    let (step, time) = (place("step").filter(|_| has_time), place("time").filter(|_| has_time));
+    let keys = shared.iter().filter(|column| is_key(name, column)).filter_map(|column| place(column)).collect();
+    Pick { step, time, keys, values: values.iter().filter_map(|column| place(column)).collect() }
 }
 
 /// The last times, where one side goes on for more than one and a half of the other's last step.
