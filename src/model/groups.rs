@@ -8,7 +8,7 @@ use super::names::Names;
 use super::report::Report;
 use crate::deck::Deck;
 use crate::diagnostic::At;
-use crate::mesh::{self, Kind};
+use crate::mesh::{self, Kind, Mesh};
 use crate::names::{joined, nearest, quoted};
 
 /// What parts have taken of the mesh so far.
@@ -40,24 +40,11 @@ impl<'d> Groups<'d> {
             return None;
         }
         let Some(input) = self.mesh.input else {
-            return report.error_with(
-                &name.span,
-                "`group` needs a mesh, and the deck has none",
-                "give it `[mesh]` with its `file`",
-            );
+            let message = "`group` needs a mesh, and the deck has none";
+            return report.error_with(&name.span, message, "give it `[mesh]` with its `file`");
         };
         let mesh = &input.mesh;
-        let Some(group) = mesh.group(name) else {
-            let message = format!("the mesh has no group `{}`", name.value);
-            let known = mesh.groups.iter().map(|group| group.name.as_str());
-            let hint = match nearest(name, known.clone()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None if mesh.groups.is_empty() => "it has none".to_owned(),
-                None => format!("its groups are {}", quoted(known.take(12))),
-            };
-            report.lose_connections();
-            return report.error_with(&name.span, message, hint);
-        };
+        let Some(group) = mesh.group(name) else { return unknown_group(mesh, name, report) };
         if let Some(other) = self.parts.get(name.as_str()) {
             let message = format!("group `{}` is already {other}", name.value);
             return report.error(&name.span, message);
@@ -66,11 +53,8 @@ impl<'d> Groups<'d> {
         if group.skipped > 0 {
             let message = format!("{} elements of group `{}` are of unsupported types", group.skipped, name.value);
             report.lose_connections();
-            return report.error_with(
-                &name.span,
-                message,
-                "mesh it with lines of two nodes and faces of three or four",
-            );
+            let hint = "mesh it with lines of two nodes and faces of three or four";
+            return report.error_with(&name.span, message, hint);
         }
         let is_meant = |e: &&mesh::Element| (e.kind != Kind::Segment) == faces;
         let indices = || group.elements.iter().map(|&e| e as usize);
@@ -144,4 +128,15 @@ impl<'d> Groups<'d> {
             used: self.taken.iter().filter(|&&taken| taken).count(),
         })
     }
+}
+
+fn unknown_group<T>(mesh: &Mesh, name: &At<String>, report: &mut Report) -> Option<T> {
+    let known = mesh.groups.iter().map(|group| group.name.as_str());
+    let hint = match nearest(name, known.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if mesh.groups.is_empty() => "it has none".to_owned(),
+        None => format!("its groups are {}", quoted(known.take(12))),
+    };
+    report.lose_connections();
+    report.error_with(&name.span, format!("the mesh has no group `{}`", name.value), hint)
 }
