@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, Quaternion, Unit, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
-use rdsolve::elements::beam::{Beams, Description, IntegrationRule, Yielding};
+use rdsolve::elements::beam::{BeamGeometry, Beams, FibreModel, IntegrationRule};
 use rdsolve::elements::bushing::{Bushing, Bushings};
-use rdsolve::elements::link::{Law, Link, Links};
+use rdsolve::elements::link::{Link, LinkLaw, Links};
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
 use rdsolve::elements::{ElementBlock, Force, Moduli};
 use rdsolve::materials::{Dissipation, Hardening, Law as Material, Overstress, Viscosity};
@@ -109,13 +109,13 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("damped beam of 4 nodes", beam::<4>(&frame, start, 0.3), &nodes_of(4, &frame, start));
     let ends = nodes_of(2, &frame, start);
     let link = |law, direction| Link::new([0, 1], law, 0.7, direction, 1.2, [ends[0], ends[1]]);
-    let linear = Law::Linear { stiffness: 20.0, preload: 1.0 };
+    let linear = LinkLaw::Linear { stiffness: 20.0, preload: 1.0 };
     let d = frame.column(1).into_owned();
     add("link", Box::new(Links(vec![link(linear.clone(), None)])), &ends);
     add("link along a direction", Box::new(Links(vec![link(linear, Some(d))])), &ends);
-    let table = Law::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
+    let table = LinkLaw::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
     add("table link", Box::new(Links(vec![link(table, None)])), &ends);
-    add("bar", Box::new(rdsolve::elements::bar::links(&[[0, 1]], 40.0, false, 1.0, &ends, 0.2)), &ends);
+    add("bar", Box::new(rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, 1.0, &ends, 0.2)), &ends);
     let bushing = Bushing {
         nodes: [0, 1],
         axes: frame,
@@ -138,8 +138,8 @@ fn shells() -> Vec<(&'static str, Box<dyn ElementBlock>, Vec<Vec3>)> {
     let corners = [[0.0, 0.0], [1.2, 0.1], [1.3, 0.9], [-0.2, 1.1]].map(|[x, y]| Vec3::new(x, y, 0.0));
     let x: Vec<Vec3> = corners.iter().map(|c| frame * (c + vector(rng, 0.1))).collect();
     let normals: Vec<Vec3> = x.iter().map(|_| frame * (Vec3::z() + vector(rng, 0.1)).normalize()).collect();
-    let four = || [shell::Description { nodes: &[0, 1, 2, 3], normals: &normals }].into_iter();
-    let three = || [shell::Description { nodes: &[0, 1, 2], normals: &normals[..3] }].into_iter();
+    let four = || [shell::ShellGeometry { nodes: &[0, 1, 2, 3], normals: &normals }].into_iter();
+    let three = || [shell::ShellGeometry { nodes: &[0, 1, 2], normals: &normals[..3] }].into_iter();
     vec![
         ("quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.0)), x.clone()),
         ("damped quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.2)), x.clone()),
@@ -155,7 +155,7 @@ fn nodes_of(n: usize, frame: &Mat3, start: Vec3) -> Vec<Vec3> {
 
 fn beam<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn ElementBlock> {
     let nodes: Vec<usize> = (0..N).collect();
-    let one = [Description { nodes: &nodes, frame, stiffness: &section() }];
+    let one = [BeamGeometry { nodes: &nodes, frame, stiffness: &section() }];
     Box::new(Beams::<N>::new(one.into_iter(), &nodes_of(N, frame, start), damping))
 }
 
@@ -201,11 +201,11 @@ fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, 
     let rules = [(IntegrationRule::Gauss, N - 1), (IntegrationRule::Gauss, 5), (IntegrationRule::Lobatto, N.max(3))];
     for shear in [true, false] {
         for (rule, points) in rules {
-            let yielding = Yielding { law: law.clone(), fibres: fibres.clone(), shear, rule, points };
+            let yielding = FibreModel { law: law.clone(), fibres: fibres.clone(), shear, rule, points };
             let frame = rotation::matrix(&turn(rng));
             let x = nodes_of(N, &frame, vector(rng, 2.0));
             let nodes: Vec<usize> = (0..N).collect();
-            let one = [Description { nodes: &nodes, frame: &frame, stiffness: &section() }];
+            let one = [BeamGeometry { nodes: &nodes, frame: &frame, stiffness: &section() }];
             let block = yielding.beams::<N>(one.into_iter(), &x, damping);
             let past = vec![0.0; block.history()];
             let with = if shear { "with" } else { "without" };
@@ -522,7 +522,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let x = [Vec3::zeros(), Vec3::new(1.7, 0.0, 0.0)];
     let (length, C) = (1.7, section());
     let frame = Mat3::identity();
-    let one = [Description { nodes: &[0, 1], frame: &frame, stiffness: &C }];
+    let one = [BeamGeometry { nodes: &[0, 1], frame: &frame, stiffness: &C }];
     let beam = Beams::<2>::new(one.into_iter(), &x, 0.0);
     let nodes = x.map(Node::at_rest);
     let mut K = [0.0; 144];

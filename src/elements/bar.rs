@@ -1,14 +1,15 @@
-//! Bar or cable: a straight two-node element that only resists stretching, N = A σ(ε) with ε = (l − L)/L.
+//! Bar or cable: a straight two-node element with an axial force only, N = A σ(ε) with ε = (l − L)/L, L the length without
+//! force.
 
-use super::link::{Law as LinkLaw, Link, Links};
-use super::{ElementBlock, Force, Moduli, subtract};
+use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::link::{Link, LinkLaw, Links};
 use crate::materials::{Bar, Dissipation, Law};
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node, elongation, stretch};
 
-/// An elastic bar is a line spring of stiffness EA/L, L its length without force, `free` times that at t = 0; `damping` is the
-/// factor of stiffness-proportional damping (time).
-pub fn links(
+/// Elastic bars as springs of stiffness EA/L along the line of their nodes. L is `free` times the length at t = 0; `x`: positions
+/// of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
+pub fn elastic_bars(
     elements: &[[usize; 2]],
     axial_stiffness: f64,
     tension_only: bool,
@@ -29,39 +30,42 @@ pub fn links(
     Links(elements.iter().map(link).collect())
 }
 
-/// Bars whose material yields. A bar that only takes tension goes slack where its elastic strain would be compressive, and
-/// keeps the length to which it has yielded.
+/// Bars whose material yields. A tension-only bar goes slack where its elastic strain would be compressive, and keeps its
+/// plastic elongation.
 pub struct YieldingBars {
-    elements: Vec<Element>,
+    elements: Vec<BarElement>,
     area: f64,
     law: Law,
     tension_only: bool,
     /// Factor of stiffness-proportional damping (time).
     damping: f64,
-    /// Numbers a bar remembers.
-    memory: usize,
+    /// The number of history variables of a bar.
+    variables: usize,
 }
 
-struct Element {
+/// One bar.
+struct BarElement {
     nodes: [usize; 2],
-    /// Where they lay at t = 0.
+    /// Positions of the nodes at t = 0.
     start: [Vec3; 2],
     /// Length without force.
     free: f64,
 }
 
-struct Stretch {
+/// Length and strain of a bar, with their rates.
+struct BarStrain {
     /// Unit vector from the first node to the second.
     e: Vec3,
     length: f64,
     strain: f64,
     strain_rate: f64,
-    /// Relative velocity.
+    /// Velocity of the second node less that of the first.
     dv: Vec3,
 }
 
 impl YieldingBars {
-    /// `x`: initial positions of all nodes; `free`: length without force over that at t = 0.
+    /// `x`: positions of all nodes at t = 0; `free`: length without force over that at t = 0; `damping`: factor of
+    /// stiffness-proportional damping (time).
     pub fn new(
         elements: &[[usize; 2]],
         axial_stiffness: f64,
@@ -73,7 +77,7 @@ impl YieldingBars {
     ) -> Self {
         let element = |&nodes: &[usize; 2]| {
             let start = nodes.map(|node| x[node]);
-            Element { nodes, start, free: free * (start[1] - start[0]).norm() }
+            BarElement { nodes, start, free: free * (start[1] - start[0]).norm() }
         };
         YieldingBars {
             elements: elements.iter().map(element).collect(),
@@ -81,40 +85,41 @@ impl YieldingBars {
             law: law.clone(),
             tension_only,
             damping,
-            memory: law.history(Bar),
+            variables: law.history(Bar),
         }
     }
 
-    fn stretch(&self, e: usize, nodes: &[Node]) -> Stretch {
-        let Element { nodes: ends, start, free } = &self.elements[e];
+    fn strain(&self, e: usize, nodes: &[Node]) -> BarStrain {
+        let BarElement { nodes: ends, start, free } = &self.elements[e];
         let [a, b] = ends.map(|node| &nodes[node]);
         let (dx, dv) = (b.relative_position(a), b.v - a.v);
         let (length, before) = (dx.norm(), start[1] - start[0]);
         let more = elongation(&before, before.norm(), &stretch(a, b, start), length);
-        // Points that have met leave the direction open: no force until they part.
+        // Coincident points define no direction: there is no force until they separate.
         let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
-        Stretch { e, length, strain: ((before.norm() - free) + more) / free, strain_rate: e.dot(&dv) / free, dv }
+        BarStrain { e, length, strain: ((before.norm() - free) + more) / free, strain_rate: e.dot(&dv) / free, dv }
     }
 
-    fn share(&self, e: usize) -> std::ops::Range<usize> {
-        e * self.memory..(e + 1) * self.memory
+    /// The range of the history of the group that bar `e` has.
+    fn history_range(&self, e: usize) -> std::ops::Range<usize> {
+        e * self.variables..(e + 1) * self.variables
     }
 
-    /// Nothing pulls: the elastic strain is compressive in a bar that only takes tension.
-    fn is_slack(&self, strain: f64, past: &[f64]) -> bool {
-        self.tension_only && self.law.stress(Bar, &[strain], 0.0, past)[0] <= 0.0 && strain <= past[0]
+    /// True where a tension-only bar would be compressed elastically, so that it has no force.
+    fn is_slack(&self, strain: f64, old: &[f64]) -> bool {
+        self.tension_only && self.law.stress(Bar, &[strain], 0.0, old)[0] <= 0.0 && strain <= old[0]
     }
 
-    /// Tension, of which the first part is the material's, and ∂/∂strain, ∂/∂(strain rate).
-    fn tension(&self, at: &Stretch, since: f64, past: &[f64], moduli: Moduli) -> Tension {
-        if self.is_slack(at.strain, past) {
+    /// The axial force and its derivatives.
+    fn tension(&self, at: &BarStrain, dt: f64, old: &[f64], moduli: Moduli) -> Tension {
+        if self.is_slack(at.strain, old) {
             return Tension::default();
         }
-        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Bar, &[at.strain], since, past);
+        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Bar, &[at.strain], dt, old);
         let viscosity = self.damping * self.law.elastic().E;
         let damping = viscosity * at.strain_rate;
         if self.tension_only && stress + damping < 0.0 {
-            // Damping takes what the material gives and no more: the bar does not push.
+            // Damping cancels the force of the material at most: the bar does not push.
             return Tension { material: self.area * stress, damping: -self.area * stress, ..Tension::default() };
         }
         let modulus = if moduli == Moduli::Elastic { self.law.elastic().E } else { modulus };
@@ -122,11 +127,16 @@ impl YieldingBars {
     }
 }
 
+/// Axial force of a bar.
 #[derive(Default)]
 struct Tension {
+    /// Force of the material.
     material: f64,
+    /// Force of damping.
     damping: f64,
+    /// ∂stress/∂strain.
     modulus: f64,
+    /// ∂stress/∂(strain rate).
     viscosity: f64,
 }
 
@@ -148,13 +158,13 @@ impl ElementBlock for YieldingBars {
     }
 
     fn history(&self) -> usize {
-        self.memory * self.elements.len()
+        self.variables * self.elements.len()
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for (e, Element { nodes: [a, b], .. }) in self.elements.iter().enumerate() {
-            let at = self.stretch(e, now.nodes);
-            let tension = self.tension(&at, now.dt, &now.history[self.share(e)], Moduli::Algorithmic);
+        for (e, BarElement { nodes: [a, b], .. }) in self.elements.iter().enumerate() {
+            let at = self.strain(e, now.nodes);
+            let tension = self.tension(&at, now.dt, &now.history[self.history_range(e)], Moduli::Algorithmic);
             let f = (tension.material + tension.damping) * at.e;
             subtract(&mut F[*a], 0, &-f);
             subtract(&mut F[*b], 0, &f);
@@ -162,9 +172,9 @@ impl ElementBlock for YieldingBars {
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
-        let at = self.stretch(e, now.nodes);
+        let at = self.strain(e, now.nodes);
         let free = self.elements[e].free;
-        let tension = self.tension(&at, now.dt, &now.history[self.share(e)], moduli);
+        let tension = self.tension(&at, now.dt, &now.history[self.history_range(e)], moduli);
         let along = at.e * at.e.transpose();
         let mut k = self.area / free * (tension.modulus + rate_weight * tension.viscosity) * along;
         if at.length > 0.0 {
@@ -182,24 +192,24 @@ impl ElementBlock for YieldingBars {
         }
     }
 
-    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut sum = Dissipation::default();
-        for (e, new) in history.chunks_exact_mut(self.memory).enumerate() {
-            let at = self.stretch(e, now.nodes);
-            let past = &now.history[self.share(e)];
-            // A slack bar rests at its plastic strain.
-            let strain = if self.is_slack(at.strain, past) { past[0] } else { at.strain };
-            let (_, spent) = self.law.advance(Bar, &[strain], (now.dt, part), past, new);
-            sum += spent * (self.area * self.elements[e].free);
+        for (e, new) in new.chunks_exact_mut(self.variables).enumerate() {
+            let at = self.strain(e, now.nodes);
+            let old = &now.history[self.history_range(e)];
+            // The strain of a slack bar is its plastic strain.
+            let strain = if self.is_slack(at.strain, old) { old[0] } else { at.strain };
+            let (_, dissipation) = self.law.advance(Bar, &[strain], (now.dt, part), old, new);
+            sum += dissipation * (self.area * self.elements[e].free);
         }
         sum
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
         let energy = |e: usize| {
-            let (at, past) = (self.stretch(e, now.nodes), &now.history[self.share(e)]);
-            let slack = self.is_slack(at.strain, past);
-            let density = if slack { 0.0 } else { self.law.elastic_energy(Bar, &[at.strain], past) };
+            let (at, old) = (self.strain(e, now.nodes), &now.history[self.history_range(e)]);
+            let slack = self.is_slack(at.strain, old);
+            let density = if slack { 0.0 } else { self.law.elastic_energy(Bar, &[at.strain], old) };
             self.area * self.elements[e].free * density
         };
         (0..self.len()).map(energy).sum()
@@ -207,14 +217,14 @@ impl ElementBlock for YieldingBars {
 
     fn damping_power(&self, now: &Configuration) -> f64 {
         let power = |e: usize| {
-            let at = self.stretch(e, now.nodes);
-            let past = &now.history[self.share(e)];
-            self.tension(&at, now.dt, past, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].free
+            let at = self.strain(e, now.nodes);
+            let old = &now.history[self.history_range(e)];
+            self.tension(&at, now.dt, old, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].free
         };
         if self.damping > 0.0 { (0..self.len()).map(power).sum() } else { 0.0 }
     }
 
-    fn plastic_strain(&self, e: usize, past: &[f64]) -> f64 {
-        self.law.accumulated(Bar, &past[self.share(e)])
+    fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
+        self.law.accumulated(Bar, &history[self.history_range(e)])
     }
 }

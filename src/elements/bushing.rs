@@ -1,42 +1,48 @@
-//! Six-component bushing: springs and dampers along and about the axes of a frame that turns with the first node.
+//! Six-component bushing: springs and dampers along and about the axes of a frame that rotates with the first node.
 //!
 //! d = Bᵀ(x₂ − x₁) − d₀ and φ = log(Bᵀ R₂ A), with B = R₁ A the frame. Energy ½ d·k d + ½ φ·k_φ φ, so the force is
 //! B k d and the moment B T⁻ᵀ(φ) k_φ φ; dampers act on ḋ and on the relative angular velocity in the frame.
 
-use super::{ElementBlock, Force, Moduli, subtract};
+use super::block::{ElementBlock, Force, Moduli, subtract};
 use crate::math::{Mat3, Vec3, rotation, skew};
 use crate::state::{Configuration, Node};
 
+/// One bushing between two nodes.
 #[derive(Debug, Clone)]
 pub struct Bushing {
     pub nodes: [usize; 2],
-    /// Columns: axes, global components at t = 0.
+    /// A: the axes as columns, global components at t = 0.
     pub axes: Mat3,
+    /// k, force per length along the axes, then k_φ, moment per radian about them.
     pub stiffness: [f64; 6],
+    /// Force per velocity along the axes, then moment per angular velocity about them.
     pub damping: [f64; 6],
     /// Aᵀ(x₂ − x₁) at t = 0.
     pub offset: Vec3,
 }
 
-struct Motion {
+/// Motion of the second node relative to the first.
+struct RelativeMotion {
     B: Mat3,
     /// x₂ − x₁
     r: Vec3,
-    /// Velocity of the second node as seen from the first, global components.
+    /// Velocity of the second node relative to the frame of the first, global components.
     u: Vec3,
     /// ω₂ − ω₁
     w: Vec3,
+    /// d, in the frame.
     d: Vec3,
+    /// φ, in the frame.
     phi: Vec3,
 }
 
 impl Bushing {
-    fn motion(&self, nodes: &[Node]) -> Motion {
+    fn motion(&self, nodes: &[Node]) -> RelativeMotion {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let B = a.R() * self.axes;
         let r = b.relative_position(a);
         let relative = a.q.conjugate() * b.q;
-        Motion {
+        RelativeMotion {
             B,
             r,
             u: b.v - a.v - a.omega.cross(&r),
@@ -46,13 +52,14 @@ impl Bushing {
         }
     }
 
+    /// The coefficients of translation and of rotation.
     fn coefficients(values: &[f64; 6]) -> (Vec3, Vec3) {
         let [a, b, c, d, e, f] = *values;
         (Vec3::new(a, b, c), Vec3::new(d, e, f))
     }
 
     /// Force and moment on the second node, global components.
-    fn forces(&self, motion: &Motion) -> (Vec3, Vec3) {
+    fn forces(&self, motion: &RelativeMotion) -> (Vec3, Vec3) {
         let (k, k_phi) = Self::coefficients(&self.stiffness);
         let (c, c_phi) = Self::coefficients(&self.damping);
         let f = k.component_mul(&motion.d) + c.component_mul(&motion.B.tr_mul(&motion.u));
@@ -61,7 +68,7 @@ impl Bushing {
         (motion.B * f, motion.B * m)
     }
 
-    /// Displacement in the frame, its rate along the frame's first axis, force and moment in the frame.
+    /// d, its rate along the first axis, force and moment on the second node; components in the frame.
     pub fn state(&self, nodes: &[Node]) -> (Vec3, f64, Vec3, Vec3) {
         let motion = self.motion(nodes);
         let (F, M) = self.forces(&motion);
@@ -69,6 +76,7 @@ impl Bushing {
     }
 }
 
+/// A group of bushings.
 pub struct Bushings(pub Vec<Bushing>);
 
 impl ElementBlock for Bushings {

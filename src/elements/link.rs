@@ -1,32 +1,32 @@
 //! Springs and dampers between two points: a force N(δ) + c δ̇ along the line of the points or along a fixed direction.
 
-use super::{ElementBlock, Force, Moduli, subtract};
+use super::block::{ElementBlock, Force, Moduli, subtract};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node, elongation, stretch};
 
-/// Force against elongation; positive is tension.
+/// The force N over the elongation δ; tension and elongation are positive.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Law {
-    /// k δ + preload.
+pub enum LinkLaw {
+    /// N = k δ + preload.
     Linear { stiffness: f64, preload: f64 },
-    /// Straight lines through (elongation, force); the end slopes go on.
+    /// Linear between the points (δ, N); the end slopes continue beyond them.
     Table { points: Vec<[f64; 2]> },
-    /// Acts for δ < −gap.
+    /// N = k (δ + gap) for δ < −gap, else zero.
     CompressionOnly { stiffness: f64, gap: f64 },
-    /// Acts for δ > gap.
+    /// N = k (δ − gap) for δ > gap, else zero.
     TensionOnly { stiffness: f64, gap: f64 },
 }
 
-impl Law {
-    /// Force and its slope at elongation δ.
+impl LinkLaw {
+    /// N and dN/dδ.
     #[inline]
     pub fn force(&self, delta: f64) -> (f64, f64) {
         match self {
-            Law::Linear { stiffness, preload } => (stiffness * delta + preload, *stiffness),
-            Law::CompressionOnly { stiffness, gap } if delta < -gap => (stiffness * (delta + gap), *stiffness),
-            Law::TensionOnly { stiffness, gap } if delta > *gap => (stiffness * (delta - gap), *stiffness),
-            Law::CompressionOnly { .. } | Law::TensionOnly { .. } => (0.0, 0.0),
-            Law::Table { points } => {
+            LinkLaw::Linear { stiffness, preload } => (stiffness * delta + preload, *stiffness),
+            LinkLaw::CompressionOnly { stiffness, gap } if delta < -gap => (stiffness * (delta + gap), *stiffness),
+            LinkLaw::TensionOnly { stiffness, gap } if delta > *gap => (stiffness * (delta - gap), *stiffness),
+            LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. } => (0.0, 0.0),
+            LinkLaw::Table { points } => {
                 let i = points.partition_point(|p| p[0] <= delta).clamp(1, points.len() - 1);
                 let [[x0, y0], [x1, y1]] = [points[i - 1], points[i]];
                 let slope = (y1 - y0) / (x1 - x0);
@@ -35,14 +35,14 @@ impl Law {
         }
     }
 
-    /// Energy stored between elongation 0 and δ.
+    /// ∫ N dδ from 0 to δ.
     pub fn energy(&self, delta: f64) -> f64 {
         match self {
-            Law::Linear { stiffness, preload } => (0.5 * stiffness * delta + preload) * delta,
-            Law::CompressionOnly { stiffness, gap } => 0.5 * stiffness * (delta + gap).min(0.0).powi(2),
-            Law::TensionOnly { stiffness, gap } => 0.5 * stiffness * (delta - gap).max(0.0).powi(2),
-            Law::Table { points } => {
-                // Trapezoids between 0, the table's points and δ: exact for straight lines.
+            LinkLaw::Linear { stiffness, preload } => (0.5 * stiffness * delta + preload) * delta,
+            LinkLaw::CompressionOnly { stiffness, gap } => 0.5 * stiffness * (delta + gap).min(0.0).powi(2),
+            LinkLaw::TensionOnly { stiffness, gap } => 0.5 * stiffness * (delta - gap).max(0.0).powi(2),
+            LinkLaw::Table { points } => {
+                // Trapezoids between 0, the points of the table and δ are exact.
                 let (low, high) = (delta.min(0.0), delta.max(0.0));
                 let (mut at, mut sum) = (low, 0.0);
                 for x in points.iter().map(|p| p[0]).filter(|x| (low..high).contains(x)).chain([high]) {
@@ -54,23 +54,27 @@ impl Law {
         }
     }
 
-    /// Force with damper c: a one-sided link neither acts when open nor pulls (pushes) on the wrong side.
+    /// The force with a damper `c`. A one-sided link has no force when open, and its damper never changes the sign of the force.
     #[inline]
-    fn damped_force(&self, delta: f64, rate: f64, c: f64) -> Response {
+    fn damped_force(&self, delta: f64, rate: f64, c: f64) -> LinkForce {
         let (elastic, stiffness) = self.force(delta);
-        let open = Response { force: 0.0, elastic, stiffness: 0.0, damping: 0.0 };
+        let open = LinkForce { force: 0.0, elastic, stiffness: 0.0, damping: 0.0 };
         match self {
-            Law::CompressionOnly { .. } if stiffness == 0.0 || elastic + c * rate > 0.0 => open,
-            Law::TensionOnly { .. } if stiffness == 0.0 || elastic + c * rate < 0.0 => open,
-            _ => Response { force: elastic + c * rate, elastic, stiffness, damping: c },
+            LinkLaw::CompressionOnly { .. } if stiffness == 0.0 || elastic + c * rate > 0.0 => open,
+            LinkLaw::TensionOnly { .. } if stiffness == 0.0 || elastic + c * rate < 0.0 => open,
+            _ => LinkForce { force: elastic + c * rate, elastic, stiffness, damping: c },
         }
     }
 }
 
-struct Response {
+/// The force of a link and its derivatives.
+struct LinkForce {
     force: f64,
+    /// The part of the spring.
     elastic: f64,
+    /// ∂force/∂δ.
     stiffness: f64,
+    /// ∂force/∂δ̇.
     damping: f64,
 }
 
@@ -78,75 +82,89 @@ struct Response {
 #[derive(Debug, Clone)]
 pub struct Link {
     pub nodes: [usize; 2],
-    pub law: Law,
+    pub law: LinkLaw,
+    /// Force per rate of elongation.
     pub damping: f64,
-    /// Fixed unit vector, or the line of the nodes.
+    /// A unit vector fixed in space along which the link acts; none for the line of the nodes.
     pub direction: Option<Vec3>,
-    /// Where its nodes lay at t = 0, and the vector from the first to the second then.
+    /// Positions of its nodes at t = 0.
     start: [Vec3; 2],
+    /// The vector from the first to the second then.
     span: Vec3,
-    /// Length or projection at t = 0.
-    before: f64,
-    /// Its elongation then: how much longer it was than without force.
-    already: f64,
+    /// Length at t = 0, or its projection on `direction`.
+    initial_length: f64,
+    /// Elongation at t = 0.
+    initial_elongation: f64,
 }
 
-struct Line {
-    /// Unit vector from the first node to the second.
+/// The line of a link and its elongation.
+struct LinkAxis {
+    /// Unit vector from the first node to the second, or the fixed direction.
     e: Vec3,
     length: f64,
+    /// δ.
     delta: f64,
+    /// δ̇.
     rate: f64,
-    /// Relative velocity.
+    /// Velocity of the second node less that of the first.
     dv: Vec3,
 }
 
 impl Link {
-    /// `free_length`: length or projection of zero elongation; `start`: where its nodes lay at t = 0.
+    /// `free_length`: length, or its projection on `direction`, at zero elongation; `start`: positions of the nodes at t = 0.
     pub fn new(
         nodes: [usize; 2],
-        law: Law,
+        law: LinkLaw,
         damping: f64,
         direction: Option<Vec3>,
         free_length: f64,
         start: [Vec3; 2],
     ) -> Self {
         let span = start[1] - start[0];
-        let before = direction.map_or_else(|| span.norm(), |d| d.dot(&span));
-        Link { nodes, law, damping, direction, start, span, before, already: before - free_length }
+        let initial_length = direction.map_or_else(|| span.norm(), |d| d.dot(&span));
+        Link {
+            nodes,
+            law,
+            damping,
+            direction,
+            start,
+            span,
+            initial_length,
+            initial_elongation: initial_length - free_length,
+        }
     }
 
     #[inline]
-    fn line(&self, nodes: &[Node]) -> Line {
+    fn line(&self, nodes: &[Node]) -> LinkAxis {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let (dx, dv) = (b.relative_position(a), b.v - a.v);
-        // Displacements have more digits than positions: what they add to the length at the start.
+        // Displacements have more digits than positions, so the elongation is computed from them.
         let u = stretch(a, b, &self.start);
         let (e, length, more) = match self.direction {
             Some(d) => (d, d.dot(&dx), d.dot(&u)),
             None => {
                 let length = dx.norm();
-                // Points that have met leave the direction open: no force until they part.
+                // Coincident points define no direction: there is no force until they separate.
                 let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
-                (e, length, elongation(&self.span, self.before, &u, length))
+                (e, length, elongation(&self.span, self.initial_length, &u, length))
             }
         };
-        Line { e, length, delta: self.already + more, rate: e.dot(&dv), dv }
+        LinkAxis { e, length, delta: self.initial_elongation + more, rate: e.dot(&dv), dv }
     }
 
-    /// Elongation, its rate and the force (tension positive).
+    /// Elongation, its rate, and the force, damper included; tension is positive.
     pub fn state(&self, nodes: &[Node]) -> (f64, f64, f64) {
         let line = self.line(nodes);
         (line.delta, line.rate, self.law.damped_force(line.delta, line.rate, self.damping).force)
     }
 
-    /// Unit vector from the first node to the second.
+    /// Unit vector from the first node to the second, or the fixed direction; global components.
     pub fn axis(&self, nodes: &[Node]) -> Vec3 {
         self.line(nodes).e
     }
 }
 
-/// Links, and bars as links of stiffness EA/L.
+/// A group of links, and of elastic bars, which are links of stiffness EA/L.
 pub struct Links(pub Vec<Link>);
 
 impl ElementBlock for Links {
@@ -163,7 +181,7 @@ impl ElementBlock for Links {
     }
 
     fn is_linear(&self) -> bool {
-        self.0.iter().all(|l| l.direction.is_some() && matches!(l.law, Law::Linear { .. }))
+        self.0.iter().all(|l| l.direction.is_some() && matches!(l.law, LinkLaw::Linear { .. }))
     }
 
     fn fixed_direction(&self, e: usize) -> Option<Vec3> {
@@ -224,10 +242,10 @@ mod tests {
     #[test]
     fn energy_is_the_integral_of_the_force() {
         let laws = [
-            Law::Linear { stiffness: 3.0, preload: -0.4 },
-            Law::Table { points: vec![[-1.0, -5.0], [0.2, 0.1], [0.5, 3.0]] },
-            Law::CompressionOnly { stiffness: 2.0, gap: 0.1 },
-            Law::TensionOnly { stiffness: 2.0, gap: 0.1 },
+            LinkLaw::Linear { stiffness: 3.0, preload: -0.4 },
+            LinkLaw::Table { points: vec![[-1.0, -5.0], [0.2, 0.1], [0.5, 3.0]] },
+            LinkLaw::CompressionOnly { stiffness: 2.0, gap: 0.1 },
+            LinkLaw::TensionOnly { stiffness: 2.0, gap: 0.1 },
         ];
         for law in &laws {
             for delta in [-2.0, -0.3, -0.05, 0.0, 0.05, 0.3, 2.0] {
@@ -242,7 +260,7 @@ mod tests {
 
     #[test]
     fn one_sided_links_never_pull_the_wrong_way() {
-        let bumper = Law::CompressionOnly { stiffness: 10.0, gap: 0.0 };
+        let bumper = LinkLaw::CompressionOnly { stiffness: 10.0, gap: 0.0 };
         assert_eq!(bumper.damped_force(0.1, -1.0, 5.0).force, 0.0);
         assert_eq!(bumper.damped_force(-0.1, 1.0, 5.0).force, 0.0);
         assert_eq!(bumper.damped_force(-0.1, -1.0, 5.0).force, -6.0);

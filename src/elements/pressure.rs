@@ -1,31 +1,34 @@
-//! Pressure that follows: on the area and along the normal that a face has at the moment.
+//! Follower pressure: it acts on the deformed area of a face, against its normal.
 //!
-//! A face x(ξ, η) of three or four nodes feels f_a = −p ∫ N_a x,ξ × x,η dξ dη, p against the normal, which sees the nodes go
-//! round counter-clockwise. With x linear or bilinear the integral is a polynomial in the nodes' positions, of second
-//! degree, and written out below. f is −p times the derivative of the volume under the face, so over a closed surface p has
-//! the potential p V and a symmetric stiffness; at a free border the stiffness is not symmetric (Schweizerhof & Ramm 1984).
+//! The forces on the nodes of a face x(ξ, η) of three or four nodes are f_a = −p ∫ N_a x,ξ × x,η dξ dη; the normal is the side
+//! from which the nodes follow each other counter-clockwise. With x linear or bilinear the integral is a polynomial of second
+//! degree in the positions of the nodes, and written out below. f is −p times the derivative of the volume under the face, so
+//! that a closed surface has the potential p V and a symmetric stiffness; at a free edge the stiffness is not symmetric
+//! (Schweizerhof & Ramm 1984).
 
-use super::Force;
+use super::block::{Force, subtract};
 use crate::math::{Mat3, Vec3, skew};
 use crate::state::Node;
 
-/// What pressure acts on.
+/// A face under pressure, by its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
+    /// Three nodes, x linear.
     Triangle([usize; 3]),
+    /// Four nodes, x bilinear.
     Quadrilateral([usize; 4]),
 }
 
-/// x,ξ = e₀ + η e₂ and x,η = e₁ + ξ e₂ as sums of the nodes of a quadrilateral, ξ and η from −1 to 1.
+/// Coefficients of the nodes of a quadrilateral in e₀, e₁, e₂, where x,ξ = e₀ + η e₂ and x,η = e₁ + ξ e₂, ξ and η from −1 to 1.
 const SLOPES: [[f64; 4]; 3] = [[-0.25, 0.25, 0.25, -0.25], [-0.25, -0.25, 0.25, 0.25], [0.25, -0.25, 0.25, -0.25]];
-/// Those pairs whose products e_i × e_j are the face's: by ∫ N_a, by ∫ N_a ξ, by ∫ N_a η.
+/// The pairs (i, j) of which x,ξ × x,η = Σ e_i × e_j times 1, ξ and η.
 const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
-/// The three integrals, by node.
+/// ∫ N_a, ∫ N_a ξ and ∫ N_a η for each node a.
 const SHARES: [[f64; 3]; 4] = [[1.0, -THIRD, -THIRD], [1.0, THIRD, -THIRD], [1.0, THIRD, THIRD], [1.0, -THIRD, THIRD]];
 const THIRD: f64 = 1.0 / 3.0;
 
 impl Face {
-    /// Of the three or four corners of an element.
+    /// The face of an element with three or four corners; none for other numbers of nodes.
     pub fn of(nodes: &[usize]) -> Option<Face> {
         match *nodes {
             [a, b, c] => Some(Face::Triangle([a, b, c])),
@@ -34,6 +37,7 @@ impl Face {
         }
     }
 
+    /// Its nodes, counter-clockwise about the normal.
     pub fn nodes(&self) -> &[usize] {
         match self {
             Face::Triangle(nodes) => nodes,
@@ -41,6 +45,7 @@ impl Face {
         }
     }
 
+    /// Its nodes, to be renumbered.
     pub fn nodes_mut(&mut self) -> &mut [usize] {
         match self {
             Face::Triangle(nodes) => nodes,
@@ -48,7 +53,7 @@ impl Face {
         }
     }
 
-    /// ∫ N_a n dA for each of [`Face::nodes`], zero beyond them; `x`: positions by node.
+    /// ∫ N_a n dA for each of [`Face::nodes`], zero beyond them. `x` gives the position of a node.
     #[inline]
     pub fn areas(&self, x: impl Fn(usize) -> Vec3) -> [Vec3; 4] {
         match self {
@@ -65,20 +70,20 @@ impl Face {
         }
     }
 
-    /// Adds the forces of pressure `p` to `F`, by node; returns the largest component of them.
+    /// Adds the forces of the pressure `p` to `F`, which is indexed by node; returns the largest of their components.
     #[inline]
     pub fn add_forces(&self, p: f64, nodes: &[Node], F: &mut [Force]) -> f64 {
         let mut largest: f64 = 0.0;
         for (&node, area) in self.nodes().iter().zip(self.areas(|n| nodes[n].x)) {
             let f = p * area;
             largest = largest.max(f.amax());
-            super::subtract(&mut F[node], 0, &f);
+            subtract(&mut F[node], 0, &f);
         }
         largest
     }
 
-    /// Work of a pressure that goes from `p[0]` to `p[1]` while every node goes straight from `from` to `to`: exact, since
-    /// force along the way is of third degree (Simpson). A constant p does p times the change of volume.
+    /// Work of a pressure that changes linearly from `p[0]` to `p[1]` while each node moves on a straight line from `from` to `to`.
+    /// Power is of third degree in the way, so Simpson's rule is exact. That of a constant p is −p times the change of volume.
     pub fn work(&self, p: [f64; 2], from: &[Node], to: &[Node]) -> f64 {
         let moved = |n: usize| to[n].x - from[n].x;
         let at = |s: f64| {
@@ -89,12 +94,12 @@ impl Face {
         (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
     }
 
-    /// K ← −∂f/∂x, row-major over the nodes, three directions each.
+    /// K ← −∂f/∂x, row-major over the nodes, three components each.
     pub fn stiffness(&self, p: f64, nodes: &[Node], K: &mut [f64]) {
         let x = |n: usize| nodes[n].x;
         match self {
             Face::Triangle([a, b, c]) => {
-                // ∂[(b − a) × (c − a)]: each corner moves against the side across from it.
+                // ∂[(b − a) × (c − a)] by a corner is the cross product with the opposite side.
                 let sides = [x(*c) - x(*b), x(*a) - x(*c), x(*b) - x(*a)].map(|side| p / 6.0 * skew(&side));
                 set(K, |_, column| sides[column]);
             }
@@ -107,7 +112,7 @@ impl Face {
     }
 }
 
-/// The e_i.
+/// e₀, e₁ and e₂ of a quadrilateral.
 #[inline]
 fn edges(nodes: &[usize; 4], x: impl Fn(usize) -> Vec3) -> [Vec3; 3] {
     let first = x(nodes[0]);
@@ -115,6 +120,7 @@ fn edges(nodes: &[usize; 4], x: impl Fn(usize) -> Vec3) -> [Vec3; 3] {
     SLOPES.map(|slope| (0..4).map(|a| slope[a] * x[a]).sum())
 }
 
+/// K ← its 3×3 blocks, by pairs of nodes.
 fn set(K: &mut [f64], block: impl Fn(usize, usize) -> Mat3) {
     let n = (K.len() / 9).isqrt();
     for a in 0..n {

@@ -9,7 +9,7 @@ use super::values::{chosen, flag, span, vec3};
 use crate::deck::beams as words;
 use crate::deck::words::Vector;
 use crate::diagnostic::At;
-use crate::elements::beam::{DEFAULT_ORDER, IntegrationRule, MOST_POINTS, Yielding};
+use crate::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use crate::math::quadrature::lobatto;
 use crate::math::{Mat3, Vec3};
 use std::collections::HashSet;
@@ -189,7 +189,7 @@ fn yielding<'d>(
     order: usize,
     section: bool,
     cx: &mut PartContext<'_, 'd>,
-) -> Option<Option<Yielding>> {
+) -> Option<Option<FibreModel>> {
     let unused = [
         ("integration", span(&beam.integration)),
         ("points", span(&beam.points)),
@@ -223,7 +223,7 @@ fn yielding<'d>(
     let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
     // Where the section is wrong, that has been said.
     let fibres = if section { cx.sections.fibres(beam, cx.report)? } else { return None };
-    Some(Some(Yielding { law, fibres, shear, rule, points }))
+    Some(Some(FibreModel { law, fibres, shear, rule, points }))
 }
 
 /// Section frame of each segment: x along it, y towards the orientation, z = x × y.

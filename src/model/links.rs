@@ -9,7 +9,7 @@ use super::scene::Scene;
 use super::values::span;
 use crate::deck::links as words;
 use crate::deck::words::{Maybe, Numbers};
-use crate::elements::link::Law;
+use crate::elements::link::LinkLaw;
 use crate::math::Mat3;
 
 pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Link> {
@@ -71,7 +71,7 @@ fn line<'d>(
     Some(LinkKind::Line { law, damping, direction, free_length: free_length.unwrap_or(initial) })
 }
 
-fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<Law> {
+fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkLaw> {
     let law = match &link.law {
         Some(law) => law.value,
         None if report.is_spoiled(owner.span, "law") => return None,
@@ -86,12 +86,12 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
                 report.require(owner, "stiffness", &link.stiffness)?;
             }
             let stiffness = report.not_negative("stiffness", &link.stiffness, 0.0);
-            Some(Law::Linear { stiffness, preload: link.preload.as_ref().map_or(0.0, |force| force.value) })
+            Some(LinkLaw::Linear { stiffness, preload: link.preload.as_ref().map_or(0.0, |force| force.value) })
         }
         words::LinkLaw::Table => {
             report.reject_unused("the law \"table\"", &[stiffness, gap, preload]);
             let points = report.require(owner, "points", &link.points)?;
-            report.rising("elongation", points).map(|points| Law::Table { points })
+            report.rising("elongation", points).map(|points| LinkLaw::Table { points })
         }
         words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {
             let one_sided = "a law that acts one way only";

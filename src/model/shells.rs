@@ -11,7 +11,7 @@ use super::values::{chosen, span};
 use crate::deck::shells as words;
 use crate::deck::words::OneOrMany;
 use crate::diagnostic::At;
-use crate::elements::shell::{DRILLING, MOST_LAYERS, Plate, Yielding};
+use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, Plate};
 use crate::math::Vec3;
 use crate::mesh;
 
@@ -171,7 +171,7 @@ fn plate<'d>(
     shell: &'d words::Shell,
     mass: MassKind,
     cx: &mut PartContext<'_, 'd>,
-) -> Option<(Plate, f64, Option<Yielding>, Vec3)> {
+) -> Option<(Plate, f64, Option<LayerModel>, Vec3)> {
     let thickness = cx.report.require_positive(owner, "thickness", &shell.thickness);
     let name = cx.report.require(owner, "material", &shell.material)?;
     let (_, material) = cx.materials.find(name, cx.report)?;
@@ -239,6 +239,6 @@ fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'
         Some(at) if !(2..=MOST_LAYERS).contains(&layers) => {
             cx.report.error(&at.span, format!("`layers` must lie between 2 and {MOST_LAYERS}"))
         }
-        _ => Some(Some(Yielding { law, layers })),
+        _ => Some(Some(LayerModel { law, layers })),
     }
 }

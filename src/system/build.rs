@@ -7,7 +7,7 @@ use super::watched::Watched;
 use crate::constraints::joint::{Joint, Row};
 use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};
-use crate::elements::beam::{Beams, Description, Yielding};
+use crate::elements::beam::{BeamGeometry, Beams, FibreModel};
 use crate::elements::bushing::{Bushing, Bushings};
 use crate::elements::contact::{Contacts, MOST_NODES, Point};
 use crate::elements::link::{Link, Links};
@@ -188,7 +188,7 @@ fn beams_of<const N: usize>(
     beta: f64,
     plane: Option<usize>,
 ) -> Box<dyn ElementBlock> {
-    let elements = part.elements[piece].iter().map(|e| Description {
+    let elements = part.elements[piece].iter().map(|e| BeamGeometry {
         nodes: &e.nodes,
         frame: &e.frame,
         stiffness: &model.stiffnesses[e.section],
@@ -200,7 +200,7 @@ fn beams_of<const N: usize>(
                 Some(along_z) => sections::flattened(&yielding.fibres, along_z),
                 None => yielding.fibres.clone(),
             };
-            Yielding { fibres, ..yielding.clone() }.beams::<N>(elements, x, beta)
+            FibreModel { fibres, ..yielding.clone() }.beams::<N>(elements, x, beta)
         }
     }
 }
@@ -215,7 +215,7 @@ pub fn in_plane(part: &model::Beam, plane: Option<usize>) -> Option<bool> {
 fn bars(part: &model::Bar, piece: Range<usize>, x: &[Vec3], beta: f64) -> Box<dyn ElementBlock> {
     let elements = &part.elements[piece];
     match &part.yielding {
-        None => Box::new(bar::links(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),
+        None => Box::new(bar::elastic_bars(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),
         Some(law) => {
             let stiffness = part.axial_stiffness;
             Box::new(YieldingBars::new(elements, stiffness, law, part.tension_only, part.free, x, beta))
@@ -227,7 +227,7 @@ fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Bo
     let corners = part.corners;
     let elements = part.elements[piece]
         .iter()
-        .map(|e| shell::Description { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
+        .map(|e| shell::ShellGeometry { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
     match (&part.yielding, corners) {
         (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
         (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),

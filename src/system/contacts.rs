@@ -31,7 +31,9 @@ impl System {
     }
 
     fn contact_groups(&self) -> impl Iterator<Item = (&Group, &Contacts)> {
-        self.groups[self.contacts..].iter().filter_map(|group| Some((group, group.block.as_contacts()?)))
+        self.groups[self.contacts..]
+            .iter()
+            .filter_map(|group| Some((group, group.block.as_any()?.downcast_ref::<Contacts>()?)))
     }
 
     /// The contact, by its place in [`Model::parts`], with an impact after `state` that a step which writes equilibrium `since`

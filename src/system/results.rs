@@ -28,7 +28,7 @@ pub struct SectionPoint {
     pub element: usize,
     pub point: usize,
     /// At arc length `s` from the beam's start.
-    pub at: Point,
+    pub at: IntegrationPoint,
 }
 
 /// A shell element.
@@ -38,7 +38,7 @@ pub struct ShellState {
     pub part: usize,
     /// Its number in the deck's part.
     pub element: usize,
-    pub at: Resultants,
+    pub at: ShellResultants,
 }
 
 impl System {
@@ -83,7 +83,7 @@ impl System {
                 let resultants = group.block.resultants(e, &shell.axis, &start[..shell.corners], &now);
                 let Some(mut at) = resultants else { continue };
                 if at.layers().is_empty() {
-                    at.surfaces(shell.plate.thickness);
+                    at.set_elastic_layers(shell.plate.thickness);
                 }
                 out.push(ShellState { part: group.part, element: shell.number(element), at });
             }

@@ -3,7 +3,7 @@
 use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
-use rdsolve::elements::link::Law;
+use rdsolve::elements::link::LinkLaw;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{AnalysisKind, History, MassKind, Model, Motion, NodalDamping, Restraint};
 
@@ -72,7 +72,7 @@ fn a_damper_takes_what_the_oscillator_loses() {
             fix(&mut m, a, 0..6);
             fix(&mut m, b, 1..3);
             mass(&mut m, b, m0, Mat3::zeros());
-            line(&mut m, [a, b], Law::Linear { stiffness: k, preload: 0.0 }, c, Some(Vec3::x()));
+            line(&mut m, [a, b], LinkLaw::Linear { stiffness: k, preload: 0.0 }, c, Some(Vec3::x()));
             m.nodes[b].v = Vec3::x() * v0;
             let record = run(&m);
             let taken = record.energies.last().expect("shown").damping;

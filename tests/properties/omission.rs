@@ -93,7 +93,7 @@ fn spin_is_no_cause_in_statics() {
     line(
         &mut m,
         [ground, block],
-        rdsolve::elements::link::Law::Linear { stiffness: 100.0, preload: 0.0 },
+        rdsolve::elements::link::LinkLaw::Linear { stiffness: 100.0, preload: 0.0 },
         0.0,
         Some(-Vec3::z()),
     );

@@ -3,8 +3,8 @@
 use rand::rngs::StdRng;
 use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
-use rdsolve::elements::beam::{IntegrationRule, Yielding};
-use rdsolve::elements::link::Law;
+use rdsolve::elements::beam::{FibreModel, IntegrationRule};
+use rdsolve::elements::link::LinkLaw;
 use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
@@ -144,7 +144,7 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
     m.add(Beam { name, order, mass, rotary_inertia: true, yielding: None, elements: made });
 }
 
-pub fn line(m: &mut Model, ends: [usize; 2], law: Law, damping: f64, direction: Option<Vec3>) {
+pub fn line(m: &mut Model, ends: [usize; 2], law: LinkLaw, damping: f64, direction: Option<Vec3>) {
     let arm = m.nodes[ends[1]].x - m.nodes[ends[0]].x;
     let free_length = direction.map_or(arm.norm(), |d| d.dot(&arm));
     let kind = LinkKind::Line { law, damping, direction, free_length };
@@ -153,7 +153,7 @@ pub fn line(m: &mut Model, ends: [usize; 2], law: Law, damping: f64, direction: 
 }
 
 pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
-    line(m, ends, Law::Linear { stiffness, preload: 0.0 }, damping, None);
+    line(m, ends, LinkLaw::Linear { stiffness, preload: 0.0 }, damping, None);
 }
 
 pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_length: f64, mass: MassKind) {
@@ -259,8 +259,14 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
     mass(&mut m, free, 0.6, Mat3::zeros());
     bar(&mut m, [p[3], free], 80.0, 0.0, MassKind::None);
     spring(&mut m, [farther, free], 40.0, 0.0);
-    line(&mut m, [far, ground], Law::Linear { stiffness: 30.0, preload: 2.0 }, 0.0, Some(vector(rng, 1.0).normalize()));
-    line(&mut m, [free, ground], Law::Table { points: vec![[-9.0, -90.0], [0.0, 0.0], [9.0, 200.0]] }, 0.0, None);
+    line(
+        &mut m,
+        [far, ground],
+        LinkLaw::Linear { stiffness: 30.0, preload: 2.0 },
+        0.0,
+        Some(vector(rng, 1.0).normalize()),
+    );
+    line(&mut m, [free, ground], LinkLaw::Table { points: vec![[-9.0, -90.0], [0.0, 0.0], [9.0, 200.0]] }, 0.0, None);
     m.add(Link {
         name: "bushing".into(),
         ends: [p[2], offset],
@@ -295,14 +301,14 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
         let (rule, points) =
             if i % 3 == 1 { (IntegrationRule::Lobatto, 5) } else { (IntegrationRule::Gauss, beam.order + i % 2) };
         let law = laws[i % 2].clone();
-        beam.yielding = Some(Yielding { law, fibres: fibres.clone(), shear: i % 4 < 2, rule, points: points.min(5) });
+        beam.yielding = Some(FibreModel { law, fibres: fibres.clone(), shear: i % 4 < 2, rule, points: points.min(5) });
     }
     for (i, bar) in m.each_mut::<Bar>().enumerate() {
         bar.yielding = Some(laws[i % 2].clone());
         bar.tension_only = i % 2 == 1;
     }
     for (i, part) in m.each_mut::<Shell>().enumerate() {
-        part.yielding = Some(shell::Yielding { law: laws[i % 2].clone(), layers: 3 });
+        part.yielding = Some(shell::LayerModel { law: laws[i % 2].clone(), layers: 3 });
     }
 }
 

@@ -1,7 +1,7 @@
 //! A small scene of one of each, and a made-up motion for it: what observers are shown in their tests.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
-use rdsolve::elements::Point;
+use rdsolve::elements::IntegrationPoint;
 use rdsolve::elements::contact::{self, Surface};
 use rdsolve::elements::link::Law;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
@@ -43,7 +43,7 @@ pub fn model() -> Model {
     ];
     let body =
         |(i, shape)| Body { name: format!("body {i}"), node: 6 + i, mass: 1.0, inertia: Mat3::identity(), shape };
-    let law = Law::Linear { stiffness: 1.0, preload: 0.0 };
+    let law = LinkLaw::Linear { stiffness: 1.0, preload: 0.0 };
     Model {
         title: "one of each".into(),
         analysis: Analysis {
@@ -158,7 +158,7 @@ impl Extras {
             part: 1,
             element: 0,
             point,
-            at: Point { s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0], plastic_strain: 0.25 },
+            at: IntegrationPoint { s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0], plastic_strain: 0.25 },
         };
         let derived = Derived {
             energy: Some(Energy {

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Unit};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{
-    DRILLING, Description, Plate, Quadrilateral, Quadrilaterals, Triangle, Triangles, Yielding,
+    DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
 use rdsolve::elements::{ElementBlock, Force, Moduli};
 use rdsolve::materials::{Hardening, Law};
@@ -34,17 +34,17 @@ impl Mesh {
     fn block(&self, plate: &Plate) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
-        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| Description { nodes, normals });
+        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry { nodes, normals });
         match self.elements[0].len() {
             3 => Box::new(Triangles::new(all, &self.x, plate, 0.0)),
             _ => Box::new(Quadrilaterals::new(all, &self.x, plate, 0.0)),
         }
     }
 
-    fn layered(&self, plate: &Plate, yielding: &Yielding) -> Box<dyn ElementBlock> {
+    fn layered(&self, plate: &Plate, yielding: &LayerModel) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
-        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| Description { nodes, normals });
+        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry { nodes, normals });
         match self.elements[0].len() {
             3 => yielding.shells::<Triangle, 3, 2, 3>(all, &self.x, plate, 0.0),
             _ => yielding.shells::<Quadrilateral, 4, 3, 5>(all, &self.x, plate, 0.0),
@@ -183,7 +183,7 @@ fn layers_have_the_tangent_of_their_stress() {
     for triangle in [false, true] {
         for round in 0..10 {
             let mesh = Mesh::one(&mut rng, triangle);
-            let block = mesh.layered(&PLATE, &Yielding { law: law(), layers: 4 });
+            let block = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 4 });
             let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
             let R: Mat3 = rotation::matrix(&q);
             let mut moved = |strain: f64| -> Vec<Node> {
@@ -229,7 +229,7 @@ fn layers_that_do_not_yield_are_elastic() {
     let mut rng = StdRng::seed_from_u64(4);
     for triangle in [false, true] {
         let mesh = Mesh::one(&mut rng, triangle);
-        let layered = mesh.layered(&PLATE, &Yielding { law: law(), layers: 2 });
+        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 2 });
         let elastic = mesh.block(&PLATE);
         let nodes: Vec<Node> = mesh
             .x
@@ -319,7 +319,7 @@ fn speed() {
         let strain = |x: &Vec3| Node::at_rest(1.02 * x);
         let nodes: Vec<Node> = mesh.x.iter().map(strain).collect();
         let elastic = mesh.block(&PLATE);
-        let layered = mesh.layered(&PLATE, &Yielding { law: law(), layers: 5 });
+        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 5 });
         for (name, block) in [("elastic", elastic), ("layered, all of 5 layers yield", layered)] {
             let history = vec![0.0; block.history()];
             let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };

@@ -5,9 +5,9 @@ use crate::support;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{
-    DRILLING, Description, Plate, Quadrilateral, Quadrilaterals, Triangle, Triangles, Yielding,
+    DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
-use rdsolve::elements::{ElementBlock, Resultants};
+use rdsolve::elements::{ElementBlock, ShellResultants};
 use rdsolve::materials::{Hardening, Law};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::{Model, Shell};
@@ -31,10 +31,10 @@ impl Patch {
         Patch { x, elements }
     }
 
-    fn block(&self, yielding: Option<&Yielding>) -> Box<dyn ElementBlock> {
+    fn block(&self, yielding: Option<&LayerModel>) -> Box<dyn ElementBlock> {
         let plate = Plate { thickness: H, E, nu: NU, drilling: DRILLING };
         let normals = [Vec3::z(); 4];
-        let all = self.elements.iter().map(|nodes| Description { nodes, normals: &normals[..nodes.len()] });
+        let all = self.elements.iter().map(|nodes| ShellGeometry { nodes, normals: &normals[..nodes.len()] });
         match (yielding, self.elements[0].len()) {
             (None, 3) => Box::new(Triangles::new(all, &self.x, &plate, 0.0)),
             (None, _) => Box::new(Quadrilaterals::new(all, &self.x, &plate, 0.0)),
@@ -44,7 +44,7 @@ impl Patch {
     }
 
     /// What every element feels.
-    fn feels(&self, block: &dyn ElementBlock, axis: Vec3, now: &Configuration) -> Vec<Resultants> {
+    fn feels(&self, block: &dyn ElementBlock, axis: Vec3, now: &Configuration) -> Vec<ShellResultants> {
         let start = |e: &Vec<usize>| -> Vec<Vec3> { e.iter().map(|&n| self.x[n]).collect() };
         let of = |(e, nodes)| block.resultants(e, &axis, &start(nodes), now).unwrap();
         self.elements.iter().enumerate().map(of).collect()
@@ -77,7 +77,7 @@ fn assert_near(found: &[f64], wanted: &[f64], bound: f64) {
 fn even_strain() {
     let mut rng = StdRng::seed_from_u64(21);
     let law = Law::new(E, NU, Hardening::Linear { yield_stress: 1e9, modulus: 0.0 }, 0.0, None);
-    let layered = Yielding { law, layers: 3 };
+    let layered = LayerModel { law, layers: 3 };
     for triangles in [false, true] {
         for yielding in [None, Some(&layered)] {
             let patch = Patch::new(triangles);
@@ -181,7 +181,8 @@ fn a_cantilever_obeys_statics() {
             // Triangles share the width: means over the pair.
             let per = states.len() / 8;
             for (k, pair) in states.chunks(per).enumerate() {
-                let mean = |of: &dyn Fn(&Resultants) -> f64| pair.iter().map(|s| of(&s.at)).sum::<f64>() / per as f64;
+                let mean =
+                    |of: &dyn Fn(&ShellResultants) -> f64| pair.iter().map(|s| of(&s.at)).sum::<f64>() / per as f64;
                 let x = 0.5 * (k as f64 + 0.5);
                 let size = fx.abs().max(4.0 * fz.abs()).max(m.abs());
                 assert!((mean(&|at| at.N[0]) - fx).abs() < 1e-5 * size, "{kind} N {:?}", pair[0].at);
@@ -211,7 +212,7 @@ fn a_cantilever_obeys_statics() {
 fn layers_yield_one_by_one() {
     let (limit, hardening) = (1e-6, 50.0);
     let law = Law::new(E, NU, Hardening::Linear { yield_stress: limit, modulus: hardening }, 0.3, None);
-    let layered = Yielding { law, layers: 5 };
+    let layered = LayerModel { law, layers: 5 };
     let (z, w) = quadrature::gauss(5);
     for triangles in [false, true] {
         let patch = Patch::new(triangles);

@@ -1,43 +1,54 @@
-//! A section as fibres, each with a stress and a memory of its own: what yields.
+//! A section of fibres, each with a stress and history variables of its own, that yields.
 //!
-//! A fibre feels ε = Γ₁ + z κ₂ − y κ₃ and, where shear yields with it, γ_a = s_a·(Γ₂, Γ₃, κ₁). What the fibres leave of the
-//! elastic section (all of shear and torsion where these stay elastic) answers beside them as a spring.
+//! The strains of a fibre are ε = Γ₁ + z κ₂ − y κ₃ and, where shear enters the yield condition, γ_a = s_a·(Γ₂, Γ₃, κ₁). The
+//! stiffness of the elastic section less that of the elastic fibres (all of shear and torsion where these stay elastic) acts
+//! beside them.
 
-use super::section::{Elastic, Section};
-use super::{Configuration, Moduli};
+use super::section::{BeamSection, BeamStiffness};
+use crate::elements::block::Moduli;
 use crate::materials::{Dissipation, Law, StressState};
 use crate::math::{Mat3, Mat6, Vec3};
 use crate::sections::{Fibre, Stiffness};
+use crate::state::Configuration;
 use std::array::from_fn;
 use std::sync::Arc;
 
-/// The fibres of a section and their law; shared by all elements of a beam.
-pub struct Profile<S, const N: usize> {
+/// The fibres of a section and their law, shared by all elements of a beam.
+pub struct FibreProfile<S, const N: usize> {
     law: Law,
     state: S,
     fibres: Vec<Fibre>,
-    /// Numbers a fibre remembers.
-    memory: usize,
-    /// Of a fibre that does not yield.
+    /// The number of history variables of a fibre.
+    variables: usize,
+    /// ∂stress/∂strain of a fibre that does not yield.
     stiffness: [[f64; N]; N],
-    /// The elastic section, and that less its elastic fibres; section axes.
-    whole: Elastic,
-    rest: Elastic,
+    /// The elastic section, in section axes.
+    whole: BeamStiffness,
+    /// The elastic section less its elastic fibres, in section axes.
+    rest: BeamStiffness,
 }
 
-impl<S: StressState<N>, const N: usize> Profile<S, N> {
-    /// `state` says which stresses a fibre has; `section` is the elastic answer of the whole.
+impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
+    /// `state` says which stresses a fibre has; `section` is the stiffness of the whole elastic section.
     pub fn new(law: &Law, state: S, fibres: &[Fibre], section: &Stiffness) -> Self {
         let stiffness = law.stiffness(state);
-        let mut own = Sum::default();
+        let mut own = FibreSum::default();
         fibres.iter().for_each(|fibre| own.add(fibre, &stiffness));
         let own = own.section();
-        let whole = Elastic { N: section.N, M: section.M, NM: section.NM, coupled: true };
-        let rest = Elastic { N: whole.N - own.N, M: whole.M - own.M, NM: whole.NM - own.NM, coupled: true };
-        Profile { law: law.clone(), state, fibres: fibres.to_vec(), memory: law.history(state), stiffness, whole, rest }
+        let whole = BeamStiffness { N: section.N, M: section.M, NM: section.NM, coupled: true };
+        let rest = BeamStiffness { N: whole.N - own.N, M: whole.M - own.M, NM: whole.NM - own.NM, coupled: true };
+        FibreProfile {
+            law: law.clone(),
+            state,
+            fibres: fibres.to_vec(),
+            variables: law.history(state),
+            stiffness,
+            whole,
+            rest,
+        }
     }
 
-    /// Strains of a fibre.
+    /// Strains of a fibre: axial, then shear.
     #[inline(always)]
     fn strain(fibre: &Fibre, gamma: &Vec3, kappa: &Vec3) -> [f64; N] {
         let mut strain = [0.0; N];
@@ -48,24 +59,25 @@ impl<S: StressState<N>, const N: usize> Profile<S, N> {
         strain
     }
 
-    /// What each fibre remembers.
+    /// Each fibre with its history variables.
     #[inline(always)]
-    fn memories<'a>(&'a self, past: &'a [f64]) -> impl Iterator<Item = (&'a Fibre, &'a [f64])> {
-        self.fibres.iter().zip(past.chunks_exact(self.memory))
+    fn with_history<'a>(&'a self, old: &'a [f64]) -> impl Iterator<Item = (&'a Fibre, &'a [f64])> {
+        self.fibres.iter().zip(old.chunks_exact(self.variables))
     }
 
+    /// Stress resultants in section axes.
     #[inline]
     fn stress(&self, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3) {
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
-        for (fibre, past) in self.memories(now.history) {
+        for (fibre, old) in self.with_history(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let stress = self.law.stress(self.state, &strain, now.dt, past);
+            let stress = self.law.stress(self.state, &strain, now.dt, old);
             Self::add(fibre, &stress, &mut n, &mut m);
         }
         (n, m)
     }
 
-    /// Work-conjugate to [`Profile::strain`].
+    /// Adds the stress of a fibre to the resultants: work-conjugate to [`FibreProfile::strain`].
     #[inline(always)]
     fn add(fibre: &Fibre, stress: &[f64; N], n: &mut Vec3, m: &mut Vec3) {
         let force = fibre.area * stress[0];
@@ -80,33 +92,37 @@ impl<S: StressState<N>, const N: usize> Profile<S, N> {
         }
     }
 
-    /// Stress and its algorithmic derivative, section axes: the elastic one, less what fibres lose that yield.
-    fn linearise(&self, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> (Vec3, Vec3, Elastic) {
+    /// Stress resultants and their algorithmic derivative in section axes: the elastic one less what yielding fibres lose.
+    fn linearise(&self, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> (Vec3, Vec3, BeamStiffness) {
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
-        let mut loss = Sum::default();
-        for (fibre, past) in self.memories(now.history) {
+        let mut loss = FibreSum::default();
+        for (fibre, old) in self.with_history(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let (stress, C) = self.law.linearise(self.state, &strain, now.dt, past);
+            let (stress, C) = self.law.linearise(self.state, &strain, now.dt, old);
             Self::add(fibre, &stress, &mut n, &mut m);
             if let Some(C) = C {
                 loss.add::<N>(fibre, &from_fn(|i| from_fn(|j| self.stiffness[i][j] - C[i][j])));
             }
         }
         let (whole, loss) = (&self.whole, loss.section());
-        let C = Elastic { N: whole.N - loss.N, M: whole.M - loss.M, NM: whole.NM - loss.NM, coupled: true };
+        let C = BeamStiffness { N: whole.N - loss.N, M: whole.M - loss.M, NM: whole.NM - loss.NM, coupled: true };
         (n, m, C)
     }
 }
 
-/// Stiffnesses of fibres added up over (Γ₁, κ₂, κ₃), over (Γ₂, Γ₃, κ₁), and between them.
+/// The sum of the stiffnesses of fibres, in section axes.
 #[derive(Default)]
-struct Sum {
+struct FibreSum {
+    /// By (Γ₁, κ₂, κ₃).
     axial: Mat3,
+    /// By (Γ₂, Γ₃, κ₁).
     shear: Mat3,
+    /// Rows (Γ₁, κ₂, κ₃), columns (Γ₂, Γ₃, κ₁).
     mixed: Mat3,
 }
 
-impl Sum {
+impl FibreSum {
+    /// Adds a fibre whose stiffness is `C`.
     #[inline(always)]
     fn add<const N: usize>(&mut self, fibre: &Fibre, C: &[[f64; N]; N]) {
         let u = Vec3::new(1.0, fibre.z, -fibre.y);
@@ -121,7 +137,8 @@ impl Sum {
         }
     }
 
-    fn section(&self) -> Elastic {
+    /// The sum as the stiffness of a section.
+    fn section(&self) -> BeamStiffness {
         const AXIAL: [usize; 3] = [0, 4, 5];
         const SHEAR: [usize; 3] = [1, 2, 3];
         let mut C = Mat6::zeros();
@@ -134,48 +151,55 @@ impl Sum {
             }
         }
         let part = |i, j| C.fixed_view::<3, 3>(i, j).into_owned();
-        Elastic { N: part(0, 0), M: part(3, 3), NM: part(0, 3), coupled: true }
+        BeamStiffness { N: part(0, 0), M: part(3, 3), NM: part(0, 3), coupled: true }
     }
 }
 
-/// The sections of one element.
-pub struct Fibred<S, const N: usize> {
-    profile: Arc<Profile<S, N>>,
-    /// Section axes as columns, global at t = 0.
+/// The sections of one element, one at each integration point.
+pub struct FibreSection<S, const N: usize> {
+    profile: Arc<FibreProfile<S, N>>,
+    /// Section axes: columns, global components at t = 0.
     frame: Mat3,
-    elastic: Elastic,
-    /// Where its share of the group's history begins.
+    elastic: BeamStiffness,
+    /// Start of its range in the history of the group.
     first: usize,
     points: usize,
 }
 
-impl<S: StressState<N>, const N: usize> Fibred<S, N> {
-    /// With `points` integration points; its share of the group's history begins at `first`.
-    pub fn new(profile: &Arc<Profile<S, N>>, section: &Stiffness, frame: &Mat3, first: usize, points: usize) -> Self {
-        let elastic = Elastic::new(section, frame);
-        Fibred { profile: Arc::clone(profile), frame: *frame, elastic, first, points }
+impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
+    /// The sections of an element with `points` integration points, whose range in the history of the group starts at `first`.
+    pub fn new(
+        profile: &Arc<FibreProfile<S, N>>,
+        section: &Stiffness,
+        frame: &Mat3,
+        first: usize,
+        points: usize,
+    ) -> Self {
+        let elastic = BeamStiffness::new(section, frame);
+        FibreSection { profile: Arc::clone(profile), frame: *frame, elastic, first, points }
     }
 
-    /// What the fibres of point `g` remember, as a range of the group's history.
+    /// The range of the history of the group that point `g` has.
     #[inline]
-    fn share(&self, g: usize) -> std::ops::Range<usize> {
-        let length = self.profile.memory * self.profile.fibres.len();
+    fn history_range(&self, g: usize) -> std::ops::Range<usize> {
+        let length = self.profile.variables * self.profile.fibres.len();
         let first = self.first + g * length;
         first..first + length
     }
 
+    /// The configuration with the history variables of point `g` alone.
     #[inline]
     fn at<'a>(&self, g: usize, now: &Configuration<'a>) -> Configuration<'a> {
-        Configuration { history: &now.history[self.share(g)], ..*now }
+        Configuration { history: &now.history[self.history_range(g)], ..*now }
     }
 }
 
-impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
+impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
     fn points(_: usize, rule: usize) -> usize {
         rule
     }
 
-    fn elastic(&self) -> &Elastic {
+    fn elastic(&self) -> &BeamStiffness {
         &self.elastic
     }
 
@@ -191,26 +215,26 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         (gamma, kappa): (&Vec3, &Vec3),
         now: &Configuration,
         moduli: Moduli,
-        room: &'a mut Elastic,
-    ) -> (Vec3, Vec3, &'a Elastic) {
+        tangent: &'a mut BeamStiffness,
+    ) -> (Vec3, Vec3, &'a BeamStiffness) {
         if moduli == Moduli::Elastic {
             let (n, m) = self.stress(g, gamma, kappa, now);
             return (n, m, &self.elastic);
         }
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let (n, m, C) = self.profile.linearise((&gamma, &kappa), &self.at(g, now));
-        *room = C.turned(&self.frame);
-        (self.frame * n, self.frame * m, room)
+        *tangent = C.rotated(&self.frame);
+        (self.frame * n, self.frame * m, tangent)
     }
 
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64 {
-        let Profile { law, state, rest, .. } = &*self.profile;
+        let FibreProfile { law, state, rest, .. } = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let now = self.at(g, now);
-        let of = |(fibre, past): (&Fibre, &[f64])| {
-            fibre.area * law.elastic_energy(*state, &Profile::<S, N>::strain(fibre, &gamma, &kappa), past)
+        let energy = |(fibre, old): (&Fibre, &[f64])| {
+            fibre.area * law.elastic_energy(*state, &FibreProfile::<S, N>::strain(fibre, &gamma, &kappa), old)
         };
-        rest.energy(&gamma, &kappa) + self.profile.memories(now.history).map(of).sum::<f64>()
+        rest.energy(&gamma, &kappa) + self.profile.with_history(now.history).map(energy).sum::<f64>()
     }
 
     fn update_history(
@@ -219,28 +243,28 @@ impl<S: StressState<N>, const N: usize> Section for Fibred<S, N> {
         (gamma, kappa): (&Vec3, &Vec3),
         now: &Configuration,
         part: f64,
-        history: &mut [f64],
+        new: &mut [f64],
     ) -> Dissipation {
-        let Profile { law, state, memory, .. } = &*self.profile;
+        let FibreProfile { law, state, variables, .. } = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let now = self.at(g, now);
         let mut sum = Dissipation::default();
-        let history = history[self.share(g)].chunks_exact_mut(*memory);
-        for ((fibre, past), new) in self.profile.memories(now.history).zip(history) {
-            let strain = Profile::<S, N>::strain(fibre, &gamma, &kappa);
-            let spent = law.advance(*state, &strain, (now.dt, part), past, new).1;
-            sum += spent * fibre.area;
+        let new = new[self.history_range(g)].chunks_exact_mut(*variables);
+        for ((fibre, old), new) in self.profile.with_history(now.history).zip(new) {
+            let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
+            let dissipation = law.advance(*state, &strain, (now.dt, part), old, new).1;
+            sum += dissipation * fibre.area;
         }
         sum
     }
 
-    fn plastic_strain(&self, g: usize, past: &[f64]) -> f64 {
-        let Profile { law, state, .. } = &*self.profile;
-        let past = &past[self.share(g)];
-        self.profile.memories(past).map(|(_, past)| law.accumulated(*state, past)).fold(0.0, f64::max)
+    fn plastic_strain(&self, g: usize, history: &[f64]) -> f64 {
+        let FibreProfile { law, state, .. } = &*self.profile;
+        let history = &history[self.history_range(g)];
+        self.profile.with_history(history).map(|(_, old)| law.accumulated(*state, old)).fold(0.0, f64::max)
     }
 
     fn history(&self) -> usize {
-        self.points * self.profile.memory * self.profile.fibres.len()
+        self.points * self.profile.variables * self.profile.fibres.len()
     }
 }

@@ -2,13 +2,16 @@
 
 use crate::math::{Mat3, Vec3};
 
+/// A quaternion (w, x, y, z).
 pub type Quat = [f64; 4];
 
+/// a·b of all four numbers.
 #[inline(always)]
 pub fn dot(a: &Quat, b: &Quat) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
 }
 
+/// The quaternion product a b.
 #[inline(always)]
 pub fn multiply(a: &Quat, b: &Quat) -> Quat {
     [
@@ -56,7 +59,7 @@ pub fn rotation_columns(q: &Quat) -> [Quat; 3] {
     [[-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]]
 }
 
-/// Rotation matrix of p/|p|.
+/// Rotation matrix of p/|p|; `inv` is 1/|p|².
 #[inline(always)]
 pub fn rotation(p: &Quat, inv: f64) -> Mat3 {
     let [w, x, y, z] = *p;

@@ -1,80 +1,87 @@
-//! How a section answers to strain: elastic here, by fibres in [`super::fibres`].
+//! What a beam asks of its sections; a section that stays elastic. Those that yield stand in [`super::fibres`].
 
-use super::{Configuration, Moduli};
+use crate::elements::block::Moduli;
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
+use crate::state::Configuration;
 
-/// The sections of one element, one at each integration point, all of the same make. Strains Γ, κ and stresses n, m are in
-/// global axes at t = 0.
-pub trait Section: Send + Sync {
-    /// Integration points of an element of `nodes` nodes whose rule has `rule` points.
+/// The sections of one element, one at each integration point. Strains Γ, κ and stress resultants n, m (force and moment) have
+/// global components at t = 0.
+pub trait BeamSection: Send + Sync {
+    /// The number of integration points of an element of `nodes` nodes whose rule has `rule` points.
     fn points(nodes: usize, rule: usize) -> usize;
-    /// The law of the section before it yields.
-    fn elastic(&self) -> &Elastic;
+    /// The stiffness of the section before it yields.
+    fn elastic(&self) -> &BeamStiffness;
     /// Stress at integration point `g`.
     fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3);
-    /// Stress and its derivative, for which there is `room`.
+    /// Stress and its derivative, which `tangent` holds where it is not the elastic one.
     fn linearise<'a>(
         &'a self,
         g: usize,
         strain: (&Vec3, &Vec3),
         now: &Configuration,
         moduli: Moduli,
-        room: &'a mut Elastic,
-    ) -> (Vec3, Vec3, &'a Elastic);
-    /// Elastic energy per length.
+        tangent: &'a mut BeamStiffness,
+    ) -> (Vec3, Vec3, &'a BeamStiffness);
+    /// BeamStiffness energy per length.
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64;
-    /// Writes its share of the history; what was spent is per length.
+    /// Writes the history variables of point `g` at `part` of the way to `now` into its range of `new`, the history of the group,
+    /// and returns the dissipation per length.
     fn update_history(
         &self,
         _g: usize,
         _strain: (&Vec3, &Vec3),
         _now: &Configuration,
         _part: f64,
-        _history: &mut [f64],
+        _new: &mut [f64],
     ) -> Dissipation {
         Dissipation::default()
     }
-    /// Largest accumulated plastic strain.
-    fn plastic_strain(&self, _g: usize, _past: &[f64]) -> f64 {
+    /// Largest accumulated plastic strain at point `g`, by the history variables of the group.
+    fn plastic_strain(&self, _g: usize, _history: &[f64]) -> f64 {
         0.0
     }
-    /// Numbers to remember of all points.
+    /// The number of history variables of all points.
     fn history(&self) -> usize {
         0
     }
 }
 
-/// σ = C ε with ε = (Γ, κ).
+/// The stiffness C of a section: σ = C ε with σ = (n, m) and ε = (Γ, κ). As a [`BeamSection`] it is one that stays elastic.
 #[derive(Debug, Clone)]
-pub struct Elastic {
+pub struct BeamStiffness {
+    /// ∂n/∂Γ.
     pub N: Mat3,
+    /// ∂m/∂κ.
     pub M: Mat3,
+    /// ∂n/∂κ, and transposed ∂m/∂Γ.
     pub NM: Mat3,
-    /// NM is not zero.
+    /// `NM` is not zero.
     pub coupled: bool,
 }
 
-impl Elastic {
-    pub const ZERO: Elastic = {
+impl BeamStiffness {
+    /// No stiffness.
+    pub const ZERO: BeamStiffness = {
         let zero = Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        Elastic { N: zero, M: zero, NM: zero, coupled: false }
+        BeamStiffness { N: zero, M: zero, NM: zero, coupled: false }
     };
 
-    /// Of a section whose axes are the columns of `frame`.
+    /// The stiffness of a section whose axes are the columns of `frame`.
     pub fn new(section: &Stiffness, frame: &Mat3) -> Self {
         let Stiffness { N, M, NM, .. } = section;
-        Elastic { N: *N, M: *M, NM: *NM, coupled: *NM != Mat3::zeros() }.turned(frame)
+        BeamStiffness { N: *N, M: *M, NM: *NM, coupled: *NM != Mat3::zeros() }.rotated(frame)
     }
 
-    /// The same in other axes: `frame` has the old ones as columns.
+    /// The same stiffness by other axes: the columns of `frame` are the present axes in the components of the new ones.
     #[inline]
-    pub fn turned(&self, frame: &Mat3) -> Self {
+    pub fn rotated(&self, frame: &Mat3) -> Self {
         let turn = |C: &Mat3| frame * C * frame.transpose();
-        Elastic { N: turn(&self.N), M: turn(&self.M), NM: turn(&self.NM), coupled: self.coupled }
+        BeamStiffness { N: turn(&self.N), M: turn(&self.M), NM: turn(&self.NM), coupled: self.coupled }
     }
 
+    /// n and m at the strains Γ, κ.
     #[inline]
     pub fn stress(&self, gamma: &Vec3, kappa: &Vec3) -> (Vec3, Vec3) {
         let (mut n, mut m) = (self.N * gamma, self.M * kappa);
@@ -85,6 +92,7 @@ impl Elastic {
         (n, m)
     }
 
+    /// Energy per length at the strains Γ, κ.
     #[inline]
     pub fn energy(&self, gamma: &Vec3, kappa: &Vec3) -> f64 {
         let (n, m) = self.stress(gamma, kappa);
@@ -92,20 +100,20 @@ impl Elastic {
     }
 }
 
-impl Section for Elastic {
+impl BeamSection for BeamStiffness {
     #[inline(always)]
     fn points(nodes: usize, _: usize) -> usize {
         nodes - 1
     }
 
     #[inline(always)]
-    fn elastic(&self) -> &Elastic {
+    fn elastic(&self) -> &BeamStiffness {
         self
     }
 
     #[inline(always)]
     fn stress(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Configuration) -> (Vec3, Vec3) {
-        Elastic::stress(self, gamma, kappa)
+        BeamStiffness::stress(self, gamma, kappa)
     }
 
     #[inline(always)]
@@ -115,13 +123,13 @@ impl Section for Elastic {
         (gamma, kappa): (&Vec3, &Vec3),
         _: &Configuration,
         _: Moduli,
-        _: &'a mut Elastic,
-    ) -> (Vec3, Vec3, &'a Elastic) {
-        let (n, m) = Elastic::stress(self, gamma, kappa);
+        _: &'a mut BeamStiffness,
+    ) -> (Vec3, Vec3, &'a BeamStiffness) {
+        let (n, m) = BeamStiffness::stress(self, gamma, kappa);
         (n, m, self)
     }
 
     fn energy(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Configuration) -> f64 {
-        Elastic::energy(self, gamma, kappa)
+        BeamStiffness::energy(self, gamma, kappa)
     }
 }

@@ -5,7 +5,7 @@ use super::history::{self, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
 use super::tangent::tangent;
 use super::update::update_point;
-use crate::elements::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::materials::Dissipation;
 use crate::state::Configuration;
 
@@ -82,7 +82,7 @@ impl ElementBlock for Contacts {
             || self.kinematics(&self.points[e], now.nodes).gap > 0.0
     }
 
-    fn as_contacts(&self) -> Option<&Contacts> {
+    fn as_any(&self) -> Option<&dyn std::any::Any> {
         Some(self)
     }
 }

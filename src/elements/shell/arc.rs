@@ -1,13 +1,13 @@
-//! Bending by the angle between directors instead of the chord.
+//! Bending measured by the angle between directors instead of the chord.
 //!
 //! Interpolated directors lie on the chord: over an angle φ they differ by 2 sin ½φ, an error of φ²/24 in curvature and of
-//! φ²/6 in the moment of a given turn. Slopes w of the director are therefore lengthened, w′ = w (1 + S wᵀw), where S takes
-//! from them the square of the angle over the element, in the direction in which it turns: what is left is of order φ⁴.
+//! φ²/6 in the moment of a given rotation. Slopes w of the director are therefore lengthened, w′ = w (1 + S wᵀw), where S wᵀw
+//! is the squared angle over the element in the direction in which it bends, over 24: the remaining error is of order φ⁴.
 
-use super::Kind;
+use super::interpolation::Interpolation;
 use crate::math::{Mat3, Vec3};
 
-/// w of the directors and what follows from it.
+/// The slopes w of the directors and the products that w′ and its derivatives need.
 pub(super) struct Arc<const V: usize> {
     w: [Vec3; V],
     /// w′.
@@ -19,8 +19,9 @@ pub(super) struct Arc<const V: usize> {
 }
 
 impl<const V: usize> Arc<V> {
+    /// Lengthens the slopes `w`.
     #[inline(always)]
-    pub fn new<K: Kind<N, V>, const N: usize>(w: [Vec3; V]) -> Self {
+    pub fn new<K: Interpolation<N, V>, const N: usize>(w: [Vec3; V]) -> Self {
         let S = &K::ARC;
         let y = [S[0][0] * w[0] + S[0][1] * w[1], S[1][0] * w[0] + S[1][1] * w[1]];
         let H = [[y[0].dot(&w[0]), y[0].dot(&w[1])], [y[1].dot(&w[0]), y[1].dot(&w[1])]];
@@ -66,7 +67,7 @@ impl<const V: usize> Arc<V> {
 
     /// ∂²(p·w′)/∂w_k∂w_l, k and l below 2.
     #[inline(always)]
-    pub fn hessian<K: Kind<N, V>, const N: usize>(&self, p: &[Vec3; V]) -> [[Mat3; 2]; 2] {
+    pub fn hessian<K: Interpolation<N, V>, const N: usize>(&self, p: &[Vec3; V]) -> [[Mat3; 2]; 2] {
         let P = self.P(p);
         let pw = p[0] * self.w[0].transpose() + p[1] * self.w[1].transpose();
         let pw = pw + pw.transpose();

@@ -1,22 +1,25 @@
-//! What a shell feels, for output: means over an element of the stress resultants, and of the stress in each layer.
+//! Stress resultants of shell elements for output: means over an element, and the mean stress in each layer.
 //!
-//! A resultant is what works on a strain that is the same all over the element: N on x = X + E X, M on d = D + K X with
-//! x = X − ½ (X·K X) n, which leaves no shear, Q on a director that leans the same everywhere. Strains are of first and second degree in positions and directors, so half the
-//! difference of those ahead and behind is exact, whatever the numbers are that an element feels.
+//! A resultant is work-conjugate to a strain that is constant over the element: N to that of x = X + E X, M to that of
+//! d = D + K X with x = X − ½ (X·K X) n, which leaves no shear, and Q to that of a constant inclination of the directors. Strains
+//! are of first and second degree in positions and directors, so half the difference of those ahead and behind is exact,
+//! whatever strains describe the element.
 
-use super::section::Section;
-use super::{Kind, MOST_LAYERS, Motion, Shell, Shells, Strains};
+use super::interpolation::Interpolation;
+use super::kinematics::{NodalVectors, Shell, Shells, Strains, sum};
+use super::section::ShellSection;
 use crate::elements::pressure::Face;
-use crate::elements::{Layer, Resultants};
+use crate::elements::results::{LayerStress, MOST_LAYERS, ShellResultants};
 use crate::math::{Mat3, Vec3};
 use crate::state::Configuration;
 use std::array::from_fn;
 
-/// An axis nearer to the normal than this (its part in the plane, some 1°) has no direction there.
+/// An axis whose part in the plane is smaller than this, some 1° from the normal, gives no direction there.
 const STEEP: f64 = 0.02;
 
-/// `axis` in the plane across `normal`; where it stands on the plane, the global axis the farthest from it.
-fn lay(axis: &Vec3, normal: &Vec3) -> Vec3 {
+/// The direction of `axis` projected on the plane normal to `normal`; where it is normal to the plane, that of the global axis
+/// farthest from it.
+fn project(axis: &Vec3, normal: &Vec3) -> Vec3 {
     let across = |a: &Vec3| a - a.dot(normal) * normal;
     let laid = across(axis);
     if laid.norm() > STEEP { laid.normalize() } else { across(&Vec3::ith(axis.iamin(), 1.0)).normalize() }
@@ -30,53 +33,57 @@ fn work<const N: usize, const M: usize>(stress: &Strains<N, M>, strain: &Strains
         + product(&stress.drill, &strain.drill)
 }
 
-impl<K, const N: usize, const V: usize, const M: usize, S> Shells<K, N, V, M, S>
+/// The resultants of element `e`, whose nodes lay at `X`; axis 1 is `axis` projected on the surface at t = 0.
+pub(super) fn resultants<K, const N: usize, const V: usize, const M: usize, S>(
+    shells: &Shells<K, N, V, M, S>,
+    e: usize,
+    axis: &Vec3,
+    X: &[Vec3],
+    now: &Configuration,
+) -> Option<ShellResultants>
 where
-    K: Kind<N, V>,
-    S: Section<M>,
+    K: Interpolation<N, V>,
+    S: ShellSection<M>,
 {
-    /// Of element `e`, whose nodes lay at `X`; axis 1 is `axis` laid into the surface at t = 0.
-    pub(super) fn resultants_of(&self, e: usize, axis: &Vec3, X: &[Vec3], now: &Configuration) -> Option<Resultants> {
-        let element: &Shell<N, V, M, S> = &self.elements[e];
-        let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
-        let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
-        let normal = area.normalize();
-        let first = lay(axis, &normal);
-        let t = [first, normal.cross(&first)];
+    let element: &Shell<N, V, M, S> = &shells.elements[e];
+    let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
+    let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
+    let normal = area.normalize();
+    let first = project(axis, &normal);
+    let t = [first, normal.cross(&first)];
 
-        let motion = element.gather(now.nodes);
-        let strains = element.strains::<K>(&motion);
-        let (shear, drill) = element.across(&strains);
-        let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
-        let start = Motion { x: X, turning: [element.D, [element.T[0]; N], [element.T[1]; N]] };
-        // Of a change of positions and directors.
-        let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
-            let mut way = Motion { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
-            (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));
-            let at = |s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, &way)));
-            0.5 * (at(1.0) - at(-1.0)) / area.norm()
-        };
-        // Strains of one component each: 11, 22, 12 as the tensor's two halves.
-        let even = |i: usize, x: &Vec3| match i {
-            2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
-            _ => t[i].dot(x) * t[i],
-        };
-        let forces = from_fn(|i| mean(&|x| [even(i, x), Vec3::zeros()]));
-        let moments = from_fn(|i| mean(&|x| [-0.5 * x.dot(&even(i, x)) * normal, even(i, x)]));
-        let shears = from_fn(|i| mean(&|_| [Vec3::zeros(), t[i]]));
+    let motion = element.gather(now.nodes);
+    let strains = element.strains::<K>(&motion);
+    let (shear, drill) = element.shear_and_drilling(&strains);
+    let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
+    let start = NodalVectors { x: X, turning: [element.D, [element.T[0]; N], [element.T[1]; N]] };
+    // The mean stress that is conjugate to the strain of a change of positions and directors.
+    let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
+        let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+        (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));
+        let at = |s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, &way)));
+        0.5 * (at(1.0) - at(-1.0)) / area.norm()
+    };
+    // x ↦ E x with one component of E: 11, 22, or 12 and 21 by a half each.
+    let even = |i: usize, x: &Vec3| match i {
+        2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
+        _ => t[i].dot(x) * t[i],
+    };
+    let forces = from_fn(|i| mean(&|x| [even(i, x), Vec3::zeros()]));
+    let moments = from_fn(|i| mean(&|x| [-0.5 * x.dot(&even(i, x)) * normal, even(i, x)]));
+    let shears = from_fn(|i| mean(&|_| [Vec3::zeros(), t[i]]));
 
-        let mut layers = [Layer::default(); MOST_LAYERS];
-        let count = element.section.layers(&strains.plane, now, &mut layers);
-        // The layers know the axes of the element alone.
-        let own = super::sum(&K::slopes(K::CENTRE)[0], &Motion::slopes::<K, V>(&X)).normalize();
-        let turned = [t[0].dot(&own), -t[1].dot(&own)];
-        layers[..count].iter_mut().for_each(|layer| layer.stress = turn(&layer.stress, turned));
-        Some(Resultants { frame: frame(&X, &t, &motion), N: forces, M: moments, Q: shears, layers, count })
-    }
+    let mut layers = [LayerStress::default(); MOST_LAYERS];
+    let count = element.section.layers(&strains.plane, now, &mut layers);
+    // Layers have the axes of the element, which are rotated to `t`.
+    let own = sum(&K::slopes(K::CENTRE)[0], &NodalVectors::slopes::<K, V>(&X)).normalize();
+    let turned = [t[0].dot(&own), -t[1].dot(&own)];
+    layers[..count].iter_mut().for_each(|layer| layer.stress = rotate(&layer.stress, turned));
+    Some(ShellResultants { frame: frame(&X, &t, &motion), N: forces, M: moments, Q: shears, layers, count })
 }
 
-/// σ₁₁, σ₂₂, σ₁₂ along axes of which the first is (c, s).
-fn turn(stress: &[f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
+/// σ₁₁, σ₂₂, σ₁₂ by axes of which the first is (c, s).
+fn rotate(stress: &[f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
     let (c, s) = (c / c.hypot(s), s / c.hypot(s));
     let [a, b, ab] = *stress;
     [
@@ -86,8 +93,8 @@ fn turn(stress: &[f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
     ]
 }
 
-/// Where the axes `t` at t = 0 have gone: the first along the line that it was drawn on, the normal of the mean plane.
-fn frame<const N: usize>(X: &[Vec3; N], t: &[Vec3; 2], motion: &Motion<N>) -> Mat3 {
+/// The axes `t` of t = 0 in the deformed element: the first along its material line, and the normal of the mean plane.
+fn frame<const N: usize>(X: &[Vec3; N], t: &[Vec3; 2], motion: &NodalVectors<N>) -> Mat3 {
     // x ≈ x̄ + F (X − X̄) by least squares in the plane.
     let centre = |x: &[Vec3; N]| x.iter().sum::<Vec3>() / N as f64;
     let (X0, x0) = (centre(X), centre(&motion.x));

@@ -1,23 +1,25 @@
-//! The matrix of a shell: BᵀCB of its few strains and σ·∂²ε.
+//! The tangent of a shell element: BᵀCB of its strains and σ·∂²ε.
 
 use super::arc::Arc;
-use super::section::{Plane, Section};
-use super::{Bending, Curvature, Kind, Motion, Shell, Shells, Strains, sum};
-use crate::elements::Moduli;
+use super::interpolation::Interpolation;
+use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, sum};
+use super::section::{ShellSection, ShellStiffness};
+use crate::elements::block::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
 use crate::state::Configuration;
 use std::array::from_fn;
 
-/// A row of B over the nodes' positions and rotations.
+/// A row of B by positions and rotations of the nodes.
 type Row<const N: usize> = [[f64; 6]; N];
 
-/// Rows of B by strain.
+/// The rows of B: one for each strain.
 struct Rows<const N: usize, const M: usize> {
     plane: [[Row<N>; M]; 2],
     shear: [Row<N>; N],
     drill: [Row<N>; N],
 }
 
+/// y ← y + s x.
 #[inline(always)]
 fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
     for a in 0..N {
@@ -27,22 +29,23 @@ fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
     }
 }
 
+/// Sets the entries of node `a` in a row.
 #[inline(always)]
-fn entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
+fn set_entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
     row[a] = [x.x, x.y, x.z, theta.x, theta.y, theta.z];
 }
 
 impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
-    /// ∂ε/∂(x, θ), where `moment(k, a, g)` makes of ∂ε/∂d (k = 0), ∂ε/∂t₁, ∂ε/∂t₂ at node a the part of rotation.
+    /// ∂ε/∂(x, θ), where `moment(k, a, g)` turns the derivative g by d (k = 0), t₁ or t₂ of node a into that by its rotation.
     #[inline(always)]
-    fn rows<K: Kind<N, V>, const ARC: bool>(
+    fn rows<K: Interpolation<N, V>, const ARC: bool>(
         &self,
-        motion: &Motion<N>,
+        motion: &NodalVectors<N>,
         moment: impl Fn(usize, usize, &Vec3) -> Vec3,
         rows: &mut Rows<N, M>,
     ) {
-        let Motion { x, turning: [d, t1, t2] } = motion;
-        let (v, w) = (Motion::slopes::<K, V>(x), Motion::slopes::<K, V>(d));
+        let NodalVectors { x, turning: [d, t1, t2] } = motion;
+        let (v, w) = (NodalVectors::slopes::<K, V>(x), NodalVectors::slopes::<K, V>(d));
         let arc = Arc::new::<K, N>(w);
         let at = |y: &[Vec3; V], a: usize| (0..V).map(|i| K::SLOPES[i][a] * y[i]).sum::<Vec3>();
         for m in 0..M {
@@ -50,15 +53,15 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
             let z: [Vec3; V] = from_fn(|i| sum(&self.Q[m][i], if ARC { &arc.long } else { &w }));
             let g = if ARC { arc.gradient(&y) } else { y };
             for a in 0..N {
-                entry(&mut rows.plane[0][m], a, &at(&y, a), &Vec3::zeros());
-                entry(&mut rows.plane[1][m], a, &at(&z, a), &moment(0, a, &at(&g, a)));
+                set_entry(&mut rows.plane[0][m], a, &at(&y, a), &Vec3::zeros());
+                set_entry(&mut rows.plane[1][m], a, &at(&z, a), &moment(0, a, &at(&g, a)));
             }
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             rows.shear[e] = [[0.0; 6]; N];
             let (mean, half) = (0.5 * (d[a] + d[b]), 0.5 * (x[b] - x[a]));
-            entry(&mut rows.shear[e], a, &-mean, &moment(0, a, &half));
-            entry(&mut rows.shear[e], b, &mean, &moment(0, b, &half));
+            set_entry(&mut rows.shear[e], a, &-mean, &moment(0, a, &half));
+            set_entry(&mut rows.shear[e], b, &mean, &moment(0, b, &half));
         }
         for g in 0..N {
             let values = &K::VALUES[g];
@@ -67,14 +70,14 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
             let y: [Vec3; V] = from_fn(|i| self.slopes[g][0][i] * t2 - self.slopes[g][1][i] * t1);
             for a in 0..N {
                 let theta = values[a] * (moment(2, a, &x1) - moment(1, a, &x2));
-                entry(&mut rows.drill[g], a, &at(&y, a), &theta);
+                set_entry(&mut rows.drill[g], a, &at(&y, a), &theta);
             }
         }
     }
 
-    /// C B.
+    /// C B, with the in-plane stiffness `plane`.
     #[inline(always)]
-    fn times(&self, plane: &Plane<M>, B: &Rows<N, M>) -> Rows<N, M> {
+    fn times(&self, plane: &ShellStiffness<M>, B: &Rows<N, M>) -> Rows<N, M> {
         let zero = [[0.0; 6]; N];
         let mut CB = Rows { plane: [[zero; M]; 2], shear: [zero; N], drill: [zero; N] };
         for i in 0..M {
@@ -103,11 +106,13 @@ impl<const N: usize, const M: usize> Rows<N, M> {
         Rows { plane: [[zero; M]; 2], shear: [zero; N], drill: [zero; N] }
     };
 
+    /// Each row.
     #[inline(always)]
     fn all(&self) -> impl Iterator<Item = &Row<N>> {
         self.plane.as_flattened().iter().chain(&self.shear).chain(&self.drill)
     }
 
+    /// Each row, to be changed.
     #[inline(always)]
     fn all_mut(&mut self) -> impl Iterator<Item = &mut Row<N>> {
         self.plane.as_flattened_mut().iter_mut().chain(&mut self.shear).chain(&mut self.drill)
@@ -117,7 +122,7 @@ impl<const N: usize, const M: usize> Rows<N, M> {
     #[inline(always)]
     fn transpose_times(&self, a: usize, k: usize, X: &Self, row: &mut Row<N>) {
         for m in 0..M {
-            // Membranes do not feel rotations.
+            // Membrane strains do not depend on rotations.
             if k < 3 {
                 add(row, self.plane[0][m][a][k], &X.plane[0][m]);
             }
@@ -130,64 +135,81 @@ impl<const N: usize, const M: usize> Rows<N, M> {
     }
 }
 
-impl<K, const N: usize, const V: usize, const M: usize, S> Shells<K, N, V, M, S>
-where
-    K: Kind<N, V>,
-    S: Section<M>,
+/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`]; symmetric unless `DAMPED`.
+pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, const DAMPED: bool>(
+    shells: &Shells<T, N, V, M, S>,
+    e: usize,
+    now: &Configuration,
+    rate_weight: f64,
+    moduli: Moduli,
+    K: &mut [f64],
+) where
+    T: Interpolation<N, V>,
+    S: ShellSection<M>,
 {
-    pub(super) fn tangent_of<const DAMPED: bool>(
-        &self,
-        e: usize,
-        now: &Configuration,
-        rate_weight: f64,
-        moduli: Moduli,
-        K: &mut [f64],
-    ) {
-        let element = &self.elements[e];
-        let motion = element.gather(now.nodes);
-        let strains = element.strains::<K>(&motion);
-        let mut room = Plane::ZERO;
-        let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut room);
-        let (shear, drill) = element.across(&strains);
-        let stress = Strains { plane, shear, drill };
-        let turning = &motion.turning;
-        let mut B = Rows::<N, M>::ZERO;
-        element.rows::<K, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-        set_product(&B, &element.times(C, &B), K);
-        let bending = Bending::new::<K, N>(element.by_slopes(&stress.plane[1]), &motion);
-        add_bending::<K, N, V>(&bending, &turning[0], K);
-        let curvature = element.curvature::<K, true>(&stress);
-        let mut gradient = curvature.gradient(&motion);
-        bending.add_gradient::<K, N>(&mut gradient);
-        add_curvature(&curvature, &gradient, &motion, K);
-        if DAMPED {
-            let rates = element.rates(&motion, now.nodes);
-            let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
-            // ∂ε̇/∂(x, θ): ε̇ is linear in positions and in their rates; ḋ = ω × d turns with d.
-            let (mut D, mut turned) = (Rows::<N, M>::ZERO, Rows::<N, M>::ZERO);
-            element.rows::<K, false>(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
-            element.rows::<K, false>(&motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
-            element.rows::<K, false>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-            for ((D, turned), B) in D.all_mut().zip(turned.all()).zip(B.all()) {
-                for a in 0..N {
-                    for k in 3..6 {
-                        D[a][k] += turned[a][k];
-                    }
-                }
-                add(D, rate_weight, B);
-                D.as_flattened_mut().iter_mut().for_each(|d| *d *= self.damping);
-            }
-            let mut viscous = [[[[0.0; 6]; N]; 6]; N];
-            set_product(
-                &B,
-                &element.times(element.section.elastic(), &D),
-                viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
-            );
-            K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);
-            let curvature = element.curvature::<K, false>(&self.viscous(element, &motion, now.nodes));
-            add_curvature(&curvature, &curvature.gradient(&motion), &motion, K);
-        }
+    let element = &shells.elements[e];
+    let motion = element.gather(now.nodes);
+    let strains = element.strains::<T>(&motion);
+    let mut place = ShellStiffness::ZERO;
+    let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
+    let (shear, drill) = element.shear_and_drilling(&strains);
+    let stress = Strains { plane, shear, drill };
+    let turning = &motion.turning;
+    let mut B = Rows::<N, M>::ZERO;
+    element.rows::<T, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
+    set_product(&B, &element.times(C, &B), K);
+    let bending = Bending::new::<T, N>(element.by_slopes(&stress.plane[1]), &motion);
+    add_bending::<T, N, V>(&bending, &turning[0], K);
+    let hessian = element.strain_hessian::<T, true>(&stress);
+    let mut gradient = hessian.gradient(&motion);
+    bending.add_gradient::<T, N>(&mut gradient);
+    add_strain_hessian(&hessian, &gradient, &motion, K);
+    if DAMPED {
+        add_damping(shells, element, &motion, now, rate_weight, &mut B, K);
     }
+}
+
+/// K += the derivatives of the forces of damping by positions and rotations, and `rate_weight` times those by their rates. `B` is
+/// scratch.
+#[inline(always)]
+fn add_damping<T, const N: usize, const V: usize, const M: usize, S>(
+    shells: &Shells<T, N, V, M, S>,
+    element: &Shell<N, V, M, S>,
+    motion: &NodalVectors<N>,
+    now: &Configuration,
+    rate_weight: f64,
+    B: &mut Rows<N, M>,
+    K: &mut [f64],
+) where
+    T: Interpolation<N, V>,
+    S: ShellSection<M>,
+{
+    let turning = &motion.turning;
+    let rates = element.rates(motion, now.nodes);
+    let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
+    // ∂ε̇/∂(x, θ): ε̇ is linear in positions and in their rates; ḋ = ω × d rotates with d.
+    let (mut D, mut turned) = (Rows::<N, M>::ZERO, Rows::<N, M>::ZERO);
+    element.rows::<T, false>(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
+    element.rows::<T, false>(motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
+    element.rows::<T, false>(motion, |k, a, g| turning[k][a].cross(g), B);
+    for ((D, turned), B) in D.all_mut().zip(turned.all()).zip(B.all()) {
+        for a in 0..N {
+            for k in 3..6 {
+                D[a][k] += turned[a][k];
+            }
+        }
+        add(D, rate_weight, B);
+        D.as_flattened_mut().iter_mut().for_each(|d| *d *= shells.damping);
+    }
+    let mut viscous = [[[[0.0; 6]; N]; 6]; N];
+    set_product(
+        B,
+        &element.times(element.section.elastic(), &D),
+        viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
+    );
+    K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);
+    let hessian = element.strain_hessian::<T, false>(&shells.viscous_stress(element, motion, now.nodes));
+    add_strain_hessian(&hessian, &hessian.gradient(motion), motion, K);
 }
 
 /// K ← BᵀX.
@@ -203,17 +225,22 @@ fn set_product<const N: usize, const M: usize>(B: &Rows<N, M>, X: &Rows<N, M>, K
     }
 }
 
-/// K += σ·∂²ε of what is bilinear in positions and directors, and δ(d × g) at fixed g.
+/// K += σ·∂²ε of the strains that are bilinear in positions and directors, and δ(d × g) at fixed g.
 #[inline(always)]
-fn add_curvature<const N: usize>(curvature: &Curvature<N>, gradient: &Motion<N>, motion: &Motion<N>, K: &mut [f64]) {
+fn add_strain_hessian<const N: usize>(
+    hessian: &StrainHessian<N>,
+    gradient: &NodalVectors<N>,
+    motion: &NodalVectors<N>,
+    K: &mut [f64],
+) {
     let (turning, width) = (&motion.turning, 6 * N);
     for a in 0..N {
         for b in 0..N {
             for i in 0..3 {
-                K[(6 * a + i) * width + 6 * b + i] += curvature.xx[a][b];
+                K[(6 * a + i) * width + 6 * b + i] += hessian.xx[a][b];
             }
             // δd = δθ × d: the mixed part is −[Σ c d]~ and its transpose.
-            let c: Vec3 = (0..3).map(|k| curvature.xd[k][a][b] * turning[k][b]).sum();
+            let c: Vec3 = (0..3).map(|k| hessian.xd[k][a][b] * turning[k][b]).sum();
             add_mixed(a, b, &-skew(&c), K, width);
         }
         // (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
@@ -226,6 +253,7 @@ fn add_curvature<const N: usize>(curvature: &Curvature<N>, gradient: &Motion<N>,
     }
 }
 
+/// Adds a 3×3 block at a row and a column of K, whose rows have the length `width`.
 #[inline(always)]
 fn add_block(row: usize, column: usize, block: &Mat3, K: &mut [f64], width: usize) {
     for i in 0..3 {
@@ -235,7 +263,7 @@ fn add_block(row: usize, column: usize, block: &Mat3, K: &mut [f64], width: usiz
     }
 }
 
-/// Position of a against rotation of b, and its transpose.
+/// Adds the block of the position of `a` and the rotation of `b`, and its transpose.
 #[inline(always)]
 fn add_mixed(a: usize, b: usize, block: &Mat3, K: &mut [f64], width: usize) {
     for i in 0..3 {
@@ -246,9 +274,13 @@ fn add_mixed(a: usize, b: usize, block: &Mat3, K: &mut [f64], width: usize) {
     }
 }
 
-/// K += σ·∂²ε of bending by angles.
+/// K += σ·∂²ε of bending measured by angles.
 #[inline(always)]
-fn add_bending<T: Kind<N, V>, const N: usize, const V: usize>(bending: &Bending<V>, d: &[Vec3; N], K: &mut [f64]) {
+fn add_bending<T: Interpolation<N, V>, const N: usize, const V: usize>(
+    bending: &Bending<V>,
+    d: &[Vec3; N],
+    K: &mut [f64],
+) {
     let Bending { arc, Q, p } = bending;
     let width = 6 * N;
     let J: [[Mat3; V]; V] = from_fn(|b| from_fn(|k| arc.slope(b, k)));

@@ -5,7 +5,7 @@ use super::node::Node;
 use crate::deck::beams::MassKind;
 use crate::elements::beam;
 use crate::elements::contact::{self, Point, Surface};
-use crate::elements::link::Law;
+use crate::elements::link::LinkLaw;
 use crate::elements::shell::{self, Plate};
 use crate::materials;
 use crate::math::{Mat3, Vec3};
@@ -41,7 +41,7 @@ pub struct Beam {
     /// Keep the rotary inertia of the section.
     pub rotary_inertia: bool,
     /// `None`: the material is elastic.
-    pub yielding: Option<beam::Yielding>,
+    pub yielding: Option<beam::FibreModel>,
     pub elements: Vec<BeamElement>,
 }
 
@@ -80,7 +80,7 @@ pub struct Shell {
     pub density: f64,
     pub mass: MassKind,
     /// `None`: the material is elastic.
-    pub yielding: Option<shell::Yielding>,
+    pub yielding: Option<shell::LayerModel>,
     /// Axis 1 of results: laid into the surface, element by element.
     pub axis: Vec3,
     /// Corners of each element: 3 or 4.
@@ -119,7 +119,7 @@ pub struct Link {
 pub enum LinkKind {
     /// Force along the line of the ends, or along a fixed global unit vector.
     Line {
-        law: Law,
+        law: LinkLaw,
         damping: f64,
         direction: Option<Vec3>,
         /// Length (along the line) at which the law's elongation is zero; along `direction`: the initial projection
@@ -274,7 +274,7 @@ impl Part {
         match self {
             Part::Beam(_) | Part::Bar(_) | Part::Shell(_) => false,
             Part::Link(part) => {
-                matches!(&part.kind, LinkKind::Line { law, .. } if !matches!(law, Law::Linear { .. }))
+                matches!(&part.kind, LinkKind::Line { law, .. } if !matches!(law, LinkLaw::Linear { .. }))
             }
             Part::Contact(_) => true,
         }
@@ -282,7 +282,7 @@ impl Part {
 
     /// True where the part may store less energy than none, because it gives way under a preload or by its table.
     pub fn may_release(&self) -> bool {
-        let releases = |law: &Law| matches!(law, Law::Table { .. }) || law.force(0.0).0 != 0.0;
+        let releases = |law: &LinkLaw| matches!(law, LinkLaw::Table { .. }) || law.force(0.0).0 != 0.0;
         match self {
             Part::Link(part) => matches!(&part.kind, LinkKind::Line { law, .. } if releases(law)),
             Part::Beam(_) | Part::Bar(_) | Part::Shell(_) | Part::Contact(_) => false,

@@ -1,0 +1,101 @@
+//! What assembly asks of a group of like elements.
+
+use super::results::{IntegrationPoint, ShellResultants};
+use crate::materials::Dissipation;
+use crate::math::{Mat3, Vec3};
+use crate::state::Configuration;
+use std::any::Any;
+
+/// Generalised force on a node: force and moment, global components.
+pub type Force = [f64; 6];
+
+/// The moduli of the material that a tangent is formed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Moduli {
+    /// The derivative of the stress at the end of the step: K(ep) + K(σ).
+    Algorithmic,
+    /// The elastic moduli, whatever has yielded: K(e) + K(σ) (11).
+    Elastic,
+}
+
+/// A group of like elements. Matrices are row-major over the element's nodes, [`ElementBlock::dofs`] degrees of freedom each.
+pub trait ElementBlock: Send + Sync {
+    /// The number of elements.
+    fn len(&self) -> usize;
+    /// True where the group has no elements.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Nodes of element `e`.
+    fn nodes(&self, e: usize) -> &[usize];
+    /// Degrees of freedom of each node: 3, translations only, or 6, translations and rotations.
+    fn dofs(&self) -> usize;
+    /// The number of history variables of all material points.
+    fn history(&self) -> usize {
+        0
+    }
+    /// Subtracts the internal forces of all elements from `F`, which is indexed by node.
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
+    /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
+    /// Writes the history variables at `part` of the way from the last state to `now` into `new`, which has the length
+    /// [`ElementBlock::history`], and returns the work that material points dissipate or store inelastically on that way.
+    fn update_history(&self, _now: &Configuration, _part: f64, _new: &mut [f64]) -> Dissipation {
+        Dissipation::default()
+    }
+    /// Elastic energy stored.
+    fn energy(&self, now: &Configuration) -> f64;
+    /// Power that the damping of the elements dissipates, ≥ 0.
+    fn damping_power(&self, _now: &Configuration) -> f64 {
+        0.0
+    }
+    /// The number of integration points of an element at which [`ElementBlock::point`] gives results.
+    fn points(&self) -> usize {
+        0
+    }
+    /// Stress resultants at an integration point, in the axes of `frame` (columns, global at t = 0).
+    fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Configuration) -> Option<IntegrationPoint> {
+        None
+    }
+    /// Stress resultants of a shell element whose nodes lay at `start`. Axis 1 is `axis` projected on the surface at t = 0, or,
+    /// where that is normal to the surface, the global axis farthest from the normal.
+    fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<ShellResultants> {
+        None
+    }
+    /// Largest accumulated plastic strain in element `e`, by the history variables of the group.
+    fn plastic_strain(&self, _e: usize, _history: &[f64]) -> f64 {
+        0.0
+    }
+    /// True where the tangent is the same in every configuration.
+    fn is_linear(&self) -> bool {
+        false
+    }
+    /// The unit vector along which element `e` acts, where that is fixed in space.
+    fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
+        None
+    }
+    /// True where element `e`, with six degrees of freedom a node, acts on the rotations of its `node`-th.
+    fn is_rotational(&self, _e: usize, _node: usize) -> bool {
+        true
+    }
+    /// True where element `e` has neither force nor tangent in this configuration.
+    fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
+        false
+    }
+    /// The block itself where its type does more than this trait says: contacts, which limit the step.
+    fn as_any(&self) -> Option<&dyn Any> {
+        None
+    }
+    /// True where forces depend on velocities.
+    fn is_damped(&self) -> bool {
+        false
+    }
+}
+
+/// Subtracts `f` from three components of `F` from `at` on: 0, the force, or 3, the moment.
+#[inline]
+pub(crate) fn subtract(F: &mut Force, at: usize, f: &Vec3) {
+    F[at] -= f.x;
+    F[at + 1] -= f.y;
+    F[at + 2] -= f.z;
+}

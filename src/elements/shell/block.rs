@@ -1,0 +1,117 @@
+//! Forces, energies and results of shells.
+
+use super::interpolation::Interpolation;
+use super::kinematics::{Bending, Shells, Strains};
+use super::results;
+use super::section::ShellSection;
+use super::tangent::tangent;
+use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::results::ShellResultants;
+use crate::materials::Dissipation;
+use crate::math::Vec3;
+use crate::state::Configuration;
+
+impl<K, const N: usize, const V: usize, const M: usize, S> ElementBlock for Shells<K, N, V, M, S>
+where
+    K: Interpolation<N, V>,
+    S: ShellSection<M>,
+{
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        &self.elements[e].nodes
+    }
+
+    fn dofs(&self) -> usize {
+        6
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn history(&self) -> usize {
+        self.elements.iter().map(|e| e.section.history()).sum()
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        for element in &self.elements {
+            let motion = element.gather(now.nodes);
+            let strains = element.strains::<K>(&motion);
+            let (shear, drill) = element.shear_and_drilling(&strains);
+            let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
+            let mut gradient = element.strain_hessian::<K, true>(&stress).gradient(&motion);
+            Bending::new::<K, N>(element.by_slopes(&stress.plane[1]), &motion).add_gradient::<K, N>(&mut gradient);
+            if self.damping > 0.0 {
+                let viscous = self.viscous_stress(element, &motion, now.nodes);
+                gradient = gradient.plus(1.0, &element.strain_hessian::<K, false>(&viscous).gradient(&motion));
+            }
+            for a in 0..N {
+                let f = &mut F[element.nodes[a]];
+                subtract(f, 0, &gradient.x[a]);
+                let mut moment = Vec3::zeros();
+                for k in 0..3 {
+                    moment += motion.turning[k][a].cross(&gradient.turning[k][a]);
+                }
+                subtract(f, 3, &moment);
+            }
+        }
+    }
+
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        if self.damping > 0.0 {
+            tangent::<_, N, V, M, _, true>(self, e, now, rate_weight, moduli, K);
+        } else {
+            tangent::<_, N, V, M, _, false>(self, e, now, rate_weight, moduli, K);
+        }
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+        let mut dissipation = Dissipation::default();
+        for element in &self.elements {
+            let strains = element.strains::<K>(&element.gather(now.nodes));
+            dissipation += element.section.update_history(&strains.plane, now, part, new);
+        }
+        dissipation
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let mut sum = 0.0;
+        for element in &self.elements {
+            let strains = element.strains::<K>(&element.gather(now.nodes));
+            let (shear, drill) = element.shear_and_drilling(&strains);
+            sum += element.section.energy(&strains.plane, now);
+            for a in 0..N {
+                sum += 0.5 * (shear[a] * strains.shear[a] + drill[a] * strains.drill[a]);
+            }
+        }
+        sum
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        if self.damping == 0.0 {
+            return 0.0;
+        }
+        let mut sum = 0.0;
+        for element in &self.elements {
+            let motion = element.gather(now.nodes);
+            let rates = element.strain_rates::<K>(&motion, &element.rates(&motion, now.nodes));
+            let stress = element.elastic_stress(&rates);
+            let power = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            sum += power(stress.plane.as_flattened(), rates.plane.as_flattened())
+                + power(&stress.shear, &rates.shear)
+                + power(&stress.drill, &rates.drill);
+        }
+        self.damping * sum
+    }
+
+    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Configuration) -> Option<ShellResultants> {
+        results::resultants(self, e, axis, start, now)
+    }
+
+    fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
+        self.elements[e].section.plastic_strain(history)
+    }
+}

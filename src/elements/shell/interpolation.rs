@@ -1,0 +1,86 @@
+//! Shape functions, edges and integration points of the two shapes of shell elements.
+
+/// The interpolation of an element with N nodes and V vectors that make up the slopes of the surface.
+pub trait Interpolation<const N: usize, const V: usize>: Send + Sync + Sized {
+    /// The vectors v_i = Σ SLOPES[i][a] x_a.
+    const SLOPES: [[f64; N]; V];
+    /// The ends of the edges at whose middles shear is taken, in the direction of the coordinate along them.
+    const EDGES: [[usize; 2]; N];
+    /// Integration points (ξ, η): as many as nodes, of equal weight.
+    const POINTS: [[f64; 2]; N];
+    /// Shape functions at the integration points.
+    const VALUES: [[f64; N]; N];
+    /// Area of the domain of (ξ, η).
+    const AREA: f64;
+    /// The factor α by which bending within the element adds to its shear flexibility: κGh → κGh h²/(h² + α ℓ²), ℓ the longest
+    /// edge (Lyly, Stenberg & Vihinen 1993; MacNeal 1978 for beams).
+    const FLEXIBILITY: f64;
+    /// The point (ξ, η) whose tangents give the axes of the plane.
+    const CENTRE: [f64; 2];
+    /// S of [`super::arc`]: a 24th of the squared spans of the element in (ξ, η).
+    const ARC: [[f64; 2]; 2];
+    /// The coefficients of the v_i in x,ξ and x,η.
+    fn slopes(at: [f64; 2]) -> [[f64; V]; 2];
+    /// The coefficients of the shear strains of the edges in those along ξ and η. That of an edge is x,along·d, with the whole
+    /// edge for x,along.
+    fn shear(at: [f64; 2]) -> [[f64; N]; 2];
+}
+
+/// Bilinear interpolation: x,ξ = v₀ + η v₂ and x,η = v₁ + ξ v₂.
+pub struct Quadrilateral;
+
+/// Linear interpolation.
+pub struct Triangle;
+
+const GAUSS: f64 = 0.577_350_269_189_625_8;
+/// Shape functions at a Gauss point: of the nearest node, the opposite one, the two beside.
+const NEAR: f64 = 0.25 * (1.0 + GAUSS) * (1.0 + GAUSS);
+const FAR: f64 = 0.25 * (1.0 - GAUSS) * (1.0 - GAUSS);
+const SIDE: f64 = 0.25 * (1.0 - GAUSS * GAUSS);
+
+impl Interpolation<4, 3> for Quadrilateral {
+    const SLOPES: [[f64; 4]; 3] = [[-0.25, 0.25, 0.25, -0.25], [-0.25, -0.25, 0.25, 0.25], [0.25, -0.25, 0.25, -0.25]];
+    const EDGES: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
+    const POINTS: [[f64; 2]; 4] = [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]];
+    const VALUES: [[f64; 4]; 4] =
+        [[NEAR, SIDE, FAR, SIDE], [SIDE, NEAR, SIDE, FAR], [FAR, SIDE, NEAR, SIDE], [SIDE, FAR, SIDE, NEAR]];
+    const AREA: f64 = 4.0;
+    const FLEXIBILITY: f64 = 0.0;
+    const CENTRE: [f64; 2] = [0.0, 0.0];
+    const ARC: [[f64; 2]; 2] = [[1.0 / 6.0, 0.0], [0.0, 1.0 / 6.0]];
+
+    fn slopes([xi, eta]: [f64; 2]) -> [[f64; 3]; 2] {
+        [[1.0, 0.0, eta], [0.0, 1.0, xi]]
+    }
+
+    fn shear([xi, eta]: [f64; 2]) -> [[f64; 4]; 2] {
+        // An edge spans two units of ξ or η.
+        let (below, above, left, right) =
+            (0.25 * (1.0 - eta), 0.25 * (1.0 + eta), 0.25 * (1.0 - xi), 0.25 * (1.0 + xi));
+        [[below, 0.0, above, 0.0], [0.0, right, 0.0, left]]
+    }
+}
+
+const SIXTH: f64 = 1.0 / 6.0;
+const THIRDS: f64 = 2.0 / 3.0;
+
+impl Interpolation<3, 2> for Triangle {
+    const SLOPES: [[f64; 3]; 2] = [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
+    const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
+    const POINTS: [[f64; 2]; 3] = [[SIXTH, SIXTH], [THIRDS, SIXTH], [SIXTH, THIRDS]];
+    const VALUES: [[f64; 3]; 3] = [[THIRDS, SIXTH, SIXTH], [SIXTH, THIRDS, SIXTH], [SIXTH, SIXTH, THIRDS]];
+    const AREA: f64 = 0.5;
+    const FLEXIBILITY: f64 = 0.1;
+    const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
+    /// Half the sum of e eᵀ/24 over the edges e, which no corner is preferred by.
+    const ARC: [[f64; 2]; 2] = [[1.0 / 24.0, -1.0 / 48.0], [-1.0 / 48.0, 1.0 / 24.0]];
+
+    fn slopes(_: [f64; 2]) -> [[f64; 2]; 2] {
+        [[1.0, 0.0], [0.0, 1.0]]
+    }
+
+    fn shear([xi, eta]: [f64; 2]) -> [[f64; 3]; 2] {
+        // γ_ξ = e₀ + c η, γ_η = e₂ − c ξ with c = e₂ − e₀ − e₁ (Lee & Bathe 2004).
+        [[1.0 - eta, -eta, eta], [xi, xi, 1.0 - xi]]
+    }
+}
