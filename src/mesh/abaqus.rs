@@ -1,24 +1,26 @@
-//! The part of Abaqus and CalculiX input that describes a mesh: *NODE, *ELEMENT, *NSET, *ELSET. Keywords and the names of
-//! sets count whatever their case; a set of nodes and one of elements that share a name are one group. A part in an assembly is
-//! read where there is one, and one instance of it that is not moved. What would make other nodes, elements or sets of the
-//! mesh is an error; every other keyword is skipped with its lines, and said to be.
+//! The part of Abaqus and CalculiX input that describes a mesh: *NODE, *ELEMENT, *NSET, *ELSET. Keywords and names of sets are
+//! not case-sensitive; a set of nodes and a set of elements of the same name are one group. At most one part is read, with one
+//! instance that is not moved. Keywords that make other nodes, elements or sets are errors; all others are skipped with their
+//! lines and listed.
 
-use super::Kind;
-use super::draft::{Draft, Ids, RawGroup, short};
+use super::data::CellShape;
+use super::draft::{Draft, RawGroup};
+use super::ids::{Ids, short};
 use super::text::{Fault, Line, Text, Word};
 use crate::math::Vec3;
 use std::collections::HashMap;
 
-fn of(name: &str) -> Option<Kind> {
+/// The shape of an element type that is read.
+fn cell_shape(name: &str) -> Option<CellShape> {
     match name {
-        "B31" => Some(Kind::Segment),
-        "S3" | "S3R" => Some(Kind::Triangle),
-        "S4" | "S4R" => Some(Kind::Quadrilateral),
+        "B31" => Some(CellShape::Segment),
+        "S3" | "S3R" => Some(CellShape::Triangle),
+        "S4" | "S4R" => Some(CellShape::Quadrilateral),
         _ => None,
     }
 }
 
-/// Keywords that change the mesh, with what they do.
+/// Keywords that are errors, with what they do to the mesh.
 const CHANGES: [(&str, &str); 9] = [
     ("INCLUDE", "reads another file"),
     ("NGEN", "makes nodes"),
@@ -30,7 +32,7 @@ const CHANGES: [(&str, &str); 9] = [
     ("SYSTEM", "moves nodes"),
     ("PARAMETER", "stands for numbers"),
 ];
-/// The same of options of the keywords that are read.
+/// Options of keywords that are errors, with what they do to the mesh.
 const OPTIONS: [(&str, &str, &str); 8] = [
     ("NODE", "INPUT", "reads another file"),
     ("NODE", "SYSTEM", "moves nodes"),
@@ -41,25 +43,25 @@ const OPTIONS: [(&str, &str, &str); 8] = [
     ("ELSET", "INPUT", "reads another file"),
     ("INSTANCE", "LIBRARY", "reads another file"),
 ];
-/// How a file is to be written instead.
+/// The remedy for these.
 const FLAT: &str = "write the mesh as one flat file: every node and element by itself";
 
-/// A set's members as they are named.
+/// Members of a set as the file gives them.
 enum Member {
-    /// First, last, step; with the line.
+    /// First, last and step, and the line.
     Numbers(u64, u64, u64, u32),
-    /// Another set, by index.
+    /// All members of another set, by index.
     Set(usize),
 }
 
-/// What the data lines belong to.
-enum Block {
+/// What the data lines after a keyword describe.
+enum DataLines {
     Skipped,
     Nodes {
         set: Option<usize>,
     },
     Elements {
-        kind: Option<Kind>,
+        kind: Option<CellShape>,
         what: String,
         set: Option<usize>,
     },
@@ -68,16 +70,19 @@ enum Block {
         nodes: bool,
         generate: bool,
     },
-    /// Where parts stand in an assembly.
+    /// The position of a part in an assembly.
     Instance,
 }
 
+/// The sets of the file.
 #[derive(Default)]
 struct Sets {
+    /// Index in `list`, by the name in lower case.
     names: HashMap<String, usize>,
     list: Vec<Set>,
 }
 
+/// A set of nodes, of elements, or both.
 #[derive(Default)]
 struct Set {
     name: String,
@@ -90,6 +95,7 @@ impl Sets {
         self.names.get(&name.to_ascii_lowercase()).copied()
     }
 
+    /// The index of a set, which is added where it is new.
     fn place(&mut self, name: &str) -> usize {
         let next = self.list.len();
         let place = *self.names.entry(name.to_ascii_lowercase()).or_insert(next);
@@ -100,96 +106,135 @@ impl Sets {
     }
 }
 
+/// Reads the file into the draft.
+///
+/// # Errors
+/// The first place where the file is not as its format says, or makes nodes, elements or sets in a way that is not read.
 pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
-    let (mut sets, mut block, mut others) = (Sets::default(), Block::Skipped, Vec::new());
+    let (mut sets, mut block, mut others) = (Sets::default(), DataLines::Skipped, Vec::new());
     let mut frame = Frame::default();
     let mut next = content(text);
     while let Some(line) = next {
         next = content(text);
-        // A line that ends in a comma goes on in the next one, of a keyword, or of an element that lacks nodes.
-        let mut words: Vec<Word> = line.fields().collect();
-        let wants = match &block {
-            _ if line.bytes.starts_with(b"*") => usize::MAX,
-            Block::Elements { kind, .. } => kind.map_or(usize::MAX, |kind| 1 + kind.size()),
-            _ => 0,
-        };
-        let mut last = line;
-        while words.len() < wants && last.bytes.ends_with(b",") {
-            let Some(more) = next.filter(|more| !more.bytes.starts_with(b"*")) else { break };
-            words.extend(more.fields());
-            last = more;
-            next = content(text);
-        }
+        let words = continued(text, &block, line, &mut next);
         if line.bytes.starts_with(b"*") {
             block = keyword(text, draft, &mut sets, &mut frame, line, &words)?;
             continue;
         }
-        // Blank fields at the end say nothing, but for coordinates.
-        let trims = !matches!(block, Block::Nodes { .. });
-        while trims && words.len() > 1 && words.last().is_some_and(|word| word.bytes.is_empty()) {
-            words.pop();
-        }
         match &block {
-            Block::Skipped => {}
-            Block::Instance => {
+            DataLines::Skipped => {}
+            DataLines::Instance => {
                 return Err(refused(text, "an instance that is moved is not read", line.number, ONE));
             }
-            Block::Nodes { set } => {
-                let id = number(text, &words, 0, line)?;
-                let mut x = Vec3::zeros();
-                // A blank coordinate is zero.
-                for (i, word) in words.iter().enumerate().skip(1).take(3).filter(|(_, word)| !word.bytes.is_empty()) {
-                    let message = "a coordinate must be a finite number";
-                    x[i - 1] = word.number().ok_or_else(|| text.fault_at(message, word))?;
-                }
-                if words.len() < 2 {
-                    return Err(text.fault(format!("node {id} has no coordinates"), line.number));
-                }
-                draft.node(id, x, line.number);
-                if let Some(set) = set {
-                    sets.list[*set].nodes.push(Member::Numbers(id, id, 1, short(line.number)));
-                }
+            DataLines::Nodes { set } => node(text, draft, &mut sets, line, &words, *set)?,
+            DataLines::Elements { kind, what, set } => {
+                let read = element(text, draft, &mut sets, line, &words, (*kind, what, *set))?;
+                others.extend(read.err());
             }
-            Block::Elements { kind, what, set } => {
-                let id = number(text, &words, 0, line)?;
-                if let Some(set) = set {
-                    sets.list[*set].elements.push(Member::Numbers(id, id, 1, short(line.number)));
-                }
-                let Some(kind) = kind else {
-                    draft.skip(&format!("elements of type {what}"), 1, line.number);
-                    others.push(id);
-                    continue;
-                };
-                if words.len() != 1 + kind.size() {
-                    let message = format!("element {id} has {} nodes; {what} has {}", words.len() - 1, kind.size());
-                    return Err(text.fault(message, line.number));
-                }
-                let mut nodes = [0; 4];
-                for (i, node) in nodes[..kind.size()].iter_mut().enumerate() {
-                    *node = number(text, &words, 1 + i, line)?;
-                }
-                draft.element(id, *kind, nodes, line.number);
+            DataLines::Set { set, nodes, generate } => {
+                members(text, &mut sets, line, &words, (*set, *nodes, *generate))?
             }
-            Block::Set { set, nodes, generate } => members(text, &mut sets, line, &words, (*set, *nodes, *generate))?,
         }
     }
     resolve(text, draft, &sets, others)
 }
 
-/// The next line that is no comment.
+/// The words of a line and of those that continue it: after a last comma a keyword goes on, or an element that lacks nodes. `next`
+/// is the line after the last.
+fn continued<'t>(text: &mut Text<'t>, block: &DataLines, line: Line<'t>, next: &mut Option<Line<'t>>) -> Vec<Word<'t>> {
+    let mut words: Vec<Word> = line.fields().collect();
+    let keyword = line.bytes.starts_with(b"*");
+    let wants = match block {
+        _ if keyword => usize::MAX,
+        DataLines::Elements { kind, .. } => kind.map_or(usize::MAX, |kind| 1 + kind.size()),
+        _ => 0,
+    };
+    let mut last = line;
+    while words.len() < wants && last.bytes.ends_with(b",") {
+        let Some(more) = next.filter(|more| !more.bytes.starts_with(b"*")) else { break };
+        words.extend(more.fields());
+        last = more;
+        *next = content(text);
+    }
+    // Blank fields at the end have no meaning, except as coordinates.
+    let trims = !keyword && !matches!(block, DataLines::Nodes { .. });
+    while trims && words.len() > 1 && words.last().is_some_and(|word| word.bytes.is_empty()) {
+        words.pop();
+    }
+    words
+}
+
+/// Reads a node: number, x, y, z.
+fn node(
+    text: &Text,
+    draft: &mut Draft,
+    sets: &mut Sets,
+    line: Line,
+    words: &[Word],
+    set: Option<usize>,
+) -> Result<(), Fault> {
+    let id = number(text, words, 0, line)?;
+    let mut x = Vec3::zeros();
+    // A blank coordinate is zero.
+    for (i, word) in words.iter().enumerate().skip(1).take(3).filter(|(_, word)| !word.bytes.is_empty()) {
+        let message = "a coordinate must be a finite number";
+        x[i - 1] = word.number().ok_or_else(|| text.fault_at(message, word))?;
+    }
+    if words.len() < 2 {
+        return Err(text.fault(format!("node {id} has no coordinates"), line.number));
+    }
+    draft.node(id, x, line.number);
+    if let Some(set) = set {
+        sets.list[set].nodes.push(Member::Numbers(id, id, 1, short(line.number)));
+    }
+    Ok(())
+}
+
+/// Reads an element: number, nodes. Gives the number of one whose type `what` is not read as the inner error.
+fn element(
+    text: &Text,
+    draft: &mut Draft,
+    sets: &mut Sets,
+    line: Line,
+    words: &[Word],
+    (kind, what, set): (Option<CellShape>, &str, Option<usize>),
+) -> Result<Result<(), u64>, Fault> {
+    let id = number(text, words, 0, line)?;
+    if let Some(set) = set {
+        sets.list[set].elements.push(Member::Numbers(id, id, 1, short(line.number)));
+    }
+    let Some(kind) = kind else {
+        draft.skip(&format!("elements of type {what}"), 1, line.number);
+        return Ok(Err(id));
+    };
+    if words.len() != 1 + kind.size() {
+        let message = format!("element {id} has {} nodes; {what} has {}", words.len() - 1, kind.size());
+        return Err(text.fault(message, line.number));
+    }
+    let mut nodes = [0; 4];
+    for (i, node) in nodes[..kind.size()].iter_mut().enumerate() {
+        *node = number(text, words, 1 + i, line)?;
+    }
+    draft.element(id, kind, nodes, line.number);
+    Ok(Ok(()))
+}
+
+/// The next line that is not a comment.
 fn content<'t>(text: &mut Text<'t>) -> Option<Line<'t>> {
     std::iter::from_fn(|| text.line()).find(|line| !line.bytes.starts_with(b"**"))
 }
 
-/// What frames the mesh in a file with parts and instances.
+/// The number of parts and instances read so far.
 #[derive(Default)]
 struct Frame {
     parts: usize,
     instances: usize,
 }
 
+/// The remedy for several parts, or for instances that are moved.
 const ONE: &str = "write the mesh as one part, where it stands";
 
+/// An error with its remedy.
 fn refused(text: &Text, message: impl Into<String>, line: usize, hint: &str) -> Fault {
     let mut fault = text.fault(message, line);
     fault.hints.push(hint.to_owned());
@@ -202,7 +247,7 @@ fn number(text: &Text, words: &[Word], at: usize, line: Line) -> Result<u64, Fau
     word.whole().ok_or_else(|| text.fault_at("this must be a whole number", word))
 }
 
-/// NAME, KEY=VALUE, KEY …
+/// Reads a keyword line, *NAME, KEY=VALUE, KEY …, and says what its data lines describe.
 fn keyword(
     text: &Text,
     draft: &mut Draft,
@@ -210,7 +255,7 @@ fn keyword(
     frame: &mut Frame,
     line: Line,
     words: &[Word],
-) -> Result<Block, Fault> {
+) -> Result<DataLines, Fault> {
     let first = words.first().map(|word| word.text()).unwrap_or_default();
     let name = first.trim_start_matches('*').split_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
     let value = |key: &str| {
@@ -231,14 +276,14 @@ fn keyword(
         return Err(refused(text, format!("{key} of *{name} {what}, and is not read"), line.number, FLAT));
     }
     Ok(match name.as_str() {
-        "NODE" => Block::Nodes { set: value("NSET").map(|set| sets.place(&set)) },
+        "NODE" => DataLines::Nodes { set: value("NSET").map(|set| sets.place(&set)) },
         "ELEMENT" => {
             let what = value("TYPE").ok_or_else(|| lacks("TYPE"))?.to_ascii_uppercase();
-            Block::Elements { kind: of(&what), what, set: value("ELSET").map(|set| sets.place(&set)) }
+            DataLines::Elements { kind: cell_shape(&what), what, set: value("ELSET").map(|set| sets.place(&set)) }
         }
         "NSET" | "ELSET" => {
             let set = sets.place(&value(&name).ok_or_else(|| lacks(&name))?);
-            Block::Set { set, nodes: name == "NSET", generate: flag("GENERATE") }
+            DataLines::Set { set, nodes: name == "NSET", generate: flag("GENERATE") }
         }
         "PART" | "INSTANCE" => {
             let count = if name == "PART" { &mut frame.parts } else { &mut frame.instances };
@@ -246,18 +291,18 @@ fn keyword(
             if *count > 1 {
                 return Err(refused(text, format!("a second *{name} is not read"), line.number, ONE));
             }
-            if name == "PART" { Block::Skipped } else { Block::Instance }
+            if name == "PART" { DataLines::Skipped } else { DataLines::Instance }
         }
-        // What only frames the mesh is no loss.
-        "HEADING" | "END PART" | "ASSEMBLY" | "END ASSEMBLY" | "END INSTANCE" => Block::Skipped,
+        // These keywords hold nothing that could be lost.
+        "HEADING" | "END PART" | "ASSEMBLY" | "END ASSEMBLY" | "END INSTANCE" => DataLines::Skipped,
         _ => {
             draft.skip(&format!("*{name}"), 1, line.number);
-            Block::Skipped
+            DataLines::Skipped
         }
     })
 }
 
-/// Numbers and names of sets, or first, last and step.
+/// Reads members of a set: numbers and names of sets, or, with `generate`, first, last and step.
 fn members(
     text: &Text,
     sets: &mut Sets,
@@ -280,7 +325,7 @@ fn members(
                 Some(id) => Member::Numbers(id, id, 1, at),
                 None => {
                     let name = word.text();
-                    let message = || text.fault_at(format!("no set is named {name}"), word);
+                    let message = || text.fault_at(format!("no set is named `{name}`"), word);
                     Member::Set(sets.find(name.trim_matches('"')).filter(|&other| other != set).ok_or_else(message)?)
                 }
             });
@@ -290,14 +335,14 @@ fn members(
     Ok(())
 }
 
-/// Sets as groups, by the elements that have been read. `others`: those that were skipped.
+/// Adds the sets as groups to the draft. `others`: numbers of the elements that were skipped.
 fn resolve(text: &Text, draft: &mut Draft, sets: &Sets, others: Vec<u64>) -> Result<(), Fault> {
     let (elements, _) = Ids::new(draft.elements.iter().map(|element| element.id));
     let (others, _) = Ids::new(others.iter().copied());
     let (nodes, _) = Ids::new(draft.nodes.iter().map(|node| node.id));
-    // The first that is not there ends it, so that a slip in a last number does not count for hours.
+    // The first missing number ends it, so that a typing error in a last number does not take hours.
     let missing = |what: &str, id: u64, set: usize, line: u32| {
-        let message = format!("`{}` holds {what} {id}, which is not there", sets.list[set].name);
+        let message = format!("set `{}` holds {what} {id}, which does not exist", sets.list[set].name);
         Err(text.fault_on(message, line as usize, Some(id)))
     };
     for index in 0..sets.list.len() {
@@ -319,7 +364,7 @@ fn resolve(text: &Text, draft: &mut Draft, sets: &Sets, others: Vec<u64>) -> Res
     Ok(())
 }
 
-/// Every number in a set and in the sets it names, each of these once.
+/// Calls `take` for each number in a set and in the sets that it holds, each of these once.
 fn each(
     sets: &Sets,
     set: usize,

@@ -1,58 +1,67 @@
-//! What a reader collects, by the file's own numbers, and what is checked when all of it is there.
+//! The mesh while a reader collects it, by the numbers of the file, and the checks when it is complete.
 
+use super::data::{CellShape, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
+use super::ids::{Ids, short};
 use super::text::{Fault, Text};
-use super::{Element, Group, Kind, Mesh, Node, Skipped};
 use crate::diagnostic::Diagnostic;
 use crate::math::Vec3;
 use std::collections::HashMap;
 
-/// More messages about one file help nobody.
+/// The most messages that are shown about one file.
 const MOST_FAULTS: usize = 20;
-/// Area or length of an element, relative to its longest side, that is round-off of its coordinates.
-const NOTHING: f64 = 1e-12;
+/// An element whose area or length, relative to its longest side, is smaller than this has none but for round-off.
+const SHAPE_TOLERANCE: f64 = 1e-12;
 
+/// A mesh that is being read.
 #[derive(Default)]
 pub struct Draft {
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<MeshNode>,
+    /// The line of each node.
     pub lines: Vec<u32>,
     pub elements: Vec<RawElement>,
     pub groups: Vec<RawGroup>,
     pub skipped: Vec<Skipped>,
+    /// Errors so far.
     pub faults: Vec<Fault>,
+    /// Index in `skipped` by what was skipped.
     places: HashMap<String, usize>,
 }
 
-/// With the file's numbers of its nodes.
+/// An element whose nodes are given by their numbers in the file.
 #[derive(Clone, Copy)]
 pub struct RawElement {
     pub id: u64,
-    pub kind: Kind,
+    pub kind: CellShape,
     pub nodes: [u64; 4],
     pub line: u32,
 }
 
+/// A group whose nodes are given by their numbers in the file.
 #[derive(Default)]
 pub struct RawGroup {
     pub name: String,
     /// Indices into [`Draft::elements`].
     pub elements: Vec<u32>,
-    /// Numbers of nodes that are given by themselves, with the line.
+    /// Numbers of the nodes that the file lists, with the line.
     pub nodes: Vec<(u64, u32)>,
+    /// The number of its elements of shapes that are not read.
     pub skipped: usize,
 }
 
 impl Draft {
+    /// Adds a node.
     pub fn node(&mut self, id: u64, x: Vec3, line: usize) {
-        self.nodes.push(Node { id, x });
+        self.nodes.push(MeshNode { id, x });
         self.lines.push(short(line));
     }
 
-    /// The element's index.
-    pub fn element(&mut self, id: u64, kind: Kind, nodes: [u64; 4], line: usize) -> u32 {
+    /// Adds an element and returns its index.
+    pub fn element(&mut self, id: u64, kind: CellShape, nodes: [u64; 4], line: usize) -> u32 {
         self.elements.push(RawElement { id, kind, nodes, line: short(line) });
         short(self.elements.len() - 1)
     }
 
+    /// Counts parts of the file that are not read.
     pub fn skip(&mut self, what: &str, count: usize, line: usize) {
         let next = self.skipped.len();
         let place = *self.places.entry(what.to_owned()).or_insert(next);
@@ -62,6 +71,10 @@ impl Draft {
         self.skipped[place].count += count;
     }
 
+    /// The mesh, once the file is read.
+    ///
+    /// # Errors
+    /// All errors found, at least one.
     pub fn finish(mut self, text: &Text) -> Result<Mesh, Vec<Diagnostic>> {
         if self.nodes.is_empty() && self.faults.is_empty() {
             self.faults.push(text.fault_at_end("the file has no nodes"));
@@ -88,6 +101,7 @@ impl Draft {
         Ok(Mesh { nodes: self.nodes, elements, groups, skipped: self.skipped, ids })
     }
 
+    /// Notes an error at a line, and there at a number, unless there are too many.
     fn complain(&mut self, text: &Text, line: usize, id: Option<u64>, message: impl FnOnce() -> String) {
         if self.faults.len() == MOST_FAULTS {
             let message = format!("`{}` may have more errors; correct these first", text.path);
@@ -99,14 +113,14 @@ impl Draft {
         self.faults.push(text.fault_on(message(), line, id));
     }
 
-    /// The element by indices of its nodes; reports one that is none.
-    fn checked(&mut self, text: &Text, ids: &Ids, raw: &RawElement) -> Element {
+    /// The element with the indices of its nodes; notes what is wrong with it.
+    fn checked(&mut self, text: &Text, ids: &Ids, raw: &RawElement) -> MeshElement {
         let (kind, line) = (raw.kind, raw.line as usize);
-        let mut element = Element { id: raw.id, kind, nodes: [0; 4], line: raw.line };
+        let mut element = MeshElement { id: raw.id, kind, nodes: [0; 4], line: raw.line };
         for (node, id) in element.nodes.iter_mut().zip(&raw.nodes[..kind.size()]) {
             let Some(index) = ids.get(*id) else {
                 self.complain(text, line, Some(*id), || {
-                    format!("element {} has node {id}, which is not there", raw.id)
+                    format!("element {} has node {id}, which does not exist", raw.id)
                 });
                 return element;
             };
@@ -127,14 +141,15 @@ impl Draft {
         element
     }
 
-    fn resolved(&mut self, text: &Text, ids: &Ids) -> Vec<Group> {
+    /// The groups with the indices of their nodes and elements.
+    fn resolved(&mut self, text: &Text, ids: &Ids) -> Vec<MeshGroup> {
         let mut groups = Vec::new();
-        // Per node and per element: the last group that took it.
+        // The last group that holds each node and each element.
         let (mut of_node, mut of_element) = (vec![0u32; self.nodes.len()], vec![0u32; self.elements.len()]);
         for (index, raw) in std::mem::take(&mut self.groups).into_iter().enumerate() {
             let mark = short(index + 1);
-            let mut group = Group { name: raw.name, skipped: raw.skipped, ..Group::default() };
-            let mut take = |group: &mut Group, node: usize| {
+            let mut group = MeshGroup { name: raw.name, skipped: raw.skipped, ..MeshGroup::default() };
+            let mut take = |group: &mut MeshGroup, node: usize| {
                 if std::mem::replace(&mut of_node[node], mark) != mark {
                     group.nodes.push(short(node));
                 }
@@ -144,7 +159,7 @@ impl Draft {
                     Some(node) => take(&mut group, node),
                     None => {
                         let name = group.name.clone();
-                        let message = || format!("`{name}` holds node {id}, which is not there");
+                        let message = || format!("group `{name}` holds node {id}, which does not exist");
                         self.complain(text, line as usize, Some(id), message);
                     }
                 }
@@ -155,7 +170,7 @@ impl Draft {
                 }
                 group.elements.push(element);
                 let RawElement { kind, nodes, .. } = self.elements[element as usize];
-                // A node that is not there has been reported.
+                // A node that does not exist is reported with its element.
                 nodes[..kind.size()].iter().filter_map(|&id| ids.get(id)).for_each(|node| take(&mut group, node));
             }
             group.elements.sort_unstable();
@@ -165,74 +180,21 @@ impl Draft {
     }
 }
 
-/// What an element lacks. Its corners as the file has them; beyond its kind's the last is repeated.
-fn flaw(kind: Kind, x: &[Vec3; 4]) -> Option<&'static str> {
+/// What is wrong with the shape of an element with corners at `x`, the last repeated beyond its number of nodes.
+fn flaw(kind: CellShape, x: &[Vec3; 4]) -> Option<&'static str> {
     let n = kind.size();
     let longest = (0..n).map(|i| (x[(i + 1) % n] - x[i]).norm()).fold(0.0, f64::max);
-    if kind == Kind::Segment {
+    if kind == CellShape::Segment {
         let size = x[0].amax().max(x[1].amax());
-        return (longest <= NOTHING * size).then_some("has no length");
+        return (longest <= SHAPE_TOLERANCE * size).then_some("has no length");
     }
     let corner = |i: usize| (x[(i + 1) % n] - x[i]).cross(&(x[(i + n - 1) % n] - x[i]));
     let area: Vec3 = (0..n).map(corner).sum();
-    let least = NOTHING * longest * longest;
+    let least = SHAPE_TOLERANCE * longest * longest;
     if area.norm().is_nan() || area.norm() <= least {
         return Some("has no area");
     }
-    // A corner seen from the other side: the sides cross, or go in.
+    // At a corner of the other sense the sides cross, or the corner is re-entrant.
     let folded = (0..n).any(|i| corner(i).dot(&area) <= least * area.norm());
-    folded.then_some("is not convex: go round its corners one after the other")
-}
-
-/// Indices and lines, of which a file of a few gigabytes has fewer than this.
-pub fn short(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(u32::MAX)
-}
-
-/// From the file's numbers to indices: a table where the numbers lie close, else a sorted list.
-#[derive(Debug)]
-pub enum Ids {
-    /// Index + 1, by number; 0 for none.
-    Table(Vec<u32>),
-    Sorted(Vec<(u64, u32)>),
-}
-
-impl Ids {
-    /// With the indices of numbers that came before.
-    pub fn new(ids: impl ExactSizeIterator<Item = u64> + Clone) -> (Ids, Vec<usize>) {
-        let (count, last) = (ids.len() as u64, ids.clone().max().unwrap_or(0));
-        let mut again = Vec::new();
-        if last <= 8 * count + 1000 {
-            let mut table = vec![0u32; last as usize + 1];
-            for (index, id) in ids.enumerate() {
-                let entry = &mut table[id as usize];
-                if *entry == 0 {
-                    *entry = short(index + 1);
-                } else {
-                    again.push(index);
-                }
-            }
-            return (Ids::Table(table), again);
-        }
-        let mut sorted: Vec<(u64, u32)> = ids.enumerate().map(|(index, id)| (id, short(index))).collect();
-        sorted.sort_unstable();
-        sorted.dedup_by(|later, first| {
-            let same = later.0 == first.0;
-            if same {
-                again.push(later.1 as usize);
-            }
-            same
-        });
-        (Ids::Sorted(sorted), again)
-    }
-
-    pub fn get(&self, id: u64) -> Option<usize> {
-        match self {
-            Ids::Table(table) => (*table.get(usize::try_from(id).ok()?)? as usize).checked_sub(1),
-            Ids::Sorted(sorted) => {
-                let at = sorted.binary_search_by_key(&id, |entry| entry.0).ok()?;
-                Some(sorted[at].1 as usize)
-            }
-        }
-    }
+    folded.then_some("is not convex: its nodes must follow each other around it")
 }

@@ -1,26 +1,29 @@
-//! Gmsh in ASCII, versions 4.1 and 2.2. Groups are the physical ones of dimension 0, 1 and 2; one without a name is called
-//! `physical_7` by its tag, or `physical_7_lines` where its tag has several dimensions without names.
+//! Gmsh in ASCII, versions 4.1 and 2.2. The groups are the physical groups of dimension 0, 1 and 2. A group without a name is
+//! called `physical_7` by its tag, or `physical_7_lines` where groups of several dimensions have that tag and no name.
 
-use super::Kind;
-use super::draft::{Draft, RawGroup, short};
+use super::data::CellShape;
+use super::draft::{Draft, RawGroup};
+use super::ids::short;
 use super::text::{Fault, Line, Text, Word, Words};
 use crate::math::Vec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// What one number of an element's type stands for.
-enum Type {
+/// What the number of an element type means.
+enum ElementType {
     Point,
-    Known(Kind),
+    Cell(CellShape),
+    /// A type that is not read, by its name.
     Other(String),
 }
 
-fn of(number: u64) -> Type {
-    Type::Other(match number {
-        1 => return Type::Known(Kind::Segment),
-        2 => return Type::Known(Kind::Triangle),
-        3 => return Type::Known(Kind::Quadrilateral),
-        15 => return Type::Point,
+/// The element type of a number.
+fn element_type(number: u64) -> ElementType {
+    ElementType::Other(match number {
+        1 => return ElementType::Cell(CellShape::Segment),
+        2 => return ElementType::Cell(CellShape::Triangle),
+        3 => return ElementType::Cell(CellShape::Quadrilateral),
+        15 => return ElementType::Point,
         4 => "tetrahedra".to_owned(),
         5 => "hexahedra".to_owned(),
         6 => "prisms".to_owned(),
@@ -38,17 +41,19 @@ fn of(number: u64) -> Type {
 /// Dimension and tag of a physical group.
 type Physical = (u8, u64);
 
-/// Physical groups, and the names of them.
+/// The physical groups of a file.
 #[derive(Default)]
 struct Groups {
     list: Vec<(Physical, RawGroup)>,
+    /// Index in `list`.
     places: HashMap<Physical, usize>,
     names: HashMap<Physical, String>,
-    /// By dimension and tag of an entity: its physical groups, and whether these turn its elements round.
+    /// The physical groups of an entity, and whether they reverse its elements; by dimension and tag.
     entities: HashMap<(u8, i64), (Vec<usize>, bool)>,
 }
 
 impl Groups {
+    /// The index of a group, which is added where it is new.
     fn place(&mut self, dimension: u8, tag: u64) -> usize {
         let next = self.list.len();
         let place = *self.places.entry((dimension, tag)).or_insert(next);
@@ -58,7 +63,7 @@ impl Groups {
         place
     }
 
-    /// Groups by name: one that is given in several dimensions holds all of it.
+    /// The groups by name: groups of several dimensions with one name are one.
     fn named(mut self) -> Vec<RawGroup> {
         let alone = |&(dimension, tag): &Physical| {
             let same = |other: &Physical| other.1 == tag && other.0 != dimension && !self.names.contains_key(other);
@@ -87,7 +92,47 @@ impl Groups {
     }
 }
 
+/// Reads the file into the draft.
+///
+/// # Errors
+/// The first place where the file is not as its format says.
 pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
+    let four = format(text)?;
+    let (mut groups, mut nodes, mut elements) = (Groups::default(), false, false);
+    while let Some(line) = text.line() {
+        let Some(name) = line.bytes.strip_prefix(b"$") else {
+            return Err(text.fault("this line belongs to no section", line.number));
+        };
+        match name {
+            b"PhysicalNames" => names(text, &mut groups)?,
+            b"Entities" if four => entities(text, &mut groups)?,
+            b"PartitionedEntities" => return Err(text.fault("partitioned meshes are not read", line.number)),
+            b"Nodes" => {
+                nodes = true;
+                if four { nodes_4(text, draft)? } else { nodes_2(text, draft)? }
+            }
+            b"Elements" => {
+                elements = true;
+                if four { elements_4(text, draft, &mut groups)? } else { elements_2(text, draft, &mut groups)? }
+            }
+            other => {
+                skip_section(text, draft, &String::from_utf8_lossy(other), line)?;
+                continue;
+            }
+        }
+        end(text, &String::from_utf8_lossy(name))?;
+    }
+    for (there, name) in [(nodes, "$Nodes"), (elements, "$Elements")] {
+        if !there {
+            return Err(text.fault_at_end(format!("the file has no {name}")));
+        }
+    }
+    draft.groups = groups.named();
+    Ok(())
+}
+
+/// The first section: true for version 4.1, false for 2.2.
+fn format(text: &mut Text) -> Result<bool, Fault> {
     let first = text.line().ok_or_else(|| text.fault("the file is empty", 1))?;
     if first.bytes != b"$MeshFormat" {
         return Err(text.fault("a Gmsh file begins with $MeshFormat", first.number));
@@ -105,77 +150,52 @@ pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
             return Err(fault);
         }
     };
-    if words.whole("the kind of file")? != 0 {
+    if words.whole("the file type")? != 0 {
         let mut fault = text.fault("binary Gmsh files are not read", line.number);
         fault.hints.push("write it with Mesh.Binary = 0".to_owned());
         return Err(fault);
     }
     end(text, "MeshFormat")?;
+    Ok(four)
+}
 
-    let (mut groups, mut nodes, mut elements) = (Groups::default(), false, false);
-    while let Some(line) = text.line() {
-        let Some(name) = line.bytes.strip_prefix(b"$") else {
-            return Err(text.fault("this stands outside all sections", line.number));
-        };
-        match name {
-            b"PhysicalNames" => names(text, &mut groups)?,
-            b"Entities" if four => entities(text, &mut groups)?,
-            b"PartitionedEntities" => return Err(text.fault("partitioned meshes are not read", line.number)),
-            b"Nodes" => {
-                nodes = true;
-                if four { nodes_4(text, draft)? } else { nodes_2(text, draft)? }
-            }
-            b"Elements" => {
-                elements = true;
-                if four { elements_4(text, draft, &mut groups)? } else { elements_2(text, draft, &mut groups)? }
-            }
-            other => {
-                let name = String::from_utf8_lossy(other).into_owned();
-                let close = format!("$End{name}");
-                loop {
-                    match text.line() {
-                        Some(line) if line.bytes == close.as_bytes() => break,
-                        Some(_) => {}
-                        None => return Err(text.fault_at_end(format!("the file ends within ${name}"))),
-                    }
-                }
-                if name != "Comments" {
-                    draft.skip(&format!("${name}"), 1, line.number);
-                }
-                continue;
-            }
-        }
-        end(text, &String::from_utf8_lossy(name))?;
-    }
-    for (there, name) in [(nodes, "$Nodes"), (elements, "$Elements")] {
-        if !there {
-            return Err(text.fault_at_end(format!("the file has no {name}")));
+/// Passes over a section that is not read, up to its end.
+fn skip_section(text: &mut Text, draft: &mut Draft, name: &str, line: Line) -> Result<(), Fault> {
+    let close = format!("$End{name}");
+    loop {
+        match text.line() {
+            Some(line) if line.bytes == close.as_bytes() => break,
+            Some(_) => {}
+            None => return Err(text.fault_at_end(format!("the file ends within ${name}"))),
         }
     }
-    draft.groups = groups.named();
+    if name != "Comments" {
+        draft.skip(&format!("${name}"), 1, line.number);
+    }
     Ok(())
 }
 
-/// The next line of a section, which must not end before.
+/// The next line of a section; an error where the section or the file ends.
 fn within<'t>(text: &mut Text<'t>, section: &str) -> Result<Line<'t>, Fault> {
     match text.line() {
         Some(line) if line.bytes.starts_with(b"$") => {
-            Err(text.fault(format!("${section} has fewer lines than it says"), line.number))
+            Err(text.fault(format!("${section} has fewer lines than its counts require"), line.number))
         }
         Some(line) => Ok(line),
         None => Err(text.fault_at_end(format!("the file ends within ${section}"))),
     }
 }
 
+/// Reads the end of a section.
 fn end(text: &mut Text, section: &str) -> Result<(), Fault> {
     match text.line() {
         Some(line) if line.bytes.strip_prefix(b"$End").is_some_and(|name| name == section.as_bytes()) => Ok(()),
-        Some(line) => Err(text.fault(format!("$End{section} should stand here"), line.number)),
+        Some(line) => Err(text.fault(format!("$End{section} is missing here"), line.number)),
         None => Err(text.fault_at_end(format!("the file ends before $End{section}"))),
     }
 }
 
-/// The words of a line as numbers.
+/// The words of a line, read as numbers one after the other. `what` names the number in messages.
 struct Numbers<'a, 't> {
     text: &'a Text<'t>,
     line: Line<'t>,
@@ -210,7 +230,7 @@ impl<'a, 't> Numbers<'a, 't> {
         Ok(Vec3::new(self.number("x")?, self.number("y")?, self.number("z")?))
     }
 
-    fn nodes(&mut self, kind: Kind) -> Result<[u64; 4], Fault> {
+    fn nodes(&mut self, kind: CellShape) -> Result<[u64; 4], Fault> {
         let mut nodes = [0; 4];
         for node in &mut nodes[..kind.size()] {
             *node = self.whole("a node")?;
@@ -218,7 +238,7 @@ impl<'a, 't> Numbers<'a, 't> {
         Ok(nodes)
     }
 
-    /// Nothing more on this line.
+    /// Makes sure that the line has no more words.
     fn end(mut self) -> Result<(), Fault> {
         match self.words.next() {
             Some(word) => Err(self.text.fault_at("this is one number too many", &word)),
@@ -227,7 +247,7 @@ impl<'a, 't> Numbers<'a, 't> {
     }
 }
 
-/// dimension tag "name"
+/// Names of groups. A line has: dimension tag "name".
 fn names(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
     let line = within(text, "PhysicalNames")?;
     for _ in 0..Numbers::of(text, line).whole("the number of names")? {
@@ -251,7 +271,8 @@ fn names(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Points: tag x y z n groups…; others: tag with six bounds, n groups…, and what bounds them.
+/// The groups of entities. The line of a point has: tag x y z n groups…; that of others: tag, six bounds, n groups…, and the
+/// entities on the boundary.
 fn entities(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
     let line = within(text, "Entities")?;
     let mut words = Numbers::of(text, line);
@@ -269,7 +290,7 @@ fn entities(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
             }
             let (mut places, mut turned) = (Vec::new(), true);
             for _ in 0..words.whole("the number of physical groups")? {
-                // A negative one wants the elements the other way round; version 2.2 writes them so.
+                // A negative group reverses the elements; version 2.2 writes them reversed.
                 let group = words.signed("a physical group")?;
                 turned &= group < 0;
                 if dimension < 3 {
@@ -283,7 +304,7 @@ fn entities(text: &mut Text, groups: &mut Groups) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Blocks by entity: all numbers, then all coordinates.
+/// Nodes of version 4.1: blocks by entity, each with all numbers, then all coordinates.
 fn nodes_4(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     let line = within(text, "Nodes")?;
     let mut words = Numbers::of(text, line);
@@ -295,7 +316,7 @@ fn nodes_4(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
         let mut words = Numbers::of(text, line);
         words.signed("the dimension")?;
         words.signed("the entity")?;
-        words.whole("the mark of parameters")?;
+        words.whole("the parametric flag")?;
         let count = words.whole("the number of nodes")?;
         words.end()?;
         ids.clear();
@@ -314,6 +335,7 @@ fn nodes_4(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     counted(text, line, "Nodes", "nodes", all, draft.nodes.len() - before)
 }
 
+/// Nodes of version 2.2. A line has: number x y z.
 fn nodes_2(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     let line = within(text, "Nodes")?;
     for _ in 0..Numbers::of(text, line).whole("the number of nodes")? {
@@ -327,14 +349,15 @@ fn nodes_2(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     Ok(())
 }
 
+/// Compares the number of nodes or elements that a section announces with that found.
 fn counted(text: &Text, line: Line, section: &str, what: &str, said: u64, found: usize) -> Result<(), Fault> {
     if said == found as u64 {
         return Ok(());
     }
-    Err(text.fault(format!("${section} says {said} {what} and has {found}"), line.number))
+    Err(text.fault(format!("${section} announces {said} {what} and has {found}"), line.number))
 }
 
-/// Blocks by entity, which knows its groups.
+/// Elements of version 4.1: blocks by entity, which gives the groups.
 fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result<(), Fault> {
     let line = within(text, "Elements")?;
     let mut words = Numbers::of(text, line);
@@ -345,7 +368,7 @@ fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
         let mut words = Numbers::of(text, line);
         let dimension = words.whole("the dimension")?;
         let entity = words.signed("the entity")?;
-        let kind = of(words.whole("the type")?);
+        let kind = element_type(words.whole("the type")?);
         let count = words.whole("the number of elements")?;
         words.end()?;
         let places = u8::try_from(dimension).ok().and_then(|dimension| groups.entities.get(&(dimension, entity)));
@@ -356,10 +379,10 @@ fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
             let mut words = Numbers::of(text, line);
             let id = words.whole("an element")?;
             element(&mut words, (id, &kind), line, draft, (&mut groups.list, places))?;
-            if let (Type::Known(kind), Some(element), true) = (&kind, draft.elements.last_mut(), turned) {
+            if let (ElementType::Cell(kind), Some(element), true) = (&kind, draft.elements.last_mut(), turned) {
                 element.nodes[..kind.size()].reverse();
             }
-            if !matches!(kind, Type::Other(_)) {
+            if !matches!(kind, ElementType::Other(_)) {
                 words.end()?;
             }
         }
@@ -367,16 +390,16 @@ fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
     counted(text, line, "Elements", "elements", all, found)
 }
 
-/// number type n tags… nodes…; the first tag is the physical group, 0 for none.
+/// Elements of version 2.2. A line has: number type n tags… nodes…; the first tag is the physical group, 0 for none.
 fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result<(), Fault> {
     let line = within(text, "Elements")?;
-    // An element of several groups is written once for each, under other numbers.
-    let mut known: HashMap<(Kind, [u64; 4]), u32, BuildHasherDefault<Mix>> = HashMap::default();
+    // An element of several groups is written once for each group, with other numbers.
+    let mut known: HashMap<(CellShape, [u64; 4]), u32, BuildHasherDefault<Mix>> = HashMap::default();
     for _ in 0..Numbers::of(text, line).whole("the number of elements")? {
         let line = within(text, "Elements")?;
         let mut words = Numbers::of(text, line);
         let id = words.whole("an element")?;
-        let kind = of(words.whole("the type")?);
+        let kind = element_type(words.whole("the type")?);
         let mut physical = 0;
         for tag in 0..words.whole("the number of tags")? {
             let value = words.signed("a tag")?.unsigned_abs();
@@ -385,15 +408,15 @@ fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
             }
         }
         let dimension = match &kind {
-            Type::Point => Some(0),
-            Type::Known(Kind::Segment) => Some(1),
-            Type::Known(_) => Some(2),
-            Type::Other(what) if what.ends_with("lines") => Some(1),
-            Type::Other(what) if what.ends_with("triangles") || what.ends_with("quadrilaterals") => Some(2),
-            Type::Other(_) => None,
+            ElementType::Point => Some(0),
+            ElementType::Cell(CellShape::Segment) => Some(1),
+            ElementType::Cell(_) => Some(2),
+            ElementType::Other(what) if what.ends_with("lines") => Some(1),
+            ElementType::Other(what) if what.ends_with("triangles") || what.ends_with("quadrilaterals") => Some(2),
+            ElementType::Other(_) => None,
         };
         let place = dimension.filter(|_| physical > 0).map(|dimension| groups.place(dimension, physical));
-        if let Type::Known(kind) = kind {
+        if let ElementType::Cell(kind) = kind {
             let nodes = words.nodes(kind)?;
             words.end()?;
             let element = match place {
@@ -410,13 +433,13 @@ fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
     Ok(())
 }
 
-/// A hash for numbers that nobody chose to collide: a million elements take a second less than with the standard one.
+/// A hash for numbers that are not chosen to collide: a million elements take a second less than with the standard one.
 #[derive(Default)]
 struct Mix(u64);
 
 impl Hasher for Mix {
     fn finish(&self) -> u64 {
-        // A table takes the low bits, multiplication mixes the high ones.
+        // Multiplication mixes the high bits, and tables use the low ones.
         self.0 ^ (self.0 >> 32)
     }
 
@@ -429,25 +452,25 @@ impl Hasher for Mix {
     }
 }
 
-/// The nodes of an element, for the draft and the groups at `places`.
+/// Reads the nodes of an element and adds it to the draft and to the groups at `places`.
 fn element(
     words: &mut Numbers,
-    (id, kind): (u64, &Type),
+    (id, kind): (u64, &ElementType),
     line: Line,
     draft: &mut Draft,
     (groups, places): (&mut [(Physical, RawGroup)], &[usize]),
 ) -> Result<(), Fault> {
     match kind {
-        Type::Point => {
+        ElementType::Point => {
             let node = words.whole("a node")?;
             places.iter().for_each(|&place| groups[place].1.nodes.push((node, short(line.number))));
         }
-        Type::Known(kind) => {
+        ElementType::Cell(kind) => {
             let nodes = words.nodes(*kind)?;
             let element = draft.element(id, *kind, nodes, line.number);
             places.iter().for_each(|&place| groups[place].1.elements.push(element));
         }
-        Type::Other(what) => {
+        ElementType::Other(what) => {
             draft.skip(what, 1, line.number);
             places.iter().for_each(|&place| groups[place].1.skipped += 1);
         }

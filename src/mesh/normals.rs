@@ -1,17 +1,19 @@
 //! Normals of a surface of triangles and quadrilaterals at their corners.
 //!
-//! Round a node, elements that share an edge there and differ by less than [`FOLD`] are one side; each side has one normal,
-//! the mean of its elements' normals at the node, weighted by their angles there (Thürmer & Wüthrich 1998: it does not
-//! depend on how the faces are cut up). An element turned round counts with the other sign and gets the normal of its own side.
+//! At a node, the elements that share an edge and whose normals differ by less than [`FOLD`] form one smooth side. Each side has
+//! one normal: the mean of the normals of its elements at the node, weighted by their angles there (Thürmer & Wüthrich 1998), so
+//! that it does not depend on how faces are divided. An element of the other orientation counts with the other sign and has the
+//! opposite normal.
 
 use crate::math::Vec3;
 
-/// Angle between neighbours from which the edge between them is a fold, in degrees: the 12 faces of a coarse cylinder are still
-/// round, plates that meet at an angle are not.
+/// The angle between neighbours, in degrees, from which their edge is a fold: the 12 faces of a coarse cylinder are still smooth,
+/// plates that meet at an angle are not.
 pub const FOLD: f64 = 31.0;
 
-/// Unit normals at the corners of faces, each seeing its own face go round counter-clockwise, and the number of edges where
-/// two neighbours go round in different senses. `faces`: indices into `x`, three or four corners each.
+/// Unit normals at the corners of each face, on the side from which the corners of the face follow each other
+/// counter-clockwise, and the number of edges at which two neighbours are oriented differently. `faces`: indices into `x`,
+/// three or four corners each.
 pub fn normals<'a>(x: &[Vec3], faces: impl Iterator<Item = &'a [u32]> + Clone) -> (Vec<[Vec3; 4]>, usize) {
     let corners: Vec<Corner> = faces.clone().enumerate().flat_map(|(face, nodes)| Corner::of(x, face, nodes)).collect();
     // Corners by node: starts[node]..starts[node + 1] of `order`.
@@ -41,11 +43,13 @@ struct Corner {
     node: u32,
     face: u32,
     place: usize,
-    /// Neighbours before and behind on the face's boundary.
+    /// The corners before and after it on the boundary of the face.
     sides: [u32; 2],
-    /// Of the whole face, and at this corner; unit length.
+    /// Unit normal of the whole face.
     face_normal: Vec3,
+    /// Unit normal at this corner.
     normal: Vec3,
+    /// Angle between the sides, radians.
     angle: f64,
 }
 
@@ -72,17 +76,19 @@ impl Corner {
     }
 }
 
-/// Corners round one node, put together to sides.
+/// Corners around one node, joined to smooth sides by a union-find structure.
 #[derive(Default)]
 struct Sides {
-    /// Of each corner: one of its side, itself for the first, and its sense against that one.
+    /// Another corner of the same side for each corner, itself for the first, and the relative orientation, ±1.
     parent: Vec<(usize, f64)>,
-    /// (node at the other end, corner, outgoing) of the edges here.
+    /// The edges at the node: (node at the other end, corner, outgoing).
     edges: Vec<(u32, usize, bool)>,
+    /// The sum of normals of each side, at its first corner.
     sums: Vec<Vec3>,
 }
 
 impl Sides {
+    /// The first corner of the side of `corner`, and the relative orientation.
     fn root(&self, mut corner: usize) -> (usize, f64) {
         let mut sense = 1.0;
         while self.parent[corner].0 != corner {
@@ -92,7 +98,8 @@ impl Sides {
         (corner, sense)
     }
 
-    /// Joins the corners round a node over its edges; returns how many edges to higher nodes have the same sense on both sides.
+    /// Joins the corners around a node over its edges; returns the number of edges to higher nodes that both faces run through in
+    /// the same direction.
     fn join(&mut self, node: u32, round: &[u32], corners: &[Corner]) -> usize {
         let least = FOLD.to_radians().cos();
         self.parent.clear();
@@ -106,9 +113,9 @@ impl Sides {
         let mut against = 0;
         let edges = std::mem::take(&mut self.edges);
         for run in edges.chunk_by(|a, b| a.0 == b.0) {
-            // Neighbours go through their common edge in opposite directions.
+            // Neighbours of one orientation run through their common edge in opposite directions.
             against += usize::from(run.len() == 2 && run[0].2 == run[1].2 && node < run[0].0);
-            // Where more than two meet, each joins those it goes on with; past ten at one edge, of the last eight.
+            // Where more than two faces meet, each joins those that continue it; of many, the last eight are compared.
             for (i, a) in run.iter().enumerate().skip(1) {
                 for b in &run[i.saturating_sub(8)..i] {
                     let sense = if a.2 == b.2 { -1.0 } else { 1.0 };
@@ -128,6 +135,7 @@ impl Sides {
         against
     }
 
+    /// Writes the mean normal of each side to its corners.
     fn write(&mut self, round: &[u32], corners: &[Corner], normals: &mut [[Vec3; 4]]) {
         self.sums.clear();
         self.sums.resize(round.len(), Vec3::zeros());
@@ -139,7 +147,7 @@ impl Sides {
         for (at, &corner) in round.iter().enumerate() {
             let (root, sense) = self.root(at);
             let corner = &corners[corner as usize];
-            // A side that goes all the way round and back has no mean; its faces keep their own.
+            // A side whose normals cancel has no mean; its faces keep their own.
             let mean = (sense * self.sums[root]).try_normalize(1e-9);
             normals[corner.face as usize][corner.place] = mean.unwrap_or(corner.normal);
         }

@@ -3,15 +3,17 @@
 use crate::diagnostic::{Diagnostic, Excerpt};
 use std::ops::Range;
 
-/// One thing that is wrong with the file.
+/// An error in the file.
 pub type Fault = Box<Diagnostic>;
 
 /// The bytes of a file, read line by line.
 pub struct Text<'t> {
-    /// As messages name it.
+    /// The path of the file, for messages.
     pub path: &'t str,
     pub bytes: &'t [u8],
+    /// Where the next line begins.
     next: usize,
+    /// The number of the last line read.
     line: usize,
 }
 
@@ -23,16 +25,17 @@ pub struct Line<'t> {
     pub number: usize,
 }
 
-/// A part of a line without blanks around it.
+/// A part of a line, without blanks around it.
 #[derive(Debug, Clone, Copy)]
 pub struct Word<'t> {
     pub bytes: &'t [u8],
-    /// Bytes of the line before it.
+    /// The number of bytes of the line before it.
     pub column: usize,
     pub line: usize,
 }
 
 impl<'t> Text<'t> {
+    /// The text from its first line.
     pub fn new(path: &'t str, bytes: &'t [u8]) -> Self {
         Text { path, bytes, next: 0, line: 0 }
     }
@@ -52,20 +55,20 @@ impl<'t> Text<'t> {
         None
     }
 
-    /// A message about a line.
+    /// An error at a line.
     pub fn fault(&self, message: impl Into<String>, line: usize) -> Fault {
         let text = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default().trim_ascii_end();
         let first = text.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
         self.draw(message, line, text, first..text.len())
     }
 
-    /// A message about a word.
+    /// An error at a word.
     pub fn fault_at(&self, message: impl Into<String>, word: &Word) -> Fault {
         let text = self.bytes.split(|&byte| byte == b'\n').nth(word.line.max(1) - 1).unwrap_or_default();
         self.draw(message, word.line, text.trim_ascii_end(), word.column..word.column + word.bytes.len())
     }
 
-    /// A message about a number on a line, the last of that value: an element's own comes before its nodes'.
+    /// An error at a number on a line: the last of that value, since the number of an element comes before those of its nodes.
     pub fn fault_on(&self, message: impl Into<String>, line: usize, number: Option<u64>) -> Fault {
         let bytes = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default();
         let content = Line { bytes, number: line };
@@ -79,12 +82,13 @@ impl<'t> Text<'t> {
         }
     }
 
-    /// A message about the end of the file.
+    /// An error at the end of the file.
     pub fn fault_at_end(&self, message: impl Into<String>) -> Fault {
         let last = self.bytes.iter().filter(|&&byte| byte == b'\n').count() + usize::from(!self.bytes.ends_with(b"\n"));
         self.fault(message, last.max(1))
     }
 
+    /// An error with an excerpt of the line.
     fn draw(&self, message: impl Into<String>, line: usize, text: &[u8], columns: Range<usize>) -> Fault {
         let path = self.path.to_owned();
         Box::new(Diagnostic::error(message).of(Excerpt::new(path, line, text, columns)))
@@ -92,12 +96,12 @@ impl<'t> Text<'t> {
 }
 
 impl<'t> Line<'t> {
-    /// Parts between blanks.
+    /// The parts between blanks.
     pub fn words(self) -> Words<'t> {
         Words { line: self, at: 0 }
     }
 
-    /// Parts between commas, without the blanks around them; an empty one after a last comma is none.
+    /// The parts between commas, without the blanks around them. Nothing after a last comma is no part.
     pub fn fields(self) -> impl Iterator<Item = Word<'t>> {
         let (bytes, line, mut at) = (self.bytes, self.number, 0);
         std::iter::from_fn(move || {
@@ -114,7 +118,7 @@ impl<'t> Line<'t> {
     }
 }
 
-/// Parts of a line between blanks.
+/// The parts of a line between blanks.
 pub struct Words<'t> {
     line: Line<'t>,
     at: usize,
@@ -133,11 +137,12 @@ impl<'t> Iterator for Words<'t> {
 }
 
 impl Word<'_> {
+    /// The word as text.
     pub fn text(&self) -> String {
         String::from_utf8_lossy(self.bytes).into_owned()
     }
 
-    /// A finite number, with the exponent of Fortran too.
+    /// A finite number, also with the exponent of Fortran.
     pub fn number(&self) -> Option<f64> {
         let text = std::str::from_utf8(self.bytes).ok()?;
         let read = text.parse().or_else(|error| match text.contains(['d', 'D']) {
@@ -152,6 +157,7 @@ impl Word<'_> {
         std::str::from_utf8(self.bytes).ok()?.parse().ok()
     }
 
+    /// A whole number.
     pub fn signed(&self) -> Option<i64> {
         std::str::from_utf8(self.bytes).ok()?.parse().ok()
     }

@@ -35,7 +35,7 @@ impl<'d> Groups<'d> {
         name: &'d At<String>,
         faces: bool,
         report: &mut Report<'d>,
-    ) -> Option<Vec<&'d mesh::Element>> {
+    ) -> Option<Vec<&'d mesh::MeshElement>> {
         if self.mesh.is_lost {
             return None;
         }
@@ -56,9 +56,9 @@ impl<'d> Groups<'d> {
             let hint = "mesh it with lines of two nodes and faces of three or four";
             return report.error_with(&name.span, message, hint);
         }
-        let is_meant = |e: &&mesh::Element| (e.kind != Kind::Segment) == faces;
+        let is_meant = |e: &&mesh::MeshElement| (e.kind != CellShape::Segment) == faces;
         let indices = || group.elements.iter().map(|&e| e as usize);
-        let elements: Vec<&mesh::Element> = indices().map(|e| &mesh.elements[e]).filter(is_meant).collect();
+        let elements: Vec<&mesh::MeshElement> = indices().map(|e| &mesh.elements[e]).filter(is_meant).collect();
         if elements.is_empty() {
             report.lose_connections();
             let wanted = if faces { "triangles or quadrilaterals" } else { "segments" };
@@ -78,7 +78,7 @@ impl<'d> Groups<'d> {
     /// Lists the nodes of faces, each once in the order of the faces, and gives each face by its places in that list. The time
     /// taken grows with the number of faces alone, not with the mesh.
     #[allow(clippy::type_complexity)]
-    pub fn own_nodes(&mut self, faces: &[&mesh::Element]) -> Option<(Vec<u32>, Vec<[u32; 4]>)> {
+    pub fn own_nodes(&mut self, faces: &[&mesh::MeshElement]) -> Option<(Vec<u32>, Vec<[u32; 4]>)> {
         let local = &mut self.local;
         local.resize(self.mesh.input?.mesh.nodes.len(), 0);
         let (mut own, mut of) = (Vec::new(), Vec::with_capacity(faces.len()));
@@ -105,8 +105,11 @@ impl<'d> Groups<'d> {
         for group in names.groups_in_lists() {
             input.mesh.groups[group].elements.iter().for_each(|&e| used[e as usize] = true);
         }
-        let kinds =
-            [(Kind::Segment, "segments"), (Kind::Triangle, "triangles"), (Kind::Quadrilateral, "quadrilaterals")];
+        let kinds = [
+            (CellShape::Segment, "segments"),
+            (CellShape::Triangle, "triangles"),
+            (CellShape::Quadrilateral, "quadrilaterals"),
+        ];
         let mut left = Vec::new();
         for (kind, what) in kinds {
             let elements = input.mesh.elements.iter().zip(&used);

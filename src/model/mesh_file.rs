@@ -8,7 +8,7 @@ use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Excerpt};
-use crate::mesh::{self, Kind, Mesh};
+use crate::mesh::{self, CellShape, Mesh};
 
 /// A mesh that has been read.
 #[derive(Debug)]
@@ -121,6 +121,6 @@ impl<'d> MeshNodes<'d> {
         let Some(input) = self.input else { return Vec::new() };
         let elements = input.mesh.groups[group].elements.iter().map(|&e| &input.mesh.elements[e as usize]);
         let node = |node: u32| self.first + node as usize;
-        elements.filter(|e| e.kind == Kind::Segment).map(|e| [node(e.nodes()[0]), node(e.nodes()[1])]).collect()
+        elements.filter(|e| e.kind == CellShape::Segment).map(|e| [node(e.nodes()[0]), node(e.nodes()[1])]).collect()
     }
 }

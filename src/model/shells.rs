@@ -138,7 +138,7 @@ fn of_group<'d>(
     }
     let mut shells = Vec::new();
     for corners in [4, 3] {
-        let of = |(number, (face, normals)): (usize, (&&mesh::Element, &[Vec3; 4]))| {
+        let of = |(number, (face, normals)): (usize, (&&mesh::MeshElement, &[Vec3; 4]))| {
             let at = |k: usize| k.min(corners - 1);
             let element = || ShellElement {
                 nodes: std::array::from_fn(|k| first + face.nodes()[at(k)] as usize),

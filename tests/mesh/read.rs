@@ -1,7 +1,7 @@
 //! The readers by themselves.
 
 use super::Plate;
-use rdsolve::mesh::{self, Kind, Mesh};
+use rdsolve::mesh::{self, CellShape, Mesh};
 
 fn read(path: &str, text: &str) -> Mesh {
     mesh::read(path, text.as_bytes()).unwrap_or_else(|problems| panic!("{problems:?}"))
@@ -19,7 +19,7 @@ fn three_formats_say_the_same() {
         let mesh = read(path, text);
         assert_eq!(mesh.nodes.len(), 12);
         assert_eq!((mesh.nodes[5].id, mesh.nodes[5].x.as_slice()), (6, &[1.0, 0.5, 0.0][..]));
-        let quads: Vec<_> = mesh.elements.iter().filter(|e| e.kind == Kind::Quadrilateral).collect();
+        let quads: Vec<_> = mesh.elements.iter().filter(|e| e.kind == CellShape::Quadrilateral).collect();
         assert_eq!((quads.len(), quads[0].nodes()), (6, &[0, 1, 5, 4][..]));
         assert_eq!(mesh.group("plate").unwrap().elements.len(), 6);
         assert_eq!(ids(&mesh, "root"), [1, 5, 9]);
@@ -57,8 +57,8 @@ fn files_of_gmsh_itself() {
         assert_eq!(all.elements.len(), inner + outer);
         assert_eq!(mesh.group("rim").unwrap().elements.len(), mesh.group("rim").unwrap().nodes.len());
         assert_eq!(mesh.group("center").unwrap().nodes.len(), 1);
-        assert_eq!(mesh.elements.iter().filter(|e| e.kind != Kind::Segment).count(), inner + outer);
-        let area = |e: &mesh::Element| {
+        assert_eq!(mesh.elements.iter().filter(|e| e.kind != CellShape::Segment).count(), inner + outer);
+        let area = |e: &mesh::MeshElement| {
             let x = |k: usize| mesh.nodes[e.nodes()[k] as usize].x;
             let half = |a: usize, b: usize| 0.5 * (x(a) - x(0)).cross(&(x(b) - x(0))).z;
             half(1, 2) + if e.nodes().len() == 4 { half(2, 3) } else { 0.0 }

@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use rdsolve::elements::IntegrationPoint;
 use rdsolve::elements::contact::{self, Surface};
-use rdsolve::elements::link::Law;
+use rdsolve::elements::link::LinkLaw;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;

@@ -1,0 +1,102 @@
+//! A mesh as its readers give it.
+
+use super::ids::Ids;
+use crate::math::Vec3;
+
+/// A mesh from a file. Its elements are valid: their nodes exist, are distinct and span a length or a convex area.
+#[derive(Debug)]
+pub struct Mesh {
+    /// In the order of the file.
+    pub nodes: Vec<MeshNode>,
+    /// In the order of the file.
+    pub elements: Vec<MeshElement>,
+    /// In the order in which the file names them first.
+    pub groups: Vec<MeshGroup>,
+    /// Parts of the file that were not read.
+    pub skipped: Vec<Skipped>,
+    pub(super) ids: Ids,
+}
+
+/// A node of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshNode {
+    /// Its number in the file.
+    pub id: u64,
+    /// Its position.
+    pub x: Vec3,
+}
+
+/// The shape of an element of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum CellShape {
+    /// Two nodes.
+    Segment,
+    /// Three nodes.
+    Triangle,
+    /// Four nodes.
+    Quadrilateral,
+}
+
+impl CellShape {
+    /// The number of its nodes.
+    pub fn size(self) -> usize {
+        match self {
+            CellShape::Segment => 2,
+            CellShape::Triangle => 3,
+            CellShape::Quadrilateral => 4,
+        }
+    }
+}
+
+/// An element of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeshElement {
+    /// Its number in the file.
+    pub id: u64,
+    pub kind: CellShape,
+    pub(super) nodes: [u32; 4],
+    /// Its line in the file, counted from 1.
+    pub line: u32,
+}
+
+impl MeshElement {
+    /// Its nodes as indices into [`Mesh::nodes`], in the order of the file.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes[..self.kind.size()]
+    }
+}
+
+/// A named group of nodes and elements.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct MeshGroup {
+    pub name: String,
+    /// Indices into [`Mesh::elements`], each once, in the order of the file.
+    pub elements: Vec<u32>,
+    /// Indices into [`Mesh::nodes`], each once: the nodes that the file lists, then those of the elements.
+    pub nodes: Vec<u32>,
+    /// The number of its elements of shapes that are not read.
+    pub skipped: usize,
+}
+
+/// Parts of one kind in a file that were not read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Skipped {
+    /// What they are: "10-node tetrahedra", "*STEP".
+    pub what: String,
+    /// How many there are.
+    pub count: usize,
+    /// The line of the first, counted from 1.
+    pub line: usize,
+}
+
+impl Mesh {
+    /// The index of a node by its number in the file.
+    pub fn node(&self, id: u64) -> Option<usize> {
+        self.ids.get(id)
+    }
+
+    /// The group of a name.
+    pub fn group(&self, name: &str) -> Option<&MeshGroup> {
+        self.groups.iter().find(|group| group.name == name)
+    }
+}
