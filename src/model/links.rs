@@ -100,8 +100,8 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
             let gap = report.not_negative("gap", &link.gap, 0.0);
             let stiffness = stiffness?;
             Some(match law {
-                words::LinkLaw::CompressionOnly => Law::CompressionOnly { stiffness, gap },
-                _ => Law::TensionOnly { stiffness, gap },
+                words::LinkLaw::CompressionOnly => LinkLaw::CompressionOnly { stiffness, gap },
+                _ => LinkLaw::TensionOnly { stiffness, gap },
             })
         }
     }
