@@ -2,7 +2,7 @@
 
 use super::system::System;
 use super::watched::Watched;
-use crate::elements::{Point, Resultants};
+use crate::elements::{IntegrationPoint, ShellResultants};
 use crate::math::{Mat3, Vec3};
 use crate::model::{Beam, Model, PartType, Shell};
 use crate::state::{Configuration, Node};
