@@ -227,7 +227,7 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
 }
 
 /// Reads how the shell yields: `Some(None)` where its material is elastic, `None` where there are errors.
-fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<Yielding>> {
+fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<LayerModel>> {
     // Errors of the material have been reported.
     let Some(law) = cx.materials.yielding_of(&shell.material)? else {
         cx.report

@@ -25,6 +25,7 @@ const WIDE: Known = &[
 
 /// Types whose methods stand in many files.
 const SCATTERED: Known = &[
+    ("elements/shell/mod.rs: Shells", 4),
     ("plan/mod.rs: Plan", 5),
     ("sections/mod.rs: Section", 4),
     ("solve/step.rs: Stepper", 14),
@@ -35,7 +36,11 @@ const SCATTERED: Known = &[
 const LONG: Known = &[
     ("command/run.rs: compute", 82),
     ("command/study.rs: study", 65),
+    ("elements/beam/tangent.rs: tangent_of", 112),
+    ("elements/shell/geometry.rs: shell", 82),
     ("math/quadrature.rs: gauss", 132),
+    ("mesh/abaqus.rs: read", 75),
+    ("mesh/gmsh.rs: read", 68),
     ("model/contact_surface.rs: read_surface", 91),
     ("model/sections.rs: read_shape", 81),
     ("output/compare/mod.rs: compare", 62),
