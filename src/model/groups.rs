@@ -8,7 +8,7 @@ use super::names::Names;
 use super::report::Report;
 use crate::deck::Deck;
 use crate::diagnostic::At;
-use crate::mesh::{self, Kind, Mesh};
+use crate::mesh::{self, CellShape, Mesh};
 use crate::names::{joined, nearest, quoted};
 
 /// What parts have taken of the mesh so far.
