@@ -166,6 +166,14 @@ fn kind(guess: &str, known: &[&str]) -> Option<&'static str> {
     ours(&all, guess, known)
 }
 
+/// Second words of the kinds that are known here: a slip of the pen may be meant for one of them.
+pub fn aliases(known: &[&str]) -> Vec<&'static str> {
+    fn of<M>(list: &'static [&'static Kind<M>], known: &[&str]) -> Vec<&'static str> {
+        list.iter().filter(|kind| known.contains(&kind.word)).flat_map(|kind| kind.aliases).copied().collect()
+    }
+    [of(&SCHEMES, known), of(&SECTIONS, known), of(&JOINTS, known)].concat()
+}
+
 /// Our word for a guessed one among those known here.
 fn ours(rows: &[Row], guess: &str, known: &[&str]) -> Option<&'static str> {
     let of = rows.iter().filter(|(guesses, _)| guesses.contains(&guess)).flat_map(|(_, ours)| ours.iter());

@@ -158,7 +158,7 @@ impl Reader {
             if let Some(hint) = hints::value(word, &words) {
                 return diagnostic.hint(hint);
             }
-            return match nearest(word, words.iter().copied()) {
+            return match nearest(word, words.iter().copied().chain(hints::aliases(&words))) {
                 Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
                 None => diagnostic.hint(format!("known: {known}")),
             };
