@@ -166,7 +166,7 @@ def earthquake() -> None:
         ground = table(record, t)
         return [-frame.m[i] * ground if i in sideways else 0.0 for i in range(len(frame.m))]
 
-    u = frame.march(force, d["damping"]["mass_factor"], d["analysis"]["end_time"], 5e-4, frame.at["knee_left", 0])
+    u = frame.march(force, d["damping"]["alpha"], d["analysis"]["end_time"], 5e-4, frame.at["knee_left", 0])
     for what, (t, value) in [("largest", max(u, key=lambda p: p[1])), ("smallest", min(u, key=lambda p: p[1]))]:
         print(f"earthquake: {what} ux of knee_left {value:.6e} m at t = {t:.4f} s")
 
@@ -187,7 +187,7 @@ def mast() -> None:
             f[at] = push * math.sin(2 * math.pi * gust["frequency"] * t) ** 2
         return f
 
-    u = frame.march(force, d["damping"]["mass_factor"], d["analysis"]["end_time"], 1e-3, at)
+    u = frame.march(force, d["damping"]["alpha"], d["analysis"]["end_time"], 1e-3, at)
     t, value = max(u, key=lambda p: p[1])
     print(f"mast: largest ux of head {value:.6e} m at t = {t:.4f} s, {u[-1][1]:.6e} m at the end")
 
