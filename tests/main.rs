@@ -9,6 +9,7 @@ mod compare;
 mod contact;
 mod decks;
 mod determinism;
+mod docs;
 mod edges;
 mod elements;
 mod explicit;

@@ -20,8 +20,14 @@ pub fn decks() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("decks")
 }
 
+/// A deck by its folder below `decks/`, or by its own name where that is not deck.toml.
+fn deck(name: &str) -> PathBuf {
+    let path = decks().join(name);
+    if name.ends_with(".toml") { path } else { path.join("deck.toml") }
+}
+
 fn source(name: &str, sets: &[String]) -> Source {
-    let path = decks().join(name).join("deck.toml");
+    let path = deck(name);
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     // The folder counts: a mesh is found from there.
     Source::new(path.display().to_string(), text, sets)
@@ -38,7 +44,7 @@ impl Comments {
 }
 
 pub fn comments(name: &str) -> Comments {
-    Comments(fs::read_to_string(decks().join(name).join("deck.toml")).expect("a deck that was read"))
+    Comments(fs::read_to_string(deck(name)).expect("a deck that was read"))
 }
 
 /// What reading a deck says, messages alone.

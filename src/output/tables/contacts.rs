@@ -9,8 +9,8 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "contacts.csv",
-    about: "One row for each contact: its least clearance and what all its points together exert on the surface. Written where \
-            there are contacts, unless `[output] contacts = false`.",
+    about: "One row for each contact: its least clearance and what all its points together exert on the surface. Written if \
+            `[output] contacts = true` and there are contacts.",
     columns: &[&[Column::key("contact", "name of the contact")], &CONTACT],
     wanted: |model| model.output.contacts && model.has(PartKind::Contact),
     needs: Wanted::CONTACTS,

@@ -9,7 +9,7 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "links.csv",
-    about: "One row for each link. Written where there are links, unless `[output] links = false`.",
+    about: "One row for each link. Written if `[output] links = true` and there are links.",
     columns: &[&[Column::key("link", "name of the link")], &LINK],
     wanted: |model| model.output.links && model.has(PartKind::Link),
     needs: Wanted::LINKS,
