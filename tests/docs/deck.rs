@@ -4,11 +4,43 @@ use super::{anchor, cell, keep, rdsolve};
 use serde_json::Value;
 use std::fmt::Write;
 
+/// The tables of the deck in the order in which a reader meets them; the schema has them by the alphabet.
+const ORDER: [&str; 28] = [
+    "title",
+    "units",
+    "analysis",
+    "integrator",
+    "iteration",
+    "materials",
+    "sections",
+    "points",
+    "mesh",
+    "sets",
+    "beams",
+    "bars",
+    "shells",
+    "bodies",
+    "masses",
+    "attachments",
+    "supports",
+    "joints",
+    "links",
+    "contacts",
+    "loads",
+    "amplitudes",
+    "environment",
+    "initial",
+    "damping",
+    "expect",
+    "output",
+    "study",
+];
+
 struct Reference<'a> {
     definitions: &'a Value,
     text: String,
     /// Tables within tables that have been written.
-    done: Vec<String>,
+    done: Vec<(&'a Value, String)>,
 }
 
 impl<'a> Reference<'a> {
@@ -77,35 +109,39 @@ impl<'a> Reference<'a> {
             schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
         self.text += "\n| key | value | meaning |\n|---|---|---|\n";
         let mut inner = Vec::new();
-        for (key, value) in properties {
+        let mut rows: Vec<_> = properties.iter().collect();
+        rows.sort_by_key(|(key, _)| (!["name", "kind"].contains(&key.as_str()), !required.contains(&key.as_str())));
+        for (key, value) in rows {
             let star = if required.contains(&key.as_str()) { " *" } else { "" };
             let target = self.resolve(value);
             let mut meaning = cell(value["description"].as_str().or(target["description"].as_str()).unwrap_or(""));
-            for (word, what) in self.words(target).unwrap_or_default().iter().filter(|(_, what)| !what.is_empty()) {
-                let _ = write!(meaning, "{}`\"{word}\"`: {}", if meaning.is_empty() { "" } else { "<br>" }, cell(what));
+            let words = self.words(target).unwrap_or_default();
+            for like in words.chunk_by(|a, b| a.1 == b.1).filter(|like| !like[0].1.is_empty()) {
+                let names: Vec<String> = like.iter().map(|(word, _)| format!("`\"{word}\"`")).collect();
+                let between = if meaning.is_empty() { "" } else { "<br>" };
+                let _ = write!(meaning, "{between}{}: {}", names.join(" or "), cell(like[0].1));
             }
             let _ = writeln!(self.text, "| `{key}`{star} | {} | {meaning} |", self.kind(value).replace('|', "\\|"));
             inner.extend(self.tables_within(value).into_iter().map(|table| (key.clone(), table)));
         }
-        for (key, (name, table)) in inner {
-            if name.is_empty() || !self.done.contains(&name) {
-                self.done.push(name);
-                let _ = write!(self.text, "\n{level} {key}\n\n{}\n", table["description"].as_str().unwrap_or(""));
-                self.table(table, &format!("{level}#"));
+        for (key, table) in inner {
+            let description = table["description"].as_str().unwrap_or("").replace('\n', " ");
+            let _ = write!(self.text, "\n{level} {key}\n\n{description}\n");
+            match self.done.iter().find(|(properties, _)| **properties == table["properties"]) {
+                Some((_, other)) => self.text += &format!("\nThe keys are those of `{other}`, above.\n"),
+                None => {
+                    self.done.push((&table["properties"], key));
+                    self.table(table, &format!("{level}#"));
+                }
             }
         }
     }
 
-    /// Tables that a value is or holds; those that are used in several places with the name of their definition.
-    fn tables_within(&self, schema: &'a Value) -> Vec<(String, &'a Value)> {
+    /// Tables that a value is or holds.
+    fn tables_within(&self, schema: &'a Value) -> Vec<&'a Value> {
         let any = schema["anyOf"].as_array().into_iter().flatten();
         let all = [schema, &schema["items"], &schema["additionalProperties"]].into_iter().chain(any);
-        let table = |one: &'a Value| {
-            let name = one["$ref"].as_str().unwrap_or("").trim_start_matches("#/$defs/");
-            let table = self.resolve(one);
-            table["properties"].is_object().then(|| (name.to_owned(), table))
-        };
-        all.filter_map(table).collect()
+        all.map(|one| self.resolve(one)).filter(|one| one["properties"].is_object()).collect()
     }
 }
 
@@ -118,21 +154,24 @@ fn deck_reference(schema: &Value) -> String {
         are put together: [tutorial](tutorial.md).\n";
     let properties = schema["properties"].as_object().expect("properties");
     reference.text += "\n";
-    for (key, value) in properties {
+    let rank = |key: &str| ORDER.iter().position(|known| *known == key).unwrap_or(ORDER.len());
+    let mut tables: Vec<_> = properties.iter().collect();
+    tables.sort_by_key(|(key, _)| rank(key));
+    for (key, value) in &tables {
         let _ = writeln!(reference.text, "- [`{key}`](#{})", anchor(&title(key, value)));
     }
-    for (key, value) in properties {
+    for (key, value) in tables {
         let _ = write!(reference.text, "\n## {}\n", title(key, value));
         let tables = reference.tables_within(value);
         let own = value["description"].as_str().unwrap_or("");
         let said = if own.is_empty() {
-            tables.first().and_then(|(_, t)| t["description"].as_str()).unwrap_or("")
+            tables.first().and_then(|table| table["description"].as_str()).unwrap_or("")
         } else {
             own
         };
         let _ = write!(reference.text, "\n{}\n", said.replace('\n', " "));
         match tables.into_iter().next() {
-            Some((name, table)) => {
+            Some(table) => {
                 if said == own && table["description"].as_str().is_some_and(|text| text != own) {
                     let _ = write!(
                         reference.text,
@@ -140,7 +179,7 @@ fn deck_reference(schema: &Value) -> String {
                         table["description"].as_str().unwrap_or("").replace('\n', " ")
                     );
                 }
-                reference.done.push(name);
+                reference.done.push((&table["properties"], title(key, value)));
                 reference.table(table, "###");
             }
             None => {
