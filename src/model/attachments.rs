@@ -40,8 +40,8 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
         let method = attachment.method.as_ref().map(|method| method.value);
         let mut link = Attacher { dofs, method, scene, nodes: &mut *nodes, joints: &mut joints, report: &mut *report };
         match target {
-            Some(Target::Beam(name, beam)) => link.to_beam(name, beam, &spots),
-            Some(Target::Body(body)) => link.to_body(body, &spots),
+            Some(Target::Beam(name, beam)) => link.attach_to_beam(name, beam, &spots),
+            Some(Target::Body(body)) => link.attach_to_body(body, &spots),
             None => {}
         }
     }
@@ -94,7 +94,7 @@ struct Attacher<'a, 'd> {
 }
 
 impl<'d> Attacher<'_, 'd> {
-    fn to_body(&mut self, body: usize, spots: &[Spot<'d>]) {
+    fn attach_to_body(&mut self, body: usize, spots: &[Spot<'d>]) {
         let (master, body) = (self.scene.bodies[body].node, &self.scene.bodies[body].name);
         for spot in spots {
             if spot.node == master {
@@ -136,7 +136,7 @@ impl<'d> Attacher<'_, 'd> {
     }
 
     /// Attaches each node to the nearest node of a beam; the beam's own stay.
-    fn to_beam(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>]) {
+    fn attach_to_beam(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>]) {
         let own: HashSet<usize> = self.scene.parts.beams[beam].nodes.iter().copied().collect();
         let line = Line::new(&own, self.nodes);
         let lengths = self.element_vectors(beam);
@@ -154,7 +154,8 @@ impl<'d> Attacher<'_, 'd> {
                 far += usize::from(along > 0.5 + SAME);
                 farthest = farthest.max(along);
             }
-            self.attach(spot, master, &self.nodes.label(master).to_owned());
+            let to = self.nodes.label(master).to_owned();
+            self.attach(spot, master, &to);
         }
         self.report_between(name, &between);
         if far > 0 {

@@ -121,7 +121,7 @@ fn stiffness<'d>(
     report: &mut Report<'d>,
 ) -> Option<Stiffness> {
     let shape = match cross_section(name, section, needs_mass, report)? {
-        CrossSection::Stiffness(stiffness) => return Some(stiffness),
+        CrossSection::Stiffness(stiffness) => return Some(*stiffness),
         CrossSection::Shape(shape) => shape,
     };
     match shape.section() {

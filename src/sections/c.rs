@@ -23,7 +23,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [12, 4].",
         },
     ],
-    make: Make { read: read, takes_material: |_| true },
+    make: Make { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {

@@ -200,18 +200,18 @@ mod tests {
     /// Full shapes miss by the rule of degree three; walls by their corners, of the order of thickness over length.
     #[test]
     fn modes_are_nearly_right_by_themselves() {
-        let rectangle = |n| shear_stiffness(&super::super::solid::rectangle_fibres(0.1, 0.2, [n, n]));
+        let rectangle = |n| shear_stiffness(&super::super::rectangle::rectangle_fibres(0.1, 0.2, [n, n]));
         let exact = Section::rectangle(0.1, 0.2).unwrap();
         close(rectangle(12)[(0, 0)], exact.shear[0], 1e-3);
         close(rectangle(12)[(2, 2)], exact.torsion, 2e-3);
         // Cowper's factor is the energy of the closed form; Gauss pairs meet it with their fourth order.
         for (inner, bound) in [(0.0, 1e-3), (0.05, 1e-3), (0.098, 1e-6)] {
             let shear = Section::tube(0.1, 0.1 - inner).unwrap().shear[0];
-            let tube = super::super::solid::tube_fibres(0.1, inner, shear, [20, 6]);
+            let tube = super::super::tube::tube_fibres(0.1, inner, shear, [20, 6]);
             close(shear_stiffness(&tube)[(0, 0)], shear, bound);
         }
         let section = Section::i(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
-        let i = super::super::open::i(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
+        let i = super::super::i::i(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
         let C = shear_stiffness(&i.fibres([8, 4]));
         close(C[(0, 0)], section.shear[0], 0.01);
         close(C[(1, 1)], section.shear[1], 0.05);
@@ -223,17 +223,18 @@ mod tests {
     fn plastic_moments() {
         let (t, u): (f64, f64) = (0.006, 0.008);
         let plates = |b: f64, h: f64, webs: f64| b * u * (h - u) + webs * (0.5 * h - u).powi(2);
-        for (shape, exact, bound) in [
-            (Rectangle { width: 0.1, height: 0.2 }, 0.1 * 0.2 * 0.2 / 4.0, 1e-12),
-            (HollowBox { width: 0.1, height: 0.2, web: t, flange: u }, plates(0.1, 0.2, 2.0 * t), 1e-3),
+        let shapes: [(Box<dyn SectionShape>, f64, f64); 5] = [
+            (Box::new(Rectangle { width: 0.1, height: 0.2 }), 0.1 * 0.2 * 0.2 / 4.0, 1e-12),
+            (Box::new(HollowBox { width: 0.1, height: 0.2, web: t, flange: u }), plates(0.1, 0.2, 2.0 * t), 1e-3),
             (
-                I { height: 0.2, top_width: 0.1, bottom_width: 0.1, web: t, top_flange: u, bottom_flange: u },
+                Box::new(I { height: 0.2, top_width: 0.1, bottom_width: 0.1, web: t, top_flange: u, bottom_flange: u }),
                 plates(0.1, 0.2, t),
                 1e-12,
             ),
-            (Tube { radius: 0.1, thickness: 0.002 }, 4.0 / 3.0 * (1e-3 - 0.098f64.powi(3)), 5e-3),
-            (Tube { radius: 0.1, thickness: 0.1 }, 4.0 / 3.0 * 1e-3, 5e-3),
-        ] {
+            (Box::new(Tube { radius: 0.1, thickness: 0.002 }), 4.0 / 3.0 * (1e-3 - 0.098f64.powi(3)), 5e-3),
+            (Box::new(Tube { radius: 0.1, thickness: 0.1 }), 4.0 / 3.0 * 1e-3, 5e-3),
+        ];
+        for (shape, exact, bound) in shapes {
             let fibres = shape.fibres(&[]).unwrap();
             close(moment(&fibres, 1e6, 0.0), exact, bound);
         }

@@ -45,7 +45,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Rotary inertia per length [about x, y, z], mass times length, 0 or more, with axial_stiffness.",
         },
     ],
-    make: Make { read: read, takes_material: |values| !is_direct(values) },
+    make: Make { read, takes_material: |values| !is_direct(values) },
 };
 
 const STIFFNESSES: [&str; 6] = [
@@ -100,7 +100,7 @@ fn stiffness(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     if inertia.iter().any(|&j| j < 0.0) {
         return given.error("inertia_per_length", "`inertia_per_length` must not be negative");
     }
-    Some(CrossSection::Stiffness(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia)))
+    Some(CrossSection::Stiffness(Box::new(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia))))
 }
 
 #[derive(Debug, Clone, PartialEq)]

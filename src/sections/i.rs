@@ -35,7 +35,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
         },
     ],
-    make: Make { read: read, takes_material: |_| true },
+    make: Make { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -91,7 +91,7 @@ impl Section {
 }
 
 /// Walls of [`Section::i`], flanges in halves from their free ends to the web.
-fn i(
+pub(super) fn i(
     height: f64,
     width_top: f64,
     width_bottom: f64,

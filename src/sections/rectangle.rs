@@ -21,7 +21,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along y and along z, even numbers, where the material yields; one number holds for both. Default: [12, 12].",
         },
     ],
-    make: Make { read: read, takes_material: |_| true },
+    make: Make { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -81,7 +81,7 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
 
 /// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), which no fibre at the edges feels; twist is
 /// Saint-Venant's.
-fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
+pub(super) fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
     let parabola = |x: f64| 1.25 * (1.0 - x * x);
     let mut fibres = Vec::new();
     for (x, w_y) in pairs(along_y) {

@@ -20,7 +20,7 @@ pub struct Make {
 pub enum CrossSection {
     Shape(Box<dyn SectionShape>),
     /// Stiffnesses and masses per length, as given.
-    Stiffness(Stiffness),
+    Stiffness(Box<Stiffness>),
 }
 
 /// The shape of a section: from it follow the section as a whole and its fibres.

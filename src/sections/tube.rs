@@ -22,7 +22,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres around, at least 4, and through the wall, even numbers, where the material yields. Default: [20, 2]; from half the radius on [20, 4].",
         },
     ],
-    make: Make { read: read, takes_material: |_| true },
+    make: Make { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -98,7 +98,7 @@ impl Section {
 
 /// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free
 /// surfaces, Saint-Venant's flexure at ν = 0, whose energy gives Cowper's factor; twist is r along the circle.
-fn tube_fibres(outer: f64, inner: f64, shear_area: f64, [around, through]: [usize; 2]) -> Vec<Fibre> {
+pub(super) fn tube_fibres(outer: f64, inner: f64, shear_area: f64, [around, through]: [usize; 2]) -> Vec<Fibre> {
     let (R2, r2) = (outer * outer, inner * inner);
     let factor = shear_area / (0.25 * PI * (R2 * R2 - r2 * r2));
     let mut fibres = Vec::new();

@@ -2,9 +2,9 @@
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
 use super::dofs::DofMap;
+use super::equations::{Forces, System};
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
-use super::system::{Forces, System};
 use super::tiles::Tiles;
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;

@@ -1,9 +1,9 @@
 //! Joints between bodies of their own (see [`Masses`]) by a small dense system, a row for each multiplier: (G M⁻¹ Gᵀ) λ = c.
 //! It gives accelerations that the joints allow, and closes their gaps by the least change in the norm of the masses.
 
+use super::equations::System;
 use super::masses::Masses;
 use super::multipliers::SHARED;
-use super::system::System;
 use crate::elements::Force;
 use crate::math::{Vec6, bottom, join, top};
 use crate::state::Node;

@@ -1,7 +1,7 @@
 //! Contacts of a scene: how far a step may go, and what they come to.
 
+use super::equations::System;
 use super::group::Group;
-use super::system::System;
 use crate::elements::contact::{self, Contacts};
 use crate::math::Vec3;
 use crate::model::{Contact, Model, PartType};

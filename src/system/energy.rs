@@ -1,7 +1,7 @@
 //! Energies and momenta of a state.
 
+use super::equations::System;
 use super::lanes;
-use super::system::System;
 use crate::math::Vec3;
 use crate::model::{Model, Part, PartKind};
 use crate::state::{Configuration, State};

@@ -8,9 +8,9 @@
 //! least norm: ε decides, and leaves a fraction ε of a gap to the next iteration.
 
 use super::dofs::DofMap;
+use super::equations::{Forces, System};
 use super::multipliers::{Multipliers, SHARED};
 use super::scale::Scale;
-use super::system::{Forces, System};
 use crate::constraints::joint::{Joint, MOST_ROWS, Row};
 use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6};

@@ -2,7 +2,7 @@
 //! rides on it, about the centre that they have together. In body axes these never change, so nothing is ever factorised.
 
 use super::dofs::DofMap;
-use super::system::System;
+use super::equations::System;
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
 use crate::state::Node;

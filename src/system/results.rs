@@ -1,6 +1,6 @@
 //! What elements feel, for output: forces of links, stress resultants of beams.
 
-use super::system::System;
+use super::equations::System;
 use super::watched::Watched;
 use crate::elements::{IntegrationPoint, ShellResultants};
 use crate::math::{Mat3, Vec3};

@@ -19,11 +19,11 @@ use crate::solve::workspace::Workspace;
 pub enum Controller<'a> {
     Fixed(FixedController<'a>),
     /// By the error of implicit steps, estimated from the motion.
-    ErrorControlled(ErrorController<'a>),
+    ErrorControlled(Box<ErrorController<'a>>),
     /// By the error that embedded Runge-Kutta schemes tell.
     EmbeddedError(EmbeddedErrorController),
     StabilityLimited(StabilityController),
-    ArcLength(ArcLengthController),
+    ArcLength(Box<ArcLengthController>),
 }
 
 impl<'a> Controller<'a> {
@@ -32,7 +32,7 @@ impl<'a> Controller<'a> {
     pub fn new(cx: &Context<'a>, ws: &mut Workspace) -> Result<Self, TooLarge> {
         Ok(match (&cx.model.analysis.step_length, TimeStepper::new(cx)?) {
             (&StepLength::ErrorControlled { tolerance, first }, TimeStepper::Implicit(stepper)) => {
-                Controller::ErrorControlled(ErrorController::new(cx, stepper, tolerance, first))
+                Controller::ErrorControlled(Box::new(ErrorController::new(cx, stepper, tolerance, first)))
             }
             (&StepLength::ErrorControlled { tolerance, first }, TimeStepper::RungeKutta(stepper)) => {
                 Controller::EmbeddedError(EmbeddedErrorController::new(stepper, tolerance, first))
@@ -41,7 +41,7 @@ impl<'a> Controller<'a> {
                 Controller::StabilityLimited(StabilityController::new(stepper, fraction))
             }
             (StepLength::ArcLength(path), TimeStepper::Implicit(stepper)) => {
-                Controller::ArcLength(ArcLengthController::new(cx, ws, stepper.newton, path))
+                Controller::ArcLength(Box::new(ArcLengthController::new(cx, ws, stepper.newton, path)))
             }
             (_, stepper) => Controller::Fixed(FixedController::new(stepper)),
         })
@@ -54,7 +54,7 @@ impl<'a> Controller<'a> {
     pub fn run(&mut self, march: &mut March) -> Result<(), Outcome> {
         match self {
             Controller::Fixed(controller) => through_intervals(controller, march),
-            Controller::ErrorControlled(controller) => through_intervals(controller, march),
+            Controller::ErrorControlled(controller) => through_intervals(controller.as_mut(), march),
             Controller::EmbeddedError(controller) => through_intervals(controller, march),
             Controller::StabilityLimited(controller) => through_intervals(controller, march),
             Controller::ArcLength(controller) => {

@@ -103,7 +103,7 @@ impl RungeKuttaStepper {
         }
         let inner = tableau.a.iter().zip(tableau.c).enumerate();
         for (stage, (weights, c)) in inner.map(|(i, of)| (i + 1, of)) {
-            self.move_to(cx, ws, state, At { stage, weights: *weights, c: *c }, to)?;
+            self.move_to(cx, ws, state, At { stage, weights, c: *c }, to)?;
             self.evaluate(cx, ws, state, stage, c * dt)?;
             let weight = dt * weight_of(tableau.b, stage);
             if cx.wants_energy && weight != 0.0 {
