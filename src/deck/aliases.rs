@@ -74,7 +74,7 @@ pub fn describe(schema: &mut Json) {
         let mut entry = definition["properties"][alias.key].clone();
         entry["description"] = format!("Another word for `{}`.", alias.key).into();
         definition["properties"][alias.word] = entry;
-        let Some(required) = definition["required"].as_array_mut() else { continue };
+        let Some(required) = definition.get_mut("required").and_then(Json::as_array_mut) else { continue };
         if let Some(at) = required.iter().position(|key| key == alias.key) {
             required.remove(at);
             definition["anyOf"] = json!([{ "required": [alias.key] }, { "required": [alias.word] }]);
