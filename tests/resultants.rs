@@ -49,11 +49,11 @@ fn frame(path: &str, section: &str) -> String {
     )
 }
 
-const STIFFNESSES: &str = r#"sections.stiff = { shape = "general", axial_stiffness = 1e13, shear_stiffness = [2e13, 3e13], torsional_stiffness = 4e13, bending_stiffness = [5e13, 6e13], mass_per_length = 1.0, inertia_per_length = [1.0, 1.0, 1.0] }"#;
+const STIFFNESSES: &str = r#"sections.stiff = { shape = "general", axial_stiffness = 1e10, shear_stiffness = [2e10, 3e10], torsional_stiffness = 4e10, bending_stiffness = [5e10, 6e10], mass_per_length = 1.0, inertia_per_length = [1.0, 1.0, 1.0] }"#;
 /// Fibres that do not come to yield.
 const FIBRES: &str = r#"
         sections.stiff = { shape = "rectangle", width = 0.2, height = 0.3 }
-        materials.stiff = { model = "elastic-plastic", youngs_modulus = 1e16, poissons_ratio = 0.3, density = 1.0, yield_stress = 1e14 }"#;
+        materials.stiff = { model = "elastic-plastic", youngs_modulus = 1e13, poisson_ratio = 0.3, density = 1.0, yield_stress = 1e11 }"#;
 
 /// Section axes of a leg from one point to another: x along it, y in the plane of x and the orientation.
 fn section_axes(from: Vec3, to: Vec3) -> Mat3 {
@@ -92,7 +92,8 @@ fn sections_of_a_determinate_frame_are_in_equilibrium() {
                 let columns = ["N", "Vy", "Vz", "T", "My", "Mz"];
                 for (column, expected) in columns.into_iter().zip(n.iter().chain(m.iter())) {
                     let value = row.number(column);
-                    assert!((value - expected).abs() < 1e-3, "{path} at {s}: {column} {value}, {expected} expected");
+                    // What is left bends by 1e-7, and residuals are 1e-8 of what the stiff legs could bear.
+                    assert!((value - expected).abs() < 1e-2, "{path} at {s}: {column} {value}, {expected} expected");
                     assert!(expected.abs() > 10.0, "{column} would show no sign at {s}: {expected}");
                 }
                 assert_eq!(row.number("plastic_strain"), 0.0);
@@ -167,7 +168,7 @@ fn contacts_exert_what_supports_take() {
             for (value, direction) in wrench.into_iter().zip(["ux", "uy", "uz", "rx", "ry", "rz"]) {
                 let taken = reactions[&(step.to_string(), direction.to_string())];
                 assert!(
-                    (value + taken).abs() < 1e-6 * size,
+                    (value + taken).abs() < 2e-5 * size,
                     "{surface}, {direction}: {value}, the support takes {taken}"
                 );
             }
@@ -184,7 +185,7 @@ fn contacts_exert_what_supports_take() {
                 "{surface}: {f:?}"
             );
             let arm = touch - Vec3::new(0.7, -0.4, -0.9);
-            assert!((m - arm.cross(&f)).norm() < 2e-2 * m.norm(), "{surface}: {m:?}, {:?} expected", arm.cross(&f));
+            assert!((m - arm.cross(&f)).norm() < 5e-3 * m.norm(), "{surface}: {m:?}, {:?} expected", arm.cross(&f));
             // With the force at the centre of the ball the moment would be another.
             assert!((m - (arm + 0.1 * normal).cross(&f)).norm() > 2.5e-2 * m.norm());
         }
@@ -196,7 +197,10 @@ const LINKS: &str = r#"
     analysis = { kind = "dynamic", end_time = 1.0, time_step = 0.1 }
     output = { links = true }
     points.p = [1.0, 2.0, -1.0]
-    amplitudes.even = { kind = "table", points = [[0.0, 0.0], [1.0, 1.0]] }
+    amplitudes.even = { kind = "table", points = [[0.0, 0.0], [2.0, 2.0]] }
+    [[masses]]
+    at = "p"
+    mass = 1.0
     [[supports]]
     at = "p"
     fix = "rotations"
@@ -246,8 +250,7 @@ fn links_show_elongation_rate_and_damper() {
     assert_eq!(rows.len(), 5 * 11);
     let (start, velocity) = (Vec3::new(1.0, 2.0, -1.0), Vec3::new(0.5, -1.5, 0.25));
     let mut dampers = 0;
-    // In the first step the point is set going.
-    for row in rows.iter().filter(|row| row.number("time") > 0.15) {
+    for row in &rows {
         let time = row.number("time");
         let x = start + time * velocity;
         let along = x.normalize();
@@ -285,7 +288,7 @@ fn links_show_elongation_rate_and_damper() {
                 row.text("link")
             );
         }
-        dampers += usize::from(rate < -1.0);
+        dampers += usize::from(rate < -0.5);
     }
-    assert!(dampers > 5, "links that shorten: {dampers}");
+    assert!(dampers > 20, "links that shorten: {dampers}");
 }
