@@ -9,16 +9,7 @@ type Edges = BTreeMap<usize, BTreeMap<usize, BTreeSet<String>>>;
 
 /// Rooms with circles, and how many files stand in them.
 const KNOWN: Known = &[
-    ("command", 7),
-    ("elements", 6),
     ("materials", 3),
-    ("mesh", 4),
-    ("model", 12),
-    ("output", 4),
-    ("plan", 3),
-    ("solve", 11),
-    ("study", 9),
-    ("system", 7),
 ];
 
 #[test]
