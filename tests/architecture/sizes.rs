@@ -15,17 +15,11 @@ const FILES: usize = 3;
 const LINES: usize = 60;
 
 /// Plain data: what a deck says or means, and what a step writes to.
-const WIDE: Known = &[
-    ("deck/beams.rs: Beam", 16),
-    ("deck/mod.rs: Deck", 29),
-];
+const WIDE: Known = &[("deck/beams.rs: Beam", 16), ("deck/mod.rs: Deck", 29)];
 
 /// Types whose methods stand in many files.
-const SCATTERED: Known = &[
-    ("plan/mod.rs: Plan", 4),
-    ("sections/section.rs: Section", 8),
-    ("system/equations.rs: System", 5),
-];
+const SCATTERED: Known =
+    &[("plan/mod.rs: Plan", 4), ("sections/section.rs: Section", 8), ("system/equations.rs: System", 5)];
 
 /// Tables of numbers and formulas, which are read line by line; and what is still to be taken apart.
 const LONG: Known = &[
