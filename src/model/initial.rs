@@ -110,8 +110,9 @@ impl<'d> Motions<'_, 'd> {
         for spots in spots.chunk_by(|a, b| a.span == b.span).filter(|spots| !spots[0].direct) {
             let masters: Option<Vec<usize>> = spots.iter().map(|spot| self.topology.master_in(spot.node, 0)).collect();
             if let Some(&[master, ..]) = masters.as_deref().filter(|m| m.iter().all(|node| !named.contains(node))) {
-                let message = format!("all of this moves with `{}`", self.topology.label(master));
-                self.report.error_with::<()>(spots[0].span, message, "give the velocity to that");
+                let master = self.topology.label(master);
+                let message = format!("all of this moves with `{master}`");
+                self.report.error_with::<()>(spots[0].span, message, format!("give the velocity to `{master}`"));
             }
         }
     }
