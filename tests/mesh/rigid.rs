@@ -114,7 +114,9 @@ const BODY: &str = "[[bodies]]\nname = \"table\"\nparts = [\"plate\", \"rim\"]\n
 fn a_stiff_part_becomes_the_rigid_one() {
     for kind in ["static", "dynamic"] {
         let rigid = model(&bench(kind, "210e9", BODY, LOADS));
-        assert!(rigid.parts.iter().filter(|part| ["plate", "rim"].contains(&part.name())).all(|part| part.elements() == 0));
+        assert!(
+            rigid.parts.iter().filter(|part| ["plate", "rim"].contains(&part.name())).all(|part| part.elements() == 0)
+        );
         let exact = positions(&rigid, "c");
         let moved = exact.iter().map(|x| (Vec3::from(*x) - Vec3::from(exact[0])).norm()).fold(0.0, f64::max);
         assert!(moved > 5e-3, "it moves: {moved}");
