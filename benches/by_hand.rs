@@ -6,7 +6,7 @@ use nalgebra::{LU, SMatrix, SVector, U12};
 use rdsolve::diagnostic::Source;
 use rdsolve::integrators::RotationUpdate;
 use rdsolve::math::rotation::inverse_tangent;
-use rdsolve::math::{Mat3, Vec3, Vec6, bottom, join, skew};
+use rdsolve::math::{Mat3, Vec3, Vec6, angular, stack, skew};
 use rdsolve::model;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};
@@ -116,8 +116,8 @@ impl ByHand {
         let tau = THETA * dt;
         let (rate, acceleration) = (3.0 / tau, 6.0 / (tau * tau));
         let start = self.bodies;
-        let v = start.map(|body| join(&body.v, &body.omega));
-        let a = start.map(|body| join(&body.a, &body.alpha));
+        let v = start.map(|body| stack(&body.v, &body.omega));
+        let a = start.map(|body| stack(&body.a, &body.alpha));
         let mut q: [Vec6; 2] =
             [0, 1].map(|i| tau * v[i] + 0.5 * tau * tau * a[i] + tau * tau * tau / 6.0 * self.jerk[i]);
         let (mut trial, mut iterations, mut last) = (start, 0, f64::INFINITY);
@@ -137,8 +137,8 @@ impl ByHand {
             let dq = self.factor.as_ref().and_then(|factor| factor.solve(&r)).expect("masses everywhere");
             let (mut correction, mut motion) = (0.0f64, 1e-6f64);
             for i in 0..2 {
-                let turn = inverse_tangent(&bottom(&q[i]), &dq.fixed_rows::<3>(6 * i + 3).into());
-                let change = join(&dq.fixed_rows::<3>(6 * i).into(), &turn);
+                let turn = inverse_tangent(&angular(&q[i]), &dq.fixed_rows::<3>(6 * i + 3).into());
+                let change = stack(&dq.fixed_rows::<3>(6 * i).into(), &turn);
                 q[i] += change;
                 correction = correction.max(change.amax());
                 motion = motion.max(q[i].amax());
@@ -164,7 +164,7 @@ impl ByHand {
                 dd: a1,
             };
             self.bodies[i].advance(&start[i], &end, RotationUpdate::Exponential);
-            self.jerk[i] = (join(&self.bodies[i].a, &self.bodies[i].alpha) - a[i]) / dt;
+            self.jerk[i] = (stack(&self.bodies[i].a, &self.bodies[i].alpha) - a[i]) / dt;
         }
         iterations
     }

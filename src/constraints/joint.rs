@@ -4,7 +4,7 @@
 //! A joint is a list of rows, each one equation c(x, R) = 0 between the positions of its nodes. With a multiplier λ it pulls by
 //! Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it holds. Its derivative is K = λ ∂²c, spatial spins like everywhere.
 
-use crate::math::{Mat3, Vec3, Vec6, join, skew};
+use crate::math::{Mat3, Vec3, Vec6, stack, skew};
 use crate::state::Node;
 
 /// Directions of a multiplier's node: a joint has at most so many rows.
@@ -62,19 +62,19 @@ impl Row {
         match self {
             Row::Global { axis, .. } => {
                 let e = Vec3::ith(*axis, 1.0);
-                [join(&e, &zero), join(&-e, &zero)]
+                [stack(&e, &zero), stack(&-e, &zero)]
             }
             Row::Carried { e, .. } => {
                 let e = b.R() * e;
-                [join(&e, &zero), join(&-e, &e.cross(&d))]
+                [stack(&e, &zero), stack(&-e, &e.cross(&d))]
             }
             Row::Square { p, s } => {
                 let turn = (a.R() * p).cross(&(b.R() * s));
-                [join(&zero, &turn), join(&zero, &-turn)]
+                [stack(&zero, &turn), stack(&zero, &-turn)]
             }
             Row::Distance { .. } => {
                 let u = d.normalize();
-                [join(&u, &zero), join(&-u, &zero)]
+                [stack(&u, &zero), stack(&-u, &zero)]
             }
         }
     }

@@ -8,13 +8,14 @@ pub type Mat3 = nalgebra::Matrix3<f64>;
 pub type Vec6 = nalgebra::Vector6<f64>;
 pub type Mat6 = nalgebra::Matrix6<f64>;
 
-/// a b + c, in one instruction where the processor has it and never by a library call where it has not.
+/// a b + c, rounded once where the target has such an instruction; a library call in its place would be slow.
 #[inline(always)]
 pub fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// The larger of two numbers, or `a` where `b` is none: one instruction, where `f64::max` takes four for an `a` that is none.
+/// The larger of two numbers, or `a` where `b` is not a number. It compiles to one instruction; `f64::max`, which also
+/// guards against an `a` that is not a number, to four.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
@@ -26,17 +27,20 @@ pub fn skew(a: &Vec3) -> Mat3 {
     Mat3::new(0.0, -a.z, a.y, a.z, 0.0, -a.x, -a.y, a.x, 0.0)
 }
 
+/// The six components (a, b) of a translational and a rotational vector.
 #[inline]
-pub fn join(a: &Vec3, b: &Vec3) -> Vec6 {
+pub fn stack(a: &Vec3, b: &Vec3) -> Vec6 {
     Vec6::new(a.x, a.y, a.z, b.x, b.y, b.z)
 }
 
+/// The first three components: displacement, velocity, acceleration or force of a six-vector.
 #[inline]
-pub fn top(a: &Vec6) -> Vec3 {
+pub fn linear(a: &Vec6) -> Vec3 {
     Vec3::new(a[0], a[1], a[2])
 }
 
+/// The last three components: rotation, angular velocity or acceleration, or moment of a six-vector.
 #[inline]
-pub fn bottom(a: &Vec6) -> Vec3 {
+pub fn angular(a: &Vec6) -> Vec3 {
     Vec3::new(a[3], a[4], a[5])
 }

@@ -6,7 +6,7 @@ use super::workspace::Workspace;
 use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
 use crate::math::rotation::rates;
-use crate::math::{bottom, join, top};
+use crate::math::{angular, stack, linear};
 use crate::state::State;
 
 /// What the end of a step leaves for the account of work.
@@ -31,7 +31,7 @@ pub fn commit(
     if cx.is_dynamic() {
         for &node in &cx.independent_nodes {
             let (start, end) = (&state.nodes[node], &ws.trial[node]);
-            state.jerk[node] = join(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
+            state.jerk[node] = stack(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
         }
     }
     update_algorithmic_accelerations(cx, ws, state);
@@ -57,11 +57,11 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
     let Some([of_a, of_start, of_end]) = cx.algorithmic_acceleration else { return };
     for &node in &cx.independent_nodes {
         let (start, increment) = (&state.nodes[node], &ws.increments[node]);
-        let before = join(&start.a, &start.alpha);
+        let before = stack(&start.a, &start.alpha);
         // In the rotation vector of the step, then as a spatial vector like every other.
         let a = state.followers[node] * of_a + before * of_start + increment.dd * of_end;
-        let (_, turn) = rates(&bottom(&increment.q), &bottom(&increment.d), &bottom(&a));
-        state.followers[node] = join(&top(&a), &turn);
+        let (_, turn) = rates(&angular(&increment.q), &angular(&increment.d), &angular(&a));
+        state.followers[node] = stack(&linear(&a), &turn);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::workspace::Workspace;
 use crate::integrators::Coefficients;
-use crate::math::{Vec6, join};
+use crate::math::{Vec6, stack};
 use crate::state::{Increment, Node, State};
 use crate::system::{Prescribed, Side, between};
 
@@ -40,7 +40,7 @@ impl Stage<'_> {
 /// Velocity and acceleration of a node, translations first.
 #[inline]
 pub fn rates_of(node: &Node) -> [Vec6; 2] {
-    [join(&node.v, &node.omega), join(&node.a, &node.alpha)]
+    [stack(&node.v, &node.omega), stack(&node.a, &node.alpha)]
 }
 
 /// Evaluates loads and prescribed motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.

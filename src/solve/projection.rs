@@ -14,7 +14,7 @@ use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec3, bottom};
+use crate::math::{Vec3, angular};
 use crate::plan::Plan;
 use crate::state::{Configuration, Node, State};
 use crate::system::assembly::Weights;
@@ -160,7 +160,7 @@ impl ConstraintProjection {
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
             let increment = &mut ws.increments[node];
-            let theta = bottom(&increment.q);
+            let theta = angular(&increment.q);
             let entry = |i: usize| rows.get(i).map_or(0.0, |row| self.r[row]);
             let turn = inverse_tangent(&theta, &Vec3::new(entry(3), entry(4), entry(5)));
             let change = match derivative {

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::joints;
 use super::workspace::Workspace;
 use crate::elements::Moduli;
-use crate::math::{Vec3, Vec6, join, rotation};
+use crate::math::{Vec3, Vec6, stack, rotation};
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::assembly::Weights;
@@ -113,7 +113,7 @@ fn update_history(cx: &Context, ws: &mut Workspace, state: &mut State) {
 /// Writes the rates of dependent nodes from those of their masters; nothing is displaced.
 fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) {
     for (increment, node) in ws.increments.iter_mut().zip(&*nodes) {
-        let (d, dd) = (join(&node.v, &node.omega), join(&node.a, &node.alpha));
+        let (d, dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
         *increment = Increment { q: Vec6::zeros(), d, dd };
     }
     for dependent in &cx.system.attachments {
@@ -196,7 +196,7 @@ fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massle
     }
     // After a start or a jump algorithmic accelerations follow from nowhere else.
     for (follower, node) in state.followers.iter_mut().zip(&state.nodes) {
-        *follower = join(&node.a, &node.alpha);
+        *follower = stack(&node.a, &node.alpha);
     }
 }
 

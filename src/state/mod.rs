@@ -2,7 +2,7 @@
 
 use crate::materials::Dissipation;
 use crate::math::rotation::{self, RotationUpdate};
-use crate::math::{Mat3, Vec3, Vec6, bottom, top};
+use crate::math::{Mat3, Vec3, Vec6, angular, linear};
 use nalgebra::Quaternion;
 
 /// Motion of one node, all in global components.
@@ -68,13 +68,13 @@ impl Node {
     #[inline]
     pub fn advance(&mut self, start: &Node, increment: &Increment, update: RotationUpdate) -> f64 {
         let Increment { q, d, dd } = increment;
-        let theta = bottom(q);
-        self.place(&start.x, &start.low, &top(q));
-        self.v = top(d);
-        self.a = top(dd);
+        let theta = angular(q);
+        self.place(&start.x, &start.low, &linear(q));
+        self.v = linear(d);
+        self.a = linear(dd);
         let (turn, drift) = update.quaternion(&theta);
         self.q = rotation::renormalise(&(turn * start.q));
-        (self.omega, self.alpha) = rotation::rates(&theta, &bottom(d), &bottom(dd));
+        (self.omega, self.alpha) = rotation::rates(&theta, &angular(d), &angular(dd));
         drift
     }
 }

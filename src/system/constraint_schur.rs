@@ -5,7 +5,7 @@ use super::equations::System;
 use super::masses::Masses;
 use super::multipliers::SHARED;
 use crate::elements::Force;
-use crate::math::{Vec6, bottom, join, top};
+use crate::math::{Vec6, angular, stack, linear};
 use crate::state::Node;
 
 /// Rows at most: beyond, a sparse factorisation is cheaper.
@@ -87,9 +87,9 @@ impl ConstraintSchur {
                 let (mut whole, mut moving) = (0.0f64, 0.0f64);
                 for end in 0..2 {
                     let Some(root) = self.rows[k][end] else { continue };
-                    let (f, m) = (top(&gradient[end]), bottom(&gradient[end]));
+                    let (f, m) = (linear(&gradient[end]), angular(&gradient[end]));
                     let arm = nodes[joint.nodes[end]].x - nodes[root].x;
-                    let G = join(&f, &(m + arm.cross(&f)));
+                    let G = stack(&f, &(m + arm.cross(&f)));
                     self.G[k][end] = G;
                     let Some(block) = masses.of(root) else { continue };
                     self.W[k][end] = block.accelerate(&nodes[root], G.as_ref());

@@ -12,7 +12,7 @@ use crate::constraints::attachment::{self, Attachment};
 use crate::constraints::joint::Joint;
 use crate::elements::Force;
 use crate::materials::Dissipation;
-use crate::math::{Vec3, Vec6, bottom, rotation, top};
+use crate::math::{Vec3, Vec6, angular, rotation, linear};
 use crate::model::{self, Model, PartKind};
 use crate::state::{Configuration, Node};
 
@@ -306,14 +306,14 @@ impl System {
                 f[i] = inertia.mass * of[i];
             }
             if inertia.rotary {
-                let m = inertia.J(&nodes[inertia.node]) * bottom(of);
+                let m = inertia.J(&nodes[inertia.node]) * angular(of);
                 f[3..].copy_from_slice(m.as_slice());
             }
             F[inertia.node] = f;
         }
         for mass in &self.consistent {
             for (a, b, m) in mass.pairs() {
-                crate::elements::subtract(&mut F[a], 0, &(-m * top(&motions[b])));
+                crate::elements::subtract(&mut F[a], 0, &(-m * linear(&motions[b])));
             }
         }
         self.transfer_to_masters(nodes, forces);

@@ -13,7 +13,7 @@ use super::multipliers::{Multipliers, SHARED};
 use super::scale::Scale;
 use crate::constraints::joint::{Joint, MOST_ROWS, Row};
 use crate::linear::Solver;
-use crate::math::{Mat6, Vec3, Vec6};
+use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
 
 /// Directions of a local matrix: two nodes, and the joint's multipliers as a third.
@@ -118,8 +118,8 @@ impl System {
             let (mut f, mut m) = (Vec3::zeros(), Vec3::zeros());
             for (row, lambda) in joint.rows.iter().zip(&values[first..]) {
                 let [G, _] = row.gradient(a, b);
-                f -= *lambda * crate::math::top(&G);
-                m -= *lambda * crate::math::bottom(&G);
+                f -= *lambda * linear(&G);
+                m -= *lambda * angular(&G);
             }
             JointState { f, m }
         }));

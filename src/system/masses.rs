@@ -4,7 +4,7 @@
 use super::dofs::DofMap;
 use super::equations::System;
 use crate::elements::Force;
-use crate::math::{Mat3, Mat6, Vec3, Vec6, bottom, join, skew, top};
+use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, stack, skew, linear};
 use crate::state::Node;
 
 /// Part of what an inertia was before others were taken from it that counts as none.
@@ -162,13 +162,13 @@ impl MassBlock {
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
         let kept = |a: Vec6| Vec6::from_fn(|i, _| if self.free[i] { a[i] } else { 0.0 });
         match self.kind {
-            Kind::Point { of_turn } => kept(join(&(f / self.mass), &(m * of_turn))),
+            Kind::Point { of_turn } => kept(stack(&(f / self.mass), &(m * of_turn))),
             Kind::Body => {
                 let R = node.R();
                 // About the centre of mass, and back.
                 let s = R * self.arm;
                 let alpha = R * (self.inverse * R.tr_mul(&(m - s.cross(&f))));
-                kept(join(&(f / self.mass - alpha.cross(&s)), &alpha))
+                kept(stack(&(f / self.mass - alpha.cross(&s)), &alpha))
             }
             Kind::Held => {
                 let mut M = self.matrix(&node.R());
@@ -185,12 +185,12 @@ impl MassBlock {
     pub fn weigh(&self, node: &Node, a: &Vec6, b: &Vec6) -> f64 {
         match self.kind {
             Kind::Point { of_turn } => {
-                let turn = if of_turn > 0.0 { bottom(a).dot(&bottom(b)) / of_turn } else { 0.0 };
-                self.mass * top(a).dot(&top(b)) + turn
+                let turn = if of_turn > 0.0 { angular(a).dot(&angular(b)) / of_turn } else { 0.0 };
+                self.mass * linear(a).dot(&linear(b)) + turn
             }
             _ => {
                 let R = node.R();
-                let in_body = |v: &Vec6| (R.tr_mul(&top(v)), R.tr_mul(&bottom(v)));
+                let in_body = |v: &Vec6| (R.tr_mul(&linear(v)), R.tr_mul(&angular(v)));
                 let ((u, theta), (w, phi)) = (in_body(a), in_body(b));
                 let at_centre = |u: Vec3, theta: &Vec3| u + theta.cross(&self.s0);
                 self.mass * at_centre(u, &theta).dot(&at_centre(w, &phi)) + theta.dot(&(self.J0 * phi))
@@ -219,7 +219,7 @@ impl MassBlock {
     fn gyroscopic_force(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
         let s = R * self.s0;
         let f = self.mass * omega.cross(&omega.cross(&s));
-        join(&f, &(omega.cross(&(R * (self.J0 * R.tr_mul(omega)))) + s.cross(&f)))
+        stack(&f, &(omega.cross(&(R * (self.J0 * R.tr_mul(omega)))) + s.cross(&f)))
     }
 
     /// Rates at the end of a step of length `dt` from `start`, where forces F are left over from the motion `now` there: the
@@ -231,7 +231,7 @@ impl MassBlock {
         let h = 0.5 * dt;
         if self.kind != Kind::Body {
             let mean = |push: Vec6| {
-                let (a, alpha) = (now.a + top(&push), now.alpha + bottom(&push));
+                let (a, alpha) = (now.a + linear(&push), now.alpha + angular(&push));
                 Motion { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
             };
             let mut end = mean(self.accelerate(now, F));

@@ -9,7 +9,7 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::integrators::{Coefficients, RotationUpdate, load_steps};
 use rdsolve::linear;
 use rdsolve::math::rotation::{exp, inverse_tangent};
-use rdsolve::math::{Vec3, Vec6, bottom, join};
+use rdsolve::math::{Vec3, Vec6, angular, stack};
 use rdsolve::model::{AnalysisKind, Beam, Link, MassKind, Model, NodalDamping, PartKind, Pressure, StepLength};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
@@ -52,7 +52,7 @@ impl Instant {
         }
         let mut still = vec![Increment::ZERO; start.len()];
         for (increment, node) in still.iter_mut().zip(&start) {
-            (increment.d, increment.dd) = (join(&node.v, &node.omega), join(&node.a, &node.alpha));
+            (increment.d, increment.dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
         }
         for rider in &system.attachments {
             let before = start[rider.node];
@@ -61,8 +61,8 @@ impl Instant {
         let q = start
             .iter()
             .map(|n| match way {
-                Some(way) => join(&vector(rng, way), &vector(rng, way)),
-                None => scheme.predict(&join(&n.v, &n.omega), &join(&n.a, &n.alpha), &Vec6::zeros()),
+                Some(way) => stack(&vector(rng, way), &vector(rng, way)),
+                None => scheme.predict(&stack(&n.v, &n.omega), &stack(&n.a, &n.alpha), &Vec6::zeros()),
             })
             .collect();
         Instant { system, plan, loading, scheme, start, q }
@@ -73,7 +73,7 @@ impl Instant {
         let mut increments = vec![Increment::ZERO; nodes.len()];
         for (i, start) in self.start.iter().enumerate() {
             increments[i].q = q[i];
-            let (v, a) = (join(&start.v, &start.omega), join(&start.a, &start.alpha));
+            let (v, a) = (stack(&start.v, &start.omega), stack(&start.a, &start.alpha));
             self.scheme.differentiate(&mut increments[i], &v, &a, &a);
             nodes[i].advance(start, &increments[i], RotationUpdate::Exponential);
         }
@@ -104,7 +104,7 @@ impl Instant {
                 } else {
                     turn[dof - 3] = h;
                 }
-                let change = inverse_tangent(&bottom(&q[node]), &turn);
+                let change = inverse_tangent(&angular(&q[node]), &turn);
                 for i in 0..3 {
                     q[node][3 + i] += change[i];
                 }

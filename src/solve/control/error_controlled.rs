@@ -13,7 +13,7 @@ use super::error_measure::ErrorMeasure;
 use super::lasting_error::LastingError;
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{Newmark, RotationUpdate, Scheme};
-use crate::math::{Vec3, Vec6, join};
+use crate::math::{Vec3, Vec6, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::implicit::Implicit;
@@ -201,7 +201,7 @@ impl<'a> ErrorController<'a> {
             let (start, end) = (&self.start.nodes[node], &state.nodes[node]);
             // Of the rotation vector of a step Θ‴ = α̇ − ½ ω×α: a body that spins turns α without changing it.
             let across = 0.25 * (start.omega.cross(&start.alpha) + end.omega.cross(&end.alpha));
-            let third = state.jerk[node] - join(&Vec3::zeros(), &across);
+            let third = state.jerk[node] - stack(&Vec3::zeros(), &across);
             errors[node] = Vec6::from_fn(|i, _| if rows.has(i) { factor * third[i] } else { 0.0 });
         }
         cx.system.carry(&state.nodes, errors);

@@ -1,6 +1,6 @@
 //! What errors of steps are compared with: the largest motion so far, or ahead.
 
-use crate::math::{Vec6, bottom, top};
+use crate::math::{Vec6, angular, linear};
 use crate::model::Model;
 use crate::solve::size::Size;
 use crate::state::State;
@@ -70,8 +70,8 @@ impl ErrorMeasure {
         let (translation, rotation) = (motion.translation.max(ahead.translation), motion.rotation.max(ahead.rotation));
         // What is not a number must not vanish among those that are.
         let worst = |most: f64, e: f64| if e > most || e.is_nan() { e } else { most };
-        let error = errors.iter().map(|e| top(e).norm()).fold(0.0, worst);
-        let turn = self.bodies.iter().map(|&body| bottom(&errors[body]).norm()).fold(0.0, worst);
+        let error = errors.iter().map(|e| linear(e).norm()).fold(0.0, worst);
+        let turn = self.bodies.iter().map(|&body| angular(&errors[body]).norm()).fold(0.0, worst);
         // Nothing moves, nothing is wrong.
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
         part(error, translation.max(TRACE * rotation * self.extent))

@@ -6,7 +6,7 @@ use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
 use crate::math::rotation::{inverse_tangent, rates};
-use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::math::{Vec3, Vec6, angular, stack, linear};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::joints::apart;
@@ -125,8 +125,8 @@ impl Accelerations {
         self.visit_dependent_directions(cx, ws, |missing, now| *missing = now);
         // The trial motion is left as it was given.
         for &node in &cx.independent_nodes {
-            ws.trial[node].a -= top(&self.missing[node]);
-            ws.trial[node].alpha -= bottom(&self.missing[node]);
+            ws.trial[node].a -= linear(&self.missing[node]);
+            ws.trial[node].alpha -= angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
         self.visit_dependent_directions(cx, ws, |missing, given| *missing -= given);
@@ -149,8 +149,8 @@ impl Accelerations {
             let rows = cx.plan.dofs.of(node);
             let found = rows.gather(&ws.r);
             self.missing[node] += found;
-            ws.trial[node].a += top(&found);
-            ws.trial[node].alpha += bottom(&found);
+            ws.trial[node].a += linear(&found);
+            ws.trial[node].alpha += angular(&found);
         }
         ws.r[..cx.directions()].fill(0.0);
         update_dependent_accelerations(cx, ws);
@@ -160,7 +160,7 @@ impl Accelerations {
     fn visit_dependent_directions(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
         for dependent in &cx.system.attachments {
             let (missing, node) = (&mut self.missing[dependent.node], &ws.trial[dependent.node]);
-            let now = join(&node.a, &node.alpha);
+            let now = stack(&node.a, &node.alpha);
             (0..6).filter(|&i| dependent.dofs[i]).for_each(|i| visit(&mut missing[i], now[i]));
         }
     }
@@ -175,8 +175,8 @@ impl Accelerations {
             return;
         }
         for &node in &cx.independent_nodes {
-            ws.trial[node].a += top(&self.missing[node]);
-            ws.trial[node].alpha += bottom(&self.missing[node]);
+            ws.trial[node].a += linear(&self.missing[node]);
+            ws.trial[node].alpha += angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
         let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
@@ -221,10 +221,10 @@ fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
 
 /// The increment at the end of a step that leads to these velocities and accelerations.
 pub fn set_rates(increment: &mut Increment, motion: &Motion) {
-    let theta = bottom(&increment.q);
+    let theta = angular(&increment.q);
     let d = inverse_tangent(&theta, &motion.omega);
     // What Ṫ Θ̇ makes of it.
     let (_, own) = rates(&theta, &d, &Vec3::zeros());
-    increment.d = join(&motion.v, &d);
-    increment.dd = join(&motion.a, &inverse_tangent(&theta, &(motion.alpha - own)));
+    increment.d = stack(&motion.v, &d);
+    increment.dd = stack(&motion.a, &inverse_tangent(&theta, &(motion.alpha - own)));
 }

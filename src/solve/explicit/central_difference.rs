@@ -7,7 +7,7 @@ use super::inner_product::{aMa_of_nodes, aMa_of_trial};
 use super::stiffening::{change, is_growing, resistance};
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
-use crate::math::{Vec6, bottom, join, top};
+use crate::math::{Vec6, angular, stack, linear};
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -232,10 +232,10 @@ fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
 
 /// Rates at the end of a step by the mean of the accelerations, with what is missing of them in the trial motion.
 fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> Motion {
-    let (a, alpha) = (now.a + top(missing), now.alpha + bottom(missing));
-    let old = join(&start.a, &start.alpha);
-    let both = (old + join(&a, &alpha)) * (0.5 * dt);
-    Motion { v: start.v + top(&both), omega: start.omega + bottom(&both), a, alpha }
+    let (a, alpha) = (now.a + linear(missing), now.alpha + angular(missing));
+    let old = stack(&start.a, &start.alpha);
+    let both = (old + stack(&a, &alpha)) * (0.5 * dt);
+    Motion { v: start.v + linear(&both), omega: start.omega + angular(&both), a, alpha }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
 use crate::integrators::central_difference::longest_step;
 use crate::math::rotation::RotationUpdate;
-use crate::math::{Vec3, Vec6, bottom, join, top};
+use crate::math::{Vec3, Vec6, angular, stack, linear};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::context::Context;
@@ -315,7 +315,7 @@ impl CriticalStep {
     fn evaluate(&self, cx: &Context, ws: &mut Workspace, state: &State, [of_place, of_rate]: [f64; 2], dt: f64) {
         for &node in &cx.independent_nodes {
             let (start, mode) = (&self.place[node], &self.mode[node]);
-            let d = join(&start.v, &start.omega) + mode * of_rate;
+            let d = stack(&start.v, &start.omega) + mode * of_rate;
             ws.increments[node] = Increment { q: mode * of_place, d, dd: Vec6::zeros() };
             ws.trial[node].advance(start, &ws.increments[node], RotationUpdate::Exponential);
         }
@@ -362,6 +362,6 @@ impl CriticalStep {
 
 /// The largest motion, rotations over the model's length.
 fn largest(cx: &Context, mode: &[Vec6]) -> f64 {
-    let size = |&node: &usize| top(&mode[node]).amax().max(cx.length * bottom(&mode[node]).amax());
+    let size = |&node: &usize| linear(&mode[node]).amax().max(cx.length * angular(&mode[node]).amax());
     cx.independent_nodes.iter().map(size).fold(0.0, f64::max)
 }

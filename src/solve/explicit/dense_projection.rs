@@ -2,7 +2,7 @@
 
 use super::accelerations::Accelerations;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
-use crate::math::{Vec6, bottom, join, top};
+use crate::math::{Vec6, angular, stack, linear};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, apart};
@@ -56,11 +56,11 @@ fn project_positions(
             let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
             let node = &mut ws.trial[block.node];
             let Node { x, low, .. } = *node;
-            node.place(&x, &low, &top(&change));
-            node.q = renormalise(&(exp(&bottom(&change)) * node.q));
-            let turn = inverse_tangent(&bottom(&increment.q), &bottom(&change));
-            increment.q += join(&top(&change), &turn);
-            increment.d = join(&node.v, &inverse_tangent(&bottom(&increment.q), &node.omega));
+            node.place(&x, &low, &linear(&change));
+            node.q = renormalise(&(exp(&angular(&change)) * node.q));
+            let turn = inverse_tangent(&angular(&increment.q), &angular(&change));
+            increment.q += stack(&linear(&change), &turn);
+            increment.d = stack(&node.v, &inverse_tangent(&angular(&increment.q), &node.omega));
         }
         update_dependent_nodes(cx, ws, &state.nodes);
     }
@@ -91,9 +91,9 @@ fn project_velocities(
         for block in &masses.blocks {
             let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
             let node = &mut ws.trial[block.node];
-            node.v += top(&change);
-            node.omega += bottom(&change);
-            increment.d = join(&node.v, &inverse_tangent(&bottom(&increment.q), &node.omega));
+            node.v += linear(&change);
+            node.omega += angular(&change);
+            increment.d = stack(&node.v, &inverse_tangent(&angular(&increment.q), &node.omega));
         }
         update_dependent_nodes(cx, ws, &state.nodes);
     }

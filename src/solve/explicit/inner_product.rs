@@ -1,7 +1,7 @@
 //! Products of motions in the norm of the masses, as explicit schemes need them to judge their steps.
 
 use super::accelerations::Accelerations;
-use crate::math::{Vec6, join};
+use crate::math::{Vec6, stack};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::Node;
@@ -33,7 +33,7 @@ pub fn times_applied(cx: &Context, forces: &Forces, motion: impl Fn(usize) -> Ve
 pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> f64 {
     let Accelerations { masses, operand, missing, .. } = accelerations;
     let trial = &ws.trial;
-    let a = |node: usize| join(&trial[node].a, &trial[node].alpha) + missing[node];
+    let a = |node: usize| stack(&trial[node].a, &trial[node].alpha) + missing[node];
     let Some(masses) = masses else {
         apply_mass(cx, trial, operand, &mut ws.forces, a);
         return times_applied(cx, &ws.forces, a);
@@ -44,7 +44,7 @@ pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
 
 /// aᵀ M a of the accelerations of nodes as they lie, in unknown directions.
 pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, nodes: &[Node]) -> f64 {
-    let a = |node: usize| join(&nodes[node].a, &nodes[node].alpha);
+    let a = |node: usize| stack(&nodes[node].a, &nodes[node].alpha);
     let Some(masses) = &accelerations.masses else {
         apply_mass(cx, nodes, &mut accelerations.operand, &mut ws.forces, a);
         return times_applied(cx, &ws.forces, a);

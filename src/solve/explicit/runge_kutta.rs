@@ -6,7 +6,7 @@ use super::work::{WorkQuadrature, weight_of};
 use crate::integrators::tableau::{Tableau, Weights};
 use crate::linear::TooLarge;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
-use crate::math::{Vec6, bottom, join, top};
+use crate::math::{Vec6, angular, stack, linear};
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -140,7 +140,7 @@ impl RungeKuttaStepper {
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
             let [_, rate] = self.stages[end * cx.independent_nodes.len() + k];
             let trial = &mut ws.trial[node];
-            (trial.a, trial.alpha) = (top(&rate), bottom(&rate));
+            (trial.a, trial.alpha) = (linear(&rate), angular(&rate));
             let motion = Motion { v: trial.v, omega: trial.omega, a: trial.a, alpha: trial.alpha };
             set_rates(&mut ws.increments[node], &motion);
         }
@@ -172,8 +172,8 @@ impl RungeKuttaStepper {
             for (largest, weights) in largest.iter_mut().zip(tableau.errors) {
                 let sum = |sum: Vec6, &(of, weight): &(usize, f64)| sum + self.stages[of * nodes + k][0] * weight;
                 let error = weights.iter().fold(Vec6::zeros(), sum);
-                largest.translation = largest.translation.max(top(&error).norm());
-                largest.rotation = largest.rotation.max(bottom(&error).norm());
+                largest.translation = largest.translation.max(linear(&error).norm());
+                largest.rotation = largest.rotation.max(angular(&error).norm());
             }
         }
         let [first, second] = largest;
@@ -203,7 +203,7 @@ impl RungeKuttaStepper {
             }
             let increment = &mut ws.increments[node];
             increment.q = q * dt;
-            increment.d = join(&start.v, &start.omega) + v * dt;
+            increment.d = stack(&start.v, &start.omega) + v * dt;
             increment.dd = Vec6::zeros();
         }
         if self.driven {
@@ -245,7 +245,7 @@ impl RungeKuttaStepper {
         let nodes = cx.independent_nodes.len();
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
             let trial = &ws.trial[node];
-            self.stages[stage * nodes + k][1] = join(&trial.a, &trial.alpha) + self.accelerations.missing[node];
+            self.stages[stage * nodes + k][1] = stack(&trial.a, &trial.alpha) + self.accelerations.missing[node];
         }
         Ok(())
     }
@@ -276,15 +276,15 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
 /// the square of the angle.
 #[inline]
 fn advance(trial: &mut Node, start: &Node, increment: &mut Increment) -> f64 {
-    let (theta, omega) = (bottom(&increment.q), bottom(&increment.d));
-    trial.place(&start.x, &start.low, &top(&increment.q));
-    trial.v = top(&increment.d);
+    let (theta, omega) = (angular(&increment.q), angular(&increment.d));
+    trial.place(&start.x, &start.low, &linear(&increment.q));
+    trial.v = linear(&increment.d);
     trial.omega = omega;
-    (trial.a, trial.alpha) = (top(&increment.dd), bottom(&increment.dd));
+    (trial.a, trial.alpha) = (linear(&increment.dd), angular(&increment.dd));
     let angle = theta.norm_squared();
     if angle > 0.0 {
         trial.q = renormalise(&(exp(&theta) * start.q));
-        increment.d = join(&trial.v, &inverse_tangent(&theta, &omega));
+        increment.d = stack(&trial.v, &inverse_tangent(&theta, &omega));
     } else {
         trial.q = start.q;
     }

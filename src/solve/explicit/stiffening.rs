@@ -3,7 +3,7 @@
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
-use crate::math::{Vec6, bottom, join, top};
+use crate::math::{Vec6, angular, stack, linear};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::{Node, State};
@@ -11,7 +11,7 @@ use crate::state::{Node, State};
 /// The change of a node's acceleration over the step, with what is missing of it in the trial motion.
 pub fn change(missing: &[Vec6], trial: &[Node], state: &State, node: usize) -> Vec6 {
     let (start, now) = (&state.nodes[node], &trial[node]);
-    join(&(now.a - start.a), &(now.alpha - start.alpha)) + missing[node]
+    stack(&(now.a - start.a), &(now.alpha - start.alpha)) + missing[node]
 }
 
 /// ω² of the mode as which the scene has resisted over the step, −Δaᵀ M q/qᵀ M q: of its modes a mean. More than that of the fastest
@@ -32,8 +32,8 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     for block in &masses.blocks {
         let [mass, inertia] = block.about();
         let (da, q) = (change(block.node), &increments[block.node].q);
-        force -= mass * top(&da).dot(&top(q)) + inertia * bottom(&da).dot(&bottom(q));
-        size += mass * top(q).norm_squared() + inertia * bottom(q).norm_squared();
+        force -= mass * linear(&da).dot(&linear(q)) + inertia * angular(&da).dot(&angular(q));
+        size += mass * linear(q).norm_squared() + inertia * angular(q).norm_squared();
     }
     if force <= QUICK * 4.0 / (dt * dt) * size {
         return 0.0;
@@ -55,7 +55,7 @@ pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     const LIMIT: f64 = 4.1;
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let trial = &ws.trial;
-    let before = |node: usize| join(&state.nodes[node].a, &state.nodes[node].alpha);
+    let before = |node: usize| stack(&state.nodes[node].a, &state.nodes[node].alpha);
     let change = |node: usize| change(missing, trial, state, node);
     let Some(masses) = masses else {
         apply_mass(cx, trial, operand, &mut ws.forces, before);
@@ -74,9 +74,9 @@ pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
         let [mass, inertia] = block.about();
         let first = change(block.node);
         let second = first - state.jerk[block.node] * dt;
-        let now = first + join(&start.a, &start.alpha);
-        next += mass * top(&now).norm_squared() + inertia * bottom(&now).norm_squared();
-        increase -= mass * top(&second).dot(&start.a) + inertia * bottom(&second).dot(&start.alpha);
+        let now = first + stack(&start.a, &start.alpha);
+        next += mass * linear(&now).norm_squared() + inertia * angular(&now).norm_squared();
+        increase -= mass * linear(&second).dot(&start.a) + inertia * angular(&second).dot(&start.alpha);
         size += mass * start.a.norm_squared() + inertia * start.alpha.norm_squared();
     }
     increase > LIMIT * size && next > size

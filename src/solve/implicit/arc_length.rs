@@ -7,7 +7,7 @@
 
 use crate::integrators::load_steps;
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, bottom, join, top};
+use crate::math::{Vec6, angular, stack, linear};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, excite, move_trial};
@@ -175,11 +175,11 @@ impl ArcLengthConstraint {
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
             let D = unknown_part(cx, node, &ws.increments[node].q);
-            let theta = bottom(&ws.increments[node].q);
+            let theta = angular(&ws.increments[node].q);
             let vector = |x: &[f64]| {
                 let x = rows.gather(x);
                 // As the correction will be added: δΘ = T⁻¹ δθ
-                unknown_part(cx, node, &join(&top(&x), &inverse_tangent(&theta, &bottom(&x))))
+                unknown_part(cx, node, &stack(&linear(&x), &inverse_tangent(&theta, &angular(&x))))
             };
             let (a, b) = (vector(&ws.r), vector(&self.rate));
             sum.DD += self.dot(&D, &D);
@@ -195,7 +195,7 @@ impl ArcLengthConstraint {
     }
 
     fn dot(&self, x: &Vec6, y: &Vec6) -> f64 {
-        top(x).dot(&top(y)) + self.weight * bottom(x).dot(&bottom(y))
+        linear(x).dot(&linear(y)) + self.weight * angular(x).dot(&angular(y))
     }
 
     /// The motion of the step that was found.

@@ -3,7 +3,7 @@
 use super::newton::Newton;
 use crate::integrators::TwoStages;
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, bottom, join};
+use crate::math::{Vec6, angular, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, rates_of};
@@ -75,7 +75,7 @@ impl<'a> Composite<'a> {
             let start = &self.start.nodes[node];
             // The motion so far, and the velocity at its start in the rotation vector counted from between the stages.
             let q0 = ws.increments[node].q;
-            let v0 = join(&start.v, &inverse_tangent(&-bottom(&q0), &start.omega));
+            let v0 = stack(&start.v, &inverse_tangent(&-angular(&q0), &start.omega));
             let [v, _] = rates_of(&between.nodes[node]);
             self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];
         }

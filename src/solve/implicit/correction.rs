@@ -1,7 +1,7 @@
 //! What corrects the increments, and how small that is.
 
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, bottom, larger};
+use crate::math::{Vec6, angular, larger};
 use crate::solve::context::Context;
 use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
@@ -24,9 +24,9 @@ pub fn correct(cx: &Context, ws: &mut Workspace) -> (Size, Size) {
         let entry = |i: usize| rows.get(i).map_or(0.0, |row| ws.r[row]);
         let increment = &mut ws.increments[node].q;
         let dq = Vec6::from_fn(|i, _| entry(i));
-        let theta = bottom(increment);
+        let theta = angular(increment);
         // δΘ = T⁻¹ δθ
-        let dtheta = inverse_tangent(&theta, &bottom(&dq));
+        let dtheta = inverse_tangent(&theta, &angular(&dq));
         for i in 0..3 {
             increment[i] += dq[i];
             if rows.has(3 + i) {
