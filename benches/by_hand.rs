@@ -6,7 +6,7 @@ use nalgebra::{LU, SMatrix, SVector, U12};
 use rdsolve::diagnostic::Source;
 use rdsolve::integrators::RotationUpdate;
 use rdsolve::math::rotation::inverse_tangent;
-use rdsolve::math::{Mat3, Vec3, Vec6, angular, stack, skew};
+use rdsolve::math::{Mat3, Vec3, Vec6, angular, skew, stack};
 use rdsolve::model;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};

@@ -4,7 +4,7 @@
 //! A joint is a list of rows, each one equation c(x, R) = 0 between the positions of its nodes. With a multiplier λ it pulls by
 //! Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it holds. Its derivative is K = λ ∂²c, spatial spins like everywhere.
 
-use crate::math::{Mat3, Vec3, Vec6, stack, skew};
+use crate::math::{Mat3, Vec3, Vec6, skew, stack};
 use crate::state::Node;
 
 /// Directions of a multiplier's node: a joint has at most so many rows.

@@ -6,7 +6,7 @@ use super::workspace::Workspace;
 use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
 use crate::math::rotation::rates;
-use crate::math::{angular, stack, linear};
+use crate::math::{angular, linear, stack};
 use crate::state::State;
 
 /// What the end of a step leaves for the account of work.

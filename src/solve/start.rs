@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::joints;
 use super::workspace::Workspace;
 use crate::elements::Moduli;
-use crate::math::{Vec3, Vec6, stack, rotation};
+use crate::math::{Vec3, Vec6, rotation, stack};
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::assembly::Weights;

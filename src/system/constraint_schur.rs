@@ -5,7 +5,7 @@ use super::equations::System;
 use super::masses::Masses;
 use super::multipliers::SHARED;
 use crate::elements::Force;
-use crate::math::{Vec6, angular, stack, linear};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::state::Node;
 
 /// Rows at most: beyond, a sparse factorisation is cheaper.

@@ -12,7 +12,7 @@ use crate::constraints::attachment::{self, Attachment};
 use crate::constraints::joint::Joint;
 use crate::elements::Force;
 use crate::materials::Dissipation;
-use crate::math::{Vec3, Vec6, angular, rotation, linear};
+use crate::math::{Vec3, Vec6, angular, linear, rotation};
 use crate::model::{self, Model, PartKind};
 use crate::state::{Configuration, Node};
 

@@ -4,7 +4,7 @@
 use super::dofs::DofMap;
 use super::equations::System;
 use crate::elements::Force;
-use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, stack, skew, linear};
+use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, skew, stack};
 use crate::state::Node;
 
 /// Part of what an inertia was before others were taken from it that counts as none.

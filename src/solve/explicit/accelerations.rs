@@ -6,7 +6,7 @@ use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
 use crate::math::rotation::{inverse_tangent, rates};
-use crate::math::{Vec3, Vec6, angular, stack, linear};
+use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::joints::apart;

@@ -7,7 +7,7 @@ use super::inner_product::{aMa_of_nodes, aMa_of_trial};
 use super::stiffening::{change, is_growing, resistance};
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
-use crate::math::{Vec6, angular, stack, linear};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;

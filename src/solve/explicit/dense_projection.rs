@@ -2,7 +2,7 @@
 
 use super::accelerations::Accelerations;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
-use crate::math::{Vec6, angular, stack, linear};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, apart};

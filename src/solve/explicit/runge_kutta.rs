@@ -6,7 +6,7 @@ use super::work::{WorkQuadrature, weight_of};
 use crate::integrators::tableau::{Tableau, Weights};
 use crate::linear::TooLarge;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
-use crate::math::{Vec6, angular, stack, linear};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;

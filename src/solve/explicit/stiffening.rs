@@ -3,7 +3,7 @@
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
-use crate::math::{Vec6, angular, stack, linear};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::{Node, State};

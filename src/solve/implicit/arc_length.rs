@@ -7,7 +7,7 @@
 
 use crate::integrators::load_steps;
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, angular, stack, linear};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, excite, move_trial};
