@@ -49,8 +49,8 @@ fn boxes_of_any_thickness_stay_in_their_plane() {
 fn what_elimination_saves() {
     let (few, lines) = savings("hub_with_blades", &[]);
     let line = lines.iter().find(|line| line.contains("multipliers")).expect("attached nodes");
-    let riders = 2;
-    assert_eq!(before(line, "unknowns") as usize, few + riders * (6 + 6), "{line}");
+    let dependents = 2;
+    assert_eq!(before(line, "unknowns") as usize, few + dependents * (6 + 6), "{line}");
 }
 
 /// The paper's simplifications (3) and (4): the mass at the attached end of a beam is left out, or

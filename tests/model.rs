@@ -45,8 +45,8 @@ fn beams_follow_their_path() {
     let [a, b, c] = ["a", "b", "c"].map(|name| node(&model, name));
     let start = node(&model, "frame.start");
     assert_eq!(model.nodes[start].x, Vec3::new(0.0, 0.0, 0.5));
-    let rider = model.constraints.dependents.iter().find(|rider| rider.node == start).unwrap();
-    assert_eq!((rider.master, rider.dofs), (a, [true; 6]));
+    let dependent = model.constraints.dependents.iter().find(|dependent| dependent.node == start).unwrap();
+    assert_eq!((dependent.master, dependent.dofs), (a, [true; 6]));
     let ends: Vec<[usize; 2]> = beam.elements.iter().map(|e| [e.nodes[0], e.nodes[2]]).collect();
     assert_eq!((ends[0][0], ends[1][1], ends[2]), (start, b, [b, c]));
     assert_eq!(ends[0][1], ends[1][0]);
@@ -169,8 +169,8 @@ fn links_measure_from_where_they_are() {
     assert_eq!(free(2), (2.0, None));
     // At its centre a link acts on the body itself, elsewhere on a new node that rides on it.
     assert_eq!(links[2].ends[0], model.bodies[0].node);
-    let rider = model.constraints.dependents.iter().find(|rider| rider.node == links[0].ends[0]).unwrap();
-    assert_eq!((rider.master, rider.dofs), (model.bodies[0].node, [true; 6]));
+    let dependent = model.constraints.dependents.iter().find(|dependent| dependent.node == links[0].ends[0]).unwrap();
+    assert_eq!((dependent.master, dependent.dofs), (model.bodies[0].node, [true; 6]));
     let LinkKind::Bushing { stiffness, axes, .. } = &links[3].kind else { panic!("no bushing") };
     assert_eq!((stiffness[5], axes.column(0).into_owned()), (6.0, Vec3::y()));
     assert_eq!(axes.column(2).into_owned(), -Vec3::z());
@@ -192,8 +192,8 @@ fn parts_of_a_mesh_are_rigid_or_not() {
     let gone = ["mesh.1", "mesh.5", "mesh.14"];
     assert!(model.nodes.iter().all(|node| !gone.contains(&node.label.as_str())));
     let [rim, rib] = ["mesh.8", "mesh.6"].map(|label| node(&model, label));
-    let rider = model.constraints.dependents.iter().find(|rider| rider.node == rim).unwrap();
-    assert_eq!((rider.master, rider.dofs), (rib, [true; 6]));
+    let dependent = model.constraints.dependents.iter().find(|dependent| dependent.node == rim).unwrap();
+    assert_eq!((dependent.master, dependent.dofs), (rib, [true; 6]));
 }
 
 #[test]
@@ -204,8 +204,8 @@ fn one_word_makes_a_beam_rigid_that_nodes_are_attached_to() {
     let ribs = model.bodies.iter().find(|body| body.name == "ribs").expect("a body");
     for label in ["mesh.8", "mesh.9"] {
         let label = node(&model, label);
-        let rider = model.constraints.dependents.iter().find(|rider| rider.node == label).expect("it rides");
-        assert_eq!((rider.master, rider.dofs), (ribs.node, [true; 6]));
+        let dependent = model.constraints.dependents.iter().find(|dependent| dependent.node == label).expect("it rides");
+        assert_eq!((dependent.master, dependent.dofs), (ribs.node, [true; 6]));
     }
 }
 

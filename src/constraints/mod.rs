@@ -1,5 +1,5 @@
 //! Nodes that follow other nodes, by elimination or by multipliers.
 
-pub mod attachment;
+pub mod rigid_link;
 pub mod joint;
 pub mod joints;

@@ -219,9 +219,9 @@ impl<'d> Finder<'_, 'd> {
         let mut corners = Vec::new();
         match &shape {
             Drawn::Faces { .. } => {
-                let riders: HashMap<usize, usize> =
+                let dependents: HashMap<usize, usize> =
                     self.topology.dependents.iter().map(|r| (r.node, r.master)).collect();
-                let mut nodes: Vec<usize> = riders.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
+                let mut nodes: Vec<usize> = dependents.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
                 nodes.sort_unstable();
                 return found.extend(nodes.into_iter().map(|node| Touch::node(node, 0.0)));
             }
@@ -251,8 +251,8 @@ impl<'d> Finder<'_, 'd> {
         }
         let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
         for (k, corner) in corners.into_iter().enumerate() {
-            let rider = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
-            found.push(Touch::node(rider, 0.0));
+            let dependent = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
+            found.push(Touch::node(dependent, 0.0));
         }
     }
 }

@@ -41,7 +41,7 @@ fn kept(model: &mut Model) -> Vec<bool> {
     visit_nodes(model, &mut |node| kept[*node] = true);
     // A dependent node needs the one that it depends on.
     let mut masters = vec![None; kept.len()];
-    model.constraints.dependents.iter().for_each(|rider| masters[rider.node] = Some(rider.master));
+    model.constraints.dependents.iter().for_each(|dependent| masters[dependent.node] = Some(dependent.master));
     for node in 0..kept.len() {
         let mut next = if kept[node] { masters[node] } else { None };
         while let Some(master) = next.filter(|&master| !kept[master]) {
@@ -61,9 +61,9 @@ fn renumber(model: &mut Model, kept: &[bool]) {
     }
     let mut flags = kept.iter();
     model.nodes.retain(|_| flags.next().copied().unwrap_or(true));
-    model.constraints.dependents.retain(|rider| kept[rider.node]);
-    for rider in &mut model.constraints.dependents {
-        (rider.node, rider.master) = (number[rider.node], number[rider.master]);
+    model.constraints.dependents.retain(|dependent| kept[dependent.node]);
+    for dependent in &mut model.constraints.dependents {
+        (dependent.node, dependent.master) = (number[dependent.node], number[dependent.master]);
     }
     visit_nodes(model, &mut |node| *node = number[*node]);
 }

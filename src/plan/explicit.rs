@@ -77,7 +77,7 @@ impl Plan {
             return Vec::new();
         }
         let master = |node: usize| {
-            model.constraints.dependents.iter().find(|rider| rider.node == node).map(|rider| rider.master)
+            model.constraints.dependents.iter().find(|dependent| dependent.node == node).map(|dependent| dependent.master)
         };
         let moves = |mut node: usize, dof: usize| {
             while let (DofStatus::Dependent, Some(next)) = (self.nodes[node][dof], master(node)) {
@@ -92,17 +92,17 @@ impl Plan {
             };
             self.nodes[node][dof] == DofStatus::Unknown || driven()
         };
-        let half = model.constraints.dependents.iter().filter(|rider| {
-            (3..6).any(|dof| self.nodes[rider.node][dof] == DofStatus::Unknown)
-                && (3..6).any(|dof| rider.dofs[dof] && moves(rider.master, dof))
+        let half = model.constraints.dependents.iter().filter(|dependent| {
+            (3..6).any(|dof| self.nodes[dependent.node][dof] == DofStatus::Unknown)
+                && (3..6).any(|dof| dependent.dofs[dof] && moves(dependent.master, dof))
         });
-        let error = |rider: &crate::model::DependentNode| {
-            let [node, master] = [rider.node, rider.master].map(|node| &model.nodes[node].label);
+        let error = |dependent: &crate::model::DependentNode| {
+            let [node, master] = [dependent.node, dependent.master].map(|node| &model.nodes[node].label);
             let message = format!(
                 "`{node}` turns with `{master}` about some axes only, which \"{}\" does not follow",
                 model.solution.scheme.word()
             );
-            placed(Diagnostic::error(message).hint("a joint of kind \"revolute\", or another scheme"), rider.place)
+            placed(Diagnostic::error(message).hint("a joint of kind \"revolute\", or another scheme"), dependent.place)
         };
         half.take(MOST).map(error).collect()
     }

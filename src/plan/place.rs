@@ -55,9 +55,9 @@ pub fn place(model: &Model, system: &System) -> Vec<Place> {
             }
         }
     }
-    for rider in &model.constraints.dependents {
-        for dof in (0..6).filter(|&d| rider.dofs[d]) {
-            places[rider.node][dof] = DofStatus::Dependent;
+    for dependent in &model.constraints.dependents {
+        for dof in (0..6).filter(|&d| dependent.dofs[d]) {
+            places[dependent.node][dof] = DofStatus::Dependent;
         }
     }
     for held in &model.constraints.restraints {
@@ -66,7 +66,7 @@ pub fn place(model: &Model, system: &System) -> Vec<Place> {
     places
 }
 
-/// Directions on which elements, links or riders act.
+/// Directions on which elements, links or dependent nodes act.
 fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     let mut acts = vec![[false; 6]; n];
     for group in &system.groups {
@@ -94,16 +94,16 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     // Per node: whether it has mass, and whether that has inertia.
     let mut massive = vec![None; n];
     system.inertias.iter().for_each(|i| massive[i.node] = Some(i.rotary));
-    // What acts on a rider acts on its master; a force at an arm turns it.
-    for rider in system.attachments.iter().rev() {
-        for dof in (0..6).filter(|&d| rider.dofs[d]) {
-            let heavy = massive[rider.node].is_some_and(|rotary| dof < 3 || rotary);
-            if !(acts[rider.node][dof] || heavy) {
+    // What acts on a dependent node acts on its master; a force at an arm turns it.
+    for dependent in system.rigid_links.iter().rev() {
+        for dof in (0..6).filter(|&d| dependent.dofs[d]) {
+            let heavy = massive[dependent.node].is_some_and(|rotary| dof < 3 || rotary);
+            if !(acts[dependent.node][dof] || heavy) {
                 continue;
             }
-            acts[rider.master][dof] = true;
-            if dof < 3 && rider.S0 != Vec3::zeros() {
-                acts[rider.master][3..6].fill(true);
+            acts[dependent.master][dof] = true;
+            if dof < 3 && dependent.S0 != Vec3::zeros() {
+                acts[dependent.master][3..6].fill(true);
             }
         }
     }
@@ -168,13 +168,13 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
             moved[3 + i] |= dynamic && node.omega[i] != 0.0;
         }
     }
-    // What moves a rider moves its master; at an arm it turns it.
-    for rider in system.attachments.iter().rev() {
-        let of_rider = moved[rider.node];
-        for dof in (0..6).filter(|&d| rider.dofs[d] && of_rider[d]) {
-            moved[rider.master][dof] = true;
-            if dof < 3 && rider.S0 != Vec3::zeros() {
-                moved[rider.master][3..6].fill(true);
+    // What moves a dependent node moves its master; at an arm it turns it.
+    for dependent in system.rigid_links.iter().rev() {
+        let of_dependent = moved[dependent.node];
+        for dof in (0..6).filter(|&d| dependent.dofs[d] && of_dependent[d]) {
+            moved[dependent.master][dof] = true;
+            if dof < 3 && dependent.S0 != Vec3::zeros() {
+                moved[dependent.master][3..6].fill(true);
             }
         }
     }
@@ -184,12 +184,12 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
         turn(&mut moved[inertia.node]);
     }
     // A master that turns takes along what rides, and by inertia the rotations that this one has of its own.
-    for rider in &system.attachments {
-        for dof in (3..6).filter(|&d| rider.dofs[d]) {
-            moved[rider.node][dof] |= moved[rider.master][dof];
+    for dependent in &system.rigid_links {
+        for dof in (3..6).filter(|&d| dependent.dofs[d]) {
+            moved[dependent.node][dof] |= moved[dependent.master][dof];
         }
-        if rotary[rider.node] {
-            turn(&mut moved[rider.node]);
+        if rotary[dependent.node] {
+            turn(&mut moved[dependent.node]);
         }
     }
     moved

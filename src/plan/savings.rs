@@ -36,7 +36,7 @@ impl Plan {
             let sizes = self.sizes_with(why);
             compare(what, &grouped(&sizes, cliques(system, sizes.len()), system.joints.len()));
         }
-        if !system.attachments.is_empty() {
+        if !system.rigid_links.is_empty() {
             compare("Lagrange multipliers of dependent nodes", &self.with_multipliers(system));
         }
         if self.kind == Factorization::Cholesky && !self.linear {
@@ -61,7 +61,7 @@ impl Plan {
     fn with_multipliers(&self, system: &System) -> Structure {
         let mut sizes = self.sizes_with(DofStatus::Dependent);
         let nodes = sizes.len();
-        sizes.extend(system.attachments.iter().map(|rider| rider.dofs.iter().filter(|&&rides| rides).count()));
-        grouped(&sizes, loose_cliques(system, nodes), system.joints.len() + system.attachments.len())
+        sizes.extend(system.rigid_links.iter().map(|dependent| dependent.dofs.iter().filter(|&&rides| rides).count()));
+        grouped(&sizes, loose_cliques(system, nodes), system.joints.len() + system.rigid_links.len())
     }
 }

@@ -104,7 +104,7 @@ mod tests {
         let mut random = SmallRng::seed_from_u64(4);
         for section in random_sections() {
             let strain = nalgebra::Vector6::from_fn(|_, _| random.random_range(-1.0..1.0));
-            let (gamma, kappa) = (crate::math::top(&strain), crate::math::bottom(&strain));
+            let (gamma, kappa) = (crate::math::linear(&strain), crate::math::angular(&strain));
             let [ys, zs] = section.shear_center;
             let shear = gamma + kappa.cross(&crate::math::Vec3::new(0.0, ys, zs));
             let (E, G) = (2.6, 1.0); // ν = 0.3

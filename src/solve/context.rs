@@ -71,7 +71,7 @@ pub fn at_rest(model: &Model) -> Vec<Node> {
 fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> {
     let n = model.nodes.len();
     let mut follows = vec![false; n];
-    system.attachments.iter().filter(|dependent| dependent.rigid).for_each(|dependent| follows[dependent.node] = true);
+    system.rigid_links.iter().filter(|dependent| dependent.rigid).for_each(|dependent| follows[dependent.node] = true);
     let mut driven = vec![false; n];
     model.constraints.restraints.iter().for_each(|held| driven[held.node] |= held.motion.is_some());
     let moves = |i: &usize| !follows[*i] && (driven[*i] || (0..6).any(|dof| plan.is_unknown(*i, dof)));
@@ -83,7 +83,7 @@ fn driving(model: &Model, system: &System) -> Vec<usize> {
     let mut leads = vec![false; model.nodes.len()];
     system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
     // Dependent nodes come after their masters.
-    for dependent in system.attachments.iter().rev() {
+    for dependent in system.rigid_links.iter().rev() {
         leads[dependent.master] |= leads[dependent.node];
     }
     let moves = |(_, held): &(usize, &Restraint)| held.motion.is_some() && leads[held.node];

@@ -122,7 +122,7 @@ pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme:
 
 /// Moves dependent nodes after their masters, from where they were at `start`.
 pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) {
-    for dependent in &cx.system.attachments {
+    for dependent in &cx.system.rigid_links {
         dependent.follow(&mut ws.trial, &mut ws.increments, &start[dependent.node]);
     }
 }

@@ -97,7 +97,7 @@ fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
         }
     }
     // Where a prescribed motion starts turned, dependent nodes start turned in the directions that follow.
-    for dependent in &cx.system.attachments {
+    for dependent in &cx.system.rigid_links {
         let turn = rotation::log(&state.nodes[dependent.master].q);
         let following = Vec3::from_fn(|i, _| if dependent.dofs[3 + i] { turn[i] } else { 0.0 });
         let node = &mut state.nodes[dependent.node];
@@ -116,7 +116,7 @@ fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut
         let (d, dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
         *increment = Increment { q: Vec6::zeros(), d, dd };
     }
-    for dependent in &cx.system.attachments {
+    for dependent in &cx.system.rigid_links {
         let start = nodes[dependent.node];
         dependent.follow(nodes, &mut ws.increments, &start);
     }

@@ -20,7 +20,7 @@ const CHUNK: usize = 256;
 pub struct Assembly {
     /// Per group, per element.
     groups: Vec<Vec<Place>>,
-    /// Nodes that have a matrix of their own: inertia, nodal damping, follower loads, arms of riders.
+    /// Nodes that have a matrix of their own: inertia, nodal damping, follower loads, arms of dependent nodes.
     nodes: Vec<(usize, Place)>,
     masses: Vec<Place>,
     /// Of the faces under pressures that follow, in their order.
@@ -115,12 +115,12 @@ pub struct Weights {
 /// Which nodes a node's motion depends on: itself, or the roots it rides on (and itself for directions of its own).
 pub fn roots(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let mut roots: Vec<Vec<usize>> = (0..nodes).map(|n| vec![n]).collect();
-    for rider in &system.attachments {
-        let mut of = roots[rider.master].clone();
-        if !rider.rigid {
-            of.push(rider.node);
+    for dependent in &system.rigid_links {
+        let mut of = roots[dependent.master].clone();
+        if !dependent.rigid {
+            of.push(dependent.node);
         }
-        roots[rider.node] = of;
+        roots[dependent.node] = of;
     }
     roots
 }
@@ -132,33 +132,33 @@ pub fn carries(system: &System, nodes: &[Node], roots: &[Vec<usize>]) -> Vec<Vec
     carry
 }
 
-/// How each rider moves with its roots, by the chain of arms.
+/// How each dependent node moves with its roots, by the chain of arms.
 fn carry_over(system: &System, nodes: &[Node], roots: &[Vec<usize>], carry: &mut [Vec<Mat6>]) {
-    for rider in &system.attachments {
-        let D = rider.D(nodes);
-        for k in 0..roots[rider.master].len() {
-            carry[rider.node][k] = D * carry[rider.master][k];
+    for dependent in &system.rigid_links {
+        let D = dependent.D(nodes);
+        for k in 0..roots[dependent.master].len() {
+            carry[dependent.node][k] = D * carry[dependent.master][k];
         }
-        if !rider.rigid {
-            let own = roots[rider.node].len() - 1;
-            let free = rider.dofs.map(|taken| if taken { 0.0 } else { 1.0 });
-            carry[rider.node][own] = Mat6::from_diagonal(&free.into());
+        if !dependent.rigid {
+            let own = roots[dependent.node].len() - 1;
+            let free = dependent.dofs.map(|taken| if taken { 0.0 } else { 1.0 });
+            carry[dependent.node][own] = Mat6::from_diagonal(&free.into());
         }
     }
 }
 
-/// Nodes that are coupled with one another, one list per element or nodal matrix; riders replaced by their roots. `nodes`
+/// Nodes that are coupled with one another, one list per element or nodal matrix; dependent nodes replaced by their roots. `nodes`
 /// counts the joints too: their multipliers are nodes after all others.
 pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     coupled(system, nodes, &roots(system, nodes))
 }
 
-/// As [`cliques`], but with multipliers in place of elimination: every rider moves by itself, held to its master by one more
+/// As [`cliques`], but with multipliers in place of elimination: every dependent node moves by itself, held to its master by one more
 /// node, which stands after all others.
 pub fn loose_cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
     let mut cliques = coupled(system, nodes, &alone);
-    cliques.extend(system.attachments.iter().enumerate().map(|(k, rider)| vec![rider.master, rider.node, nodes + k]));
+    cliques.extend(system.rigid_links.iter().enumerate().map(|(k, dependent)| vec![dependent.master, dependent.node, nodes + k]));
     cliques
 }
 
@@ -247,7 +247,7 @@ impl Assembly {
         system.inertias.iter().for_each(|i| has_own[i.node] = true);
         system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
         system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
-        system.attachments.iter().for_each(|r| is_full[r.master] = true);
+        system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
         let apart = |i: usize, j: usize| i == j || (i > 2 && j > 2);
         let own: Vec<(usize, Place)> = (0..nodes)
             .filter(|&n| has_own[n] || is_full[n])
@@ -414,8 +414,8 @@ impl Assembly {
             add(load.node, 0, f);
             add(load.node, 3, m);
         }
-        for (rider, f) in system.attachments.iter().zip(&forces.on_dependents) {
-            add(rider.master, 3, -rider.arm_stiffness(nodes, f));
+        for (dependent, f) in system.rigid_links.iter().zip(&forces.on_dependents) {
+            add(dependent.master, 3, -dependent.arm_stiffness(nodes, f));
         }
     }
 

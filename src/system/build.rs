@@ -25,8 +25,8 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
             .constraints
             .dependents
             .iter()
-            .filter(|rider| rider.master == body.node)
-            .for_each(|rider| tied[rider.node] = true);
+            .filter(|dependent| dependent.master == body.node)
+            .for_each(|dependent| tied[dependent.node] = true);
     }
     let mut masses = Masses { x, tied, lumped: Lumped::new(x.len()), consistent: Vec::new() };
     model.bodies.iter().for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));

@@ -43,11 +43,11 @@ impl ConstraintSchur {
         }
         let root = |node: usize| {
             let mut node = node;
-            while let Some(rider) = system.attachments.iter().find(|rider| rider.node == node) {
-                if !rider.rigid {
+            while let Some(dependent) = system.rigid_links.iter().find(|dependent| dependent.node == node) {
+                if !dependent.rigid {
                     return None;
                 }
-                node = rider.master;
+                node = dependent.master;
             }
             Some(node)
         };

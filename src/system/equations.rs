@@ -8,7 +8,7 @@ use super::multipliers::Multipliers;
 use super::scale::Scale;
 use super::watched::Watched;
 use super::{build, lanes, plane};
-use crate::constraints::attachment::{self, Attachment};
+use crate::constraints::rigid_link::{self, RigidLink};
 use crate::constraints::joint::Joint;
 use crate::elements::Force;
 use crate::materials::Dissipation;
@@ -24,8 +24,8 @@ pub struct System {
     /// At most one per node, by node.
     pub inertias: Vec<Inertia>,
     pub(super) consistent: Vec<ConsistentMass>,
-    /// Masters before their riders.
-    pub attachments: Vec<Attachment>,
+    /// Masters before their dependent nodes.
+    pub rigid_links: Vec<RigidLink>,
     /// In the order of the model's list, without the rows that a plane motion does not need.
     pub joints: Vec<Joint>,
     pub(super) watched: Vec<Watched>,
@@ -48,7 +48,7 @@ pub struct System {
 pub struct Forces {
     /// f_ext − f_int − C v − M a per node; what falls on a constrained direction has been handed to the master.
     pub on_nodes: Vec<Force>,
-    /// The forces so handed over, in the order of [`System::attachments`].
+    /// The forces so handed over, in the order of [`System::rigid_links`].
     pub on_dependents: Vec<Vec3>,
     pub multipliers: Multipliers,
     lanes: Vec<Lane>,
@@ -60,7 +60,7 @@ impl Forces {
     pub fn new(system: &System, nodes: usize) -> Self {
         Forces {
             on_nodes: vec![[0.0; 6]; nodes],
-            on_dependents: vec![Vec3::zeros(); system.attachments.len()],
+            on_dependents: vec![Vec3::zeros(); system.rigid_links.len()],
             multipliers: Multipliers::new(system.multipliers()),
             lanes: lanes::lanes(&system.groups),
             threads: false,
@@ -75,14 +75,14 @@ impl Forces {
 
 impl System {
     /// # Errors
-    /// A cycle among attachments, which [`crate::model`] excludes.
+    /// Fails on a cycle among the rigid links, which [`crate::model`] excludes.
     pub fn new(model: &Model) -> Result<System, String> {
         let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
-        let attachments =
-            model.constraints.dependents.iter().map(|r| Attachment::new(r.node, r.master, &x, r.dofs)).collect();
-        let attachments = attachment::sorted(attachments, x.len()).ok_or("the attachments form a cycle")?;
+        let rigid_links =
+            model.constraints.dependents.iter().map(|r| RigidLink::new(r.node, r.master, &x, r.dofs)).collect();
+        let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
         let (inertias, consistent) = build::masses(model, &x);
-        let plane = plane::normal(model, &inertias, &attachments);
+        let plane = plane::normal(model, &inertias, &rigid_links);
         let (groups, watched) = build::groups(model, &x, plane);
         let joints = build::joints(model, &x, plane);
         let contacts = groups.iter().position(|group| group.kind == PartKind::Contact);
@@ -92,7 +92,7 @@ impl System {
             groups,
             inertias,
             consistent,
-            attachments,
+            rigid_links,
             joints,
             gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
             plane,
@@ -113,7 +113,7 @@ impl System {
             history: 0,
             inertias: self.inertias.clone(),
             consistent: self.consistent.clone(),
-            attachments: self.attachments.clone(),
+            rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),
             watched: Vec::new(),
             loads: Vec::new(),
@@ -195,9 +195,9 @@ impl System {
 
     pub(super) fn transfer_to_masters(&self, nodes: &[Node], forces: &mut Forces) {
         let F = &mut forces.on_nodes[..];
-        for (rider, force) in self.attachments.iter().zip(&mut forces.on_dependents).rev() {
-            *force = Vec3::new(F[rider.node][0], F[rider.node][1], F[rider.node][2]);
-            rider.transfer_to_masters(nodes, F);
+        for (dependent, force) in self.rigid_links.iter().zip(&mut forces.on_dependents).rev() {
+            *force = Vec3::new(F[dependent.node][0], F[dependent.node][1], F[dependent.node][2]);
+            dependent.transfer_to_masters(nodes, F);
         }
     }
 
@@ -276,7 +276,7 @@ impl System {
     /// True when no term of the equation of motion depends on the motion other than linearly, with a constant matrix.
     pub fn is_linear(&self) -> bool {
         self.groups.iter().all(|g| g.block.is_linear())
-            && self.attachments.is_empty()
+            && self.rigid_links.is_empty()
             && self.joints.is_empty()
             && self.loads.iter().all(|l| !l.follower)
             && self.pressures.is_empty()
@@ -284,12 +284,12 @@ impl System {
 }
 
 impl System {
-    /// Small motions of riders from those of their masters, about the nodes as they lie: D of (48).
+    /// Small motions of dependent nodes from those of their masters, about the nodes as they lie: D of (48).
     pub fn carry(&self, nodes: &[Node], motions: &mut [Vec6]) {
-        for rider in &self.attachments {
-            let carried = rider.D(nodes) * motions[rider.master];
-            for i in (0..6).filter(|&i| rider.dofs[i]) {
-                motions[rider.node][i] = carried[i];
+        for dependent in &self.rigid_links {
+            let carried = dependent.D(nodes) * motions[dependent.master];
+            for i in (0..6).filter(|&i| dependent.dofs[i]) {
+                motions[dependent.node][i] = carried[i];
             }
         }
     }

@@ -75,10 +75,10 @@ impl System {
         for node in self.consistent.iter().flat_map(|mass| &mass.nodes) {
             massive[*node][0] = true;
         }
-        for rider in self.attachments.iter().rev() {
-            let [moves, turns] = massive[rider.node];
-            massive[rider.master][0] |= moves && rider.dofs[..3].contains(&true);
-            massive[rider.master][1] |= turns && rider.dofs[3..].contains(&true);
+        for dependent in self.rigid_links.iter().rev() {
+            let [moves, turns] = massive[dependent.node];
+            massive[dependent.master][0] |= moves && dependent.dofs[..3].contains(&true);
+            massive[dependent.master][1] |= turns && dependent.dofs[3..].contains(&true);
         }
         massive
     }

@@ -58,7 +58,7 @@ pub struct Motion {
 }
 
 impl Masses {
-    /// `None`: masses of several nodes belong together, by their elements or by riders that turn on their own.
+    /// `None`: masses of several nodes belong together, by their elements or by dependent nodes that turn on their own.
     pub fn new(system: &System, dofs: &DofMap) -> Option<Masses> {
         if !system.consistent.is_empty() {
             return None;
@@ -66,21 +66,21 @@ impl Masses {
         // Mass, its moment, inertia about the node.
         let mut sums = vec![(0.0, Vec3::zeros(), Mat3::zeros()); dofs.nodes()];
         let mut rides = vec![None; dofs.nodes()];
-        system.attachments.iter().for_each(|rider| rides[rider.node] = Some(rider));
+        system.rigid_links.iter().for_each(|dependent| rides[dependent.node] = Some(dependent));
         let point = |mass: f64, s: &Vec3| -mass * skew(s) * skew(s);
         for inertia in &system.inertias {
             let (mut node, mut arm, mut J0) = (inertia.node, Vec3::zeros(), inertia.J0);
-            while let Some(rider) = rides[node] {
-                if !rider.rigid {
+            while let Some(dependent) = rides[node] {
+                if !dependent.rigid {
                     // A ball joint takes over the mass and leaves the inertia.
-                    if rider.dofs != [true, true, true, false, false, false] || node != inertia.node {
+                    if dependent.dofs != [true, true, true, false, false, false] || node != inertia.node {
                         return None;
                     }
                     sums[node].2 += J0;
                     J0 = Mat3::zeros();
                 }
-                arm += rider.S0;
-                node = rider.master;
+                arm += dependent.S0;
+                node = dependent.master;
             }
             let (mass, moment, J) = &mut sums[node];
             *mass += inertia.mass;

@@ -1,15 +1,15 @@
 //! Scenes that move in a plane.
 
 use super::inertia::Inertia;
-use crate::constraints::attachment::Attachment;
+use crate::constraints::rigid_link::RigidLink;
 use crate::math::{Mat3, Vec3, skew};
 use crate::model::{Joint, Link, LinkKind, Loading, Model, Node, Part};
 use crate::sections::Stiffness;
 
 /// The global axis normal to the plane of a scene in which nothing can move out of it, where the deck does not ask to keep
 /// what is out of it.
-pub fn normal(model: &Model, inertias: &[Inertia], attachments: &[Attachment]) -> Option<usize> {
-    if model.analysis.plane { (0..3).rev().find(|&n| is_plane(model, inertias, attachments, n)) } else { None }
+pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
+    if model.analysis.plane { (0..3).rev().find(|&n| is_plane(model, inertias, rigid_links, n)) } else { None }
 }
 
 /// What rounding leaves of a zero, relative to the entries beside it.
@@ -22,7 +22,7 @@ struct Plane {
     size: f64,
 }
 
-fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], normal: usize) -> bool {
+fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], normal: usize) -> bool {
     let Some(first) = model.nodes.first() else { return false };
     let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
     let plane = Plane { normal, size };
@@ -34,7 +34,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], attachments: &[Attachment], nor
         && inertias.iter().all(|i| plane.keeps_apart(&i.J0))
         && model.parts.iter().all(|part| plane.holds_part(part, &model.stiffnesses))
         // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
-        && attachments.iter().all(|a| plane.pairs_rightly(&skew(&a.S0)) || a.S0 == Vec3::zeros())
+        && rigid_links.iter().all(|a| plane.pairs_rightly(&skew(&a.S0)) || a.S0 == Vec3::zeros())
 }
 
 impl Plane {

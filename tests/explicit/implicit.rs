@@ -62,7 +62,7 @@ fn yielding_steel_as_by_wilson() {
     assert!(off < 2e-3, "{off}");
 }
 
-/// Masses of several nodes that belong together, and riders that turn on their own.
+/// Masses of several nodes that belong together, and dependent nodes that turn on their own.
 #[test]
 fn consistent_masses_as_by_wilson() {
     let mesh = [

@@ -147,7 +147,7 @@ fn tumbling_rotor() -> Vec<Vec<f64>> {
     rows
 }
 
-/// A rider that turns with its master about two axes.
+/// A dependent node that turns with its master about two axes.
 #[test]
 fn order_with_rotations_of_its_own() {
     let exact = tumbling_rotor();

@@ -122,7 +122,7 @@ fn static_reactions_balance_the_loads() {
             let R = if load.follower { node.R() } else { Mat3::identity() };
             add(&node.x, R * load.force, R * load.moment);
         }
-        // Weight as the system spreads it over the nodes: what remains of it without elements, loads and riders.
+        // Weight as the system spreads it over the nodes: what remains of it without elements, loads and dependent nodes.
         let mut stripped = m.clone();
         stripped.constraints.dependents.clear();
         stripped.loading.nodal.clear();

@@ -40,11 +40,11 @@ fn a_mass_is_a_body_on_its_node_or_a_point_mass_with_inertia() {
     let (m0, J) = (3.0, inertia(&mut rng, 1.0));
     let (mut point, tip) = arm(0.01);
     mass(&mut point, tip, m0, J);
-    let (mut rider, other) = arm(0.01);
-    let x = rider.nodes[other].x;
-    let block = body(&mut rider, x, m0, J);
-    ride(&mut rider, other, block, ALL);
-    let e = off((&point, tip), (&rider, other));
+    let (mut dependent, other) = arm(0.01);
+    let x = dependent.nodes[other].x;
+    let block = body(&mut dependent, x, m0, J);
+    ride(&mut dependent, other, block, ALL);
+    let e = off((&point, tip), (&dependent, other));
     assert!(e < SAME, "a body that carries the node: {e:e}");
     // The other way round: the body's node rides on the tip.
     let (mut carried, tip2) = arm(0.01);
@@ -54,7 +54,7 @@ fn a_mass_is_a_body_on_its_node_or_a_point_mass_with_inertia() {
     assert!(e < SAME, "a body on the node: {e:e}");
 }
 
-/// A body held by one node; by that and two more on a line, which nothing else holds; and by a chain of riders.
+/// A body held by one node; by that and two more on a line, which nothing else holds; and by a chain of dependent nodes.
 #[test]
 fn more_nodes_on_a_body_change_nothing() {
     let mut rng = StdRng::seed_from_u64(62);

@@ -1,4 +1,4 @@
-//! What the plan leaves out must not move: causes that reach a mass by way of riders, given motion and inertia.
+//! What the plan leaves out must not move: causes that reach a mass by way of dependent nodes, given motion and inertia.
 
 use super::scene::*;
 use rand::SeedableRng;
@@ -15,7 +15,7 @@ fn drive(m: &mut Model, node: usize, dof: usize, amplitude: Amplitude, scale: f6
 
 const SWING: Amplitude = Amplitude::SineSquared { angular_frequency: 1.5, start: 0.0, end: f64::INFINITY };
 
-/// A force on a point that only rides, also on a rider: the body flies and turns as under the force and its moment.
+/// A force on a point that only rides, also on a dependent node: the body flies and turns as under the force and its moment.
 #[test]
 fn a_load_on_a_bare_rider_moves_the_body() {
     for links in [1, 2] {

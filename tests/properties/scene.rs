@@ -225,8 +225,8 @@ pub fn sine_squared(m: &mut Model, angular_frequency: f64) -> usize {
     m.loading.amplitudes.len() - 1
 }
 
-/// A structure of one of each: beams of all orders and masses, a bar, links, a bushing; a body with riders of all six
-/// directions, of translations only, and on a rider; an offset node on a free node; loads that follow.
+/// A structure of one of each: beams of all orders and masses, a bar, links, a bushing; a body with dependent nodes of all six
+/// directions, of translations only, and on a dependent node; an offset node on a free node; loads that follow.
 pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
     let mut m = empty(kind, 1.0, time_step);
     section(&mut m);
@@ -246,7 +246,7 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
     beam(&mut m, [p[5], out], 1, 3, Vec3::new(0.0, 1.0, 0.1), MassKind::Lumped);
     let offset = node(&mut m, centre + Vec3::new(-1.3, 1.4, 2.8));
     ride(&mut m, offset, out, ALL);
-    // A rider on a rider.
+    // A dependent node on a dependent node.
     let far = node(&mut m, centre + Vec3::new(0.7, 0.4, -0.6));
     let farther = node(&mut m, centre + Vec3::new(1.2, 0.1, -1.1));
     ride(&mut m, far, hub, ALL);

@@ -54,9 +54,9 @@ impl Instant {
         for (increment, node) in still.iter_mut().zip(&start) {
             (increment.d, increment.dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
         }
-        for rider in &system.attachments {
-            let before = start[rider.node];
-            rider.follow(&mut start, &mut still, &before);
+        for dependent in &system.rigid_links {
+            let before = start[dependent.node];
+            dependent.follow(&mut start, &mut still, &before);
         }
         let q = start
             .iter()
@@ -77,8 +77,8 @@ impl Instant {
             self.scheme.differentiate(&mut increments[i], &v, &a, &a);
             nodes[i].advance(start, &increments[i], RotationUpdate::Exponential);
         }
-        for rider in &self.system.attachments {
-            rider.follow(&mut nodes, &mut increments, &self.start[rider.node]);
+        for dependent in &self.system.rigid_links {
+            dependent.follow(&mut nodes, &mut increments, &self.start[dependent.node]);
         }
         nodes
     }
@@ -156,7 +156,7 @@ fn of_a_static_scene_is_exact() {
     }
 }
 
-/// Pressure on faces between free nodes, riders and what holds them.
+/// Pressure on faces between free nodes, dependent nodes and what holds them.
 fn press(m: &mut Model) {
     let n = m.nodes.len();
     let faces = vec![Face::Quadrilateral([1, 4, 5, 3]), Face::Triangle([2, n - 3, 5]), Face::Triangle([4, 3, n - 1])];
@@ -209,14 +209,14 @@ fn errors(scene: &Model, seed: u64, step: f64) -> Vec<f64> {
 fn in_motion_errs_by_second_order_of_the_step() {
     let mut rng = StdRng::seed_from_u64(3);
     let mut scene = zoo(&mut rng, AnalysisKind::Dynamic, 0.1);
-    // Nothing massive on a rider: the beams between riders without mass.
+    // Nothing massive on a dependent node: the beams between dependent nodes without mass.
     for beam in scene.each_mut::<Beam>() {
         beam.mass = MassKind::None;
     }
     scene.parts.retain(|part| part.kind() != PartKind::Bar);
-    let riders: Vec<usize> = scene.constraints.dependents.iter().map(|r| r.node).collect();
+    let dependents: Vec<usize> = scene.constraints.dependents.iter().map(|r| r.node).collect();
     for n in 0..scene.nodes.len() {
-        if !riders.contains(&n) {
+        if !dependents.contains(&n) {
             mass(&mut scene, n, 1.0, inertia(&mut rng, 0.5));
         }
     }
@@ -226,7 +226,7 @@ fn in_motion_errs_by_second_order_of_the_step() {
     assert!(order(e[0], e[1]) > 1.8 && order(e[1], e[2]) > 1.9, "{e:?}");
 }
 
-/// Riders' masses leave out the rates of g = ω×(ω×S), and dampers on riders those of the arm: first order.
+/// Masses of dependent nodes leave out the rates of g = ω×(ω×S), and dampers on dependent nodes those of the arm: first order.
 #[test]
 fn in_motion_with_massive_riders_errs_by_first_order_of_the_step() {
     let mut rng = StdRng::seed_from_u64(5);

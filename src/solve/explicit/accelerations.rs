@@ -158,7 +158,7 @@ impl Accelerations {
 
     /// Goes through the directions that depend on a master: what is missing there, beside the acceleration of the trial motion.
     fn visit_dependent_directions(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
-        for dependent in &cx.system.attachments {
+        for dependent in &cx.system.rigid_links {
             let (missing, node) = (&mut self.missing[dependent.node], &ws.trial[dependent.node]);
             let now = stack(&node.a, &node.alpha);
             (0..6).filter(|&i| dependent.dofs[i]).for_each(|i| visit(&mut missing[i], now[i]));
@@ -203,7 +203,7 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Fa
 
 /// Writes the accelerations of dependent nodes from those of their masters.
 fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
-    for dependent in &cx.system.attachments {
+    for dependent in &cx.system.rigid_links {
         let master = ws.trial[dependent.master];
         let S = dependent.arm(&master);
         let a = master.a + master.alpha.cross(&S) + master.omega.cross(&master.omega.cross(&S));

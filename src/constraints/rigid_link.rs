@@ -10,7 +10,7 @@ use crate::state::{Increment, Node};
 
 /// A node on its master.
 #[derive(Debug, Clone)]
-pub struct Attachment {
+pub struct RigidLink {
     pub node: usize,
     pub master: usize,
     /// The first of its masters, their masters and so on that is not attached in all directions: it has the same turn in a step.
@@ -25,12 +25,12 @@ pub struct Attachment {
     pub rigid: bool,
 }
 
-impl Attachment {
+impl RigidLink {
     /// `x`: initial positions of all nodes.
     pub fn new(node: usize, master: usize, x: &[Vec3], dofs: [bool; 6]) -> Self {
         let start = [x[master], x[node]];
         let rigid = dofs == [true; 6];
-        Attachment { node, master, turner: master, S0: start[1] - start[0], start, dofs, rigid }
+        RigidLink { node, master, turner: master, S0: start[1] - start[0], start, dofs, rigid }
     }
 
     /// S = R_d S₀.
@@ -124,17 +124,17 @@ impl Attachment {
     }
 }
 
-/// Attachments in an order in which every master comes before its riders; `None` where there is a cycle.
-pub fn sorted(mut attachments: Vec<Attachment>, nodes: usize) -> Option<Vec<Attachment>> {
+/// Rigid links in an order in which every master comes before its dependent nodes; `None` where there is a cycle.
+pub fn sorted(mut links: Vec<RigidLink>, nodes: usize) -> Option<Vec<RigidLink>> {
     let mut waiting = vec![false; nodes];
-    for a in &attachments {
+    for a in &links {
         waiting[a.node] = true;
     }
-    let mut done: Vec<Attachment> = Vec::with_capacity(attachments.len());
+    let mut done: Vec<RigidLink> = Vec::with_capacity(links.len());
     let mut turner: Vec<usize> = (0..nodes).collect();
-    while !attachments.is_empty() {
+    while !links.is_empty() {
         let before = done.len();
-        let (ready, rest): (Vec<_>, Vec<_>) = attachments.into_iter().partition(|a| !waiting[a.master]);
+        let (ready, rest): (Vec<_>, Vec<_>) = links.into_iter().partition(|a| !waiting[a.master]);
         for mut a in ready {
             waiting[a.node] = false;
             a.turner = turner[a.master];
@@ -143,8 +143,8 @@ pub fn sorted(mut attachments: Vec<Attachment>, nodes: usize) -> Option<Vec<Atta
             }
             done.push(a);
         }
-        attachments = rest;
-        if done.len() == before && !attachments.is_empty() {
+        links = rest;
+        if done.len() == before && !links.is_empty() {
             return None;
         }
     }
