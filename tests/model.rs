@@ -204,7 +204,8 @@ fn one_word_makes_a_beam_rigid_that_nodes_are_attached_to() {
     let ribs = model.bodies.iter().find(|body| body.name == "ribs").expect("a body");
     for label in ["mesh.8", "mesh.9"] {
         let label = node(&model, label);
-        let dependent = model.constraints.dependents.iter().find(|dependent| dependent.node == label).expect("it rides");
+        let dependent =
+            model.constraints.dependents.iter().find(|dependent| dependent.node == label).expect("it rides");
         assert_eq!((dependent.master, dependent.dofs), (ribs.node, [true; 6]));
     }
 }

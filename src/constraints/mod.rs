@@ -1,5 +1,5 @@
 //! Nodes that follow other nodes, by elimination or by multipliers.
 
-pub mod rigid_link;
 pub mod joint;
 pub mod joints;
+pub mod rigid_link;

@@ -251,7 +251,8 @@ impl<'d> Finder<'_, 'd> {
         }
         let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
         for (k, corner) in corners.into_iter().enumerate() {
-            let dependent = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
+            let dependent =
+                self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
             found.push(Touch::node(dependent, 0.0));
         }
     }

@@ -77,7 +77,12 @@ impl Plan {
             return Vec::new();
         }
         let master = |node: usize| {
-            model.constraints.dependents.iter().find(|dependent| dependent.node == node).map(|dependent| dependent.master)
+            model
+                .constraints
+                .dependents
+                .iter()
+                .find(|dependent| dependent.node == node)
+                .map(|dependent| dependent.master)
         };
         let moves = |mut node: usize, dof: usize| {
             while let (DofStatus::Dependent, Some(next)) = (self.nodes[node][dof], master(node)) {

@@ -158,7 +158,9 @@ pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
 pub fn loose_cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
     let mut cliques = coupled(system, nodes, &alone);
-    cliques.extend(system.rigid_links.iter().enumerate().map(|(k, dependent)| vec![dependent.master, dependent.node, nodes + k]));
+    cliques.extend(
+        system.rigid_links.iter().enumerate().map(|(k, dependent)| vec![dependent.master, dependent.node, nodes + k]),
+    );
     cliques
 }
 

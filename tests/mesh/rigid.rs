@@ -147,7 +147,8 @@ fn one_word_makes_a_part_rigid() {
         .replace("[[loads]]\nat = \"plate\"\npressure = 2000.0\namplitude = \"push\"\n", "")
         .replace("at = \"plate.edge3\"", "at = \"plate.edge1\"");
     let left = model(&free);
-    let attached = left.constraints.dependents.iter().filter(|dependent| dependent.master == left.bodies[0].node).count();
+    let attached =
+        left.constraints.dependents.iter().filter(|dependent| dependent.master == left.bodies[0].node).count();
     // Four corners, and three more nodes along edge1, which a load names.
     assert_eq!(attached, 7, "{:?}", left.nodes.iter().map(|node| node.label.as_str()).collect::<Vec<_>>());
     let system = System::new(&rigid).unwrap();
