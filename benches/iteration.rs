@@ -130,10 +130,10 @@ fn measure(name: &str, mut model: Model) {
         |(_, solver)| solver.factor().expect("a regular matrix"),
     );
     let solve =
-        least(&mut (&mut solver, vec![1.0; plan.unknowns]), |(_, b)| b.fill(1.0), |(solver, b)| solver.solve(b));
+        least(&mut (&mut solver, vec![1.0; plan.dofs.unknowns()]), |(_, b)| b.fill(1.0), |(solver, b)| solver.solve(b));
     let micro = [force, tangent, factor, solve, force + tangent + factor + solve, force + solve, renewed, kept];
     let columns: Vec<String> = micro.iter().map(|seconds| format!("{:>11.2}", seconds * 1e6)).collect();
-    println!("{name:24} {:>8}{} {:?}", plan.unknowns, columns.concat(), plan.kind);
+    println!("{name:24} {:>8}{} {:?}", plan.dofs.unknowns(), columns.concat(), plan.kind);
 }
 
 fn main() {

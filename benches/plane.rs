@@ -47,7 +47,7 @@ fn main() {
             for (k, model) in models.iter().enumerate() {
                 let system = System::new(model).expect("a system");
                 let plan = Plan::new(model, &system, 1);
-                unknowns[k] = plan.unknowns;
+                unknowns[k] = plan.dofs.unknowns();
                 let mut run = Run::new(model, &system, &plan, Wanted::default(), &stop).expect("memory");
                 let began = Instant::now();
                 let (outcome, _) = run.run(&mut ());

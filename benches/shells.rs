@@ -140,7 +140,7 @@ fn measure(name: &str, text: String, threads: usize) {
         a.tangent(&system, &now, &loading, &mut forces, weights, s)
     };
     let factor = least(both, fill, |(_, s)| s.factor().expect("a regular matrix"));
-    let solve = least(&mut (&mut solver, vec![1.0; plan.unknowns]), |(_, b)| b.fill(1.0), |(s, b)| s.solve(b));
+    let solve = least(&mut (&mut solver, vec![1.0; plan.dofs.unknowns()]), |(_, b)| b.fill(1.0), |(s, b)| s.solve(b));
     let stats = solver.stats();
     let bytes = 8.0 * stats.nonzeros as f64;
     let peak = peak_memory().unwrap_or(f64::NAN);
@@ -148,7 +148,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let times = [force, tangent, factor, solve].map(|s| format!("{:>9.2}", 1e3 * s)).concat();
     println!(
         "{name:36} {:>7} {threads} {times} {:>6.2} {:>6.1}{planning} {:>7.0} {:>7.0} {:>5.2} {}",
-        plan.unknowns,
+        plan.dofs.unknowns(),
         tangent / factor,
         stats.flops / factor / 1e9,
         bytes / 1e6,

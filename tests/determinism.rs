@@ -291,16 +291,16 @@ fn a_path_of_a_roof() {
 
 /// Every number of a state, to the bit.
 fn bits(state: &State) -> Vec<u64> {
-    let State { time, nodes, history, jerk, reactions, multipliers, followers, work } = state;
-    let Work { external, damping, damping_power, material, swing, accelerations, step } = *work;
+    let State { time, nodes, history, jerk, reactions, multipliers, algorithmic_accelerations, work } = state;
+    let Work { external, damping, damping_power, material, verlet_energy_offset, accelerations, step } = *work;
     let Dissipation { plastic, viscous, stored, friction, impact } = material;
-    let mut numbers = vec![*time, external, damping, damping_power, swing, accelerations, step];
+    let mut numbers = vec![*time, external, damping, damping_power, verlet_energy_offset, accelerations, step];
     numbers.extend([plastic, viscous, stored, friction, impact]);
     for Node { x, low, q, v, omega, a, alpha } in nodes {
         numbers.extend([x, low, v, omega, a, alpha].into_iter().flatten());
         numbers.extend(q.coords.iter());
     }
-    numbers.extend(jerk.iter().chain(followers).flatten());
+    numbers.extend(jerk.iter().chain(algorithmic_accelerations).flatten());
     numbers.extend([history, reactions, multipliers].into_iter().flatten());
     assert!(numbers.iter().all(|number| number.is_finite()));
     numbers.into_iter().map(f64::to_bits).collect()

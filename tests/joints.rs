@@ -452,7 +452,7 @@ fn a_four_bar_linkage_turns_a_hundred_times_and_stays_closed() {
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
     assert_eq!(
-        plan.repeated.as_deref().map(<[usize]>::len),
+        plan.redundant_constraints.as_deref().map(<[usize]>::len),
         Some(3),
         "{:?}",
         rdsolve::plan::explain::redundant_constraints(&plan, &model, &system)
@@ -482,7 +482,7 @@ fn hinges_that_say_the_same_share_the_weight() {
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
     assert_eq!(
-        plan.repeated.as_deref().map(<[usize]>::len),
+        plan.redundant_constraints.as_deref().map(<[usize]>::len),
         Some(10),
         "{:?}",
         rdsolve::plan::explain::redundant_constraints(&plan, &model, &system)
@@ -671,7 +671,7 @@ motion = { ux = { amplitude = "ramp" } }
     for kind in ["static", "dynamic"] {
         let model = from_text(&scene(kind, 1.0, 0.5, rest));
         match support::run(&model, &mut |_| vec![]).outcome {
-            Outcome::Failed { failure: Failure::Apart { largest }, .. } => {
+            Outcome::Failed { failure: Failure::ConstraintsViolated { largest }, .. } => {
                 println!("{kind}: {largest:?}");
                 assert!(!largest.is_empty() && largest.iter().all(|gap| gap.residual != 0.0), "{kind}: {largest:?}");
             }

@@ -9,7 +9,7 @@ fn savings(name: &str, sets: &[&str]) -> (usize, Vec<String>) {
     let model = read(name, &sets);
     let system = System::new(&model).expect("a system");
     let plan = Plan::new(&model, &system, 1);
-    (plan.unknowns, plan.savings(&model, &system))
+    (plan.dofs.unknowns(), plan.savings(&model, &system))
 }
 
 /// The number before a word in a line.

@@ -75,7 +75,7 @@ pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagno
         Exit::Internal
     })?;
     let plan = Plan::new(&loaded.model, &system, threads);
-    let mut problems = plan.never_passed(&loaded.model);
+    let mut problems = plan.unreachable_targets(&loaded.model);
     problems.extend(plan.massless(&loaded.model, &system));
     problems.extend(plan.half_turning(&loaded.model));
     if !problems.is_empty() {

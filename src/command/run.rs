@@ -58,7 +58,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         quiet: args.quiet,
         began,
         plan: explained(&loaded, &plan, &system),
-        sizes: sizes(&loaded, plan.unknowns, system.multipliers()),
+        sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
     let computed = stop_on_signals(&stop).and_then(|()| job.compute(&mut run));

@@ -80,7 +80,7 @@ impl Scheme for GeneralizedAlpha {
     }
 
     /// `None` where a₁ is q̈₁.
-    fn follower(&self) -> Option<[f64; 3]> {
+    fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
         let m = 1.0 - self.alpha_m;
         let follows = self.alpha_m != 0.0 || self.alpha_f != 0.0;
         follows.then(|| [-self.alpha_m / m, self.alpha_f / m, (1.0 - self.alpha_f) / m])
@@ -99,7 +99,7 @@ mod tests {
         let rate = c.rate[0] * q + c.rate[1] * v + c.rate[2] * a;
         let [c1, c2, c3, c4] = c.acceleration;
         let acceleration = c1 * q + c2 * v + c3 * a + c4 * b;
-        let [of_a, of_start, of_end] = scheme.follower().expect("it is not equilibrium's");
+        let [of_a, of_start, of_end] = scheme.algorithmic_acceleration().expect("it is not equilibrium's");
         let a1 = of_a * a + of_start * b + of_end * acceleration;
         let (beta, gamma) = (scheme.beta, scheme.gamma);
         assert!((dt * v + dt * dt * ((0.5 - beta) * a + beta * a1) - q).abs() < 1e-15);

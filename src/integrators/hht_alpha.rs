@@ -55,7 +55,7 @@ impl Scheme for HhtAlpha {
         self.family().coefficients(dt)
     }
 
-    fn follower(&self) -> Option<[f64; 3]> {
-        self.family().follower()
+    fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
+        self.family().algorithmic_acceleration()
     }
 }

@@ -36,7 +36,7 @@ pub trait Scheme: fmt::Debug + Send + Sync {
 
     /// Where the scheme's formulas run on an algorithmic acceleration a instead of the q̈ of equilibrium: the weights of (a, q̈ at
     /// the start, q̈ at the end of the step) in a at the end of the step.
-    fn follower(&self) -> Option<[f64; 3]> {
+    fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
         None
     }
 

@@ -42,7 +42,7 @@ fn step(scheme: &dyn Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
         return explicit(&scheme.coefficients(1.0), omega2, start);
     }
     let (mut end, q0) = stage(&scheme.coefficients(1.0), omega2, start, [start[1], start[2]]);
-    if let Some([of_a, of_start, of_end]) = scheme.follower() {
+    if let Some([of_a, of_start, of_end]) = scheme.algorithmic_acceleration() {
         end[2] = of_a * start[2] + of_start * start[3] + of_end * end[3];
     }
     let Stepping::Composite(stages) = scheme.stepping() else { return end };

@@ -4,9 +4,9 @@
 mod choose;
 pub mod explain;
 pub mod explicit;
-mod passages;
+mod unreachable_targets;
 mod place;
-mod repeated;
+mod redundant_constraints;
 mod savings;
 
 use crate::linear::{self, Solver, Structure, TooLarge};
@@ -18,10 +18,6 @@ use crate::system::{DofMap, NodeRows, System};
 pub struct Plan {
     /// Rows of directions and multipliers.
     pub dofs: DofMap,
-    /// Directions and multipliers.
-    pub unknowns: usize,
-    /// (node, direction) of each row; the rows of multipliers come after them.
-    pub directions: Vec<(usize, usize)>,
     pub structure: Structure,
     pub kind: linear::Factorization,
     /// Steps solve for accelerations with the masses alone: the matrix is that of masses and joints.
@@ -32,7 +28,7 @@ pub struct Plan {
     pub refresh_cost: f64,
     pub threads: usize,
     /// Multipliers of joints that say what others say already; `None`: too many to tell.
-    pub repeated: Option<Vec<usize>>,
+    pub redundant_constraints: Option<Vec<usize>>,
     nodes: Vec<place::Place>,
 }
 
@@ -59,8 +55,6 @@ impl Plan {
         };
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
         let mut plan = Plan {
-            unknowns: dofs.unknowns(),
-            directions: dofs.directions().to_vec(),
             refresh_cost: choose::refresh_cost(kind),
             explicit,
             linear,
@@ -68,11 +62,11 @@ impl Plan {
             structure,
             kind,
             threads,
-            repeated: Some(Vec::new()),
+            redundant_constraints: Some(Vec::new()),
             nodes,
         };
         if !system.joints.is_empty() {
-            plan.repeated = repeated::repeated(model, system, &plan.dofs);
+            plan.redundant_constraints = redundant_constraints::find(model, system, &plan.dofs);
         }
         plan
     }
@@ -90,7 +84,7 @@ impl Plan {
 
     /// True where joints may share what they carry.
     pub fn shares(&self) -> bool {
-        self.repeated.as_ref().is_none_or(|repeated| !repeated.is_empty())
+        self.redundant_constraints.as_ref().is_none_or(|redundant_constraints| !redundant_constraints.is_empty())
     }
 
     /// The solver and the assembly of this plan.

@@ -13,7 +13,7 @@ const WORTH: f64 = 1.05;
 impl Plan {
     /// A line for each omission whose saving can be counted. The counts are those of the matrix of a step: nothing is run.
     pub fn savings(&self, model: &Model, system: &System) -> Vec<String> {
-        if self.explicit || self.directions.is_empty() {
+        if self.explicit || self.dofs.nodal_dofs().is_empty() {
             return Vec::new();
         }
         let own = operations(&self.structure);

@@ -59,9 +59,9 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
         let (start, increment) = (&state.nodes[node], &ws.increments[node]);
         let before = stack(&start.a, &start.alpha);
         // In the rotation vector of the step, then as a spatial vector like every other.
-        let a = state.followers[node] * of_a + before * of_start + increment.dd * of_end;
+        let a = state.algorithmic_accelerations[node] * of_a + before * of_start + increment.dd * of_end;
         let (_, turn) = rates(&angular(&increment.q), &angular(&increment.d), &angular(&a));
-        state.followers[node] = stack(&linear(&a), &turn);
+        state.algorithmic_accelerations[node] = stack(&linear(&a), &turn);
     }
 }
 

@@ -8,7 +8,7 @@ use crate::state::{Configuration, State};
 /// Before any work is done on a step that reaches `ahead`: an impact goes on in steps that resolve it.
 ///
 /// # Errors
-/// [`Failure::Contact`] where the step is too long for a contact.
+/// [`Failure::ContactNotResolved`] where the step is too long for a contact.
 pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failure> {
     if !cx.system.has_contacts() {
         return Ok(());
@@ -19,7 +19,7 @@ pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failu
 /// Before the motion found at `ahead` of the state is taken: nothing has gone through a surface.
 ///
 /// # Errors
-/// [`Failure::Contact`] where something has.
+/// [`Failure::ContactNotResolved`] where something has.
 pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) -> Result<(), Failure> {
     if !cx.system.has_contacts() {
         return Ok(());
@@ -29,5 +29,5 @@ pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) ->
 }
 
 fn too_long(cx: &Context, contact: usize) -> Failure {
-    Failure::Contact { name: cx.model.parts[contact].name().to_owned() }
+    Failure::ContactNotResolved { name: cx.model.parts[contact].name().to_owned() }
 }

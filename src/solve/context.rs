@@ -17,7 +17,7 @@ pub struct Context<'a> {
     pub independent_nodes: Vec<usize>,
     /// Prescribed directions, by their place in the model's list, whose motion joints hand on to others.
     pub driving: Vec<usize>,
-    /// See [`crate::integrators::Scheme::follower`]; `None` also in statics.
+    /// See [`crate::integrators::Scheme::algorithmic_acceleration`]; `None` also in statics.
     pub algorithmic_acceleration: Option<[f64; 3]>,
     /// The largest distance of a node from the first: corrections are judged on it where hardly anything moves.
     pub length: f64,
@@ -44,7 +44,7 @@ impl<'a> Context<'a> {
             excitation: Drive::new(model),
             independent_nodes: independent_nodes(model, plan, system),
             driving: driving(model, system),
-            algorithmic_acceleration: if dynamic { model.solution.scheme.follower() } else { None },
+            algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },
             length: extent(model),
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
@@ -57,8 +57,8 @@ impl<'a> Context<'a> {
     }
 
     /// The number of unknowns that are directions of nodes; the multipliers of joints come after them.
-    pub fn directions(&self) -> usize {
-        self.plan.directions.len()
+    pub fn nodal_unknowns(&self) -> usize {
+        self.plan.dofs.nodal_dofs().len()
     }
 }
 

@@ -44,7 +44,7 @@ impl EnergyGrowth {
         // A load that begins at rest moves things before it has done work: what grows does so in the next step too.
         let grows = is_watched(model) && had > 0.0 && made > most;
         let went_on = std::mem::replace(&mut self.growing, grows) || last;
-        (grows && went_on).then(|| Failure::Growing { made: made / had })
+        (grows && went_on).then(|| Failure::EnergyGrowth { made: made / had })
     }
 }
 

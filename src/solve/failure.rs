@@ -11,34 +11,34 @@ pub enum Failure {
     /// The matrix has a vanishing pivot in this direction.
     Singular { label: String, direction: &'static str },
     /// Iterations did not contract.
-    NotConverged { iterations: usize, largest: Vec<Largest> },
+    NotConverged { iterations: usize, largest: Vec<NamedResidual> },
     /// Joints could not be closed at the end of a step.
-    Apart { largest: Vec<Largest> },
+    ConstraintsViolated { largest: Vec<NamedResidual> },
     /// A step of the deck, or some in a row, need too many substeps; why the last was cut back.
-    Crawling { steps: usize, substeps: usize, dt: f64, cause: Box<Failure> },
+    TooManySubsteps { steps: usize, substeps: usize, dt: f64, cause: Box<Failure> },
     /// No equilibrium lies on the arc of a step.
-    Bend { largest: Vec<Largest> },
+    NoEquilibriumOnArc { largest: Vec<NamedResidual> },
     /// Nothing moves with the time that could lead on along a path.
-    Idle { time: f64 },
+    NoLoadIncrement { time: f64 },
     /// A path came to no end in the steps it was given.
-    Endless { steps: usize },
+    TooManySteps { steps: usize },
     /// A step would go through a surface, or into an impact that it does not resolve.
-    Contact { name: String },
+    ContactNotResolved { name: String },
     /// A step of central differences is longer than the critical time step; whether steps find their own length.
     Unstable { dt: f64, longest: f64, automatic: bool },
     /// Central differences have made so many times the energy that there was.
-    Growing { made: f64 },
+    EnergyGrowth { made: f64 },
     /// A step turns something too far.
-    Turned { dt: f64 },
+    RotationTooLarge { dt: f64 },
     /// The error of a step is larger than what is allowed.
-    Inaccurate { dt: f64 },
+    ErrorTooLarge { dt: f64 },
     /// The motion left the range of numbers.
-    NotFinite { largest: Vec<Largest> },
+    NotFinite { largest: Vec<NamedResidual> },
 }
 
 /// An unbalanced force.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Largest {
+pub struct NamedResidual {
     pub label: String,
     pub direction: &'static str,
     pub residual: f64,
@@ -53,9 +53,9 @@ impl Failure {
 
 /// Names an unknown: its node and direction, or its joint and what that constrains.
 fn name(model: &Model, plan: &Plan, system: &System, row: usize) -> (String, &'static str) {
-    match plan.directions.get(row) {
+    match plan.dofs.nodal_dofs().get(row) {
         Some(&(node, dof)) => (model.nodes[node].label.clone(), DIRECTIONS[dof]),
-        None => multiplier(model, system, row - plan.directions.len()),
+        None => multiplier(model, system, row - plan.dofs.nodal_dofs().len()),
     }
 }
 
@@ -66,27 +66,27 @@ fn multiplier(model: &Model, system: &System, number: usize) -> (String, &'stati
 }
 
 /// The five largest by name.
-fn sorted(values: &[f64], name: impl Fn(usize) -> (String, &'static str)) -> Vec<Largest> {
+fn sorted(values: &[f64], name: impl Fn(usize) -> (String, &'static str)) -> Vec<NamedResidual> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     let size = |i: usize| if values[i].is_nan() { f64::INFINITY } else { values[i].abs() };
     order.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
     let largest = |&i: &usize| {
         let (label, direction) = name(i);
-        Largest { label, direction, residual: values[i] }
+        NamedResidual { label, direction, residual: values[i] }
     };
     order.iter().take(5).map(largest).collect()
 }
 
 /// The five largest residuals by name.
-pub(super) fn largest(model: &Model, plan: &Plan, residual: &[f64]) -> Vec<Largest> {
-    sorted(&residual[..plan.directions.len()], |row| {
-        let (node, dof) = plan.directions[row];
+pub(super) fn largest(model: &Model, plan: &Plan, residual: &[f64]) -> Vec<NamedResidual> {
+    sorted(&residual[..plan.dofs.nodal_dofs().len()], |row| {
+        let (node, dof) = plan.dofs.nodal_dofs()[row];
         (model.nodes[node].label.clone(), DIRECTIONS[dof])
     })
 }
 
 /// The five widest gaps of joints by name.
-pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<Largest> {
+pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedResidual> {
     let mut widest = sorted(gaps, |number| multiplier(model, system, number));
     widest.retain(|gap| gap.residual != 0.0);
     widest
@@ -96,8 +96,8 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.message())?;
         let (Failure::NotConverged { largest, .. }
-        | Failure::Apart { largest }
-        | Failure::Bend { largest }
+        | Failure::ConstraintsViolated { largest }
+        | Failure::NoEquilibriumOnArc { largest }
         | Failure::NotFinite { largest }) = self
         else {
             return Ok(());
@@ -123,16 +123,16 @@ impl Failure {
             Failure::NotFinite { .. } => {
                 "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
             }
-            Failure::Apart { .. } => {
+            Failure::ConstraintsViolated { .. } => {
                 "joints cannot be closed at the end of the step (prescribed motions or joints contradict \
                                       each other, or the step is too long); the widest gaps are"
                     .to_owned()
             }
-            Failure::Contact { name } => format!(
+            Failure::ContactNotResolved { name } => format!(
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
             ),
-            Failure::Bend { .. } | Failure::Idle { .. } | Failure::Endless { .. } => self.message_of_path(),
+            Failure::NoEquilibriumOnArc { .. } | Failure::NoLoadIncrement { .. } | Failure::TooManySteps { .. } => self.message_of_path(),
             _ => self.message_of_length(),
         }
     }
@@ -140,10 +140,10 @@ impl Failure {
     /// The message where a path of equilibria cannot be followed.
     fn message_of_path(&self) -> String {
         match self {
-            Failure::Idle { time } => format!(
+            Failure::NoLoadIncrement { time } => format!(
                 "no load or prescribed motion changes with the time at t = {time}: nothing leads on along the path"
             ),
-            Failure::Endless { steps } => format!(
+            Failure::TooManySteps { steps } => format!(
                 "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"
             ),
             _ => "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are"
@@ -154,7 +154,7 @@ impl Failure {
     /// The message where steps are too long or too many.
     fn message_of_length(&self) -> String {
         match self {
-            Failure::Crawling { steps, substeps, dt, cause } => {
+            Failure::TooManySubsteps { steps, substeps, dt, cause } => {
                 let steps =
                     if *steps == 1 { "the step was".to_owned() } else { format!("the last {steps} steps were") };
                 format!(
@@ -172,12 +172,12 @@ impl Failure {
                      {longest:.3e} ({help}, or an implicit scheme)"
                 )
             }
-            Failure::Growing { made } => format!(
+            Failure::EnergyGrowth { made } => format!(
                 "energy growth: central differences have made {made:.1e} times the energy that there was; their steps are too \
                  long for this motion (a shorter `time_step`, or an implicit scheme)"
             ),
-            Failure::Turned { dt } => format!("in a step of {dt:.3e} something turns by more than 3 radians"),
-            Failure::Inaccurate { dt } => format!(
+            Failure::RotationTooLarge { dt } => format!("in a step of {dt:.3e} something turns by more than 3 radians"),
+            Failure::ErrorTooLarge { dt } => format!(
                 "the error of a step of {dt:.3e} is larger than `error_tolerance` allows, however short steps are"
             ),
             _ => String::new(),

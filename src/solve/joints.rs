@@ -8,13 +8,13 @@ use super::workspace::Workspace;
 pub const MOST_CORRECTIONS: usize = 12;
 /// Gaps, relative to positions, that rounding may leave.
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// A wider gap, relative to positions, is no joint: what iteration and projection leave is far below.
-const APART: f64 = 1e-9;
+/// The largest gap, relative to positions, that a joint may have at the end of a step; iteration and projection leave far less.
+const LARGEST_GAP: f64 = 1e-9;
 
 /// Measures the gaps of the trial motion, and notes the largest.
 ///
 /// # Errors
-/// [`Failure::Apart`] where joints have not closed, however well forces balance: they contradict each other.
+/// [`Failure::ConstraintsViolated`] where joints have not closed, however well forces balance: they contradict each other.
 pub fn check(cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
     if cx.system.joints.is_empty() {
         return Ok(());
@@ -22,14 +22,14 @@ pub fn check(cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
     let gaps = &mut ws.forces.multipliers.gaps;
     cx.system.gaps(&ws.trial, 0, gaps);
     let gap = cx.system.largest_gap(gaps, ws.reach);
-    if gap > APART || gap.is_nan() {
-        return Err(apart(cx, ws));
+    if gap > LARGEST_GAP || gap.is_nan() {
+        return Err(constraints_violated(cx, ws));
     }
     ws.joint_violation = ws.joint_violation.max(gap);
     Ok(())
 }
 
 /// The joints cannot be closed; the gaps at hand say where.
-pub fn apart(cx: &Context, ws: &Workspace) -> Failure {
-    Failure::Apart { largest: failure::gaps(cx.model, cx.system, &ws.forces.multipliers.gaps) }
+pub fn constraints_violated(cx: &Context, ws: &Workspace) -> Failure {
+    Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, &ws.forces.multipliers.gaps) }
 }

@@ -31,7 +31,7 @@ mod workspace;
 pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 pub use crate::system::{ContactState, JointState};
 pub use derived::{Derived, Wanted};
-pub use failure::{Failure, Largest};
+pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer};
 pub use outcome::{Counts, Outcome};
 pub use run::Run;

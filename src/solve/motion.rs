@@ -30,7 +30,7 @@ impl Stage<'_> {
         if let Some(rates) = self.start_rates {
             rates[node]
         } else if cx.algorithmic_acceleration.is_some() {
-            [own[0], state.followers[node]]
+            [own[0], state.algorithmic_accelerations[node]]
         } else {
             own
         }

@@ -51,7 +51,7 @@ impl ConstraintProjection {
         let (solver, assembly) = plan.build_bare(&bare)?;
         let has_mass = bare.has_mass(nodes);
         let slots = |massless: bool| {
-            let directions = plan.directions.iter().enumerate();
+            let directions = plan.dofs.nodal_dofs().iter().enumerate();
             let kept = directions.filter(|(_, (node, dof))| !massless || !has_mass[*node][usize::from(*dof > 2)]);
             let slot = |row: usize| solver.slot(row, row);
             kept.filter_map(|(row, &(_, dof))| slot(row).map(|slot| DiagonalSlot { slot, is_rotation: dof > 2 }))
@@ -62,7 +62,7 @@ impl ConstraintProjection {
             massless: slots(true),
             forces: Forces::new(&bare, nodes),
             loading: Loading::default(),
-            r: vec![0.0; plan.unknowns],
+            r: vec![0.0; plan.dofs.unknowns()],
             bare,
             matrix: LinearSystem { solver, assembly },
         })
@@ -80,7 +80,7 @@ impl ConstraintProjection {
     /// Puts the trial motion, at the end of a step of length `dt` from `state`, onto the joints; the increments lead there.
     ///
     /// # Errors
-    /// [`Failure::Apart`] where the joints cannot be closed from there.
+    /// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
     pub fn project(
         &mut self,
         cx: &Context,
@@ -91,7 +91,7 @@ impl ConstraintProjection {
     ) -> Result<(), Failure> {
         let closed = self.factor(&ws.trial) && self.close(cx, ws, state, scheme, dt);
         cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
-        if closed { Ok(()) } else { Err(joints::apart(cx, ws)) }
+        if closed { Ok(()) } else { Err(joints::constraints_violated(cx, ws)) }
     }
 
     /// Factorises masses and joints as they lie; false where the joints leave no way to close them.
@@ -155,7 +155,7 @@ impl ConstraintProjection {
 
     /// Makes one correction of the motion, its velocity or its acceleration: the least that closes the gaps at hand.
     fn correct(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, derivative: usize) {
-        self.r[..cx.directions()].fill(0.0);
+        self.r[..cx.nodal_unknowns()].fill(0.0);
         self.matrix.solve_augmented(&self.forces.multipliers, &mut self.r);
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
@@ -188,14 +188,14 @@ impl ConstraintProjection {
         let ConstraintProjection { bare, forces, r, matrix, .. } = self;
         forces.multipliers.values.copy_from_slice(&state.multipliers);
         bare.joint_forces(&ws.trial, forces);
-        for (r, &(node, dof)) in r.iter_mut().zip(&cx.plan.directions) {
+        for (r, &(node, dof)) in r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
             *r = -forces.on_nodes[node][dof];
         }
         // M δ + Gᵀμ = Gᵀλ, G δ = 0
-        r[cx.directions()..].fill(0.0);
+        r[cx.nodal_unknowns()..].fill(0.0);
         matrix.solver.solve(r);
         forces.multipliers.values.fill(0.0);
-        forces.multipliers.add(&r[cx.directions()..]);
+        forces.multipliers.add(&r[cx.nodal_unknowns()..]);
         state.multipliers.copy_from_slice(&forces.multipliers.values);
     }
 }

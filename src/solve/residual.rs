@@ -9,7 +9,7 @@ use crate::system::Scale;
 /// Writes the residual per unknown; returns its largest entry relative to the forces (moments) it is made of.
 pub fn gather(cx: &Context, ws: &mut Workspace, scale: &Scale) -> f64 {
     let (mut force, mut moment) = (0.0, 0.0);
-    for (r, &(node, dof)) in ws.r.iter_mut().zip(&cx.plan.directions) {
+    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
         *r = ws.forces.on_nodes[node][dof];
         // NaN must not vanish in a comparison.
         let size = if r.is_nan() { f64::INFINITY } else { r.abs() };
@@ -33,11 +33,11 @@ pub fn not_finite(cx: &Context, ws: &mut Workspace) -> Failure {
 
 /// No equilibrium was found at the length of the arc.
 pub fn no_equilibrium(cx: &Context, ws: &mut Workspace) -> Failure {
-    Failure::Bend { largest: largest(cx, ws) }
+    Failure::NoEquilibriumOnArc { largest: largest(cx, ws) }
 }
 
 /// The largest residual forces of the trial motion, by name.
-pub fn largest(cx: &Context, ws: &mut Workspace) -> Vec<failure::Largest> {
+pub fn largest(cx: &Context, ws: &mut Workspace) -> Vec<failure::NamedResidual> {
     gather(cx, ws, &Scale::default());
     failure::largest(cx.model, cx.plan, &ws.r)
 }

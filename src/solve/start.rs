@@ -15,7 +15,7 @@ use crate::system::assembly::Weights;
 /// velocity.
 ///
 /// # Errors
-/// [`Failure::Singular`] where a mass matrix cannot be inverted, [`Failure::Apart`] where joints do not fit the scene.
+/// [`Failure::Singular`] where a mass matrix cannot be inverted, [`Failure::ConstraintsViolated`] where joints do not fit the scene.
 pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> {
     let mut state = given_state(cx);
     cx.excitation.loading(0.0, Side::After, &mut ws.loads.instant);
@@ -75,7 +75,7 @@ fn given_state(cx: &Context) -> State {
         jerk: vec![Vec6::zeros(); n],
         reactions: vec![0.0; cx.model.constraints.restraints.len()],
         multipliers: vec![0.0; cx.system.multipliers()],
-        followers: vec![Vec6::zeros(); if cx.algorithmic_acceleration.is_some() { n } else { 0 }],
+        algorithmic_accelerations: vec![Vec6::zeros(); if cx.algorithmic_acceleration.is_some() { n } else { 0 }],
         work: Work::default(),
     }
 }
@@ -134,7 +134,7 @@ fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f
         if ws.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
             break;
         }
-        ws.r[..cx.directions()].fill(0.0);
+        ws.r[..cx.nodal_unknowns()].fill(0.0);
         ws.matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
         ws.solves += 1;
         for (node, rows) in nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
@@ -184,19 +184,19 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
 
 /// a ← a + M⁻¹ f with the mass matrix factorised. Directions without mass have no equation for their acceleration: it stays.
 fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massless: &[usize]) {
-    for (r, &(node, dof)) in ws.r.iter_mut().zip(&cx.plan.directions) {
+    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
         *r = ws.forces.on_nodes[node][dof];
     }
     massless.iter().for_each(|&row| ws.r[row] = 0.0);
     solve_accelerations(cx, ws, state);
     // Equations that share what they carry leave a part of it to be found: once more is enough.
     if !cx.system.joints.is_empty() {
-        ws.r[..cx.directions()].fill(0.0);
+        ws.r[..cx.nodal_unknowns()].fill(0.0);
         solve_accelerations(cx, ws, state);
     }
     // After a start or a jump algorithmic accelerations follow from nowhere else.
-    for (follower, node) in state.followers.iter_mut().zip(&state.nodes) {
-        *follower = stack(&node.a, &node.alpha);
+    for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
+        *acceleration = stack(&node.a, &node.alpha);
     }
 }
 
@@ -207,7 +207,7 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
     cx.system.gaps(&state.nodes, 2, &mut multipliers.gaps);
     ws.matrix.solve_augmented(multipliers, &mut ws.r);
     ws.solves += 1;
-    multipliers.add(&ws.r[cx.directions()..]);
+    multipliers.add(&ws.r[cx.nodal_unknowns()..]);
     state.multipliers.copy_from_slice(&multipliers.values);
     for (node, rows) in state.nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
         for dof in 0..3 {
@@ -236,7 +236,7 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<
         let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
         matrix.assembly.tangent(cx.system, now, loads, &mut ws.forces, weights, &mut matrix.solver);
         let mut massless = aslant.clone();
-        for row in 0..cx.directions() {
+        for row in 0..cx.nodal_unknowns() {
             let Some(slot) = matrix.solver.slot(row, row) else { continue };
             let diagonal = &mut matrix.solver.values()[slot];
             if *diagonal == 0.0 {

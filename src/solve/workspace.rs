@@ -54,7 +54,7 @@ impl Workspace {
             increments: vec![Increment::ZERO; n],
             history: vec![0.0; cx.system.history],
             forces: Forces::new(cx.system, n).on_threads(cx.plan.threads),
-            r: vec![0.0; cx.plan.unknowns],
+            r: vec![0.0; cx.plan.dofs.unknowns()],
             loads: AtTimes::default(),
             prescribed: AtTimes::default(),
             reach: cx.length,

@@ -120,14 +120,14 @@ impl State {
 impl State {
     /// Takes over another state of the same scene without allocating.
     pub fn copy_from(&mut self, other: &State) {
-        let State { time, nodes, history, jerk, reactions, multipliers, followers, work } = other;
+        let State { time, nodes, history, jerk, reactions, multipliers, algorithmic_accelerations, work } = other;
         (self.time, self.work) = (*time, *work);
         self.nodes.copy_from_slice(nodes);
         self.history.copy_from_slice(history);
         self.jerk.copy_from_slice(jerk);
         self.reactions.copy_from_slice(reactions);
         self.multipliers.copy_from_slice(multipliers);
-        self.followers.copy_from_slice(followers);
+        self.algorithmic_accelerations.copy_from_slice(algorithmic_accelerations);
     }
 }
 
@@ -170,7 +170,7 @@ pub struct State {
     /// Forces and moments in the joints, a number for each row.
     pub multipliers: Vec<f64>,
     /// Accelerations (a, α) that follow those of equilibrium, where the scheme runs on such.
-    pub followers: Vec<Vec6>,
+    pub algorithmic_accelerations: Vec<Vec6>,
     pub work: Work,
 }
 
@@ -187,7 +187,7 @@ pub struct Work {
     pub material: Dissipation,
     /// By how much energies at a step are more than what central differences keep, ⅛ Δt² aᵀMa, than they were at the start. Loads
     /// that jump change accelerations and put nothing in.
-    pub swing: f64,
+    pub verlet_energy_offset: f64,
     /// aᵀMa, and the length of the last step; none at the start and after a jump. With central differences alone.
     pub accelerations: f64,
     pub step: f64,

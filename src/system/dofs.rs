@@ -67,16 +67,16 @@ pub struct DofMap {
     rows: Vec<NodeRows>,
     nodes: usize,
     /// (node, direction) of each row of a direction.
-    directions: Vec<(usize, usize)>,
+    nodal_dofs: Vec<(usize, usize)>,
     unknowns: usize,
 }
 
 impl DofMap {
     /// Numbers the directions that are unknowns, node by node, then the multipliers of the joints.
     pub fn new(unknown: impl Iterator<Item = [bool; 6]>, joints: &[Joint]) -> DofMap {
-        let mut map = DofMap { rows: Vec::new(), nodes: 0, directions: Vec::new(), unknowns: 0 };
+        let mut map = DofMap { rows: Vec::new(), nodes: 0, nodal_dofs: Vec::new(), unknowns: 0 };
         for (node, unknown) in unknown.enumerate() {
-            map.directions.extend((0..6).filter(|&dof| unknown[dof]).map(|dof| (node, dof)));
+            map.nodal_dofs.extend((0..6).filter(|&dof| unknown[dof]).map(|dof| (node, dof)));
             map.push(unknown);
         }
         map.nodes = map.rows.len();
@@ -120,8 +120,8 @@ impl DofMap {
     }
 
     /// (node, direction) of each row; the rows of multipliers come after them.
-    pub fn directions(&self) -> &[(usize, usize)] {
-        &self.directions
+    pub fn nodal_dofs(&self) -> &[(usize, usize)] {
+        &self.nodal_dofs
     }
 
     /// Number of rows: directions and multipliers.

@@ -36,8 +36,8 @@ pub struct Energy {
     pub friction: f64,
     /// Dissipated so far in impacts.
     pub impact: f64,
-    /// [`crate::state::Work::swing`]. Not a column.
-    pub swing: f64,
+    /// [`crate::state::Work::verlet_energy_offset`]. Not a column.
+    pub verlet_energy_offset: f64,
 }
 
 impl Energy {
@@ -45,7 +45,7 @@ impl Energy {
     /// ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa of linear motion, so energies at a step swing by the last of these: by up to
     /// 1/(1 − (ωΔt/2)²), which is nearly three at 0.8 of the limit.
     pub fn taken(&self) -> f64 {
-        self.numerical + self.swing
+        self.numerical + self.verlet_energy_offset
     }
 }
 
@@ -174,7 +174,7 @@ impl System {
             contact,
             friction: work.material.friction,
             impact: work.material.impact,
-            swing: work.swing,
+            verlet_energy_offset: work.verlet_energy_offset,
         }
     }
 }

@@ -285,7 +285,7 @@ impl System {
 
 impl System {
     /// Small motions of dependent nodes from those of their masters, about the nodes as they lie: D of (48).
-    pub fn carry(&self, nodes: &[Node], motions: &mut [Vec6]) {
+    pub fn project(&self, nodes: &[Node], motions: &mut [Vec6]) {
         for dependent in &self.rigid_links {
             let carried = dependent.D(nodes) * motions[dependent.master];
             for i in (0..6).filter(|&i| dependent.dofs[i]) {
@@ -295,8 +295,8 @@ impl System {
     }
 
     /// M times small motions per node, into the forces of nodes that do not ride. Riders are carried first.
-    pub fn weigh(&self, nodes: &[Node], motions: &mut [Vec6], forces: &mut Forces) {
-        self.carry(nodes, motions);
+    pub fn apply_mass(&self, nodes: &[Node], motions: &mut [Vec6], forces: &mut Forces) {
+        self.project(nodes, motions);
         let F = &mut forces.on_nodes[..];
         F.fill([0.0; 6]);
         for inertia in &self.inertias {

@@ -182,7 +182,7 @@ impl MassBlock {
 
     /// aᵀ M b of small motions of the node.
     #[inline]
-    pub fn weigh(&self, node: &Node, a: &Vec6, b: &Vec6) -> f64 {
+    pub fn inner_product(&self, node: &Node, a: &Vec6, b: &Vec6) -> f64 {
         match self.kind {
             Kind::Point { of_turn } => {
                 let turn = if of_turn > 0.0 { angular(a).dot(&angular(b)) / of_turn } else { 0.0 };

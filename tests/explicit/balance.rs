@@ -126,13 +126,13 @@ fn what_swings_is_not_made_from_nothing() {
     for energy in [&mut grown.kinetic, &mut grown.links, &mut grown.mechanical] {
         *energy *= 100.0;
     }
-    (grown.numerical, grown.swing) = (1.0 - grown.mechanical, grown.mechanical - 1.0);
+    (grown.numerical, grown.verlet_energy_offset) = (1.0 - grown.mechanical, grown.mechanical - 1.0);
     balance.see(&grown);
     assert_eq!(balance.made, grown.kinetic - 1.0);
     // Others do not swing.
     let sets = ["integrator.scheme=\"newmark\"", "analysis.time_step=0.01"];
     run_to_the_end(&steps_of_row(12, 0.0, &sets), &mut |frame| {
-        assert_eq!(frame.derived.energy.unwrap().swing, 0.0);
+        assert_eq!(frame.derived.energy.unwrap().verlet_energy_offset, 0.0);
         Vec::new()
     });
 }

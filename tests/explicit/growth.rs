@@ -69,7 +69,7 @@ fn blows_neither_make_energy_nor_keep_steps_short() {
         let mut rows = Vec::new();
         let done = run_to_the_end(&scene(text, &[]), &mut |frame| {
             let energy = frame.derived.energy.unwrap();
-            rows.push([energy.mechanical, energy.mechanical - energy.swing, frame.dt]);
+            rows.push([energy.mechanical, energy.mechanical - energy.verlet_energy_offset, frame.dt]);
             Vec::new()
         });
         let [most, kept] = [0, 1].map(|k| rows.iter().map(|row| row[k]).fold(0.0, f64::max));
@@ -150,7 +150,7 @@ fn motion_that_grows_by_itself_fails() {
         let done = support::run(&model, &mut |_| Vec::new());
         let Outcome::Failed { time, failure } = done.outcome else { panic!("{:?}", done.outcome) };
         println!("{time}: {failure}");
-        assert!(matches!(failure, Failure::Growing { made } if made > 1.0), "{failure:?}");
+        assert!(matches!(failure, Failure::EnergyGrowth { made } if made > 1.0), "{failure:?}");
         assert!(time < 0.2, "{time}");
         assert!(failure.to_string().contains("times the energy that there was"), "{failure}");
     }

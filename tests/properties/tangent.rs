@@ -87,15 +87,15 @@ impl Instant {
         let nodes = self.nodes(q);
         let mut forces = Forces::new(&self.system, nodes.len());
         self.system.residual(&Configuration::of(&nodes), &self.loading, &mut forces);
-        self.plan.directions.iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
+        self.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
     }
 
     /// −∂r/∂q, a rotation being changed by a small spatial one as the solution of the system does it.
     fn differences(&self) -> DMatrix<f64> {
-        let n = self.plan.unknowns;
+        let n = self.plan.dofs.unknowns();
         let mut K = DMatrix::zeros(n, n);
         let h = 1e-5;
-        for (column, &(node, dof)) in self.plan.directions.iter().enumerate() {
+        for (column, &(node, dof)) in self.plan.dofs.nodal_dofs().iter().enumerate() {
             let at = |h: f64| {
                 let mut q = self.q.clone();
                 let mut turn = Vec3::zeros();
@@ -126,7 +126,7 @@ impl Instant {
         let (rate, acceleration) = self.scheme.weights();
         let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
         assembly.tangent(&self.system, &Configuration::of(&nodes), &self.loading, &mut forces, weights, &mut solver);
-        let n = self.plan.unknowns;
+        let n = self.plan.dofs.unknowns();
         DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))
     }
 }

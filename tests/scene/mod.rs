@@ -140,7 +140,7 @@ pub fn state(model: &Model, time: f64) -> State {
         jerk: vec![],
         reactions: vec![],
         multipliers: vec![],
-        followers: vec![],
+        algorithmic_accelerations: vec![],
         work: Default::default(),
     }
 }
@@ -176,7 +176,7 @@ impl Extras {
                 contact: 0.5,
                 friction: 0.25,
                 impact: 0.125,
-                swing: 0.0,
+                verlet_energy_offset: 0.0,
             }),
             links: vec![LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
             contacts: vec![ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],

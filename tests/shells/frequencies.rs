@@ -35,7 +35,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     let acceleration = if stiffness { 0.0 } else { 1.0 };
     let weights = Weights { stiffness, rate: 0.0, acceleration, moduli: Moduli::Algorithmic };
     assembly.tangent(&system, &Configuration::of(&nodes), &loading, &mut forces, weights, &mut solver);
-    let n = plan.unknowns;
+    let n = plan.dofs.unknowns();
     // A symmetric solver stores one triangle under either name.
     DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))
 }
@@ -121,7 +121,7 @@ fn mass_is_that_of_the_plate() {
             let M = matrix(&model, false);
             let plan = Plan::new(&model, &System::new(&model).unwrap(), 1);
             let sum = |dof: usize| {
-                let of = |k: usize| plan.directions[k].1 == dof;
+                let of = |k: usize| plan.dofs.nodal_dofs()[k].1 == dof;
                 (0..M.nrows())
                     .filter(|&i| of(i))
                     .map(|i| (0..M.ncols()).filter(|&j| of(j)).map(|j| M[(i, j)]).sum::<f64>())
@@ -137,7 +137,7 @@ fn mass_is_that_of_the_plate() {
             // Momentum and energy of a velocity that grows along x: exactly ∫ρ h (x/10)² with consistent mass.
             model.nodes.iter_mut().for_each(|n| n.v = Vec3::new(0.0, 0.0, 0.1 * n.x.x));
             let v: Vec<f64> =
-                plan.directions.iter().map(|&(n, dof)| if dof < 3 { model.nodes[n].v[dof] } else { 0.0 }).collect();
+                plan.dofs.nodal_dofs().iter().map(|&(n, dof)| if dof < 3 { model.nodes[n].v[dof] } else { 0.0 }).collect();
             let v = nalgebra::DVector::from_vec(v);
             let kinetic = 0.5 * v.dot(&(&M * &v));
             let exact = 0.5 * whole / 3.0;

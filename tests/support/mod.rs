@@ -100,7 +100,7 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
         outcome,
         seconds: (began.elapsed() - run.observing()).as_secs_f64(),
         counts: run.counts(),
-        unknowns: plan.unknowns,
+        unknowns: plan.dofs.unknowns(),
         verdicts: watchers.expectations.verdicts(),
         rows: watchers.rows,
     }

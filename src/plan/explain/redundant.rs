@@ -7,11 +7,11 @@ use crate::system::System;
 
 /// Constraints of joints that others impose already, a line for each joint.
 pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
-    let Some(repeated) = &plan.repeated else {
+    let Some(redundant) = &plan.redundant_constraints else {
         return vec!["too many joints to search for redundant constraints".to_string()];
     };
     let mut lines: Vec<(usize, Vec<&str>)> = Vec::new();
-    for (joint, row) in repeated.iter().filter_map(|&number| system.row(number)) {
+    for (joint, row) in redundant.iter().filter_map(|&number| system.row(number)) {
         match lines.last_mut().filter(|(last, _)| *last == joint) {
             Some((_, words)) => words.push(row.word()),
             None => lines.push((joint, vec![row.word()])),

@@ -19,7 +19,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
         let (of, mass, elements) = (joined(&words), short(body.mass), rigid.elements);
         text.add("rigid", format!("{of} as body `{}`, mass {mass}, in place of its {elements} elements", body.name));
     }
-    text.add("unknowns", plan.unknowns.to_string());
+    text.add("unknowns", plan.dofs.unknowns().to_string());
     let multipliers = system.multipliers();
     if multipliers > 0 {
         let what = "constraint equations with Lagrange multipliers, projected onto at the end of each step";

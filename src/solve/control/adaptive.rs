@@ -25,7 +25,7 @@ pub trait StepController {
     /// better.
     ///
     /// # Errors
-    /// As for [`crate::solve::time_stepper::TimeStepper::step`], and [`Failure::Inaccurate`]; `state` is untouched.
+    /// As for [`crate::solve::time_stepper::TimeStepper::step`], and [`Failure::ErrorTooLarge`]; `state` is untouched.
     fn step(
         &mut self,
         cx: &Context,
@@ -69,7 +69,7 @@ impl<C: StepController> CoverInterval for C {
                     if length <= least || dt <= least {
                         return Err(march.failed(failure));
                     }
-                    if !matches!(failure, Failure::Inaccurate { .. }) {
+                    if !matches!(failure, Failure::ErrorTooLarge { .. }) {
                         self.cut_back(dt);
                     }
                     cuts += 1;

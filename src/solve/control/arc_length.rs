@@ -100,7 +100,7 @@ impl ArcLengthController {
     /// What ends the run early.
     pub fn follow(&mut self, march: &mut March) -> Result<(), Outcome> {
         if self.begin >= march.cx.model.analysis.end_time {
-            return Err(march.failed(Failure::Idle { time: march.state.time }));
+            return Err(march.failed(Failure::NoLoadIncrement { time: march.state.time }));
         }
         self.targets.start(march.cx, march.ws, march.state);
         loop {
@@ -120,7 +120,7 @@ impl ArcLengthController {
             }
             let steps = march.recorder.counts.steps;
             if steps >= self.path.steps.unwrap_or(MOST_STEPS) {
-                return Err(march.failed(Failure::Endless { steps }));
+                return Err(march.failed(Failure::TooManySteps { steps }));
             }
             self.choose_size(&found);
         }
@@ -216,7 +216,7 @@ impl ArcLengthController {
         let is_one = self.unit.is_some() || to > self.begin;
         if is_one && *self.unit.get_or_insert(found.motion.length * whole) == 0.0 {
             let time = state.time;
-            return Err(march.failed(Failure::Idle { time }));
+            return Err(march.failed(Failure::NoLoadIncrement { time }));
         }
         let accepted = self.newton.accept(cx, ws, state, &Stage::from(&load_steps::coefficients()), to);
         accepted.map_err(|failure| march.failed(failure))

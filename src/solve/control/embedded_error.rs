@@ -35,7 +35,7 @@ impl EmbeddedErrorController {
     /// Notes how long the step after one of `dt` may be, whose trial motion is at hand. Returns the largest motion with it.
     ///
     /// # Errors
-    /// [`Failure::Inaccurate`] where this one was too long.
+    /// [`Failure::ErrorTooLarge`] where this one was too long.
     fn judge(&mut self, cx: &Context, ws: &Workspace, dt: f64) -> Result<Size, Failure> {
         let end_time = cx.model.analysis.end_time;
         let mut motion = self.motion;
@@ -60,7 +60,7 @@ impl EmbeddedErrorController {
         self.next = dt * if factor.is_nan() { least } else { factor };
         if ratio > 1.0 || ratio.is_nan() {
             self.next = self.next.min(SAFETY * dt);
-            return Err(Failure::Inaccurate { dt });
+            return Err(Failure::ErrorTooLarge { dt });
         }
         Ok(motion)
     }

@@ -204,24 +204,24 @@ impl<'a> ErrorController<'a> {
             let third = state.jerk[node] - stack(&Vec3::zeros(), &across);
             errors[node] = Vec6::from_fn(|i, _| if rows.has(i) { factor * third[i] } else { 0.0 });
         }
-        cx.system.carry(&state.nodes, errors);
+        cx.system.project(&state.nodes, errors);
     }
 }
 
 /// e ← (K + w M)⁻¹ w M e, per node, with w the weight of the masses in the matrix at hand.
 fn filter(cx: &Context, ws: &mut Workspace, state: &State, mass_weight: f64, errors: &mut [Vec6]) {
-    cx.system.weigh(&state.nodes, errors, &mut ws.forces);
-    for (r, &(node, dof)) in ws.r.iter_mut().zip(&cx.plan.directions) {
+    cx.system.apply_mass(&state.nodes, errors, &mut ws.forces);
+    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
         *r = mass_weight * ws.forces.on_nodes[node][dof];
     }
-    ws.r[cx.directions()..].fill(0.0);
+    ws.r[cx.nodal_unknowns()..].fill(0.0);
     ws.matrix.solver.solve(&mut ws.r);
     ws.solves += 1;
     for &node in &cx.independent_nodes {
         let rows = cx.plan.dofs.of(node);
         errors[node] = rows.gather(&ws.r);
     }
-    cx.system.carry(&state.nodes, errors);
+    cx.system.project(&state.nodes, errors);
 }
 
 impl StepController for ErrorController<'_> {
@@ -256,7 +256,7 @@ impl StepController for ErrorController<'_> {
         }
         state.copy_from(&self.start);
         (ws.rotation_drift, ws.joint_violation) = (drift, violation);
-        Err(Failure::Inaccurate { dt })
+        Err(Failure::ErrorTooLarge { dt })
     }
 
     fn cut_back(&mut self, dt: f64) {

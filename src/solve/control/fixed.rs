@@ -25,11 +25,11 @@ const MANY: usize = 32;
 pub struct FixedController<'a> {
     stepper: TimeStepper<'a>,
     /// Steps in a row that were cut into many substeps, and these.
-    crawling: Crawling,
+    subdivided: SubdividedSteps,
 }
 
 #[derive(Clone, Copy, Default)]
-struct Crawling {
+struct SubdividedSteps {
     steps: usize,
     substeps: usize,
 }
@@ -46,14 +46,14 @@ struct Substeps {
     successes: usize,
     cuts: usize,
     /// Why joints could not be closed in the step as the deck has it: gaps shrink with the step, and say less and less.
-    apart: Option<Failure>,
+    violated_at_full_length: Option<Failure>,
     /// Why the last substep was cut.
     cause: Option<Failure>,
 }
 
 impl<'a> FixedController<'a> {
     pub fn new(stepper: TimeStepper<'a>) -> Self {
-        FixedController { stepper, crawling: Crawling::default() }
+        FixedController { stepper, subdivided: SubdividedSteps::default() }
     }
 
     /// Takes the k-th step of the interval, in as many substeps as it takes.
@@ -68,7 +68,7 @@ impl<'a> FixedController<'a> {
                 Ok(report) => {
                     step.took();
                     step.show(march, &report, dt, due)?;
-                    self.check_crawling(march, &step, dt)?;
+                    self.check_substeps(march, &step, dt)?;
                     step.grow();
                 }
                 Err(failure) => {
@@ -77,24 +77,24 @@ impl<'a> FixedController<'a> {
                 }
             }
         }
-        let Crawling { steps, substeps } = self.crawling;
-        let crawls = step.taken > MANY && !march.cx.system.has_contacts();
-        self.crawling = match crawls {
-            true => Crawling { steps: steps + 1, substeps: substeps + step.taken },
-            false => Crawling::default(),
+        let SubdividedSteps { steps, substeps } = self.subdivided;
+        let subdivided = step.taken > MANY && !march.cx.system.has_contacts();
+        self.subdivided = match subdivided {
+            true => SubdividedSteps { steps: steps + 1, substeps: substeps + step.taken },
+            false => SubdividedSteps::default(),
         };
         Ok(())
     }
 
     /// # Errors
-    /// [`Failure::Crawling`] where steps need too many substeps.
-    fn check_crawling(&self, march: &March, step: &Substeps, dt: f64) -> Result<(), Outcome> {
-        let Crawling { steps, substeps } = self.crawling;
+    /// [`Failure::TooManySubsteps`] where steps need too many substeps.
+    fn check_substeps(&self, march: &March, step: &Substeps, dt: f64) -> Result<(), Outcome> {
+        let SubdividedSteps { steps, substeps } = self.subdivided;
         let most = MOST_SUBSTEPS[usize::from(march.cx.system.has_contacts())];
         match &step.cause {
             Some(cause) if substeps + step.taken >= most && step.at < WHOLE => {
                 let (steps, substeps, cause) = (steps + 1, substeps + step.taken, Box::new(cause.clone()));
-                Err(march.failed(Failure::Crawling { steps, substeps, dt, cause }))
+                Err(march.failed(Failure::TooManySubsteps { steps, substeps, dt, cause }))
             }
             _ => Ok(()),
         }
@@ -117,7 +117,7 @@ impl CoverInterval for FixedController<'_> {
 
 impl Substeps {
     fn of(from: f64, to: f64) -> Substeps {
-        Substeps { from, to, at: 0, length: WHOLE, taken: 0, successes: 0, cuts: 0, apart: None, cause: None }
+        Substeps { from, to, at: 0, length: WHOLE, taken: 0, successes: 0, cuts: 0, violated_at_full_length: None, cause: None }
     }
 
     /// Where the next substep ends.
@@ -162,12 +162,12 @@ impl Substeps {
             && march.cx.system.history == 0
             && march.state.time == 0.0
             && matches!(failure, Failure::Singular { .. });
-        let is_apart = matches!(failure, Failure::Apart { .. });
-        if is_apart && self.apart.is_none() {
-            self.apart = Some(failure.clone());
+        let violated = matches!(failure, Failure::ConstraintsViolated { .. });
+        if violated && self.violated_at_full_length.is_none() {
+            self.violated_at_full_length = Some(failure.clone());
         }
         if self.length == 1 || 0.5 * dt < analysis.least_step || unrestrained {
-            let first = self.apart.take().filter(|_| is_apart);
+            let first = self.violated_at_full_length.take().filter(|_| violated);
             return Err(march.failed(first.unwrap_or(failure)));
         }
         self.cause = Some(failure);

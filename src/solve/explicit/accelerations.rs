@@ -9,7 +9,7 @@ use crate::math::rotation::{inverse_tangent, rates};
 use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::joints::apart;
+use crate::solve::joints::constraints_violated;
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Increment, State};
@@ -66,7 +66,7 @@ impl Accelerations {
     /// Puts the trial motion onto the joints with the matrix of masses and joints, where there are such joints.
     ///
     /// # Errors
-    /// [`Failure::Apart`] where they cannot be closed from there.
+    /// [`Failure::ConstraintsViolated`] where they cannot be closed from there.
     pub fn project(
         &mut self,
         cx: &Context,
@@ -82,7 +82,7 @@ impl Accelerations {
     /// `joints`, the accelerations that these allow, and what they carry; without, the part that does not open them.
     ///
     /// # Errors
-    /// [`Failure::Singular`] or [`Failure::Apart`] where masses or joints leave no answer.
+    /// [`Failure::Singular`] or [`Failure::ConstraintsViolated`] where masses or joints leave no answer.
     pub fn solve(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
         ws.solves += 1;
         let Accelerations { masses: Some(masses), ties, missing, .. } = self else {
@@ -96,7 +96,7 @@ impl Accelerations {
                 ties.x.fill(0.0);
             }
             if !ties.form(cx.system, masses, &ws.trial) {
-                return Err(apart(cx, ws));
+                return Err(constraints_violated(cx, ws));
             }
             ties.add_rates(missing);
             ties.solve();
@@ -111,7 +111,7 @@ impl Accelerations {
     /// The same with the matrix of masses and joints.
     fn solve_coupled(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
         factor_mass(cx, ws, state)?;
-        for (r, &(node, dof)) in ws.r.iter_mut().zip(&cx.plan.directions) {
+        for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
             *r = ws.forces.on_nodes[node][dof];
         }
         for &node in &cx.independent_nodes {
@@ -143,7 +143,7 @@ impl Accelerations {
         }
         ws.matrix.solve_augmented(multipliers, &mut ws.r);
         if joints {
-            multipliers.add(&ws.r[cx.directions()..]);
+            multipliers.add(&ws.r[cx.nodal_unknowns()..]);
         }
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
@@ -152,7 +152,7 @@ impl Accelerations {
             ws.trial[node].a += linear(&found);
             ws.trial[node].alpha += angular(&found);
         }
-        ws.r[..cx.directions()].fill(0.0);
+        ws.r[..cx.nodal_unknowns()].fill(0.0);
         update_dependent_accelerations(cx, ws);
     }
 

@@ -49,7 +49,7 @@ impl CentralDifferenceStepper {
     /// [`CriticalStep::propose`].
     ///
     /// # Errors
-    /// [`Failure::Singular`] or [`Failure::Apart`] where masses or joints leave no accelerations.
+    /// [`Failure::Singular`] or [`Failure::ConstraintsViolated`] where masses or joints leave no accelerations.
     pub fn propose(
         &mut self,
         cx: &Context,
@@ -224,9 +224,9 @@ impl CentralDifferenceStepper {
 /// Central differences keep energies that are ⅛ Δt² aᵀMa less than those at steps, each with the step before it: what a change of
 /// the step makes or takes does not count as an offset.
 fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
-    let Work { swing, accelerations: before, step, .. } = work;
+    let Work { verlet_energy_offset, accelerations: before, step, .. } = work;
     let last = if *step > 0.0 { *step } else { dt };
-    *swing += 0.125 * (dt * dt * aMa - last * last * *before);
+    *verlet_energy_offset += 0.125 * (dt * dt * aMa - last * last * *before);
     (*before, *step) = (aMa, dt);
 }
 

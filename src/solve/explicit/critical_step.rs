@@ -91,7 +91,7 @@ impl CriticalStep {
     /// Adds a motion of all frequencies to the mode.
     fn add_all_frequencies(&mut self, plan: &Plan) {
         let mut seed = 1u64;
-        for &(node, dof) in &plan.directions {
+        for &(node, dof) in plan.dofs.nodal_dofs() {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             self.mode[node][dof] += (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
         }
@@ -353,7 +353,7 @@ impl CriticalStep {
         for block in &masses.blocks {
             let (a, b) = (&mode[block.node], &answer[block.node]);
             for (sum, (a, b)) in sums.iter_mut().zip([(a, a), (a, b), (b, b)]) {
-                *sum += block.weigh(&ws.trial[block.node], a, b);
+                *sum += block.inner_product(&ws.trial[block.node], a, b);
             }
         }
         sums

@@ -5,7 +5,7 @@ use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, apart};
+use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, constraints_violated};
 use crate::solve::motion::update_dependent_nodes;
 use crate::solve::workspace::Workspace;
 use crate::state::{Node, State};
@@ -16,7 +16,7 @@ use crate::system::masses::Masses;
 /// increments follow, their q̇ as rates of the rotation vector.
 ///
 /// # Errors
-/// [`Failure::Apart`] where the joints cannot be closed from there.
+/// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
 pub fn project_onto_constraints(
     cx: &Context,
     ws: &mut Workspace,
@@ -48,7 +48,7 @@ fn project_positions(
         }
         if round == MOST_CORRECTIONS || !ties.form(cx.system, masses, &ws.trial) || gap.is_nan() {
             cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
-            return Err(apart(cx, ws));
+            return Err(constraints_violated(cx, ws));
         }
         last = gap;
         least_change(ties, masses, change);
@@ -84,7 +84,7 @@ fn project_velocities(
             return Ok(());
         }
         if last == f64::INFINITY && !ties.form(cx.system, masses, &ws.trial) {
-            return Err(apart(cx, ws));
+            return Err(constraints_violated(cx, ws));
         }
         last = gap;
         least_change(ties, masses, change);

@@ -20,7 +20,7 @@ pub fn apply_mass(
     for &node in &cx.independent_nodes {
         operand[node] = cx.plan.dofs.of(node).mask(&motion(node));
     }
-    cx.system.weigh(nodes, operand, forces);
+    cx.system.apply_mass(nodes, operand, forces);
 }
 
 /// A motion times what [`apply_mass`] left last.
@@ -55,5 +55,5 @@ pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
 
 fn weigh(cx: &Context, block: &MassBlock, node: &Node, a: &Vec6) -> f64 {
     let a = cx.plan.dofs.of(block.node).mask(a);
-    block.weigh(node, &a, &a)
+    block.inner_product(node, &a, &a)
 }

@@ -217,7 +217,7 @@ impl RungeKuttaStepper {
             self.stages[at.stage * nodes + k][0] = increment.d;
         }
         if farthest > FARTHEST || farthest.is_nan() {
-            return Err(Failure::Turned { dt });
+            return Err(Failure::RotationTooLarge { dt });
         }
         update_dependent_nodes(cx, ws, &state.nodes);
         if self.varying {

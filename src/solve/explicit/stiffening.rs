@@ -42,8 +42,8 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     for block in &masses.blocks {
         let (da, q) = (change(block.node), &increments[block.node].q);
         let node = &trial[block.node];
-        force -= block.weigh(node, &da, q);
-        size += block.weigh(node, q, q);
+        force -= block.inner_product(node, &da, q);
+        size += block.inner_product(node, q, q);
     }
     force / size
 }

@@ -12,7 +12,7 @@ use crate::state::{Configuration, State};
 /// Takes the equilibrium that was found: the state moves to `to`, written once.
 ///
 /// # Errors
-/// [`Failure::Apart`] where joints cannot be closed at the end of the step, [`Failure::Contact`] where something would have gone
+/// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, [`Failure::ContactNotResolved`] where something would have gone
 /// through a surface there; `state` is untouched.
 pub fn accept(
     cx: &Context,

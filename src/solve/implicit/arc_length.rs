@@ -67,7 +67,7 @@ struct Products {
 impl ArcLengthConstraint {
     pub fn new(cx: &Context, ws: &Workspace) -> ArcLengthConstraint {
         ArcLengthConstraint {
-            rate: vec![0.0; cx.plan.unknowns],
+            rate: vec![0.0; cx.plan.dofs.unknowns()],
             loading: Loading {
                 factors: Vec::with_capacity(cx.model.loading.nodal.len()),
                 pressures: Vec::with_capacity(cx.model.loading.pressures.len()),
@@ -84,7 +84,7 @@ impl ArcLengthConstraint {
     /// With a in `r`: puts a + δt b there, and loads and prescribed motion at the new time, which it returns.
     ///
     /// # Errors
-    /// [`Failure::Bend`] where the line of corrections misses the arc, [`Failure::Idle`] where nothing changes with the time.
+    /// [`Failure::NoEquilibriumOnArc`] where the line of corrections misses the arc, [`Failure::NoLoadIncrement`] where nothing changes with the time.
     pub fn close(
         &mut self,
         cx: &Context,
@@ -113,7 +113,7 @@ impl ArcLengthConstraint {
                 excite(cx, ws, state.time, to, 1.0);
                 Ok(to)
             }
-            None if idle => Err(Failure::Idle { time: to }),
+            None if idle => Err(Failure::NoLoadIncrement { time: to }),
             None => Err(no_equilibrium(cx, ws)),
         }
     }
@@ -128,7 +128,7 @@ impl ArcLengthConstraint {
         cx.system.external(&ws.trial, &self.loading, &mut self.forces);
         // Loads alone do not open joints.
         self.forces.multipliers.gaps.fill(0.0);
-        for (rate, &(node, dof)) in self.rate.iter_mut().zip(&cx.plan.directions) {
+        for (rate, &(node, dof)) in self.rate.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
             *rate = self.forces.on_nodes[node][dof];
         }
     }
@@ -144,7 +144,7 @@ impl ArcLengthConstraint {
             move_trial(cx, ws, state, &Stage::from(&scheme));
             let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
             cx.system.residual(&now, &ws.loads.instant, &mut self.forces);
-            for (rate, &(node, dof)) in self.rate.iter_mut().zip(&cx.plan.directions) {
+            for (rate, &(node, dof)) in self.rate.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
                 *rate += side * self.forces.on_nodes[node][dof] / (2.0 * h);
             }
             let gaps = self.gaps.iter_mut().zip(&self.forces.multipliers.gaps);

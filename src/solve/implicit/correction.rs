@@ -9,7 +9,7 @@ use crate::solve::workspace::Workspace;
 /// The size of the correction in `r`.
 pub fn size_of_correction(cx: &Context, ws: &Workspace) -> Size {
     let mut size = Size::default();
-    for (r, &(_, dof)) in ws.r.iter().zip(&cx.plan.directions) {
+    for (r, &(_, dof)) in ws.r.iter().zip(cx.plan.dofs.nodal_dofs()) {
         let largest = if dof < 3 { &mut size.translation } else { &mut size.rotation };
         *largest = largest.max(r.abs());
     }
@@ -41,7 +41,7 @@ pub fn correct(cx: &Context, ws: &mut Workspace) -> (Size, Size) {
             correction.translation = f64::NAN;
         }
     }
-    ws.forces.multipliers.add(&ws.r[cx.directions()..]);
+    ws.forces.multipliers.add(&ws.r[cx.nodal_unknowns()..]);
     (correction, motion)
 }
 

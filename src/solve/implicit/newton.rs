@@ -85,11 +85,11 @@ impl Newton {
             (AnalysisKind::Static, Update::Auto) if !mixes => Update::Iteration,
             (_, update) => update,
         };
-        let weights = plan.directions.iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
+        let weights = plan.dofs.nodal_dofs().iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
         // In place of multipliers stand gaps.
         let gaps = system.joints.iter().flat_map(|joint| &joint.rows).map(|row| if row.turns() { length } else { 1.0 });
         let searches = system.history > 0 && !along;
-        let line_search = || LineSearch::new(plan.directions.len(), model.nodes.len(), system.multipliers());
+        let line_search = || LineSearch::new(plan.dofs.nodal_dofs().len(), model.nodes.len(), system.multipliers());
         Ok(Newton {
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
@@ -139,7 +139,7 @@ impl Newton {
         to: f64,
     ) -> Result<(), Failure> {
         let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to);
-        if matches!(accepted, Err(Failure::Apart { .. })) {
+        if matches!(accepted, Err(Failure::ConstraintsViolated { .. })) {
             self.discard_matrix();
         }
         accepted
@@ -218,7 +218,7 @@ impl Newton {
     /// Takes back part of the last correction where it went too far; false where it did not.
     fn shorten_correction(&mut self, cx: &Context, ws: &mut Workspace, size: f64) -> bool {
         let Some(line_search) = &mut self.line_search else { return false };
-        let residual = &ws.r[..cx.directions()];
+        let residual = &ws.r[..cx.nodal_unknowns()];
         let values = &mut ws.forces.multipliers.values;
         let shortened = line_search.shorten(residual, size, &mut ws.increments, values);
         if shortened && let Some(anderson) = &mut self.anderson {
@@ -280,7 +280,7 @@ impl Newton {
     /// The correction that the residual asks for, in its place.
     fn solve(&mut self, cx: &Context, ws: &mut Workspace, residual: f64) {
         if let Some(line_search) = &mut self.line_search {
-            line_search.keep_residual(&ws.r[..cx.directions()], residual);
+            line_search.keep_residual(&ws.r[..cx.nodal_unknowns()], residual);
         }
         ws.matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
         ws.solves += 1;
@@ -302,7 +302,7 @@ impl Newton {
             anderson.mix(&mut ws.r);
         }
         if let Some(line_search) = &mut self.line_search {
-            let correction = &ws.r[..cx.directions()];
+            let correction = &ws.r[..cx.nodal_unknowns()];
             line_search.keep_correction(correction, &ws.increments, &ws.forces.multipliers.values);
         }
         plain
@@ -401,9 +401,9 @@ fn has_converged(
 fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport) -> Failure {
     // Forces balance, but not with closed joints: they contradict each other.
     if report.residual < 1e-3
-        && let Err(apart) = joints::check(cx, ws)
+        && let Err(violated) = joints::check(cx, ws)
     {
-        return apart;
+        return violated;
     }
     Failure::NotConverged { iterations: report.iterations, largest: residual::largest(cx, ws) }
 }

@@ -7,7 +7,7 @@ use crate::model::{ArcLength, DIRECTIONS, Model, Passage, StepLength, When};
 
 impl Plan {
     /// An error for each `stop` and each `when` of the model that no motion can come to, with its place in the deck.
-    pub fn never_passed(&self, model: &Model) -> Vec<Diagnostic> {
+    pub fn unreachable_targets(&self, model: &Model) -> Vec<Diagnostic> {
         let stop = match &model.analysis.step_length {
             StepLength::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
             _ => None,
@@ -17,10 +17,10 @@ impl Plan {
             _ => None,
         });
         let passages = stop.into_iter().chain(expected);
-        passages.filter_map(|passage| self.why_never(model, passage)).collect()
+        passages.filter_map(|passage| self.why_unreachable(model, passage)).collect()
     }
 
-    fn why_never(&self, model: &Model, passage: &Passage) -> Option<Diagnostic> {
+    fn why_unreachable(&self, model: &Model, passage: &Passage) -> Option<Diagnostic> {
         let &Passage { node, dof, place: [start, end], .. } = passage;
         let why = match self.nodes[node][dof] {
             // What rides moves with its master, which the deck allows or not.

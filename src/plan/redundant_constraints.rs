@@ -12,8 +12,8 @@ const NEW: f64 = 1e-8;
 const MOST: f64 = 5e7;
 
 /// Numbers of the multipliers whose rows depend on those before them; `None`: too many to tell.
-pub fn repeated(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
-    let directions = dofs.directions().len();
+pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
+    let directions = dofs.nodal_dofs().len();
     let count = dofs.unknowns() - directions;
     let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
     let roots = assembly::roots(system, nodes.len());
@@ -50,7 +50,7 @@ pub fn repeated(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usi
         return None;
     }
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    let mut repeated = Vec::new();
+    let mut redundant = Vec::new();
     for (number, entries) in sparse.iter().enumerate() {
         let mut v = vec![0.0; columns];
         entries.iter().for_each(|&(at, value)| v[at] += value);
@@ -64,13 +64,13 @@ pub fn repeated(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usi
         }
         let rest = norm(&v);
         if rest <= NEW * whole || whole == 0.0 {
-            repeated.push(number);
+            redundant.push(number);
         } else {
             v.iter_mut().for_each(|v| *v /= rest);
             basis.push(v);
         }
     }
-    Some(repeated)
+    Some(redundant)
 }
 
 fn norm(v: &[f64]) -> f64 {
