@@ -45,7 +45,12 @@ impl Plan {
             }
             None => {
                 let heavy = system.has_mass(model.nodes.len());
-                self.dofs.nodal_dofs().iter().filter(|(node, dof)| !heavy[*node][usize::from(*dof > 2)]).copied().collect()
+                self.dofs
+                    .nodal_dofs()
+                    .iter()
+                    .filter(|(node, dof)| !heavy[*node][usize::from(*dof > 2)])
+                    .copied()
+                    .collect()
             }
         };
         let scheme = model.solution.scheme.word();

@@ -4,10 +4,10 @@
 mod choose;
 pub mod explain;
 pub mod explicit;
-mod unreachable_targets;
 mod place;
 mod redundant_constraints;
 mod savings;
+mod unreachable_targets;
 
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{AnalysisKind, Model};

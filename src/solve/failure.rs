@@ -132,7 +132,9 @@ impl Failure {
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
             ),
-            Failure::NoEquilibriumOnArc { .. } | Failure::NoLoadIncrement { .. } | Failure::TooManySteps { .. } => self.message_of_path(),
+            Failure::NoEquilibriumOnArc { .. } | Failure::NoLoadIncrement { .. } | Failure::TooManySteps { .. } => {
+                self.message_of_path()
+            }
             _ => self.message_of_length(),
         }
     }

@@ -136,8 +136,12 @@ fn mass_is_that_of_the_plate() {
             }
             // Momentum and energy of a velocity that grows along x: exactly ∫ρ h (x/10)² with consistent mass.
             model.nodes.iter_mut().for_each(|n| n.v = Vec3::new(0.0, 0.0, 0.1 * n.x.x));
-            let v: Vec<f64> =
-                plan.dofs.nodal_dofs().iter().map(|&(n, dof)| if dof < 3 { model.nodes[n].v[dof] } else { 0.0 }).collect();
+            let v: Vec<f64> = plan
+                .dofs
+                .nodal_dofs()
+                .iter()
+                .map(|&(n, dof)| if dof < 3 { model.nodes[n].v[dof] } else { 0.0 })
+                .collect();
             let v = nalgebra::DVector::from_vec(v);
             let kinetic = 0.5 * v.dot(&(&M * &v));
             let exact = 0.5 * whole / 3.0;

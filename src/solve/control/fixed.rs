@@ -117,7 +117,17 @@ impl CoverInterval for FixedController<'_> {
 
 impl Substeps {
     fn of(from: f64, to: f64) -> Substeps {
-        Substeps { from, to, at: 0, length: WHOLE, taken: 0, successes: 0, cuts: 0, violated_at_full_length: None, cause: None }
+        Substeps {
+            from,
+            to,
+            at: 0,
+            length: WHOLE,
+            taken: 0,
+            successes: 0,
+            cuts: 0,
+            violated_at_full_length: None,
+            cause: None,
+        }
     }
 
     /// Where the next substep ends.
