@@ -1,6 +1,6 @@
 //! Both factorisations against a dense one, over structures of every shape.
 
-use crate::structures::{Random, Values, chain, cliques, entries, fill, frame, quadratic_chain, sheet, slots, tree};
+use crate::structures::{Random, Values, chain, connectivity, entries, fill, frame, quadratic_chain, sheet, slots, tree};
 use nalgebra::{DMatrix, DVector};
 use rdsolve::linear::{Factorization, Solver, Structure};
 
@@ -15,12 +15,12 @@ fn shapes(random: &mut Random) -> Vec<Structure> {
         sheet(5, 6, 5),
         frame(3, 3, 3, 6),
         frame(1, 4, 5, 3),
-        Structure { sizes: vec![6, 2, 3], cliques: vec![], multipliers: 0 },
-        Structure { sizes: vec![], cliques: vec![], multipliers: 0 },
+        Structure { sizes: vec![6, 2, 3], connectivity: vec![], multipliers: 0 },
+        Structure { sizes: vec![], connectivity: vec![], multipliers: 0 },
     ];
     for groups in [2, 5, 17, 40] {
         shapes.push(tree(groups, random));
-        shapes.push(cliques(groups, random));
+        shapes.push(connectivity(groups, random));
     }
     shapes
 }
@@ -90,7 +90,7 @@ fn slots_are_symmetric_unique_and_inside_the_structure() {
                 for j in 0..n {
                     let slot = solver.slot(i, j);
                     let (g, h) = (group[i], group[j]);
-                    let coupled = g == h || structure.cliques.iter().any(|c| c.contains(&g) && c.contains(&h));
+                    let coupled = g == h || structure.connectivity.iter().any(|c| c.contains(&g) && c.contains(&h));
                     assert_eq!(slot.is_some(), coupled, "{kind:?} ({i}, {j})");
                     if let (Some(slot), true) = (slot, !solver.is_symmetric() || i >= j) {
                         assert!(!std::mem::replace(&mut taken[slot], true), "{kind:?} ({i}, {j})");
@@ -206,7 +206,7 @@ fn stiff_directions_do_not_spoil_the_soft_ones() {
 /// A block without a diagonal needs its rows exchanged.
 #[test]
 fn rows_are_exchanged_within_a_block() {
-    let structure = Structure { sizes: vec![6, 6], cliques: vec![vec![0, 1]], multipliers: 0 };
+    let structure = Structure { sizes: vec![6, 6], connectivity: vec![vec![0, 1]], multipliers: 0 };
     let mut solver = Solver::new(&structure, Factorization::BlockLu, 1).unwrap();
     let matrix = DMatrix::from_fn(12, 12, |i, j| match ((i + 1) % 6 == j % 6, i / 6 == j / 6) {
         (true, true) => 2.0 + i as f64,
@@ -229,7 +229,7 @@ fn chains_go_to_blocks_and_large_frames_to_cholesky() {
     assert_eq!(Factorization::choose(&chain(2000, 6)), Factorization::BlockLu);
     assert_eq!(Factorization::choose(&frame(10, 6, 6, 6)), Factorization::Cholesky);
     assert_eq!(
-        Factorization::choose(&Structure { sizes: vec![], cliques: vec![], multipliers: 0 }),
+        Factorization::choose(&Structure { sizes: vec![], connectivity: vec![], multipliers: 0 }),
         Factorization::BlockLu
     );
 }
@@ -289,7 +289,7 @@ fn large_sheets_and_frames_leave_no_residual() {
 fn blocks_lie_where_their_entries_do() {
     let structure = Structure {
         sizes: vec![6, 6, 5, 6, 6, 3],
-        cliques: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]],
+        connectivity: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]],
         multipliers: 0,
     };
     let solver = Solver::new(&structure, Factorization::Cholesky, 1).unwrap();
@@ -297,7 +297,7 @@ fn blocks_lie_where_their_entries_do() {
     let (mut there, mut missing) = (0, 0);
     for g in 0..structure.sizes.len() {
         for h in 0..structure.sizes.len() {
-            let Some((tile, swapped)) = solver.tile(first[g], first[h]) else {
+            let Some((block, swapped)) = solver.block_slot(first[g], first[h]) else {
                 missing += 1;
                 continue;
             };
@@ -306,14 +306,14 @@ fn blocks_lie_where_their_entries_do() {
             for j in 0..6 {
                 for i in if g == h { j } else { 0 }..6 {
                     let slot = solver.slot(row + i, col + j);
-                    assert_eq!(slot, Some(tile.column(j) + i), "{g} {h} {i} {j}");
+                    assert_eq!(slot, Some(block.column(j) + i), "{g} {h} {i} {j}");
                 }
             }
         }
     }
     // Four groups of six by themselves and three couplings of them, both ways.
     assert_eq!((there, missing), (4 + 6, 36 - 10));
-    assert!(Solver::new(&structure, Factorization::BlockLu, 1).unwrap().tile(first[0], first[1]).is_none());
+    assert!(Solver::new(&structure, Factorization::BlockLu, 1).unwrap().block_slot(first[0], first[1]).is_none());
 }
 
 /// Diagonals outweigh their rows, so by Gershgorin's circles the negative ones tell the negative eigenvalues.
@@ -321,7 +321,7 @@ fn blocks_lie_where_their_entries_do() {
 fn negative_eigenvalues_are_counted() {
     let mut random = Random(17);
     for structure in
-        [chain(20, 6), chain(20, 3), frame(3, 3, 3, 6), tree(40, &mut Random(3)), cliques(30, &mut Random(4))]
+        [chain(20, 6), chain(20, 3), frame(3, 3, 3, 6), tree(40, &mut Random(3)), connectivity(30, &mut Random(4))]
     {
         for (values, negative) in [(Values::Definite, false), (Values::Indefinite, true)] {
             let expected: usize = structure.sizes.iter().skip(1).step_by(3).sum();

@@ -10,7 +10,7 @@ use super::graph::Graph;
 use super::memory::{self, TooLarge};
 use super::pivot::{PIVOT_TOLERANCE, Singular};
 use super::stats::Stats;
-use super::tile::Tile;
+use super::block_slot::BlockSlot;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
@@ -102,7 +102,7 @@ impl Cholesky {
         Some(self.pattern.col_ptr()[q] + place)
     }
 
-    pub(super) fn tile(&self, row: usize, col: usize) -> Option<(Tile, bool)> {
+    pub(super) fn block_slot(&self, row: usize, col: usize) -> Option<(BlockSlot, bool)> {
         let first = |row: usize| {
             let group = *self.graph.group.get(row)? as usize;
             let (own, size) = (self.graph.first[group], self.graph.sizes[group]);
@@ -113,7 +113,7 @@ impl Cholesky {
         let column = self.pattern.row_idx_of_col_raw(upper);
         let place = column.binary_search(&lower).ok()?;
         let at = (self.pattern.col_ptr()[upper] + place) as u32;
-        Some((Tile { at, step: column.len() as u32 - 1 }, p < q))
+        Some((BlockSlot { at, step: column.len() as u32 - 1 }, p < q))
     }
 
     pub(super) fn values(&mut self) -> &mut [f64] {

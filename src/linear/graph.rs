@@ -28,9 +28,9 @@ impl Graph {
         }
 
         let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for clique in &structure.cliques {
-            for &g in clique {
-                pairs.extend(clique.iter().filter(|&&h| h != g).map(|&h| (g as u32, h as u32)));
+        for coupled in &structure.connectivity {
+            for &g in coupled {
+                pairs.extend(coupled.iter().filter(|&&h| h != g).map(|&h| (g as u32, h as u32)));
             }
         }
         pairs.sort_unstable();

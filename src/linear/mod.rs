@@ -19,7 +19,7 @@ mod solver;
 mod stats;
 mod structure;
 mod substitution;
-mod tile;
+mod block_slot;
 
 pub use block_lu::BlockLu;
 pub use cholesky::Cholesky;
@@ -30,4 +30,4 @@ pub use pivot::Singular;
 pub use solver::Solver;
 pub use stats::Stats;
 pub use structure::Structure;
-pub use tile::Tile;
+pub use block_slot::BlockSlot;

@@ -8,7 +8,7 @@ use super::memory::TooLarge;
 use super::pivot::Singular;
 use super::stats::Stats;
 use super::structure::Structure;
-use super::tile::Tile;
+use super::block_slot::BlockSlot;
 
 /// A matrix and its factorisation, the memory of both included.
 pub enum Solver {
@@ -62,9 +62,9 @@ impl Solver {
 
     /// The block that couples two groups of six unknowns, given by the first row of each (external numbers), and whether
     /// it is stored transposed, as that of `col` and `row`. None where the matrix is not symmetric, or a group is smaller.
-    pub fn tile(&self, row: usize, col: usize) -> Option<(Tile, bool)> {
+    pub fn block_slot(&self, row: usize, col: usize) -> Option<(BlockSlot, bool)> {
         match self {
-            Solver::Cholesky(inner) => inner.tile(row, col),
+            Solver::Cholesky(inner) => inner.block_slot(row, col),
             _ => None,
         }
     }

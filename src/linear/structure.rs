@@ -7,7 +7,7 @@ pub struct Structure {
     /// Unknowns per group, at most 6.
     pub sizes: Vec<usize>,
     /// Groups that couple pairwise, for instance the nodes of an element.
-    pub cliques: Vec<Vec<usize>>,
+    pub connectivity: Vec<Vec<usize>>,
     /// So many groups at the end hold Lagrange multipliers, whose diagonal is next to zero: each is eliminated after all
     /// groups that it couples with. The matrix is then indefinite.
     pub multipliers: usize,

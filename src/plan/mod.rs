@@ -114,11 +114,11 @@ impl Plan {
 /// Groups of unknowns, one for each node and each joint that has any, and who couples with whom.
 fn structure(system: &System, dofs: &DofMap) -> Structure {
     let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
-    grouped(&sizes, assembly::cliques(system, sizes.len()), system.joints.len())
+    grouped(&sizes, assembly::connectivity(system, sizes.len()), system.joints.len())
 }
 
 /// The same from the numbers of unknowns of nodes, of which the last `multipliers` hold multipliers, and from their couplings.
-fn grouped(unknowns: &[usize], cliques: Vec<Vec<usize>>, multipliers: usize) -> Structure {
+fn grouped(unknowns: &[usize], connectivity: Vec<Vec<usize>>, multipliers: usize) -> Structure {
     let mut sizes = Vec::new();
     let mut last = 0;
     let mut group = vec![None; unknowns.len()];
@@ -129,7 +129,7 @@ fn grouped(unknowns: &[usize], cliques: Vec<Vec<usize>>, multipliers: usize) -> 
             last += usize::from(node >= group.len() - multipliers);
         }
     }
-    let known = |clique: Vec<usize>| -> Vec<usize> { clique.into_iter().filter_map(|node| group[node]).collect() };
-    let cliques = cliques.into_iter().map(known).filter(|clique| clique.len() > 1);
-    Structure { sizes, cliques: cliques.collect(), multipliers: last }
+    let known = |coupled: Vec<usize>| -> Vec<usize> { coupled.into_iter().filter_map(|node| group[node]).collect() };
+    let connectivity = connectivity.into_iter().map(known).filter(|coupled| coupled.len() > 1);
+    Structure { sizes, connectivity: connectivity.collect(), multipliers: last }
 }

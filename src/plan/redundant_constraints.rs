@@ -16,8 +16,8 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let directions = dofs.nodal_dofs().len();
     let count = dofs.unknowns() - directions;
     let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
-    let roots = assembly::roots(system, nodes.len());
-    let carry = assembly::carries(system, &nodes, &roots);
+    let independent_nodes = assembly::independent_nodes(system, nodes.len());
+    let projections = assembly::projections(system, &nodes, &independent_nodes);
     let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
     // What makes rotations comparable.
     let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
@@ -31,10 +31,10 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
         for row in &joint.rows {
             let mut entries = Vec::new();
             for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
-                for (&root, T) in roots[node].iter().zip(&carry[node]) {
+                for (&independent, T) in independent_nodes[node].iter().zip(&projections[node]) {
                     let G = T.tr_mul(&G);
                     for dof in 0..6 {
-                        let Some(row) = dofs.row(root, dof) else { continue };
+                        let Some(row) = dofs.row(independent, dof) else { continue };
                         let at = *column[row].get_or_insert_with(|| {
                             columns += 1;
                             columns - 1

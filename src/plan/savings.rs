@@ -4,7 +4,7 @@ use super::place::DofStatus;
 use super::{Plan, grouped};
 use crate::linear::{Factorization, Structure, operations};
 use crate::model::{AnalysisKind, Model};
-use crate::system::assembly::{cliques, loose_cliques};
+use crate::system::assembly::{connectivity, connectivity_with_multipliers};
 use crate::system::{NodeRows, System};
 
 /// Savings of less are not worth a line.
@@ -34,7 +34,7 @@ impl Plan {
         ];
         for (why, what) in kept {
             let sizes = self.sizes_with(why);
-            compare(what, &grouped(&sizes, cliques(system, sizes.len()), system.joints.len()));
+            compare(what, &grouped(&sizes, connectivity(system, sizes.len()), system.joints.len()));
         }
         if !system.rigid_links.is_empty() {
             compare("Lagrange multipliers of dependent nodes", &self.with_multipliers(system));
@@ -62,6 +62,6 @@ impl Plan {
         let mut sizes = self.sizes_with(DofStatus::Dependent);
         let nodes = sizes.len();
         sizes.extend(system.rigid_links.iter().map(|dependent| dependent.dofs.iter().filter(|&&rides| rides).count()));
-        grouped(&sizes, loose_cliques(system, nodes), system.joints.len() + system.rigid_links.len())
+        grouped(&sizes, connectivity_with_multipliers(system, nodes), system.joints.len() + system.rigid_links.len())
     }
 }

@@ -5,7 +5,7 @@ use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
-use super::tiles::Tiles;
+use super::block_scatter::BlockScatter;
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
@@ -19,18 +19,18 @@ const CHUNK: usize = 256;
 /// Where every matrix goes. All but `scratch` is constant over a run.
 pub struct Assembly {
     /// Per group, per element.
-    groups: Vec<Vec<Place>>,
+    groups: Vec<Vec<Destination>>,
     /// Nodes that have a matrix of their own: inertia, nodal damping, follower loads, arms of dependent nodes.
-    nodes: Vec<(usize, Place)>,
-    masses: Vec<Place>,
+    nodes: Vec<(usize, Destination)>,
+    masses: Vec<Destination>,
     /// Of the faces under pressures that follow, in their order.
-    faces: Vec<Place>,
-    joints: Vec<Place>,
+    faces: Vec<Destination>,
+    joints: Vec<Destination>,
     diagonals: Vec<Diagonal>,
     scatter: Scatter,
-    tiles: Tiles,
+    blocks: BlockScatter,
     /// Per node: the nodes it ends up on by riding, or itself.
-    roots: Vec<Vec<usize>>,
+    independent_nodes: Vec<Vec<usize>>,
     threads: bool,
     /// C(r) stands on the left (37); it is in the residual always.
     gyroscopic: bool,
@@ -38,12 +38,12 @@ pub struct Assembly {
 }
 
 /// What becomes of a local matrix.
-struct Place {
+struct Destination {
     /// Nodes onto which it is carried first; empty where no node rides and it goes in as it is.
     targets: Vec<usize>,
     entries: Entries,
-    /// In place of entries, where the matrix goes in by blocks: a range of [`Tiles`].
-    tiles: [u32; 2],
+    /// In place of entries, where the matrix goes in by blocks: a range of [`BlockScatter`].
+    blocks: [u32; 2],
 }
 
 /// Entries of a local matrix that reach the system's: ranges of [`Scatter`].
@@ -96,9 +96,9 @@ struct Scratch {
     local: Vec<f64>,
     own: Vec<Mat6>,
     /// Per node: for each root, how its motion moves the node.
-    carry: Vec<Vec<Mat6>>,
+    projections: Vec<Vec<Mat6>>,
     /// 6×6 blocks, each column-major.
-    carried: Vec<[f64; 36]>,
+    projected: Vec<[f64; 36]>,
 }
 
 /// What a tangent is formed of.
@@ -112,91 +112,91 @@ pub struct Weights {
     pub moduli: Moduli,
 }
 
-/// Which nodes a node's motion depends on: itself, or the roots it rides on (and itself for directions of its own).
-pub fn roots(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    let mut roots: Vec<Vec<usize>> = (0..nodes).map(|n| vec![n]).collect();
+/// Which nodes a node's motion depends on: itself, or the independent nodes it rides on (and itself for directions of its own).
+pub fn independent_nodes(system: &System, nodes: usize) -> Vec<Vec<usize>> {
+    let mut independent_nodes: Vec<Vec<usize>> = (0..nodes).map(|n| vec![n]).collect();
     for dependent in &system.rigid_links {
-        let mut of = roots[dependent.master].clone();
+        let mut of = independent_nodes[dependent.master].clone();
         if !dependent.rigid {
             of.push(dependent.node);
         }
-        roots[dependent.node] = of;
+        independent_nodes[dependent.node] = of;
     }
-    roots
+    independent_nodes
 }
 
-/// Per node: for each of its roots, how the motion of that moves the node.
-pub fn carries(system: &System, nodes: &[Node], roots: &[Vec<usize>]) -> Vec<Vec<Mat6>> {
-    let mut carry: Vec<_> = roots.iter().map(|r| vec![Mat6::identity(); r.len()]).collect();
-    carry_over(system, nodes, roots, &mut carry);
-    carry
+/// Per node: for each of its independent nodes, how the motion of that moves the node.
+pub fn projections(system: &System, nodes: &[Node], independent_nodes: &[Vec<usize>]) -> Vec<Vec<Mat6>> {
+    let mut projections: Vec<_> = independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect();
+    update_projections(system, nodes, independent_nodes, &mut projections);
+    projections
 }
 
-/// How each dependent node moves with its roots, by the chain of arms.
-fn carry_over(system: &System, nodes: &[Node], roots: &[Vec<usize>], carry: &mut [Vec<Mat6>]) {
+/// How each dependent node moves with its independent nodes, by the chain of arms.
+fn update_projections(system: &System, nodes: &[Node], independent_nodes: &[Vec<usize>], projections: &mut [Vec<Mat6>]) {
     for dependent in &system.rigid_links {
         let D = dependent.D(nodes);
-        for k in 0..roots[dependent.master].len() {
-            carry[dependent.node][k] = D * carry[dependent.master][k];
+        for k in 0..independent_nodes[dependent.master].len() {
+            projections[dependent.node][k] = D * projections[dependent.master][k];
         }
         if !dependent.rigid {
-            let own = roots[dependent.node].len() - 1;
+            let own = independent_nodes[dependent.node].len() - 1;
             let free = dependent.dofs.map(|taken| if taken { 0.0 } else { 1.0 });
-            carry[dependent.node][own] = Mat6::from_diagonal(&free.into());
+            projections[dependent.node][own] = Mat6::from_diagonal(&free.into());
         }
     }
 }
 
-/// Nodes that are coupled with one another, one list per element or nodal matrix; dependent nodes replaced by their roots. `nodes`
+/// Nodes that are coupled with one another, one list per element or nodal matrix; dependent nodes replaced by their independent nodes. `nodes`
 /// counts the joints too: their multipliers are nodes after all others.
-pub fn cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    coupled(system, nodes, &roots(system, nodes))
+pub fn connectivity(system: &System, nodes: usize) -> Vec<Vec<usize>> {
+    coupled(system, nodes, &independent_nodes(system, nodes))
 }
 
-/// As [`cliques`], but with multipliers in place of elimination: every dependent node moves by itself, held to its master by one more
+/// As [`connectivity`], but with multipliers in place of elimination: every dependent node moves by itself, held to its master by one more
 /// node, which stands after all others.
-pub fn loose_cliques(system: &System, nodes: usize) -> Vec<Vec<usize>> {
+pub fn connectivity_with_multipliers(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
-    let mut cliques = coupled(system, nodes, &alone);
-    cliques.extend(
+    let mut connectivity = coupled(system, nodes, &alone);
+    connectivity.extend(
         system.rigid_links.iter().enumerate().map(|(k, dependent)| vec![dependent.master, dependent.node, nodes + k]),
     );
-    cliques
+    connectivity
 }
 
-fn coupled(system: &System, nodes: usize, roots: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let mut cliques: Vec<Vec<usize>> = Vec::new();
+fn coupled(system: &System, nodes: usize, independent_nodes: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut connectivity: Vec<Vec<usize>> = Vec::new();
     let mut add = |nodes: &[usize]| {
-        let mut all: Vec<usize> = nodes.iter().flat_map(|&n| roots[n].iter().copied()).collect();
+        let mut all: Vec<usize> = nodes.iter().flat_map(|&n| independent_nodes[n].iter().copied()).collect();
         all.sort_unstable();
         all.dedup();
-        cliques.push(all);
+        connectivity.push(all);
     };
     for group in &system.groups {
         (0..group.block.len()).for_each(|e| add(group.block.nodes(e)));
     }
     system.consistent_masses().iter().for_each(|m| add(&m.nodes));
     system.pressures.iter().flat_map(|load| &load.faces).for_each(|face| add(face.nodes()));
-    (0..nodes).filter(|&n| roots[n] != [n]).for_each(|n| add(&[n]));
+    (0..nodes).filter(|&n| independent_nodes[n] != [n]).for_each(|n| add(&[n]));
     // The multipliers of a joint are one more of its nodes.
     let joints = system.joints.iter().zip(nodes - system.joints.len()..);
     joints.for_each(|(joint, own)| add(&[joint.nodes[0], joint.nodes[1], own]));
-    cliques
+    connectivity
 }
 
 impl Assembly {
     pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
         let nodes = dofs.each().len();
-        let roots = roots(system, nodes);
+        let independent_nodes = independent_nodes(system, nodes);
         let mut scatter = Scatter(Vec::new());
-        let mut tiles = Tiles::new();
-        let mut most = roots.iter().map(Vec::len).max().unwrap_or(0);
+        let mut blocks = BlockScatter::new();
+        let mut most = independent_nodes.iter().map(Vec::len).max().unwrap_or(0);
         // A matrix over 6×6 blocks of targets, each column-major.
-        let mut carried = |scatter: &mut Scatter, of: &[usize], keep: &dyn Fn(usize, usize) -> bool| {
+        let mut projected = |scatter: &mut Scatter, of: &[usize], keep: &dyn Fn(usize, usize) -> bool| {
             let mut targets: Vec<usize> = Vec::new();
-            for root in of.iter().flat_map(|&n| &roots[n]) {
-                if !targets.contains(root) {
-                    targets.push(*root);
+            for independent in of.iter().flat_map(|&n| &independent_nodes[n]) {
+                if !targets.contains(independent) {
+                    targets.push(*independent);
                 }
             }
             let m = targets.len();
@@ -207,27 +207,27 @@ impl Assembly {
                 if keep(i, j) { dofs.row(row, i).zip(dofs.row(column, j)) } else { None }
             };
             let entries = scatter.push(solver, 36 * m * m, entry);
-            Place { targets, entries, tiles: [0; 2] }
+            Destination { targets, entries, blocks: [0; 2] }
         };
         // Of an element with `d` directions a node, row-major.
         let mut local = |scatter: &mut Scatter, of: &[usize], d: usize| {
-            if of.iter().any(|&n| roots[n] != [n]) {
-                return carried(scatter, of, &|_, _| true);
+            if of.iter().any(|&n| independent_nodes[n] != [n]) {
+                return projected(scatter, of, &|_, _| true);
             }
             let firsts = || of.iter().map(|&n| dofs.of(n).first_of_six()).collect::<Option<Vec<usize>>>();
             if let (6, Some(rows)) = (d, firsts()) {
-                let from = tiles.len() as u32;
-                if tiles.push(solver, &rows) {
+                let from = blocks.len() as u32;
+                if blocks.push(solver, &rows) {
                     let none = Entries { from: 0, halves: 0, to: 0 };
-                    return Place { targets: Vec::new(), entries: none, tiles: [from, tiles.len() as u32] };
+                    return Destination { targets: Vec::new(), entries: none, blocks: [from, blocks.len() as u32] };
                 }
             }
             let size = d * of.len();
             let row = |i: usize| dofs.row(of[i / d], i % d);
             let entries = scatter.push(solver, size * size, |k| row(k / size).zip(row(k % size)));
-            Place { targets: Vec::new(), entries, tiles: [0; 2] }
+            Destination { targets: Vec::new(), entries, blocks: [0; 2] }
         };
-        let groups: Vec<Vec<Place>> = system
+        let groups: Vec<Vec<Destination>> = system
             .groups
             .iter()
             .map(|group| {
@@ -236,13 +236,13 @@ impl Assembly {
             })
             .collect();
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
-        let faces: Vec<Place> = faces.map(|face| local(&mut scatter, face.nodes(), 3)).collect();
+        let faces: Vec<Destination> = faces.map(|face| local(&mut scatter, face.nodes(), 3)).collect();
 
         let first = nodes - system.joints.len();
         let joints = system.joints.iter().zip(first..);
-        let joints: Vec<Place> =
+        let joints: Vec<Destination> =
             joints.map(|(joint, own)| local(&mut scatter, &[joint.nodes[0], joint.nodes[1], own], 6)).collect();
-        let diagonals = system.joints.iter().map(|joint| Diagonal::new(joint, &roots, dofs, solver)).collect();
+        let diagonals = system.joints.iter().map(|joint| Diagonal::new(joint, &independent_nodes, dofs, solver)).collect();
 
         // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
@@ -251,19 +251,19 @@ impl Assembly {
         system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
         system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
         let apart = |i: usize, j: usize| i == j || (i > 2 && j > 2);
-        let own: Vec<(usize, Place)> = (0..nodes)
+        let own: Vec<(usize, Destination)> = (0..nodes)
             .filter(|&n| has_own[n] || is_full[n])
             .map(|n| {
-                let full = is_full[n] || roots[n] != [n];
-                let mut place = carried(&mut scatter, &[n], &|i, j| full || apart(i, j));
-                if roots[n] == [n] {
-                    place.targets.clear();
+                let full = is_full[n] || independent_nodes[n] != [n];
+                let mut destination = projected(&mut scatter, &[n], &|i, j| full || apart(i, j));
+                if independent_nodes[n] == [n] {
+                    destination.targets.clear();
                 }
-                (n, place)
+                (n, destination)
             })
             .collect();
         let masses = system.consistent_masses().iter();
-        let masses: Vec<Place> = masses.map(|m| carried(&mut scatter, &m.nodes, &|_, _| true)).collect();
+        let masses: Vec<Destination> = masses.map(|m| projected(&mut scatter, &m.nodes, &|_, _| true)).collect();
         let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
         let local = system.groups.iter().map(|g| size(&*g.block)).max().unwrap_or(0);
         Assembly {
@@ -274,16 +274,16 @@ impl Assembly {
             joints,
             diagonals,
             scatter,
-            tiles,
+            blocks,
             threads: system.splits(threads),
             gyroscopic: system.gyroscopic && !solver.is_symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
                 own: vec![Mat6::zeros(); nodes],
-                carry: roots.iter().map(|r| vec![Mat6::identity(); r.len()]).collect(),
-                carried: vec![[0.0; 36]; most * most],
+                projections: independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect(),
+                projected: vec![[0.0; 36]; most * most],
             },
-            roots,
+            independent_nodes,
         }
     }
 
@@ -301,7 +301,7 @@ impl Assembly {
         let nodes = now.nodes;
         let values = solver.values();
         values.fill(0.0);
-        carry_over(system, nodes, &self.roots, &mut self.scratch.carry);
+        update_projections(system, nodes, &self.independent_nodes, &mut self.scratch.projections);
         if weights.stiffness {
             self.add_elements(system, now, weights, values);
             self.add_pressures(system, nodes, loading, values);
@@ -319,13 +319,13 @@ impl Assembly {
         Weights { rate, moduli, .. }: Weights,
         values: &mut [f64],
     ) {
-        for (group, places) in system.groups.iter().zip(&self.groups) {
+        for (group, destinations) in system.groups.iter().zip(&self.groups) {
             let (block, d) = (&group.block, group.block.dofs());
             let now = &group.share(now);
             let length = (d * block.nodes(0).len()).pow(2);
             for first in (0..block.len()).step_by(CHUNK) {
                 let last = (first + CHUNK).min(block.len());
-                let Scratch { local, carry: maps, carried, .. } = &mut self.scratch;
+                let Scratch { local, projections, projected, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
                 let sparse = group.kind == PartKind::Contact;
                 let rests = |e: usize| sparse && block.is_inactive(e, now);
@@ -343,9 +343,9 @@ impl Assembly {
                     add_local(
                         K,
                         block.nodes(e),
-                        &places[e],
-                        (&self.scatter, &self.tiles, &self.roots, maps),
-                        carried,
+                        &destinations[e],
+                        (&self.scatter, &self.blocks, &self.independent_nodes, projections),
+                        projected,
                         values,
                     );
                 }
@@ -354,14 +354,14 @@ impl Assembly {
     }
 
     fn add_pressures(&mut self, system: &System, nodes: &[Node], loading: &Loading, values: &mut [f64]) {
-        let Scratch { carry: maps, carried, .. } = &mut self.scratch;
-        let mut places = self.faces.iter();
+        let Scratch { projections, projected, .. } = &mut self.scratch;
+        let mut destinations = self.faces.iter();
         for (load, p) in system.pressures.iter().zip(&loading.pressures) {
-            for (face, place) in load.faces.iter().zip(&mut places) {
+            for (face, destination) in load.faces.iter().zip(&mut destinations) {
                 let mut K = [0.0; 12 * 12];
                 let K = &mut K[..(3 * face.nodes().len()).pow(2)];
                 face.stiffness(*p, nodes, K);
-                add_local(K, face.nodes(), place, (&self.scatter, &self.tiles, &self.roots, maps), carried, values);
+                add_local(K, face.nodes(), destination, (&self.scatter, &self.blocks, &self.independent_nodes, projections), projected, values);
             }
         }
     }
@@ -375,16 +375,16 @@ impl Assembly {
         weights: Weights,
         values: &mut [f64],
     ) {
-        let Scratch { carry: maps, carried, .. } = &mut self.scratch;
-        let maps = &maps[..];
+        let Scratch { projections, projected, .. } = &mut self.scratch;
+        let projections = &projections[..];
         let own = nodes.len();
         let add = |j: usize, K: &[f64], values: &mut [f64]| {
             let [a, b] = system.joints[j].nodes;
-            let how = (&self.scatter, &self.tiles, &self.roots[..], maps);
-            add_local(K, &[a, b, own + j], &self.joints[j], how, carried, values);
+            let how = (&self.scatter, &self.blocks, &self.independent_nodes[..], projections);
+            add_local(K, &[a, b, own + j], &self.joints[j], how, projected, values);
         };
         let multipliers = &mut forces.multipliers;
-        joints::tangents(system, nodes, (&self.diagonals, maps), multipliers, weights.stiffness, values, add);
+        joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights.stiffness, values, add);
     }
 
     /// The matrices of nodes by themselves.
@@ -422,28 +422,28 @@ impl Assembly {
     }
 
     fn add_nodes(&mut self, values: &mut [f64]) {
-        let Scratch { own, carry: maps, carried, .. } = &mut self.scratch;
-        for (node, place) in &self.nodes {
-            if place.targets.is_empty() {
-                self.scatter.add(own[*node].as_slice(), place.entries, values);
+        let Scratch { own, projections, projected, .. } = &mut self.scratch;
+        for (node, destination) in &self.nodes {
+            if destination.targets.is_empty() {
+                self.scatter.add(own[*node].as_slice(), destination.entries, values);
             } else {
-                carry(&[*node], &place.targets, &self.roots, maps, |_, _| own[*node], carried);
-                self.scatter.add(carried.as_flattened(), place.entries, values);
+                project(&[*node], &destination.targets, &self.independent_nodes, projections, |_, _| own[*node], projected);
+                self.scatter.add(projected.as_flattened(), destination.entries, values);
             }
         }
     }
 
     fn add_masses(&mut self, system: &System, weights: Weights, values: &mut [f64]) {
         let w = weights.acceleration + system.mass_damping * weights.rate;
-        for (mass, place) in system.consistent_masses().iter().zip(&self.masses) {
+        for (mass, destination) in system.consistent_masses().iter().zip(&self.masses) {
             let n = mass.nodes.len();
             let pair = |a: usize, b: usize| {
                 let m = w * mass.m[a * n + b];
                 Mat6::from_diagonal(&[m, m, m, 0.0, 0.0, 0.0].into())
             };
-            let carried = &mut self.scratch.carried;
-            carry(&mass.nodes, &place.targets, &self.roots, &self.scratch.carry, pair, carried);
-            self.scatter.add(carried.as_flattened(), place.entries, values);
+            let projected = &mut self.scratch.projected;
+            project(&mass.nodes, &destination.targets, &self.independent_nodes, &self.scratch.projections, pair, projected);
+            self.scatter.add(projected.as_flattened(), destination.entries, values);
         }
     }
 }
@@ -452,17 +452,17 @@ impl Assembly {
 fn add_local(
     K: &[f64],
     nodes: &[usize],
-    place: &Place,
-    (scatter, tiles, roots, maps): (&Scatter, &Tiles, &[Vec<usize>], &[Vec<Mat6>]),
-    carried: &mut [[f64; 36]],
+    destination: &Destination,
+    (scatter, blocks, independent_nodes, projections): (&Scatter, &BlockScatter, &[Vec<usize>], &[Vec<Mat6>]),
+    projected: &mut [[f64; 36]],
     values: &mut [f64],
 ) {
-    let [from, to] = place.tiles;
+    let [from, to] = destination.blocks;
     if from < to {
-        return tiles.add(K, from as usize..to as usize, values);
+        return blocks.add(K, from as usize..to as usize, values);
     }
-    if place.targets.is_empty() {
-        return scatter.add(K, place.entries, values);
+    if destination.targets.is_empty() {
+        return scatter.add(K, destination.entries, values);
     }
     let width = K.len().isqrt();
     let d = width / nodes.len();
@@ -470,31 +470,31 @@ fn add_local(
         let at = |i: usize, j: usize| K[(d * a + i) * width + d * b + j];
         Mat6::from_fn(|i, j| if i < d && j < d { at(i, j) } else { 0.0 })
     };
-    carry(nodes, &place.targets, roots, maps, pair, carried);
-    scatter.add(carried.as_flattened(), place.entries, values);
+    project(nodes, &destination.targets, independent_nodes, projections, pair, projected);
+    scatter.add(projected.as_flattened(), destination.entries, values);
 }
 
 /// K̂ = 𝒯ᵀ K 𝒯 over the targets, with `pair(a, b)` the element's 6×6 block of its nodes a and b.
-fn carry(
+fn project(
     nodes: &[usize],
     targets: &[usize],
-    roots: &[Vec<usize>],
-    maps: &[Vec<Mat6>],
+    independent_nodes: &[Vec<usize>],
+    projections: &[Vec<Mat6>],
     pair: impl Fn(usize, usize) -> Mat6,
-    carried: &mut [[f64; 36]],
+    projected: &mut [[f64; 36]],
 ) {
     let m = targets.len();
-    carried[..m * m].fill([0.0; 36]);
-    let place = |root: usize| targets.iter().position(|&t| t == root).unwrap_or(0);
-    let stays = |node: usize| roots[node] == [node];
+    projected[..m * m].fill([0.0; 36]);
+    let destination = |independent: usize| targets.iter().position(|&t| t == independent).unwrap_or(0);
+    let stays = |node: usize| independent_nodes[node] == [node];
     for (a, &node_a) in nodes.iter().enumerate() {
         for (b, &node_b) in nodes.iter().enumerate() {
             let k = pair(a, b);
-            for (&root_a, T_a) in roots[node_a].iter().zip(&maps[node_a]) {
+            for (&independent_a, T_a) in independent_nodes[node_a].iter().zip(&projections[node_a]) {
                 let left = if stays(node_a) { k } else { T_a.tr_mul(&k) };
-                for (&root_b, T_b) in roots[node_b].iter().zip(&maps[node_b]) {
+                for (&independent_b, T_b) in independent_nodes[node_b].iter().zip(&projections[node_b]) {
                     let block = if stays(node_b) { left } else { left * T_b };
-                    let sum = &mut carried[place(root_a) * m + place(root_b)];
+                    let sum = &mut projected[destination(independent_a) * m + destination(independent_b)];
                     sum.iter_mut().zip(block.as_slice()).for_each(|(sum, k)| *sum += k);
                 }
             }

@@ -2,7 +2,7 @@
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia, Lumped};
-use super::lanes::MOST_IN_GROUP;
+use super::thread_partition::MOST_IN_GROUP;
 use super::watched::Watched;
 use crate::constraints::joint::{Joint, Row};
 use crate::elements::ElementBlock;

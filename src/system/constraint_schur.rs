@@ -41,7 +41,7 @@ impl ConstraintSchur {
         if count > MOST {
             return None;
         }
-        let root = |node: usize| {
+        let master = |node: usize| {
             let mut node = node;
             while let Some(dependent) = system.rigid_links.iter().find(|dependent| dependent.node == node) {
                 if !dependent.rigid {
@@ -55,8 +55,8 @@ impl ConstraintSchur {
         for joint in &system.joints {
             let mut ends = [None; 2];
             for (end, &node) in ends.iter_mut().zip(&joint.nodes) {
-                let root = root(node)?;
-                *end = masses.of(root).map(|_| root);
+                let master = master(node)?;
+                *end = masses.of(master).map(|_| master);
             }
             rows.extend(joint.rows.iter().map(|_| ends));
         }
@@ -86,13 +86,13 @@ impl ConstraintSchur {
                 let gradient = row.gradient(a, b);
                 let (mut whole, mut moving) = (0.0f64, 0.0f64);
                 for end in 0..2 {
-                    let Some(root) = self.rows[k][end] else { continue };
+                    let Some(master) = self.rows[k][end] else { continue };
                     let (f, m) = (linear(&gradient[end]), angular(&gradient[end]));
-                    let arm = nodes[joint.nodes[end]].x - nodes[root].x;
+                    let arm = nodes[joint.nodes[end]].x - nodes[master].x;
                     let G = stack(&f, &(m + arm.cross(&f)));
                     self.G[k][end] = G;
-                    let Some(block) = masses.of(root) else { continue };
-                    self.W[k][end] = block.accelerate(&nodes[root], G.as_ref());
+                    let Some(block) = masses.of(master) else { continue };
+                    self.W[k][end] = block.accelerate(&nodes[master], G.as_ref());
                     whole = whole.max(G.amax());
                     let free = G.iter().zip(block.free).filter(|(_, free)| *free);
                     moving = free.map(|(g, _)| g.abs()).fold(moving, f64::max);
@@ -110,9 +110,9 @@ impl ConstraintSchur {
             for l in 0..=k {
                 let mut sum = 0.0;
                 let idle = self.idle[k] || self.idle[l];
-                for (i, root) in self.rows[k].iter().enumerate().filter(|_| !idle) {
+                for (i, master) in self.rows[k].iter().enumerate().filter(|_| !idle) {
                     for (j, other) in self.rows[l].iter().enumerate() {
-                        if root.is_some() && root == other {
+                        if master.is_some() && master == other {
                             sum += self.G[k][i].dot(&self.W[l][j]);
                         }
                     }
@@ -167,16 +167,16 @@ impl ConstraintSchur {
     /// x ← x + G δ, by node.
     pub fn add_rates(&mut self, motion: &[Vec6]) {
         for ((x, ends), G) in self.x.iter_mut().zip(&self.rows).zip(&self.G) {
-            *x += ends.iter().zip(G).filter_map(|(root, G)| root.map(|root| G.dot(&motion[root]))).sum::<f64>();
+            *x += ends.iter().zip(G).filter_map(|(master, G)| master.map(|master| G.dot(&motion[master]))).sum::<f64>();
         }
     }
 
     /// F ← F − Gᵀ x, on the nodes that move.
     pub fn pull(&self, F: &mut [Force]) {
         for ((x, ends), G) in self.x.iter().zip(&self.rows).zip(&self.G) {
-            for (root, G) in ends.iter().zip(G) {
-                if let Some(root) = root {
-                    F[*root].iter_mut().zip(G).for_each(|(f, G)| *f -= G * x);
+            for (master, G) in ends.iter().zip(G) {
+                if let Some(master) = master {
+                    F[*master].iter_mut().zip(G).for_each(|(f, G)| *f -= G * x);
                 }
             }
         }
@@ -185,9 +185,9 @@ impl ConstraintSchur {
     /// δ ← δ − M⁻¹ Gᵀ x, by node.
     pub fn push(&self, motion: &mut [Vec6]) {
         for ((x, ends), W) in self.x.iter().zip(&self.rows).zip(&self.W) {
-            for (root, W) in ends.iter().zip(W) {
-                if let Some(root) = root {
-                    motion[*root] -= W * *x;
+            for (master, W) in ends.iter().zip(W) {
+                if let Some(master) = master {
+                    motion[*master] -= W * *x;
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Energies and momenta of a state.
 
 use super::equations::System;
-use super::lanes;
+use super::thread_partition;
 use crate::math::Vec3;
 use crate::model::{Model, Part, PartKind};
 use crate::state::{Configuration, State};
@@ -123,7 +123,7 @@ impl System {
     pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
         let stored = |of: &(dyn Fn(PartKind) -> bool + Sync)| -> f64 {
-            lanes::sum(&self.groups, self.splits(threads), &|group| match of(group.kind) {
+            thread_partition::sum(&self.groups, self.splits(threads), &|group| match of(group.kind) {
                 true => group.block.energy(&group.share(&now)),
                 false => 0.0,
             })

@@ -2,12 +2,12 @@
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
-use super::lanes::Lane;
+use super::thread_partition::Partition;
 use super::loads::{Loading, load_on};
 use super::multipliers::Multipliers;
 use super::scale::Scale;
 use super::watched::Watched;
-use super::{build, lanes, plane};
+use super::{build, plane, thread_partition};
 use crate::constraints::joint::Joint;
 use crate::constraints::rigid_link::{self, RigidLink};
 use crate::elements::Force;
@@ -51,7 +51,7 @@ pub struct Forces {
     /// The forces so handed over, in the order of [`System::rigid_links`].
     pub on_dependents: Vec<Vec3>,
     pub multipliers: Multipliers,
-    lanes: Vec<Lane>,
+    partitions: Vec<Partition>,
     threads: bool,
 }
 
@@ -62,7 +62,7 @@ impl Forces {
             on_nodes: vec![[0.0; 6]; nodes],
             on_dependents: vec![Vec3::zeros(); system.rigid_links.len()],
             multipliers: Multipliers::new(system.multipliers()),
-            lanes: lanes::lanes(&system.groups),
+            partitions: thread_partition::partition(&system.groups),
             threads: false,
         }
     }
@@ -133,7 +133,7 @@ impl System {
         let F = &mut forces.on_nodes[..];
         F.fill([0.0; 6]);
         let mut scale = Scale::default();
-        lanes::subtract_forces(&self.groups, now, &mut forces.lanes, forces.threads, F);
+        thread_partition::subtract_forces(&self.groups, now, &mut forces.partitions, forces.threads, F);
         scale.meet(F);
         for inertia in &self.inertias {
             let node = &nodes[inertia.node];
@@ -229,7 +229,7 @@ impl System {
     /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
     /// became of the work of plastic strains on it.
     pub fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64], threads: usize) -> Dissipation {
-        lanes::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
+        thread_partition::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
             if group.history.is_empty() {
                 return Dissipation::default();
             }
@@ -239,14 +239,14 @@ impl System {
 
     /// True where work on elements is worth that many threads.
     pub(super) fn splits(&self, threads: usize) -> bool {
-        threads > 1 && lanes::is_large(&self.groups)
+        threads > 1 && thread_partition::is_large(&self.groups)
     }
 
     /// Power that dampers take.
     pub fn damping_power(&self, now: &Configuration, threads: usize) -> f64 {
         let nodes = now.nodes;
         let mut power: f64 =
-            lanes::sum(&self.groups, self.splits(threads), &|group| group.block.damping_power(&group.share(now)));
+            thread_partition::sum(&self.groups, self.splits(threads), &|group| group.block.damping_power(&group.share(now)));
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();

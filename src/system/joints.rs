@@ -126,28 +126,28 @@ impl System {
     }
 }
 
-/// Where a joint's nodes move: of each node and each root that it moves with, its place in [`super::assembly::roots`], and the
+/// Where a joint's nodes move: of each node and each independent node that it moves with, its place in [`super::assembly::independent nodes`], and the
 /// places of its six directions on the diagonal of the matrix.
 pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
 
 impl Diagonal {
-    pub fn new(joint: &Joint, roots: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
+    pub fn new(joint: &Joint, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
         let slot = |node: usize, dof: usize| {
             let row = dofs.row(node, dof)?;
             solver.slot(row, row).map(|slot| slot as u32)
         };
         let of = |(end, &node): (usize, &usize)| {
-            let places = roots[node].iter().enumerate();
-            places.map(move |(k, &root)| (end, node, k, std::array::from_fn(|dof| slot(root, dof)))).collect::<Vec<_>>()
+            let places = independent_nodes[node].iter().enumerate();
+            places.map(move |(k, &independent)| (end, node, k, std::array::from_fn(|dof| slot(independent, dof)))).collect::<Vec<_>>()
         };
         Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }
 
     /// The stiffness against which a row acts, Σ g²/K over all directions that it pulls at, inverted; none where nothing resists.
-    fn stiffness(&self, G: &[Vec6; 2], maps: &[Vec<Mat6>], values: &[f64]) -> Option<f64> {
+    fn stiffness(&self, G: &[Vec6; 2], projections: &[Vec<Mat6>], values: &[f64]) -> Option<f64> {
         let mut compliance = 0.0;
         for (end, node, k, slots) in &self.0 {
-            let g = maps[*node][*k].tr_mul(&G[*end]);
+            let g = projections[*node][*k].tr_mul(&G[*end]);
             for (g, slot) in g.iter().zip(slots) {
                 let Some(slot) = slot else { continue };
                 let K = values[*slot as usize].abs();
@@ -161,11 +161,11 @@ impl Diagonal {
 }
 
 /// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
-/// `maps`: how nodes move with their roots; `stiffness`: with the derivative of its forces.
+/// `projections`: how nodes move with their independent nodes; `stiffness`: with the derivative of its forces.
 pub(super) fn tangents(
     system: &System,
     nodes: &[Node],
-    (diagonals, maps): (&[Diagonal], &[Vec<Mat6>]),
+    (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
     multipliers: &mut Multipliers,
     stiffness: bool,
     values: &mut [f64],
@@ -177,7 +177,7 @@ pub(super) fn tangents(
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.rows.iter().enumerate() {
-            let s = diagonal.stiffness(&row.gradient(a, b), maps, values).unwrap_or(0.0);
+            let s = diagonal.stiffness(&row.gradient(a, b), projections, values).unwrap_or(0.0);
             multipliers.penalties[first + k] = s;
             let stiffest = &mut stiffest[usize::from(row.turns())];
             *stiffest = stiffest.max(s);

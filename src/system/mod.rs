@@ -11,7 +11,7 @@ mod equations;
 mod group;
 mod inertia;
 pub mod joints;
-mod lanes;
+mod thread_partition;
 mod loads;
 pub mod masses;
 mod motion;
@@ -19,7 +19,7 @@ mod multipliers;
 mod plane;
 pub mod results;
 mod scale;
-mod tiles;
+mod block_scatter;
 mod watched;
 
 pub use contacts::ContactState;

@@ -5,52 +5,52 @@ use rdsolve::linear::{Solver, Structure};
 
 /// Elements of two nodes in a row.
 pub fn chain(groups: usize, size: usize) -> Structure {
-    Structure { sizes: vec![size; groups], cliques: (1..groups).map(|g| vec![g - 1, g]).collect(), multipliers: 0 }
+    Structure { sizes: vec![size; groups], connectivity: (1..groups).map(|g| vec![g - 1, g]).collect(), multipliers: 0 }
 }
 
 /// Elements of three nodes in a row, numbered end, middle, end, middle, end.
 pub fn quadratic_chain(elements: usize, size: usize) -> Structure {
-    let cliques = (0..elements).map(|e| vec![2 * e, 2 * e + 1, 2 * e + 2]).collect();
-    Structure { sizes: vec![size; 2 * elements + 1], cliques, multipliers: 0 }
+    let connectivity = (0..elements).map(|e| vec![2 * e, 2 * e + 1, 2 * e + 2]).collect();
+    Structure { sizes: vec![size; 2 * elements + 1], connectivity, multipliers: 0 }
 }
 
 /// Each node hangs on a random earlier one.
 pub fn tree(groups: usize, random: &mut Random) -> Structure {
     let sizes = (0..groups).map(|_| 1 + random.below(6)).collect();
-    Structure { sizes, cliques: (1..groups).map(|g| vec![g, random.below(g)]).collect(), multipliers: 0 }
+    Structure { sizes, connectivity: (1..groups).map(|g| vec![g, random.below(g)]).collect(), multipliers: 0 }
 }
 
 /// A sheet of four-node elements.
 pub fn sheet(nx: usize, ny: usize, size: usize) -> Structure {
     let node = |i, j| i * ny + j;
-    let cliques = (1..nx)
+    let connectivity = (1..nx)
         .flat_map(|i| (1..ny).map(move |j| vec![node(i - 1, j - 1), node(i, j - 1), node(i, j), node(i - 1, j)]))
         .collect();
-    Structure { sizes: vec![size; nx * ny], cliques, multipliers: 0 }
+    Structure { sizes: vec![size; nx * ny], connectivity, multipliers: 0 }
 }
 
 /// A space frame of one beam per member: storeys of nx × ny columns.
 pub fn frame(storeys: usize, nx: usize, ny: usize, size: usize) -> Structure {
     let node = |s, i, j| (s * nx + i) * ny + j;
-    let mut cliques = Vec::new();
+    let mut connectivity = Vec::new();
     for s in 0..storeys {
         for i in 0..nx {
             for j in 0..ny {
                 let here = node(s, i, j);
-                cliques.extend((s > 0).then(|| vec![node(s - 1, i, j), here]));
-                cliques.extend((i > 0).then(|| vec![node(s, i - 1, j), here]));
-                cliques.extend((j > 0).then(|| vec![node(s, i, j - 1), here]));
+                connectivity.extend((s > 0).then(|| vec![node(s - 1, i, j), here]));
+                connectivity.extend((i > 0).then(|| vec![node(s, i - 1, j), here]));
+                connectivity.extend((j > 0).then(|| vec![node(s, i, j - 1), here]));
             }
         }
     }
-    Structure { sizes: vec![size; storeys * nx * ny], cliques, multipliers: 0 }
+    Structure { sizes: vec![size; storeys * nx * ny], connectivity, multipliers: 0 }
 }
 
-/// Random cliques of up to five groups of mixed sizes; some groups may stand alone.
-pub fn cliques(groups: usize, random: &mut Random) -> Structure {
+/// Random couplings of up to five groups of mixed sizes; some groups may stand alone.
+pub fn connectivity(groups: usize, random: &mut Random) -> Structure {
     let sizes = (0..groups).map(|_| 1 + random.below(6)).collect();
-    let clique = |random: &mut Random| (0..2 + random.below(4)).map(|_| random.below(groups)).collect();
-    Structure { sizes, cliques: (0..groups).map(|_| clique(random)).collect(), multipliers: 0 }
+    let coupled = |random: &mut Random| (0..2 + random.below(4)).map(|_| random.below(groups)).collect();
+    Structure { sizes, connectivity: (0..groups).map(|_| coupled(random)).collect(), multipliers: 0 }
 }
 
 /// SplitMix64.
@@ -82,7 +82,7 @@ pub enum Values {
     Indefinite,
 }
 
-/// Entries (row, col, value) to be added, both triangles: a random full matrix per clique, and on the diagonal what
+/// Entries (row, col, value) to be added, both triangles: a random full matrix per coupling, and on the diagonal what
 /// keeps it away from singularity.
 pub fn entries(structure: &Structure, values: Values, random: &mut Random) -> Vec<(usize, usize, f64)> {
     let mut first = vec![0];
@@ -93,11 +93,11 @@ pub fn entries(structure: &Structure, values: Values, random: &mut Random) -> Ve
     let mut entries = Vec::new();
     let mut sums = vec![0.0; first[first.len() - 1]];
     let alone = (0..structure.sizes.len()).map(|g| vec![g]);
-    for clique in structure.cliques.iter().cloned().chain(alone) {
-        let mut clique = clique;
-        clique.sort();
-        clique.dedup();
-        let rows: Vec<usize> = clique.iter().flat_map(|&g| rows(g)).collect();
+    for coupled in structure.connectivity.iter().cloned().chain(alone) {
+        let mut coupled = coupled;
+        coupled.sort();
+        coupled.dedup();
+        let rows: Vec<usize> = coupled.iter().flat_map(|&g| rows(g)).collect();
         for (n, &i) in rows.iter().enumerate() {
             for &j in &rows[..n] {
                 let (lower, upper) = (random.number(), random.number());

@@ -12,11 +12,11 @@ pub(super) const MOST_IN_GROUP: usize = 512;
 /// Below this many elements threads cost more than they save.
 const WORTH_THREADS: usize = 1024;
 /// Each takes an array of forces.
-const MOST_LANES: usize = 16;
+const MOST_PARTITIONS: usize = 16;
 
 /// Groups whose forces are summed apart from those of others.
 #[derive(Debug, Clone)]
-pub struct Lane {
+pub struct Partition {
     groups: Range<usize>,
     /// Nodes that they act on.
     nodes: Vec<Range<usize>>,
@@ -30,49 +30,49 @@ pub(super) fn is_large(groups: &[Group]) -> bool {
 }
 
 /// None in a small scene.
-pub(super) fn lanes(groups: &[Group]) -> Vec<Lane> {
+pub(super) fn partition(groups: &[Group]) -> Vec<Partition> {
     if !is_large(groups) {
         return Vec::new();
     }
-    let count = groups.len().min(MOST_LANES);
+    let count = groups.len().min(MOST_PARTITIONS);
     let bound = |k: usize| k * groups.len() / count;
-    (0..count).map(|k| lane(groups, bound(k)..bound(k + 1))).collect()
+    (0..count).map(|k| part(groups, bound(k)..bound(k + 1))).collect()
 }
 
-fn lane(all: &[Group], groups: Range<usize>) -> Lane {
+fn part(all: &[Group], groups: Range<usize>) -> Partition {
     let of = |group: &Group| (0..group.block.len()).flat_map(|e| group.block.nodes(e)).copied().collect::<Vec<_>>();
     let mut touched: Vec<usize> = all[groups.clone()].iter().flat_map(of).collect();
     touched.sort_unstable();
     touched.dedup();
     let nodes = touched.chunk_by(|a, b| a + 1 == *b).map(|run| run[0]..run[run.len() - 1] + 1).collect();
-    Lane { groups, nodes, F: vec![[0.0; 6]; touched.last().map_or(0, |last| last + 1)] }
+    Partition { groups, nodes, F: vec![[0.0; 6]; touched.last().map_or(0, |last| last + 1)] }
 }
 
 /// Subtracts the internal forces of all elements from `F`.
 pub(super) fn subtract_forces(
     groups: &[Group],
     now: &Configuration,
-    lanes: &mut [Lane],
+    partitions: &mut [Partition],
     threads: bool,
     F: &mut [Force],
 ) {
-    if lanes.is_empty() {
+    if partitions.is_empty() {
         return groups.iter().for_each(|group| group.block.subtract_forces(&group.share(now), F));
     }
-    let run = |lane: &mut Lane| {
-        lane.nodes.iter().for_each(|run| lane.F[run.clone()].fill([0.0; 6]));
-        for group in &groups[lane.groups.clone()] {
-            group.block.subtract_forces(&group.share(now), &mut lane.F);
+    let run = |part: &mut Partition| {
+        part.nodes.iter().for_each(|run| part.F[run.clone()].fill([0.0; 6]));
+        for group in &groups[part.groups.clone()] {
+            group.block.subtract_forces(&group.share(now), &mut part.F);
         }
     };
     if threads {
-        lanes.par_iter_mut().for_each(run);
+        partitions.par_iter_mut().for_each(run);
     } else {
-        lanes.iter_mut().for_each(run);
+        partitions.iter_mut().for_each(run);
     }
-    for lane in lanes {
-        for run in &lane.nodes {
-            let pairs = F[run.clone()].as_flattened_mut().iter_mut().zip(lane.F[run.clone()].as_flattened());
+    for part in partitions {
+        for run in &part.nodes {
+            let pairs = F[run.clone()].as_flattened_mut().iter_mut().zip(part.F[run.clone()].as_flattened());
             pairs.for_each(|(sum, f)| *sum += f);
         }
     }

@@ -2,14 +2,14 @@
 
 /// A 6×6 block of a symmetric matrix in column-compressed storage; of a diagonal block the lower triangle is stored.
 #[derive(Debug, Clone, Copy)]
-pub struct Tile {
+pub struct BlockSlot {
     /// Place of its first entry in [`super::Solver::values`].
     pub(super) at: u32,
     /// Places from the start of its first column to that of its second.
     pub(super) step: u32,
 }
 
-impl Tile {
+impl BlockSlot {
     /// The place in [`super::Solver::values`] where column `j` of the block, 0 ≤ j < 6, begins. Each column of the matrix begins
     /// with its diagonal entry, so that columns become shorter by one from each to the next.
     #[inline]
