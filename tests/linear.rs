@@ -1,6 +1,8 @@
 //! Both factorisations against a dense one, over structures of every shape.
 
-use crate::structures::{Random, Values, chain, connectivity, entries, fill, frame, quadratic_chain, sheet, slots, tree};
+use crate::structures::{
+    Random, Values, chain, connectivity, entries, fill, frame, quadratic_chain, sheet, slots, tree,
+};
 use nalgebra::{DMatrix, DVector};
 use rdsolve::linear::{Factorization, Solver, Structure};
 

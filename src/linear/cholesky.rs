@@ -4,13 +4,13 @@
 //! permuting the matrix at each factorisation. L is stored as faer stores it. L D Lᵀ is formed without pivoting: beyond a
 //! buckling load it is as accurate as the leading minors are away from zero, and the caller's residual shows whether it was.
 
+use super::block_slot::BlockSlot;
 use super::elimination::Elimination;
 use super::fronts::Fronts;
 use super::graph::Graph;
 use super::memory::{self, TooLarge};
 use super::pivot::{PIVOT_TOLERANCE, Singular};
 use super::stats::Stats;
-use super::block_slot::BlockSlot;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};

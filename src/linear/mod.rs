@@ -6,6 +6,7 @@
 //! Cholesky for large symmetric ones. Iterative methods and orderings by dissection are left out.
 
 mod block_lu;
+mod block_slot;
 mod cholesky;
 mod dense;
 mod elimination;
@@ -19,9 +20,9 @@ mod solver;
 mod stats;
 mod structure;
 mod substitution;
-mod block_slot;
 
 pub use block_lu::BlockLu;
+pub use block_slot::BlockSlot;
 pub use cholesky::Cholesky;
 pub use elimination::operations;
 pub use factorization::Factorization;
@@ -30,4 +31,3 @@ pub use pivot::Singular;
 pub use solver::Solver;
 pub use stats::Stats;
 pub use structure::Structure;
-pub use block_slot::BlockSlot;

@@ -1,6 +1,7 @@
 //! The factorisations behind one interface.
 
 use super::block_lu::BlockLu;
+use super::block_slot::BlockSlot;
 use super::cholesky::Cholesky;
 use super::factorization::Factorization;
 use super::graph::Graph;
@@ -8,7 +9,6 @@ use super::memory::TooLarge;
 use super::pivot::Singular;
 use super::stats::Stats;
 use super::structure::Structure;
-use super::block_slot::BlockSlot;
 
 /// A matrix and its factorisation, the memory of both included.
 pub enum Solver {

@@ -1,11 +1,11 @@
 //! From the matrices of elements and masses to the matrix of the system, through slots computed once. What belongs to a
 //! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
 
+use super::block_scatter::BlockScatter;
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
-use super::block_scatter::BlockScatter;
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
@@ -133,7 +133,12 @@ pub fn projections(system: &System, nodes: &[Node], independent_nodes: &[Vec<usi
 }
 
 /// How each dependent node moves with its independent nodes, by the chain of arms.
-fn update_projections(system: &System, nodes: &[Node], independent_nodes: &[Vec<usize>], projections: &mut [Vec<Mat6>]) {
+fn update_projections(
+    system: &System,
+    nodes: &[Node],
+    independent_nodes: &[Vec<usize>],
+    projections: &mut [Vec<Mat6>],
+) {
     for dependent in &system.rigid_links {
         let D = dependent.D(nodes);
         for k in 0..independent_nodes[dependent.master].len() {
@@ -242,7 +247,8 @@ impl Assembly {
         let joints = system.joints.iter().zip(first..);
         let joints: Vec<Destination> =
             joints.map(|(joint, own)| local(&mut scatter, &[joint.nodes[0], joint.nodes[1], own], 6)).collect();
-        let diagonals = system.joints.iter().map(|joint| Diagonal::new(joint, &independent_nodes, dofs, solver)).collect();
+        let diagonals =
+            system.joints.iter().map(|joint| Diagonal::new(joint, &independent_nodes, dofs, solver)).collect();
 
         // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
@@ -361,7 +367,14 @@ impl Assembly {
                 let mut K = [0.0; 12 * 12];
                 let K = &mut K[..(3 * face.nodes().len()).pow(2)];
                 face.stiffness(*p, nodes, K);
-                add_local(K, face.nodes(), destination, (&self.scatter, &self.blocks, &self.independent_nodes, projections), projected, values);
+                add_local(
+                    K,
+                    face.nodes(),
+                    destination,
+                    (&self.scatter, &self.blocks, &self.independent_nodes, projections),
+                    projected,
+                    values,
+                );
             }
         }
     }
@@ -427,7 +440,14 @@ impl Assembly {
             if destination.targets.is_empty() {
                 self.scatter.add(own[*node].as_slice(), destination.entries, values);
             } else {
-                project(&[*node], &destination.targets, &self.independent_nodes, projections, |_, _| own[*node], projected);
+                project(
+                    &[*node],
+                    &destination.targets,
+                    &self.independent_nodes,
+                    projections,
+                    |_, _| own[*node],
+                    projected,
+                );
                 self.scatter.add(projected.as_flattened(), destination.entries, values);
             }
         }
@@ -442,7 +462,14 @@ impl Assembly {
                 Mat6::from_diagonal(&[m, m, m, 0.0, 0.0, 0.0].into())
             };
             let projected = &mut self.scratch.projected;
-            project(&mass.nodes, &destination.targets, &self.independent_nodes, &self.scratch.projections, pair, projected);
+            project(
+                &mass.nodes,
+                &destination.targets,
+                &self.independent_nodes,
+                &self.scratch.projections,
+                pair,
+                projected,
+            );
             self.scatter.add(projected.as_flattened(), destination.entries, values);
         }
     }

@@ -2,10 +2,10 @@
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
-use super::thread_partition::Partition;
 use super::loads::{Loading, load_on};
 use super::multipliers::Multipliers;
 use super::scale::Scale;
+use super::thread_partition::Partition;
 use super::watched::Watched;
 use super::{build, plane, thread_partition};
 use crate::constraints::joint::Joint;
@@ -245,8 +245,9 @@ impl System {
     /// Power that dampers take.
     pub fn damping_power(&self, now: &Configuration, threads: usize) -> f64 {
         let nodes = now.nodes;
-        let mut power: f64 =
-            thread_partition::sum(&self.groups, self.splits(threads), &|group| group.block.damping_power(&group.share(now)));
+        let mut power: f64 = thread_partition::sum(&self.groups, self.splits(threads), &|group| {
+            group.block.damping_power(&group.share(now))
+        });
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;
             power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();

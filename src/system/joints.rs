@@ -138,7 +138,9 @@ impl Diagonal {
         };
         let of = |(end, &node): (usize, &usize)| {
             let places = independent_nodes[node].iter().enumerate();
-            places.map(move |(k, &independent)| (end, node, k, std::array::from_fn(|dof| slot(independent, dof)))).collect::<Vec<_>>()
+            places
+                .map(move |(k, &independent)| (end, node, k, std::array::from_fn(|dof| slot(independent, dof))))
+                .collect::<Vec<_>>()
         };
         Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }

@@ -2,6 +2,7 @@
 //! the first time: what an element does to a node that rides on a body is handed to the body.
 
 pub mod assembly;
+mod block_scatter;
 mod build;
 pub mod constraint_schur;
 mod contacts;
@@ -11,7 +12,6 @@ mod equations;
 mod group;
 mod inertia;
 pub mod joints;
-mod thread_partition;
 mod loads;
 pub mod masses;
 mod motion;
@@ -19,7 +19,7 @@ mod multipliers;
 mod plane;
 pub mod results;
 mod scale;
-mod block_scatter;
+mod thread_partition;
 mod watched;
 
 pub use contacts::ContactState;
