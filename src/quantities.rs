@@ -67,7 +67,7 @@ pub enum Axes {
     /// Beam axis x and the section's local y and z, turning with the section.
     Section,
     /// Axis 1, axis 2 and the normal of a shell element, turning with its surface.
-    Shell,
+    Surface,
 }
 
 impl fmt::Display for Axes {
@@ -76,7 +76,7 @@ impl fmt::Display for Axes {
             Axes::None => "",
             Axes::Global => "global",
             Axes::Section => "section",
-            Axes::Shell => "shell",
+            Axes::Surface => "shell",
         })
     }
 }

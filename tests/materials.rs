@@ -1,7 +1,9 @@
 //! The material law against exact solutions, through its public face only.
 
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
-use rdsolve::materials::{Bar, Dissipation, Fibre, Hardening, Law, Overstress, PlaneStress, StressState, Viscosity};
+use rdsolve::materials::{
+    Dissipation, Fibre, Hardening, Law, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
+};
 
 const E: f64 = 200e3;
 const NU: f64 = 0.3;
@@ -104,7 +106,7 @@ trait Mises<const N: usize>: StressState<N> {
     fn flow(sigma: &[f64; N]) -> [f64; N];
 }
 
-impl Mises<1> for Bar {
+impl Mises<1> for Uniaxial {
     fn compliance([s]: &[f64; 1]) -> [f64; 1] {
         [s / E]
     }
@@ -199,7 +201,7 @@ fn radial<const N: usize, S: Mises<N>>(state: S) {
 
 #[test]
 fn radial_and_cyclic_paths_are_exact_in_any_step() {
-    radial(Bar);
+    radial(Uniaxial);
     radial(Fibre);
     radial(PlaneStress);
 }
@@ -210,7 +212,7 @@ fn a_fibre_without_shear_and_a_layer_under_one_stress_are_a_bar() {
     let mut rng = SmallRng::seed_from_u64(4);
     for (law, ..) in laws(0.3) {
         let (mut bar, mut fibre, mut layer) =
-            (Point::new(&law, Bar), Point::new(&law, Fibre), Point::new(&law, PlaneStress));
+            (Point::new(&law, Uniaxial), Point::new(&law, Fibre), Point::new(&law, PlaneStress));
         for _ in 0..30 {
             let strain = 10.0 * EY * rng.random_range(-1.0..1.0);
             let dt = rng.random_range(0.0..0.1);
@@ -352,7 +354,7 @@ fn tangent_error<const N: usize, S: StressState<N>>(state: S) -> f64 {
 /// is left out, (h/ε_Y)⁴ times a fifth derivative that is large beside the onset of viscous flow, is as small.
 #[test]
 fn tangents_are_the_derivatives() {
-    let errors = [tangent_error(Bar), tangent_error(Fibre), tangent_error(PlaneStress)];
+    let errors = [tangent_error(Uniaxial), tangent_error(Fibre), tangent_error(PlaneStress)];
     assert!(errors.iter().all(|e| *e < 1e-9), "{errors:?}");
 }
 
@@ -376,7 +378,7 @@ fn a_bar_drawn_at_constant_rate_approaches_its_overstress() {
         // σ = X + σ_Y (1 + v) with X = H εᵖ:  E (ε − εᵖ) = H εᵖ + σ_Y (1 + v).
         let plastic = plastic * E / (E + H);
         first_order(2e-4, H * plastic + YIELD * (1.0 + v), |steps| {
-            let mut bar = Point::new(&law, Bar);
+            let mut bar = Point::new(&law, Uniaxial);
             let dt = time / steps as f64;
             bar.to([EY], EY / rate);
             (1..=steps).fold(0.0, |_, n| bar.to([EY + rate * dt * n as f64], dt)[0])
@@ -391,7 +393,7 @@ fn the_steady_stress_is_that_of_the_rate() {
         let n = f64::from(exponent);
         for ratio in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
             let law = Law::new(E, NU, linear(0.0), 0.0, power(1.0, n));
-            let mut bar = Point::new(&law, Bar);
+            let mut bar = Point::new(&law, Uniaxial);
             let exact = YIELD * (1.0 + f64::powf(ratio, 1.0 / n));
             let step = exact / E;
             let sigma = (1..=60).fold(0.0, |_, k| bar.to([step * f64::from(k)], step / ratio)[0]);
@@ -415,7 +417,7 @@ fn mild_steel_follows_cowper_and_symonds() {
     let beyond = [(1000.0, 2.89987), (1e4, 1.0 + (1e4f64 / 40.4).powf(0.2))];
     let law = Law::new(E, NU, linear(0.0), 0.0, power(40.4, 5.0));
     for (rate, ratio) in table.into_iter().chain(beyond) {
-        let mut bar = Point::new(&law, Bar);
+        let mut bar = Point::new(&law, Uniaxial);
         let sigma = (1..=60).fold(0.0, |_, k| bar.to([0.005 * f64::from(k)], 0.005 / rate)[0]);
         close(sigma / YIELD, ratio, 5.1e-6, &format!("at {rate} per second"));
     }
@@ -449,7 +451,7 @@ fn relaxation<const N: usize, S: Mises<N>>(state: S, unit: [f64; N], c: f64) {
 
 #[test]
 fn overstress_relaxes_as_its_function_says() {
-    relaxation(Bar, [-1.0], E);
+    relaxation(Uniaxial, [-1.0], E);
     relaxation(Fibre, [1.0, 0.0, 0.0], E);
     relaxation(Fibre, [0.0, 0.6, -0.8], 3.0 * G);
     relaxation(PlaneStress, [1.0, -1.0, 0.5], 3.0 * G);
@@ -462,7 +464,7 @@ fn a_bar_creeps_at_constant_rate() {
     for n in [1.0, 2.5, 5.0] {
         let (gamma, stress) = (0.3, 1.4 * YIELD);
         let law = Law::new(E, NU, linear(0.0), 0.0, power(gamma, n));
-        let mut bar = Point::new(&law, Bar);
+        let mut bar = Point::new(&law, Uniaxial);
         bar.to([stress / E], 0.0);
         let mut strain = [stress / E];
         for _ in 0..5 {
@@ -480,15 +482,15 @@ fn a_bar_creeps_at_constant_rate() {
 fn relaxation_turns_elastic_energy_into_work() {
     for overstress in overstresses() {
         let law = Law::new(E, NU, linear(1e4), 0.4, Some(Viscosity { fluidity: 0.5, overstress }));
-        let mut bar = Point::new(&law, Bar);
+        let mut bar = Point::new(&law, Uniaxial);
         let strain = [2.5 * EY];
         bar.to(strain, 0.0);
-        let before = law.elastic_energy(Bar, &strain, &bar.history);
+        let before = law.elastic_energy(Uniaxial, &strain, &bar.history);
         close(before, 0.5 * E * strain[0] * strain[0], 1e-12 * before, "elastic energy");
         for _ in 0..7 {
             bar.to(strain, 5e-4);
             let Dissipation { plastic, viscous, stored, .. } = bar.work;
-            let after = law.elastic_energy(Bar, &strain, &bar.history);
+            let after = law.elastic_energy(Uniaxial, &strain, &bar.history);
             close(plastic + viscous + stored, before - after, 1e-12 * before, "work");
             assert!(plastic > 0.0 && viscous > 0.0 && stored > 0.0);
         }
@@ -600,7 +602,7 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
 fn any_step_from_any_state_has_an_answer() {
     let mut rng = SmallRng::seed_from_u64(8);
     for _ in 0..40_000 {
-        any_step(Bar, &mut rng);
+        any_step(Uniaxial, &mut rng);
         any_step(Fibre, &mut rng);
         any_step(PlaneStress, &mut rng);
     }

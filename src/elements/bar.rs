@@ -3,7 +3,7 @@
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
 use super::link::{Link, LinkLaw, Links};
-use crate::materials::{Bar, Dissipation, Law};
+use crate::materials::{Dissipation, Law, Uniaxial};
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node, elongation, stretch};
 
@@ -85,7 +85,7 @@ impl YieldingBars {
             law: law.clone(),
             tension_only,
             damping,
-            variables: law.history(Bar),
+            variables: law.history(Uniaxial),
         }
     }
 
@@ -107,7 +107,7 @@ impl YieldingBars {
 
     /// True where a tension-only bar would be compressed elastically, so that it has no force.
     fn is_slack(&self, strain: f64, old: &[f64]) -> bool {
-        self.tension_only && self.law.stress(Bar, &[strain], 0.0, old)[0] <= 0.0 && strain <= old[0]
+        self.tension_only && self.law.stress(Uniaxial, &[strain], 0.0, old)[0] <= 0.0 && strain <= old[0]
     }
 
     /// The axial force and its derivatives.
@@ -115,7 +115,7 @@ impl YieldingBars {
         if self.is_slack(at.strain, old) {
             return Tension::default();
         }
-        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Bar, &[at.strain], dt, old);
+        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Uniaxial, &[at.strain], dt, old);
         let viscosity = self.damping * self.law.elastic().E;
         let damping = viscosity * at.strain_rate;
         if self.tension_only && stress + damping < 0.0 {
@@ -199,7 +199,7 @@ impl ElementBlock for YieldingBars {
             let old = &now.history[self.history_range(e)];
             // The strain of a slack bar is its plastic strain.
             let strain = if self.is_slack(at.strain, old) { old[0] } else { at.strain };
-            let (_, dissipation) = self.law.advance(Bar, &[strain], (now.dt, part), old, new);
+            let (_, dissipation) = self.law.advance(Uniaxial, &[strain], (now.dt, part), old, new);
             sum += dissipation * (self.area * self.elements[e].free);
         }
         sum
@@ -209,7 +209,7 @@ impl ElementBlock for YieldingBars {
         let energy = |e: usize| {
             let (at, old) = (self.strain(e, now.nodes), &now.history[self.history_range(e)]);
             let slack = self.is_slack(at.strain, old);
-            let density = if slack { 0.0 } else { self.law.elastic_energy(Bar, &[at.strain], old) };
+            let density = if slack { 0.0 } else { self.law.elastic_energy(Uniaxial, &[at.strain], old) };
             self.area * self.elements[e].free * density
         };
         (0..self.len()).map(energy).sum()
@@ -225,6 +225,6 @@ impl ElementBlock for YieldingBars {
     }
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
-        self.law.accumulated(Bar, &history[self.history_range(e)])
+        self.law.accumulated(Uniaxial, &history[self.history_range(e)])
     }
 }

@@ -11,7 +11,7 @@ pub mod stress_state;
 
 pub use hardening::Hardening;
 pub use overstress::{Overstress, Viscosity};
-pub use stress_state::{Bar, Fibre, PlaneStress, StressState};
+pub use stress_state::{Fibre, PlaneStress, StressState, Uniaxial};
 
 use plastic::{Return, Trial};
 use std::ops::{AddAssign, Mul};

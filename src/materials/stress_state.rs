@@ -21,9 +21,9 @@ pub trait StressState<const N: usize>: Copy + Send + Sync {
     }
 }
 
-/// σ.
+/// σ, with ε: a bar, or a fibre whose shear stays elastic.
 #[derive(Debug, Clone, Copy)]
-pub struct Bar;
+pub struct Uniaxial;
 
 /// A fibre of a beam: (σ, τ_y, τ_z), with (ε, γ_y, γ_z).
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,7 @@ pub struct Fibre;
 #[derive(Debug, Clone, Copy)]
 pub struct PlaneStress;
 
-impl StressState<1> for Bar {
+impl StressState<1> for Uniaxial {
     const P: [f64; 1] = [1.0];
 
     #[inline(always)]

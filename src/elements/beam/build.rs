@@ -5,7 +5,7 @@ use super::kinematics::{Beam, Beams};
 use super::section::{BeamSection, BeamStiffness};
 use super::shape::{IntegrationRule, ShapeFunctions};
 use crate::elements::block::ElementBlock;
-use crate::materials::{self, Bar, Law, StressState};
+use crate::materials::{self, Law, StressState, Uniaxial};
 use crate::math::{Mat3, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use std::sync::Arc;
@@ -55,7 +55,7 @@ impl FibreModel {
     ) -> Box<dyn ElementBlock> {
         match self.shear {
             true => self.in_state::<N, _, 3>(materials::Fibre, elements, x, damping),
-            false => self.in_state::<N, _, 1>(Bar, elements, x, damping),
+            false => self.in_state::<N, _, 1>(Uniaxial, elements, x, damping),
         }
     }
 

@@ -9,7 +9,7 @@ use crate::solve::{Frame, Wanted};
 use std::io;
 
 const fn stress(name: &'static str) -> Column {
-    Column::scalar(name, "stress in the layer", Unit::Stress).kind("stress").in_axes(Axes::Shell).positive("tension")
+    Column::scalar(name, "stress in the layer", Unit::Stress).kind("stress").in_axes(Axes::Surface).positive("tension")
 }
 
 pub static TABLE: TableKind = TableKind {

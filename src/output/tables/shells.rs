@@ -11,21 +11,21 @@ use std::io;
 const fn membrane(name: &'static str) -> Column {
     Column::scalar(name, "membrane force per length", Unit::ForcePerLength)
         .kind("membrane force")
-        .in_axes(Axes::Shell)
+        .in_axes(Axes::Surface)
         .positive("tension")
 }
 
 const fn bending(name: &'static str) -> Column {
     Column::scalar(name, "bending moment per length", Unit::MomentPerLength)
         .kind("bending moment")
-        .in_axes(Axes::Shell)
+        .in_axes(Axes::Surface)
         .positive("tension at the top, the side of the normal")
 }
 
 const fn shear(name: &'static str) -> Column {
     Column::scalar(name, "transverse shear force per length", Unit::ForcePerLength)
         .kind("shear force")
-        .in_axes(Axes::Shell)
+        .in_axes(Axes::Surface)
         .positive("∂M11/∂1 + ∂M12/∂2 = Q1")
 }
 
