@@ -296,9 +296,9 @@ fn bits(state: &State) -> Vec<u64> {
     let Dissipation { plastic, viscous, stored, friction, impact } = material;
     let mut numbers = vec![*time, external, damping, damping_power, verlet_energy_offset, accelerations, step];
     numbers.extend([plastic, viscous, stored, friction, impact]);
-    for Node { x, low, q, v, omega, a, alpha } in nodes {
+    for Node { x, low, rotation, v, omega, a, alpha } in nodes {
         numbers.extend([x, low, v, omega, a, alpha].into_iter().flatten());
-        numbers.extend(q.coords.iter());
+        numbers.extend(rotation.coords.iter());
     }
     numbers.extend(jerk.iter().chain(algorithmic_accelerations).flatten());
     numbers.extend([history, reactions, multipliers].into_iter().flatten());

@@ -225,7 +225,7 @@ fn moved(rng: &mut StdRng, x: &[Vec3], strain: f64) -> Vec<Node> {
             let local = rotation::exp(&vector(rng, strain));
             // The sign of a quaternion carries no meaning; elements must not care.
             let sign = if rng.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 };
-            node.q = local * turn * sign;
+            node.rotation = local * turn * sign;
             node.v = vector(rng, 1.0);
             node.omega = vector(rng, 1.0);
             node
@@ -242,7 +242,7 @@ fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
 fn nudge(node: &mut Node, dof: usize, h: f64) {
     let mut d = Vec3::zeros();
     d[dof % 3] = h;
-    if dof < 3 { node.x += d } else { node.q = rotation::exp(&d) * node.q }
+    if dof < 3 { node.x += d } else { node.rotation = rotation::exp(&d) * node.rotation }
 }
 
 /// Where central differences of one step and of half of it do not agree, a fibre begins to yield, ends, or meets a corner of its
@@ -375,7 +375,7 @@ fn forces_balance_and_turn_with_the_element() {
                 let shift = vector(&mut rng, 3.0);
                 let turned: Vec<Node> = nodes
                     .iter()
-                    .map(|n| Node { x: R * n.x + shift, q: q * n.q, v: R * n.v, omega: R * n.omega, ..*n })
+                    .map(|n| Node { x: R * n.x + shift, rotation: q * n.rotation, v: R * n.v, omega: R * n.omega, ..*n })
                     .collect();
                 for (a, b) in kind.forces(&turned).iter().zip(&F) {
                     for i in [0, 3] {
@@ -559,7 +559,7 @@ fn small_displacements_keep_their_digits() {
         for (node, x) in nodes.iter_mut().zip(&kind.x) {
             let (by, turn) = (vector(&mut rng, 1e-12), vector(&mut rng, 1e-12));
             node.place(x, &Vec3::zeros(), &by);
-            node.q = rotation::exp(&turn);
+            node.rotation = rotation::exp(&turn);
             u.extend([by, turn].iter().flatten().take(d));
         }
         let K = kind.tangent(&rest, 0.0, Moduli::Elastic);

@@ -22,7 +22,7 @@ fn histories(model: &Model) -> Vec<Vec<f64>> {
     let probe = |frame: &rdsolve::solve::Frame| {
         let nodes = frame.state.nodes.iter().zip(&frame.model.nodes);
         let row = |(now, start): (&rdsolve::state::Node, &rdsolve::model::Node)| {
-            let turn = rdsolve::math::rotation::log(&now.q);
+            let turn = rdsolve::math::rotation::log(&now.rotation);
             [now.moved(&start.x), turn, now.v].map(<[f64; 3]>::from).concat()
         };
         nodes.flat_map(row).collect()
@@ -427,7 +427,7 @@ fn a_needle_spins() {
             model.expects.clear();
             let needle = node(&model, "needle");
             let rows = run_to_the_end(&model, &mut |frame| {
-                let q = frame.state.nodes[needle].q;
+                let q = frame.state.nodes[needle].rotation;
                 vec![q.w, q.i, q.j, q.k]
             });
             let last = rows.rows.last().expect("a row").clone();

@@ -29,7 +29,7 @@ impl Random {
     fn node(&mut self) -> Node {
         let q = rotation::exp(&(3.0 * self.vector()));
         Node {
-            q,
+            rotation: q,
             v: self.vector(),
             omega: self.vector(),
             a: self.vector(),
@@ -54,7 +54,7 @@ fn one_of_each() -> Vec<Row> {
 /// A node moved by a small displacement and spin.
 fn moved(node: &Node, by: &Vec6) -> Node {
     let (u, theta) = (by.fixed_rows::<3>(0).into_owned(), by.fixed_rows::<3>(3).into_owned());
-    Node { x: node.x + u, q: rotation::exp(&theta) * node.q, ..*node }
+    Node { x: node.x + u, rotation: rotation::exp(&theta) * node.rotation, ..*node }
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn rates_of_gaps_are_those_of_differences() {
                     // Constant accelerations: a rotation vector ω t + α t²/2 has those rates at t = 0.
                     let theta = n.omega * t + n.alpha * (0.5 * t * t);
                     let x = n.x + n.v * t + n.a * (0.5 * t * t);
-                    Node { x, q: rotation::exp(&theta) * n.q, ..n }
+                    Node { x, rotation: rotation::exp(&theta) * n.rotation, ..n }
                 });
                 row.gap(&a, &b)[0]
             };
@@ -207,7 +207,7 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
             // Relative motion as the first body sees it: of the joint's ends, and of the frames.
             let d = n[ends[1]].R().tr_mul(&(n[ends[0]].x - n[ends[1]].x));
             let R = n[b].R().tr_mul(&n[a].R());
-            let turn = rotation::log(&(n[b].q.conjugate() * n[a].q));
+            let turn = rotation::log(&(n[b].rotation.conjugate() * n[a].rotation));
             [d.x, d.y, d.z, turn.x, turn.y, turn.z, R.trace()].to_vec()
         });
         assert_eq!(model.constraints.joints[0].rows.len(), rows, "{kind}");

@@ -152,7 +152,7 @@ const HUB: Scene = Scene {
         Box::new(move |frame| {
             let nodes = &frame.state.nodes;
             // The hub turns about z only: its angle, continued over whole turns.
-            let q = nodes[hub].q;
+            let q = nodes[hub].rotation;
             let turned = 2.0 * q.k.atan2(q.w);
             angle = turned + ((angle - turned) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
             let [x_1, x_2] = [nodes[tip_1].x, nodes[tip_2].x];

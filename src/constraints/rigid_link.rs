@@ -36,7 +36,7 @@ impl RigidLink {
     /// S = R_d S₀.
     #[inline]
     pub fn arm(&self, master: &Node) -> Vec3 {
-        self.S0 + change(&master.q, &self.S0)
+        self.S0 + change(&master.rotation, &self.S0)
     }
 
     /// Sets the constrained part of the node's motion from its master. `start` is the node at the start of the step;
@@ -44,7 +44,7 @@ impl RigidLink {
     #[inline]
     pub fn follow(&self, nodes: &mut [Node], increments: &mut [Increment], start: &Node) {
         let master = &nodes[self.master];
-        let Node { q, omega, alpha, .. } = *master;
+        let Node { rotation: q, omega, alpha, .. } = *master;
         // By displacements, whose digits the position does not have: u_b = u_d + (R_d − 1) S₀.
         let turned = change(&q, &self.S0);
         let [u, low] = master.parts(&self.start[0]);
@@ -56,7 +56,7 @@ impl RigidLink {
         if self.rigid {
             let node = &mut nodes[self.node];
             node.place(&self.start[1], &(low + turned), &u);
-            (node.q, node.v, node.omega, node.a, node.alpha) = (q, v, omega, a, alpha);
+            (node.rotation, node.v, node.omega, node.a, node.alpha) = (q, v, omega, a, alpha);
             return;
         }
         let mut placed = *master;

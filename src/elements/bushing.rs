@@ -41,7 +41,7 @@ impl Bushing {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let B = a.R() * self.axes;
         let r = b.relative_position(a);
-        let relative = a.q.conjugate() * b.q;
+        let relative = a.rotation.conjugate() * b.rotation;
         RelativeMotion {
             B,
             r,

@@ -207,7 +207,7 @@ impl Fields {
         text.push_str("<PointData>\n");
         vectors(text, "displacement", &|p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
         vectors(text, "velocity", &|p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
-        vectors(text, "rotation", &|p| rotation::log(&now[p.node].q));
+        vectors(text, "rotation", &|p| rotation::log(&now[p.node].rotation));
         for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
             vectors(text, name, &|p| now[p.node].R() * p.axes.column(axis));
         }

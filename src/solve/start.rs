@@ -91,17 +91,17 @@ fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
         } else {
             let mut turn = Vec3::zeros();
             turn[held.dof - 3] = given.u;
-            node.q = rotation::exp(&turn) * node.q;
+            node.rotation = rotation::exp(&turn) * node.rotation;
             node.omega[held.dof - 3] = given.v;
             node.alpha[held.dof - 3] = given.a;
         }
     }
     // Where a prescribed motion starts turned, dependent nodes start turned in the directions that follow.
     for dependent in &cx.system.rigid_links {
-        let turn = rotation::log(&state.nodes[dependent.master].q);
+        let turn = rotation::log(&state.nodes[dependent.master].rotation);
         let following = Vec3::from_fn(|i, _| if dependent.dofs[3 + i] { turn[i] } else { 0.0 });
         let node = &mut state.nodes[dependent.node];
-        node.q = rotation::exp(&following) * node.q;
+        node.rotation = rotation::exp(&following) * node.rotation;
     }
 }
 

@@ -12,7 +12,7 @@ pub struct Node {
     /// What the position has beyond the digits of `x`: displacements and distances keep theirs however far off the origin is.
     pub low: Vec3,
     /// Rotation from the undeformed state, unit quaternion; see [`Node::R`].
-    pub q: Quaternion<f64>,
+    pub rotation: Quaternion<f64>,
     pub v: Vec3,
     pub omega: Vec3,
     pub a: Vec3,
@@ -22,7 +22,7 @@ pub struct Node {
 impl Node {
     pub fn at_rest(x: Vec3) -> Self {
         let zero = Vec3::zeros();
-        Node { x, low: zero, q: Quaternion::identity(), v: zero, omega: zero, a: zero, alpha: zero }
+        Node { x, low: zero, rotation: Quaternion::identity(), v: zero, omega: zero, a: zero, alpha: zero }
     }
 
     /// Puts it `u` away from `x` + `low`.
@@ -57,10 +57,10 @@ impl Node {
         parts
     }
 
-    /// Rotation matrix of `q`.
+    /// The rotation matrix R from the undeformed state, global components.
     #[inline]
     pub fn R(&self) -> Mat3 {
-        rotation::matrix(&self.q)
+        rotation::matrix(&self.rotation)
     }
 
     /// The node moved from `start` by an increment q = (Δu, Θ) whose rates are q̇, q̈: the only place where a rotation is
@@ -73,7 +73,7 @@ impl Node {
         self.v = linear(d);
         self.a = linear(dd);
         let (turn, drift) = update.quaternion(&theta);
-        self.q = rotation::renormalise(&(turn * start.q));
+        self.rotation = rotation::renormalise(&(turn * start.rotation));
         (self.omega, self.alpha) = rotation::rates(&theta, &angular(d), &angular(dd));
         drift
     }

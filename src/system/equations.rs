@@ -217,7 +217,7 @@ impl System {
             let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
             work += 0.5 * (f_a + f_b).dot(&b.relative_position(a));
             if load.moment != Vec3::zeros() {
-                work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.q * a.q.conjugate())));
+                work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.rotation * a.rotation.conjugate())));
             }
         }
         for (load, (p0, p1)) in self.pressures.iter().zip(from.1.pressures.iter().zip(&to.1.pressures)) {

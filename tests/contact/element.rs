@@ -51,13 +51,13 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
 
     // The carrier anywhere, the point a little inside the surface.
     let mut nodes = vec![Node::at_rest(vector(rng, 1.0)); count + 1];
-    nodes[0].q = exp(&vector(rng, 2.0));
+    nodes[0].rotation = exp(&vector(rng, 2.0));
     let R = nodes[0].R();
     let p = surface.axes * vector(rng, 1.0) + surface.center;
     let near = surface.closest_point(&p);
     let inside = p - near.n * (near.distance - radius + rng.random_range(0.002..0.006));
     for k in 0..count {
-        nodes[1 + k].q = exp(&vector(rng, 2.0));
+        nodes[1 + k].rotation = exp(&vector(rng, 2.0));
     }
     let place = |nodes: &mut [Node], p: &Vec3, rng: &mut StdRng| {
         let x = nodes[0].x + nodes[0].R() * p;
@@ -77,14 +77,14 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
     // Now it has gone a bit on, with everything turned and moving.
     let turn = exp(&vector(rng, 0.1));
     nodes[0].x += vector(rng, 0.1);
-    nodes[0].q = turn * nodes[0].q;
+    nodes[0].rotation = turn * nodes[0].rotation;
     place(&mut nodes, &(inside + slide * vector(rng, 1.0).cross(&near.n)), rng);
     let small = if radius > 0.0 { slide / radius } else { 0.1 };
     for node in &mut nodes {
         (node.v, node.omega) = (vector(rng, 0.2), vector(rng, 0.2));
     }
     for k in 0..count {
-        nodes[1 + k].q = turn * exp(&vector(rng, small)) * nodes[1 + k].q;
+        nodes[1 + k].rotation = turn * exp(&vector(rng, small)) * nodes[1 + k].rotation;
         // Inwards, so that the force is there whatever the damping.
         let inward = nodes[0].v - R * near.n * 0.1;
         nodes[1 + k].v += inward;
@@ -138,7 +138,7 @@ fn the_tangent_is_the_derivative() {
                 node.x += e;
                 node.v += rate * e;
             } else {
-                node.q = exp(&e) * node.q;
+                node.rotation = exp(&e) * node.rotation;
                 node.omega += rate * e;
             }
             touch.force(&nodes)
@@ -191,7 +191,7 @@ fn forces_turn_with_the_scene() {
         let turned: Vec<Node> = touch
             .nodes
             .iter()
-            .map(|n| Node { x: shift + R * n.x, q: turn * n.q, v: R * n.v, omega: R * n.omega, ..*n })
+            .map(|n| Node { x: shift + R * n.x, rotation: turn * n.rotation, v: R * n.v, omega: R * n.omega, ..*n })
             .collect();
         let after = touch.force(&turned);
         let size = F.iter().fold(1.0f64, |m, f| m.max(f.abs()));

@@ -161,7 +161,7 @@ fn riders_start_turned_with_their_masters() {
     }
     for state in run(&m).states {
         for node in &state.nodes {
-            let turn = rotation::log(&node.q);
+            let turn = rotation::log(&node.rotation);
             assert!((turn - Vec3::y() * 0.5).norm() < 1e-14, "{turn}");
         }
     }

@@ -46,7 +46,7 @@ impl Instant {
         let R = rdsolve::math::rotation::matrix(&whole);
         let mut start: Vec<Node> = m.nodes.iter().map(|n| Node::at_rest(R * n.x + vector(rng, 0.15))).collect();
         for node in &mut start {
-            node.q = exp(&vector(rng, 0.25)) * whole;
+            node.rotation = exp(&vector(rng, 0.25)) * whole;
             (node.v, node.omega) = (vector(rng, rate), vector(rng, rate));
             (node.a, node.alpha) = (vector(rng, rate), vector(rng, rate));
         }

@@ -130,7 +130,7 @@ pub fn state(model: &Model, time: f64) -> State {
             let q: Quaternion<f64> = *UnitQuaternion::from_axis_angle(&axis, 5.0 * time).quaternion();
             let swing = Vec3::new((3.0 * time).sin(), (2.0 * time).cos() - 1.0, time / 3.0);
             let at = state::Node::at_rest(node.x + swing);
-            state::Node { q, v: swing / 7.0, omega: 5.0 * *axis, a: -swing, alpha: swing * 1e-9, ..at }
+            state::Node { rotation: q, v: swing / 7.0, omega: 5.0 * *axis, a: -swing, alpha: swing * 1e-9, ..at }
         })
         .collect();
     State {

@@ -91,7 +91,7 @@ fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
 fn nudge(node: &mut Node, dof: usize, h: f64) {
     let mut d = Vec3::zeros();
     d[dof % 3] = h;
-    if dof < 3 { node.x += d } else { node.q = rotation::exp(&d) * node.q }
+    if dof < 3 { node.x += d } else { node.rotation = rotation::exp(&d) * node.rotation }
 }
 
 fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
@@ -152,7 +152,7 @@ fn corners_may_come_in_any_order() {
         let nodes: Vec<Node> = mesh
             .x
             .iter()
-            .map(|x| Node { q: rotation::exp(&vector(&mut rng, 0.5)), ..Node::at_rest(x + vector(&mut rng, 0.2)) })
+            .map(|x| Node { rotation: rotation::exp(&vector(&mut rng, 0.5)), ..Node::at_rest(x + vector(&mut rng, 0.2)) })
             .collect();
         let F = forces(&*mesh.block(&PLATE), &Configuration::of(&nodes));
         let size = F.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
@@ -188,7 +188,7 @@ fn layers_have_the_tangent_of_their_stress() {
             let R: Mat3 = rotation::matrix(&q);
             let mut moved = |strain: f64| -> Vec<Node> {
                 let node = |x: &Vec3| Node {
-                    q: rotation::exp(&vector(&mut rng, 3.0 * strain)) * q,
+                    rotation: rotation::exp(&vector(&mut rng, 3.0 * strain)) * q,
                     ..Node::at_rest(R * (x + vector(&mut rng, strain)) + shift)
                 };
                 mesh.x.iter().map(node).collect()
@@ -234,7 +234,7 @@ fn layers_that_do_not_yield_are_elastic() {
         let nodes: Vec<Node> = mesh
             .x
             .iter()
-            .map(|x| Node { q: rotation::exp(&vector(&mut rng, 1e-3)), ..Node::at_rest(x + vector(&mut rng, 1e-3)) })
+            .map(|x| Node { rotation: rotation::exp(&vector(&mut rng, 1e-3)), ..Node::at_rest(x + vector(&mut rng, 1e-3)) })
             .collect();
         let history = vec![0.0; layered.history()];
         let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };

@@ -86,7 +86,7 @@ fn even_strain() {
             let turn = Vec3::from_fn(|_, _| rng.random_range(-2.0..2.0));
             let (q, shift) = (rotation::exp(&turn), Vec3::new(3.0, -2.0, 1.0));
             let R = rotation::matrix(&q);
-            let nodes: Vec<Node> = patch.x.iter().map(|x| Node { q, ..Node::at_rest(R * U * x + shift) }).collect();
+            let nodes: Vec<Node> = patch.x.iter().map(|x| Node { rotation: q, ..Node::at_rest(R * U * x + shift) }).collect();
             let past = vec![0.0; block.history()];
             let now = Configuration { nodes: &nodes, history: &past, dt: 0.0 };
             let green = 0.5 * (U * U - Mat3::identity());
@@ -124,7 +124,7 @@ fn even_curvature() {
         let node = |x: &Vec3| {
             let w = -0.5 * (k[0] * x.x * x.x + k[1] * x.y * x.y + 2.0 * k[2] * x.x * x.y);
             let slope = [-(k[0] * x.x + k[2] * x.y), -(k[1] * x.y + k[2] * x.x)];
-            Node { q: rotation::exp(&Vec3::new(slope[1], -slope[0], 0.0)), ..Node::at_rest(x + w * Vec3::z()) }
+            Node { rotation: rotation::exp(&Vec3::new(slope[1], -slope[0], 0.0)), ..Node::at_rest(x + w * Vec3::z()) }
         };
         let nodes: Vec<Node> = patch.x.iter().map(node).collect();
         for angle in [0.0f64, 1.1] {
@@ -224,7 +224,7 @@ fn layers_yield_one_by_one() {
             let k = times * first;
             let node = |x: &Vec3| {
                 let turn = Vec3::new(-k * x.y, k * x.x, 0.0);
-                Node { q: rotation::exp(&turn), ..Node::at_rest(x - 0.5 * k * x.norm_squared() * Vec3::z()) }
+                Node { rotation: rotation::exp(&turn), ..Node::at_rest(x - 0.5 * k * x.norm_squared() * Vec3::z()) }
             };
             let nodes: Vec<Node> = patch.x.iter().map(node).collect();
             let mut history = past.clone();

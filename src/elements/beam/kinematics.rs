@@ -58,7 +58,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         let [first, first_low] = nodes[element.nodes[0]].parts(&element.start[0]);
         for a in 0..N {
             let node = &nodes[element.nodes[a]];
-            q[a] = [node.q.w, node.q.i, node.q.j, node.q.k];
+            q[a] = [node.rotation.w, node.rotation.i, node.rotation.j, node.rotation.k];
             let [high, low] = node.parts(&element.start[a]);
             u[a] = (high - first) + (low - first_low);
             if a > 0 && dot(&q[a], &q[0]) < 0.0 {

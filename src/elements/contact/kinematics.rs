@@ -83,7 +83,7 @@ impl Contacts {
 
     /// Rotation of a node relative to the surface.
     pub(super) fn relative_rotation(&self, node: usize, nodes: &[Node]) -> Quaternion<f64> {
-        nodes[self.carrier].q.conjugate() * nodes[node].q
+        nodes[self.carrier].rotation.conjugate() * nodes[node].rotation
     }
 
     /// A distance from the carrier beyond which nothing touches.

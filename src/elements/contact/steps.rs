@@ -16,7 +16,7 @@ struct Frames {
 /// True where a step from `start` to `now` must be shorter: see [`super::Law::resolution`].
 pub fn misses(contacts: &Contacts, start: &[Node], now: &Configuration) -> bool {
     let (a, b) = (&start[contacts.carrier], &now.nodes[contacts.carrier]);
-    let turn = 2.0 * (b.q - a.q).norm().min((b.q + a.q).norm());
+    let turn = 2.0 * (b.rotation - a.rotation).norm().min((b.rotation + a.rotation).norm());
     let frames = Frames { start: a.R(), now: b.R(), turn };
     (0..contacts.points.len()).any(|e| is_missed(contacts, e, start, now, &frames))
 }

@@ -38,7 +38,7 @@ pub fn values(now: &Node) -> [f64; 19] {
 
 /// Its columns `qw qx qy qz`.
 pub fn quaternion(now: &Node) -> [f64; 4] {
-    let q = if now.q.w < 0.0 { -now.q } else { now.q };
+    let q = if now.rotation.w < 0.0 { -now.rotation } else { now.rotation };
     [q.w, q.i, q.j, q.k]
 }
 

@@ -32,7 +32,7 @@ pub static TABLE: TableKind = TableKind {
 
 /// The motion of one node, in the order of [`crate::quantities::MOTION`]. The rotation vector is the shortest, of length at most π.
 pub fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
-    let vectors = [now.x, now.moved(&start.x), rotation::log(&now.q), now.v, now.omega, now.a, now.alpha];
+    let vectors = [now.x, now.moved(&start.x), rotation::log(&now.rotation), now.v, now.omega, now.a, now.alpha];
     std::array::from_fn(|i| vectors[i / 3][i % 3])
 }
 

@@ -43,7 +43,7 @@ impl EmbeddedErrorController {
         for &node in &cx.independent_nodes {
             let (now, first) = (&ws.trial[node], &cx.model.nodes[node]);
             motion.translation = motion.translation.max((now.x - first.x).norm());
-            motion.rotation = motion.rotation.max(2.0 * now.q.imag().norm());
+            motion.rotation = motion.rotation.max(2.0 * now.rotation.imag().norm());
             speed = speed.max(now.v.norm());
             spin = spin.max(now.omega.norm());
         }

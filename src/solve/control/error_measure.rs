@@ -51,7 +51,7 @@ impl ErrorMeasure {
     /// Largest displacements and turns so far, with those of a state.
     pub fn with(&self, largest: Size, model: &Model, state: &State) -> Size {
         let moved = state.nodes.iter().zip(&model.nodes).map(|(node, spec)| node.moved(&spec.x).norm());
-        let turned = self.bodies.iter().map(|&body| 2.0 * state.nodes[body].q.imag().norm());
+        let turned = self.bodies.iter().map(|&body| 2.0 * state.nodes[body].rotation.imag().norm());
         Size {
             translation: moved.fold(largest.translation, f64::max),
             rotation: turned.fold(largest.rotation, f64::max),

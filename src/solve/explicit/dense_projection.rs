@@ -57,7 +57,7 @@ fn project_positions(
             let node = &mut ws.trial[block.node];
             let Node { x, low, .. } = *node;
             node.place(&x, &low, &linear(&change));
-            node.q = renormalise(&(exp(&angular(&change)) * node.q));
+            node.rotation = renormalise(&(exp(&angular(&change)) * node.rotation));
             let turn = inverse_tangent(&angular(&increment.q), &angular(&change));
             increment.q += stack(&linear(&change), &turn);
             increment.d = stack(&node.v, &inverse_tangent(&angular(&increment.q), &node.omega));

@@ -283,10 +283,10 @@ fn advance(trial: &mut Node, start: &Node, increment: &mut Increment) -> f64 {
     (trial.a, trial.alpha) = (linear(&increment.dd), angular(&increment.dd));
     let angle = theta.norm_squared();
     if angle > 0.0 {
-        trial.q = renormalise(&(exp(&theta) * start.q));
+        trial.rotation = renormalise(&(exp(&theta) * start.rotation));
         increment.d = stack(&trial.v, &inverse_tangent(&theta, &omega));
     } else {
-        trial.q = start.q;
+        trial.rotation = start.rotation;
     }
     angle
 }
