@@ -375,7 +375,13 @@ fn forces_balance_and_turn_with_the_element() {
                 let shift = vector(&mut rng, 3.0);
                 let turned: Vec<Node> = nodes
                     .iter()
-                    .map(|n| Node { x: R * n.x + shift, rotation: q * n.rotation, v: R * n.v, omega: R * n.omega, ..*n })
+                    .map(|n| Node {
+                        x: R * n.x + shift,
+                        rotation: q * n.rotation,
+                        v: R * n.v,
+                        omega: R * n.omega,
+                        ..*n
+                    })
                     .collect();
                 for (a, b) in kind.forces(&turned).iter().zip(&F) {
                     for i in [0, 3] {

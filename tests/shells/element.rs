@@ -152,7 +152,10 @@ fn corners_may_come_in_any_order() {
         let nodes: Vec<Node> = mesh
             .x
             .iter()
-            .map(|x| Node { rotation: rotation::exp(&vector(&mut rng, 0.5)), ..Node::at_rest(x + vector(&mut rng, 0.2)) })
+            .map(|x| Node {
+                rotation: rotation::exp(&vector(&mut rng, 0.5)),
+                ..Node::at_rest(x + vector(&mut rng, 0.2))
+            })
             .collect();
         let F = forces(&*mesh.block(&PLATE), &Configuration::of(&nodes));
         let size = F.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
@@ -234,7 +237,10 @@ fn layers_that_do_not_yield_are_elastic() {
         let nodes: Vec<Node> = mesh
             .x
             .iter()
-            .map(|x| Node { rotation: rotation::exp(&vector(&mut rng, 1e-3)), ..Node::at_rest(x + vector(&mut rng, 1e-3)) })
+            .map(|x| Node {
+                rotation: rotation::exp(&vector(&mut rng, 1e-3)),
+                ..Node::at_rest(x + vector(&mut rng, 1e-3))
+            })
             .collect();
         let history = vec![0.0; layered.history()];
         let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };

@@ -86,7 +86,8 @@ fn even_strain() {
             let turn = Vec3::from_fn(|_, _| rng.random_range(-2.0..2.0));
             let (q, shift) = (rotation::exp(&turn), Vec3::new(3.0, -2.0, 1.0));
             let R = rotation::matrix(&q);
-            let nodes: Vec<Node> = patch.x.iter().map(|x| Node { rotation: q, ..Node::at_rest(R * U * x + shift) }).collect();
+            let nodes: Vec<Node> =
+                patch.x.iter().map(|x| Node { rotation: q, ..Node::at_rest(R * U * x + shift) }).collect();
             let past = vec![0.0; block.history()];
             let now = Configuration { nodes: &nodes, history: &past, dt: 0.0 };
             let green = 0.5 * (U * U - Mat3::identity());
