@@ -133,7 +133,7 @@ fn a_plane_scene_is_the_same_in_space() {
         (m, p[2])
     };
     let ((plane, tip), (space, _)) = (in_plane(true), in_plane(false));
-    let unknowns = |m: &Model| Plan::new(m, &System::new(m).unwrap(), 1).unknowns;
+    let unknowns = |m: &Model| Plan::new(m, &System::new(m).unwrap(), 1).dofs.unknowns();
     assert_eq!(unknowns(&space), 2 * unknowns(&plane));
     let e = off((&plane, tip), (&space, tip));
     assert!(e < SAME, "{e:e}");
