@@ -11,7 +11,7 @@ use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};
 use rdsolve::state::State;
 use rdsolve::system::assembly::Weights;
-use rdsolve::system::{Drive, Forces, Loading, Side, System};
+use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -111,7 +111,7 @@ fn measure(name: &str, mut model: Model) {
     let plan = Plan::new(&model, &system, 1);
     let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let mut loading = Loading::default();
-    Drive::new(&model).loading(state.time, Side::Before, &mut loading);
+    Excitation::new(&model).loading(state.time, Side::Before, &mut loading);
     let mut forces = Forces::new(&system, model.nodes.len());
     let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();

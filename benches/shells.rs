@@ -10,7 +10,7 @@ use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Node};
 use rdsolve::system::assembly::Weights;
-use rdsolve::system::{Drive, Forces, Loading, Side, System};
+use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::hint::black_box;
 use std::process::Command;
 use std::time::Instant;
@@ -125,7 +125,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let past = vec![0.0; system.history];
     let now = Configuration { nodes: &nodes, history: &past, dt: 1e-5 };
     let mut loading = Loading::default();
-    Drive::new(&model).loading(0.0, Side::After, &mut loading);
+    Excitation::new(&model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);
     let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();

@@ -1,7 +1,7 @@
 //! Joints: their equations against differences, what they hold and what they leave free, against elimination, and over time.
 
 use crate::support::{self, error, node, position, read, reference, run_to_the_end, slope};
-use rdsolve::constraints::joint::{Row, rotations};
+use rdsolve::constraints::joint::{ConstraintEquation, rotations};
 use rdsolve::diagnostic::Source;
 use rdsolve::linear::Factorization;
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
@@ -39,12 +39,12 @@ impl Random {
     }
 }
 
-fn one_of_each() -> Vec<Row> {
+fn one_of_each() -> Vec<ConstraintEquation> {
     let axes = Mat3::from_columns(&[Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.8, 0.6, 0.0), Vec3::z()]);
     let mut rows = vec![
-        Row::Global { axis: 1, at: 0.2 },
-        Row::Carried { e: Vec3::new(0.36, 0.48, 0.8), at: -0.1 },
-        Row::Distance { length: 0.7 },
+        ConstraintEquation::GlobalAxis { axis: 1, at: 0.2 },
+        ConstraintEquation::BodyAxis { e: Vec3::new(0.36, 0.48, 0.8), at: -0.1 },
+        ConstraintEquation::Distance { length: 0.7 },
     ];
     rows.extend(rotations([false, true, true], &axes));
     rows.extend(rotations([true, false, false], &axes));
@@ -210,7 +210,7 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
             let turn = rotation::log(&(n[b].rotation.conjugate() * n[a].rotation));
             [d.x, d.y, d.z, turn.x, turn.y, turn.z, R.trace()].to_vec()
         });
-        assert_eq!(model.constraints.joints[0].rows.len(), rows, "{kind}");
+        assert_eq!(model.constraints.joints[0].equations.len(), rows, "{kind}");
         // Gaps at rounding of lengths near 1; of rates what a step makes a gap of that size of.
         assert!(seen.gaps[0] < 1e-14, "{kind}: {:?}", seen.gaps);
         assert!(seen.gaps[1] < 1e-14 / 0.002 && seen.gaps[2] < 1e-14 / 0.002_f64.powi(2), "{kind}: {:?}", seen.gaps);
@@ -750,7 +750,7 @@ fix = {fix}
     for (fix, rows) in [("[\"rx\"]", 1), ("[\"rx\", \"ry\"]", 2), ("[\"ux\", \"rx\", \"ry\", \"rz\"]", 4)] {
         let model = from_text(&scene("dynamic", 1.0, 0.01, &rest(fix)));
         let seen = watch(&model, |_| vec![]);
-        assert_eq!(model.constraints.joints[0].rows.len(), rows);
+        assert_eq!(model.constraints.joints[0].equations.len(), rows);
         assert!(seen.gaps[0] < 1e-14, "{fix}: {:?}", seen.gaps);
     }
 }

@@ -83,18 +83,18 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     const GROWTH: f64 = 0.02;
     /// ... and may dissipate what no step resolves.
     const DISSIPATION: f64 = 0.2;
-    let part = |energy: f64| format!("{:.0} % of the largest energy", 100.0 * energy / balance.most);
+    let part = |energy: f64| format!("{:.0} % of the largest energy", 100.0 * energy / balance.peak);
     let shorter = match model.analysis.step_length {
         StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
         StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
     };
     let remedy = format!("see `numerical` in energy.csv, and try {shorter}");
-    if balance.made > GROWTH * balance.most {
-        let part = part(balance.made);
+    if balance.generated > GROWTH * balance.peak {
+        let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
         // strain that comes out wrong by it: no motion is made.
-        Some(if balance.made <= balance.plastic {
+        Some(if balance.generated <= balance.plastic {
             format!(
                 "plastic flow has dissipated more energy than there was, by {part}: steps do not resolve the onset of yielding, \
                  and plastic strains are too large; {remedy}"
@@ -102,8 +102,8 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         } else {
             format!("energy growth: the time integration has added {part}; {remedy}")
         })
-    } else if balance.taken > DISSIPATION * balance.most {
-        Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.taken)))
+    } else if balance.dissipated > DISSIPATION * balance.peak {
+        Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.dissipated)))
     } else {
         None
     }

@@ -8,45 +8,45 @@ use crate::math::{Mat3, Vec3, Vec6, skew, stack};
 use crate::state::Node;
 
 /// Directions of a multiplier's node: a joint has at most so many rows.
-pub const MOST_ROWS: usize = 6;
+pub const MOST_EQUATIONS: usize = 6;
 
 /// A joint of two nodes, the first as seen from the second.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     pub nodes: [usize; 2],
-    pub rows: Vec<Row>,
+    pub equations: Vec<ConstraintEquation>,
     /// The second node only moves as it is held.
     pub supports: bool,
 }
 
 /// One equation. Vectors are unit vectors at t = 0, carried by the node they belong to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Row {
+pub enum ConstraintEquation {
     /// Along a global axis the nodes stay as they were: (x_a − x_b)·e = `at`.
-    Global { axis: usize, at: f64 },
+    GlobalAxis { axis: usize, at: f64 },
     /// Along a direction of the second node they do: (x_a − x_b)·R_b e = `at`.
-    Carried { e: Vec3, at: f64 },
+    BodyAxis { e: Vec3, at: f64 },
     /// A direction of the first node stays square to one of the second: R_a p · R_b s = 0.
-    Square { p: Vec3, s: Vec3 },
+    Perpendicular { p: Vec3, s: Vec3 },
     /// The distance of the nodes stays: |x_a − x_b| = `length` > 0.
     Distance { length: f64 },
 }
 
-impl Row {
+impl ConstraintEquation {
     /// c, ċ and c̈.
     pub fn gap(&self, a: &Node, b: &Node) -> [f64; 3] {
         let (d, v, w) = (a.relative_position(b), a.v - b.v, a.a - b.a);
         match self {
-            Row::Global { axis, at } => [d[*axis] - at, v[*axis], w[*axis]],
-            Row::Carried { e, at } => {
-                let [e, de, dde] = carried(b, e);
+            ConstraintEquation::GlobalAxis { axis, at } => [d[*axis] - at, v[*axis], w[*axis]],
+            ConstraintEquation::BodyAxis { e, at } => {
+                let [e, de, dde] = body_vector(b, e);
                 [d.dot(&e) - at, v.dot(&e) + d.dot(&de), w.dot(&e) + 2.0 * v.dot(&de) + d.dot(&dde)]
             }
-            Row::Square { p, s } => {
-                let ([p, dp, ddp], [s, ds, dds]) = (carried(a, p), carried(b, s));
+            ConstraintEquation::Perpendicular { p, s } => {
+                let ([p, dp, ddp], [s, ds, dds]) = (body_vector(a, p), body_vector(b, s));
                 [p.dot(&s), dp.dot(&s) + p.dot(&ds), ddp.dot(&s) + 2.0 * dp.dot(&ds) + p.dot(&dds)]
             }
-            Row::Distance { length } => {
+            ConstraintEquation::Distance { length } => {
                 let now = d.norm();
                 let u = d / now;
                 let rate = u.dot(&v);
@@ -60,19 +60,19 @@ impl Row {
         let zero = Vec3::zeros();
         let d = a.relative_position(b);
         match self {
-            Row::Global { axis, .. } => {
+            ConstraintEquation::GlobalAxis { axis, .. } => {
                 let e = Vec3::ith(*axis, 1.0);
                 [stack(&e, &zero), stack(&-e, &zero)]
             }
-            Row::Carried { e, .. } => {
+            ConstraintEquation::BodyAxis { e, .. } => {
                 let e = b.R() * e;
                 [stack(&e, &zero), stack(&-e, &e.cross(&d))]
             }
-            Row::Square { p, s } => {
+            ConstraintEquation::Perpendicular { p, s } => {
                 let turn = (a.R() * p).cross(&(b.R() * s));
                 [stack(&zero, &turn), stack(&zero, &-turn)]
             }
-            Row::Distance { .. } => {
+            ConstraintEquation::Distance { .. } => {
                 let u = d.normalize();
                 [stack(&u, &zero), stack(&-u, &zero)]
             }
@@ -83,8 +83,8 @@ impl Row {
     pub fn stiffness(&self, a: &Node, b: &Node, lambda: f64, mut add: impl FnMut(usize, usize, Mat3)) {
         let d = a.relative_position(b);
         match self {
-            Row::Global { .. } => {}
-            Row::Carried { e, .. } => {
+            ConstraintEquation::GlobalAxis { .. } => {}
+            ConstraintEquation::BodyAxis { e, .. } => {
                 let e = skew(&(b.R() * e)) * lambda;
                 add(0, 3, -e);
                 add(2, 3, e);
@@ -92,7 +92,7 @@ impl Row {
                 add(3, 2, -e);
                 add(3, 3, skew(&d) * e);
             }
-            Row::Square { p, s } => {
+            ConstraintEquation::Perpendicular { p, s } => {
                 let (p, s) = (skew(&(a.R() * p)), skew(&(b.R() * s)));
                 let (sp, ps) = (s * p * lambda, p * s * lambda);
                 add(1, 1, sp);
@@ -100,7 +100,7 @@ impl Row {
                 add(3, 1, -sp);
                 add(3, 3, ps);
             }
-            Row::Distance { .. } => {
+            ConstraintEquation::Distance { .. } => {
                 let now = d.norm();
                 let u = d / now;
                 let k = (Mat3::identity() - u * u.transpose()) * (lambda / now);
@@ -112,8 +112,8 @@ impl Row {
     }
 
     /// Its multiplier is a moment, its gap an angle; otherwise they are a force and a length.
-    pub fn turns(&self) -> bool {
-        matches!(self, Row::Square { .. })
+    pub fn is_rotational(&self) -> bool {
+        matches!(self, ConstraintEquation::Perpendicular { .. })
     }
 
     /// Where all moves in the plane normal to a global axis: whether the row says anything there. `None`: it would push out of
@@ -123,43 +123,43 @@ impl Row {
         let along = |v: &Vec3| v[normal].abs() > 1.0 - SMALL;
         let across = |v: &Vec3| v[normal].abs() <= SMALL * v.amax();
         match self {
-            Row::Global { axis, .. } => Some(*axis != normal),
-            Row::Carried { e, .. } if along(e) => Some(false),
-            Row::Carried { e, .. } => (across(e) && across(d)).then_some(true),
-            Row::Square { p, s } if along(p) || along(s) => Some(false),
-            Row::Square { p, s } => (across(p) && across(s)).then_some(true),
-            Row::Distance { .. } => across(d).then_some(true),
+            ConstraintEquation::GlobalAxis { axis, .. } => Some(*axis != normal),
+            ConstraintEquation::BodyAxis { e, .. } if along(e) => Some(false),
+            ConstraintEquation::BodyAxis { e, .. } => (across(e) && across(d)).then_some(true),
+            ConstraintEquation::Perpendicular { p, s } if along(p) || along(s) => Some(false),
+            ConstraintEquation::Perpendicular { p, s } => (across(p) && across(s)).then_some(true),
+            ConstraintEquation::Distance { .. } => across(d).then_some(true),
         }
     }
 
     /// What it holds, in a word.
     pub fn word(&self) -> &'static str {
         match self {
-            Row::Global { axis, .. } => ["ux", "uy", "uz"][*axis],
-            Row::Carried { .. } => "sideways",
-            Row::Square { .. } => "turn",
-            Row::Distance { .. } => "distance",
+            ConstraintEquation::GlobalAxis { axis, .. } => ["ux", "uy", "uz"][*axis],
+            ConstraintEquation::BodyAxis { .. } => "sideways",
+            ConstraintEquation::Perpendicular { .. } => "turn",
+            ConstraintEquation::Distance { .. } => "distance",
         }
     }
 }
 
 /// A direction of a node with its first two derivatives in time.
-fn carried(node: &Node, e: &Vec3) -> [Vec3; 3] {
+fn body_vector(node: &Node, e: &Vec3) -> [Vec3; 3] {
     let e = node.R() * e;
     let de = node.omega.cross(&e);
     [e, de, node.alpha.cross(&e) + node.omega.cross(&de)]
 }
 
 /// Rows that keep the nodes together in global directions where they meet, as [`super::attachment`] does.
-pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = Row> {
-    (0..3).filter(move |&axis| dofs[axis]).map(move |axis| Row::Global { axis, at: d[axis] })
+pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = ConstraintEquation> {
+    (0..3).filter(move |&axis| dofs[axis]).map(move |axis| ConstraintEquation::GlobalAxis { axis, at: d[axis] })
 }
 
 /// Rows that keep the nodes from turning against each other about some of the axes of the second: with one axis free a hinge,
 /// with two a universal joint whose cross is square at t = 0. The free axes turn with the nodes.
-pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<Row> {
+pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<ConstraintEquation> {
     let e = |i: usize| axes.column(i % 3).into_owned();
-    let square = |i: usize, j: usize| Row::Square { p: e(i), s: e(j) };
+    let square = |i: usize, j: usize| ConstraintEquation::Perpendicular { p: e(i), s: e(j) };
     let held: Vec<usize> = (0..3).filter(|&i| dofs[i]).collect();
     match held.as_slice() {
         [k] => vec![square(k + 1, k + 2)],

@@ -1,7 +1,7 @@
 //! `[[attachments]]`: points and bodies that move with a body, nodes that move with a beam.
 
 use super::data::{Joint, Part};
-use super::joints::rows;
+use super::joints::equations;
 use super::nearest_nodes::Line;
 use super::nodes::Nodes;
 use super::place::Place;
@@ -132,7 +132,7 @@ impl<'d> Attacher<'_, 'd> {
         let there = self.nodes.add_dependent(name.clone(), self.nodes.x(spot.node), master, spot.span);
         self.nodes.connect(there, true);
         self.nodes.connect(spot.node, self.dofs[3..].contains(&true));
-        self.joints.push(Joint { name, ends: [spot.node, there], rows: rows(self.dofs), supports: false });
+        self.joints.push(Joint { name, ends: [spot.node, there], equations: equations(self.dofs), supports: false });
     }
 
     /// Attaches each node to the nearest node of a beam; the beam's own stay.

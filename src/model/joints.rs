@@ -5,7 +5,7 @@ use super::ends::EndTable;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use crate::constraints::joint::{Row, rotations, translations};
+use crate::constraints::joint::{ConstraintEquation, rotations, translations};
 use crate::constraints::joints::JointKind;
 use crate::deck::Deck;
 use crate::math::{Mat3, Vec3};
@@ -32,22 +32,22 @@ pub(super) fn joints<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repo
         });
         let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
         let ends = [ends.0, ends.1];
-        if let Some(rows) = joint_rows(&owner, kind, ends, &axes, nodes, report) {
-            joints.push(Joint { name, ends, rows, supports: false });
+        if let Some(equations) = joint_equations(&owner, kind, ends, &axes, nodes, report) {
+            joints.push(Joint { name, ends, equations, supports: false });
         }
     }
     joints
 }
 
 /// The constraint equations between two ends, of which messages speak as `owner`.
-fn joint_rows<'d>(
+fn joint_equations<'d>(
     owner: &Owner<'d>,
     kind: &JointKind,
     ends: [usize; 2],
     axes: &Mat3,
     nodes: &Nodes,
     report: &mut Report<'d>,
-) -> Option<Vec<Row>> {
+) -> Option<Vec<ConstraintEquation>> {
     if ends[0] == ends[1] {
         let node = nodes.label(ends[0]);
         return report.error(owner.span, format!("{} joins `{node}` to itself", owner.what));
@@ -66,7 +66,7 @@ fn joint_rows<'d>(
         let far = format!("they are {} apart; a body's `point` in `to` may be left out", short(d.norm()));
         return report.error_with(owner.span, message, far);
     }
-    Some((kind.make.rows)(axes, &d))
+    Some((kind.make.equations)(axes, &d))
 }
 
 /// Reports joints of the deck between things that cannot move against each other. The deck is sound otherwise.
@@ -89,7 +89,7 @@ pub(super) fn check_joints(deck: &Deck, joints: &[Joint], nodes: &Nodes, report:
 }
 
 /// Rows between nodes at one place, about global axes at t = 0.
-pub(super) fn rows(dofs: [bool; 6]) -> Vec<Row> {
+pub(super) fn equations(dofs: [bool; 6]) -> Vec<ConstraintEquation> {
     let [x, y, z, rx, ry, rz] = dofs;
     translations([x, y, z], &Vec3::zeros()).chain(rotations([rx, ry, rz], &Mat3::identity())).collect()
 }

@@ -1,7 +1,7 @@
 //! `[[supports]]`: directions whose motion is given.
 
 use super::data::{AnalysisKind, DIRECTIONS, History, Joint, Motion};
-use super::joints::rows;
+use super::joints::equations;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -152,7 +152,7 @@ impl<'d> Supports<'_, 'd> {
         }
         if new != [false; 6] {
             let name = format!("{} on its support", self.topology.label(spot.node));
-            self.joints.push(Joint { name, ends: [spot.node, support_point], rows: rows(new), supports: true });
+            self.joints.push(Joint { name, ends: [spot.node, support_point], equations: equations(new), supports: true });
         }
     }
 }

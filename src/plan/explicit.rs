@@ -44,11 +44,11 @@ impl Plan {
                 masses.blocks.iter().filter_map(|block| block.massless().map(|dof| (block.node, dof))).collect()
             }
             None => {
-                let heavy = system.has_mass(model.nodes.len());
+                let has_mass = system.has_mass(model.nodes.len());
                 self.dofs
                     .nodal_dofs()
                     .iter()
-                    .filter(|(node, dof)| !heavy[*node][usize::from(*dof > 2)])
+                    .filter(|(node, dof)| !has_mass[*node][usize::from(*dof > 2)])
                     .copied()
                     .collect()
             }

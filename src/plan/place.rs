@@ -1,6 +1,6 @@
 //! For each direction of each node: unknown, held, riding, or left out, and why.
 
-use crate::constraints::joint::Row;
+use crate::constraints::joint::ConstraintEquation;
 use crate::elements::ElementBlock;
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model};
@@ -87,18 +87,18 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     }
     for joint in &system.joints {
         let moving = &joint.nodes[..if joint.supports { 1 } else { 2 }];
-        for (&node, reach) in joint.rows.iter().flat_map(|row| moving.iter().zip(reach_of(row))) {
+        for (&node, reach) in joint.equations.iter().flat_map(|row| moving.iter().zip(reach_of(row))) {
             acts[node].iter_mut().zip(reach).for_each(|(acts, reaches)| *acts |= reaches);
         }
     }
     // Per node: whether it has mass, and whether that has inertia.
-    let mut massive = vec![None; n];
-    system.inertias.iter().for_each(|i| massive[i.node] = Some(i.rotary));
+    let mut has_mass = vec![None; n];
+    system.inertias.iter().for_each(|i| has_mass[i.node] = Some(i.rotary));
     // What acts on a dependent node acts on its master; a force at an arm turns it.
     for dependent in system.rigid_links.iter().rev() {
         for dof in (0..6).filter(|&d| dependent.dofs[d]) {
-            let heavy = massive[dependent.node].is_some_and(|rotary| dof < 3 || rotary);
-            if !(acts[dependent.node][dof] || heavy) {
+            let own_mass = has_mass[dependent.node].is_some_and(|rotary| dof < 3 || rotary);
+            if !(acts[dependent.node][dof] || own_mass) {
                 continue;
             }
             acts[dependent.master][dof] = true;
@@ -111,14 +111,14 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
 }
 
 /// Directions of the two nodes on which a row of a joint can ever act.
-fn reach_of(row: &Row) -> [[bool; 6]; 2] {
+fn reach_of(row: &ConstraintEquation) -> [[bool; 6]; 2] {
     let moves = [true, true, true, false, false, false];
     let turns = [false, false, false, true, true, true];
     match row {
-        Row::Global { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
-        Row::Carried { .. } => [moves, [true; 6]],
-        Row::Square { .. } => [turns; 2],
-        Row::Distance { .. } => [moves; 2],
+        ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
+        ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
+        ConstraintEquation::Perpendicular { .. } => [turns; 2],
+        ConstraintEquation::Distance { .. } => [moves; 2],
     }
 }
 

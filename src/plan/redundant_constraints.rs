@@ -28,7 +28,7 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
     for joint in &system.joints {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for row in &joint.rows {
+        for row in &joint.equations {
             let mut entries = Vec::new();
             for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
                 for (&independent, T) in independent_nodes[node].iter().zip(&projections[node]) {

@@ -13,7 +13,7 @@ pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failu
     if !cx.system.has_contacts() {
         return Ok(());
     }
-    cx.system.hurried_contact(state, ahead).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
+    cx.system.unresolved_impact(state, ahead).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
 }
 
 /// Before the motion found at `ahead` of the state is taken: nothing has gone through a surface.

@@ -4,7 +4,7 @@ use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model, Restraint};
 use crate::plan::Plan;
 use crate::state::Node;
-use crate::system::{Drive, System};
+use crate::system::{Excitation, System};
 
 /// Everything about a run that no step changes. Built once, borrowed by all that computes.
 pub struct Context<'a> {
@@ -12,7 +12,7 @@ pub struct Context<'a> {
     pub plan: &'a Plan,
     pub system: &'a System,
     /// Loads and prescribed motion as functions of time.
-    pub excitation: Drive<'a>,
+    pub excitation: Excitation<'a>,
     /// Nodes that move by increments of their own, in ascending order; the others do not move or follow a master.
     pub independent_nodes: Vec<usize>,
     /// Prescribed directions, by their place in the model's list, whose motion joints hand on to others.
@@ -41,7 +41,7 @@ impl<'a> Context<'a> {
             model,
             plan,
             system,
-            excitation: Drive::new(model),
+            excitation: Excitation::new(model),
             independent_nodes: independent_nodes(model, plan, system),
             driving: driving(model, system),
             algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },

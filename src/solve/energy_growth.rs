@@ -32,19 +32,19 @@ impl EnergyGrowth {
         if model.analysis.kind != AnalysisKind::Dynamic {
             return None;
         }
-        self.balance.work(state.work.external);
+        self.balance.update_work(state.work.external);
         let letting_go = || {
             (is_watched(model) && model.parts.iter().any(Part::may_release))
                 .then(|| system.energy(state, initial, plan.threads))
         };
-        self.balance.see(&energy.or_else(letting_go)?);
-        let Balance { made, had, plastic, .. } = self.balance;
+        self.balance.update(&energy.or_else(letting_go)?);
+        let Balance { generated, available, plastic, .. } = self.balance;
         // What plastic flow takes too much of does not move.
-        let most = if last && made > plastic { had } else { FAR * had };
+        let most = if last && generated > plastic { available } else { FAR * available };
         // A load that begins at rest moves things before it has done work: what grows does so in the next step too.
-        let grows = is_watched(model) && had > 0.0 && made > most;
+        let grows = is_watched(model) && available > 0.0 && generated > most;
         let went_on = std::mem::replace(&mut self.growing, grows) || last;
-        (grows && went_on).then(|| Failure::EnergyGrowth { made: made / had })
+        (grows && went_on).then(|| Failure::EnergyGrowth { ratio: generated / available })
     }
 }
 

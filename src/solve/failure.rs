@@ -27,7 +27,7 @@ pub enum Failure {
     /// A step of central differences is longer than the critical time step; whether steps find their own length.
     Unstable { dt: f64, longest: f64, automatic: bool },
     /// Central differences have made so many times the energy that there was.
-    EnergyGrowth { made: f64 },
+    EnergyGrowth { ratio: f64 },
     /// A step turns something too far.
     RotationTooLarge { dt: f64 },
     /// The error of a step is larger than what is allowed.
@@ -174,8 +174,8 @@ impl Failure {
                      {longest:.3e} ({help}, or an implicit scheme)"
                 )
             }
-            Failure::EnergyGrowth { made } => format!(
-                "energy growth: central differences have made {made:.1e} times the energy that there was; their steps are too \
+            Failure::EnergyGrowth { ratio } => format!(
+                "energy growth: central differences have made {ratio:.1e} times the energy that there was; their steps are too \
                  long for this motion (a shorter `time_step`, or an implicit scheme)"
             ),
             Failure::RotationTooLarge { dt } => format!("in a step of {dt:.3e} something turns by more than 3 radians"),

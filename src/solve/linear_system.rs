@@ -16,8 +16,8 @@ impl LinearSystem {
     #[inline]
     pub fn solve_augmented(&mut self, multipliers: &Multipliers, rhs: &mut [f64]) {
         let directions = rhs.len() - multipliers.gaps.len();
-        multipliers.ask(&mut rhs[directions..]);
+        multipliers.write_rhs(&mut rhs[directions..]);
         self.solver.solve(rhs);
-        multipliers.shift(&mut rhs[directions..]);
+        multipliers.subtract_gaps(&mut rhs[directions..]);
     }
 }

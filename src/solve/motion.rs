@@ -50,8 +50,8 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     cx.excitation.loading(to, Side::Before, &mut loads.end);
     between(&loads.start, &loads.end, instant, &mut loads.instant);
     let prescribed = &mut ws.prescribed;
-    cx.excitation.held(from, &mut prescribed.start);
-    cx.excitation.held(to, &mut prescribed.end);
+    cx.excitation.prescribed(from, &mut prescribed.start);
+    cx.excitation.prescribed(to, &mut prescribed.end);
     prescribed.instant.clear();
     prescribed.instant.extend(prescribed.start.iter().zip(&prescribed.end).map(|(a, b)| Prescribed {
         u: instant * (b.u - a.u),

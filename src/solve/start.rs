@@ -19,7 +19,7 @@ use crate::system::assembly::Weights;
 pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> {
     let mut state = given_state(cx);
     cx.excitation.loading(0.0, Side::After, &mut ws.loads.instant);
-    cx.excitation.held(0.0, &mut ws.prescribed.start);
+    cx.excitation.prescribed(0.0, &mut ws.prescribed.start);
     prescribe(cx, ws, &mut state);
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
     if cx.system.has_contacts() {

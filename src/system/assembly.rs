@@ -334,9 +334,9 @@ impl Assembly {
                 let Scratch { local, projections, projected, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
                 let sparse = group.kind == PartKind::Contact;
-                let rests = |e: usize| sparse && block.is_inactive(e, now);
+                let inactive = |e: usize| sparse && block.is_inactive(e, now);
                 let fill = |(k, K): (usize, &mut [f64])| {
-                    if !rests(first + k) {
+                    if !inactive(first + k) {
                         block.tangent(first + k, now, rate, moduli, K);
                     }
                 };
@@ -345,7 +345,7 @@ impl Assembly {
                 } else {
                     local.chunks_mut(length).enumerate().for_each(fill);
                 }
-                for (e, K) in (first..last).zip(local.chunks(length)).filter(|(e, _)| !rests(*e)) {
+                for (e, K) in (first..last).zip(local.chunks(length)).filter(|(e, _)| !inactive(*e)) {
                     add_local(
                         K,
                         block.nodes(e),

@@ -4,7 +4,7 @@ use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia, Lumped};
 use super::thread_partition::MOST_IN_GROUP;
 use super::watched::Watched;
-use crate::constraints::joint::{Joint, Row};
+use crate::constraints::joint::{ConstraintEquation, Joint};
 use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};
 use crate::elements::beam::{BeamGeometry, Beams, FibreModel};
@@ -282,8 +282,8 @@ fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn ElementBlock>; 2], Vec<Watched>
 pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
     let joint = |joint: &model::Joint| {
         let d = x[joint.ends[0]] - x[joint.ends[1]];
-        let says = |row: &&Row| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
-        Joint { nodes: joint.ends, rows: joint.rows.iter().filter(says).copied().collect(), supports: joint.supports }
+        let says = |row: &&ConstraintEquation| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
+        Joint { nodes: joint.ends, equations: joint.equations.iter().filter(says).copied().collect(), supports: joint.supports }
     };
     model.constraints.joints.iter().map(joint).collect()
 }

@@ -3,7 +3,7 @@
 
 use super::equations::System;
 use super::masses::Masses;
-use super::multipliers::SHARED;
+use super::multipliers::REGULARIZATION;
 use crate::elements::Force;
 use crate::math::{Vec6, angular, linear, stack};
 use crate::state::Node;
@@ -12,7 +12,7 @@ use crate::state::Node;
 const MOST: usize = 64;
 
 /// Part of a row that counts as none.
-const NOTHING: f64 = 1e-12;
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// Allocated once.
 pub struct ConstraintSchur {
@@ -25,13 +25,13 @@ pub struct ConstraintSchur {
     W: Vec<[Vec6; 2]>,
     /// Rows that pull at held directions only, as out of the plane of bodies that stay in one: no acceleration answers them, and
     /// they carry nothing.
-    idle: Vec<bool>,
+    inert: Vec<bool>,
     /// G M⁻¹ Gᵀ, and its Cholesky factor; row-major.
     S: Vec<f64>,
     L: Vec<f64>,
     /// What is asked for, then what answers it, and room beside it.
     pub x: Vec<f64>,
-    room: Vec<f64>,
+    scratch: Vec<f64>,
 }
 
 impl ConstraintSchur {
@@ -58,21 +58,21 @@ impl ConstraintSchur {
                 let master = master(node)?;
                 *end = masses.of(master).map(|_| master);
             }
-            rows.extend(joint.rows.iter().map(|_| ends));
+            rows.extend(joint.equations.iter().map(|_| ends));
         }
         let zeros = vec![[Vec6::zeros(); 2]; count];
         let square = vec![0.0; count * count];
         let x = vec![0.0; count];
-        let idle = vec![false; count];
+        let inert = vec![false; count];
         Some(ConstraintSchur {
             rows,
             shares,
             G: zeros.clone(),
             W: zeros,
-            idle,
+            inert,
             S: square.clone(),
             L: square,
-            room: x.clone(),
+            scratch: x.clone(),
             x,
         })
     }
@@ -82,7 +82,7 @@ impl ConstraintSchur {
         let mut k = 0;
         for joint in &system.joints {
             let [a, b] = joint.nodes.map(|node| &nodes[node]);
-            for row in &joint.rows {
+            for row in &joint.equations {
                 let gradient = row.gradient(a, b);
                 let (mut whole, mut moving) = (0.0f64, 0.0f64);
                 for end in 0..2 {
@@ -97,7 +97,7 @@ impl ConstraintSchur {
                     let free = G.iter().zip(block.free).filter(|(_, free)| *free);
                     moving = free.map(|(g, _)| g.abs()).fold(moving, f64::max);
                 }
-                self.idle[k] = moving <= NOTHING * whole;
+                self.inert[k] = moving <= NEGLIGIBLE * whole;
                 k += 1;
             }
         }
@@ -109,8 +109,8 @@ impl ConstraintSchur {
         for k in 0..n {
             for l in 0..=k {
                 let mut sum = 0.0;
-                let idle = self.idle[k] || self.idle[l];
-                for (i, master) in self.rows[k].iter().enumerate().filter(|_| !idle) {
+                let inert = self.inert[k] || self.inert[l];
+                for (i, master) in self.rows[k].iter().enumerate().filter(|_| !inert) {
                     for (j, other) in self.rows[l].iter().enumerate() {
                         if master.is_some() && master == other {
                             sum += self.G[k][i].dot(&self.W[l][j]);
@@ -125,13 +125,13 @@ impl ConstraintSchur {
         let L = &mut self.L;
         for k in 0..n {
             if self.shares {
-                L[k * n + k] *= 1.0 + SHARED;
+                L[k * n + k] *= 1.0 + REGULARIZATION;
             }
             for l in 0..k {
                 let sum: f64 = (0..l).map(|i| L[k * n + i] * L[l * n + i]).sum();
                 L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
             }
-            if self.idle[k] {
+            if self.inert[k] {
                 L[k * n + k] = 1.0;
                 continue;
             }
@@ -148,20 +148,20 @@ impl ConstraintSchur {
     /// x ← (G M⁻¹ Gᵀ)⁻¹ x; of rows that say the same, each has its share.
     pub fn solve(&mut self) {
         let n = self.rows.len();
-        self.x.iter_mut().zip(&self.idle).filter(|(_, idle)| **idle).for_each(|(x, _)| *x = 0.0);
+        self.x.iter_mut().zip(&self.inert).filter(|(_, inert)| **inert).for_each(|(x, _)| *x = 0.0);
         if !self.shares {
             return substitute(&self.L, &mut self.x);
         }
         // The shares leave a part of what is asked to be found again; twice leaves its square.
-        std::mem::swap(&mut self.room, &mut self.x);
-        self.x.copy_from_slice(&self.room);
+        std::mem::swap(&mut self.scratch, &mut self.x);
+        self.x.copy_from_slice(&self.scratch);
         substitute(&self.L, &mut self.x);
         for k in 0..n {
             let done: f64 = self.S[k * n..(k + 1) * n].iter().zip(&self.x).map(|(s, x)| s * x).sum();
-            self.room[k] -= done;
+            self.scratch[k] -= done;
         }
-        substitute(&self.L, &mut self.room);
-        self.x.iter_mut().zip(&self.room).for_each(|(x, more)| *x += more);
+        substitute(&self.L, &mut self.scratch);
+        self.x.iter_mut().zip(&self.scratch).for_each(|(x, more)| *x += more);
     }
 
     /// x ← x + G δ, by node.
@@ -172,7 +172,7 @@ impl ConstraintSchur {
     }
 
     /// F ← F − Gᵀ x, on the nodes that move.
-    pub fn pull(&self, F: &mut [Force]) {
+    pub fn subtract_forces(&self, F: &mut [Force]) {
         for ((x, ends), G) in self.x.iter().zip(&self.rows).zip(&self.G) {
             for (master, G) in ends.iter().zip(G) {
                 if let Some(master) = master {
@@ -183,7 +183,7 @@ impl ConstraintSchur {
     }
 
     /// δ ← δ − M⁻¹ Gᵀ x, by node.
-    pub fn push(&self, motion: &mut [Vec6]) {
+    pub fn subtract_response(&self, motion: &mut [Vec6]) {
         for ((x, ends), W) in self.x.iter().zip(&self.rows).zip(&self.W) {
             for (master, W) in ends.iter().zip(W) {
                 if let Some(master) = master {

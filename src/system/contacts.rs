@@ -36,13 +36,13 @@ impl System {
             .filter_map(|group| Some((group, group.block.as_any()?.downcast_ref::<Contacts>()?)))
     }
 
-    /// The contact, by its place in [`Model::parts`], with an impact after `state` that a step which writes equilibrium `since`
+    /// The contact, by its place in [`Model::parts`], with an impact after `state` that a step which writes equilibrium `ahead`
     /// ahead would not resolve.
-    pub fn hurried_contact(&self, state: &State, since: f64) -> Option<usize> {
-        let hurried = |(group, block): &(&Group, &Contacts)| {
-            since > contact::longest_step(block, &state.history[group.history.clone()]) * (1.0 + 1e-9)
+    pub fn unresolved_impact(&self, state: &State, ahead: f64) -> Option<usize> {
+        let unresolved = |(group, block): &(&Group, &Contacts)| {
+            ahead > contact::longest_step(block, &state.history[group.history.clone()]) * (1.0 + 1e-9)
         };
-        self.contact_groups().find(hurried).map(|(group, _)| group.part)
+        self.contact_groups().find(unresolved).map(|(group, _)| group.part)
     }
 
     /// The contact, by its place in [`Model::parts`], through whose surface a step from `start` to `now` would go, or into

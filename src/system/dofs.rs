@@ -80,7 +80,7 @@ impl DofMap {
             map.push(unknown);
         }
         map.nodes = map.rows.len();
-        joints.iter().for_each(|joint| map.push(std::array::from_fn(|k| k < joint.rows.len())));
+        joints.iter().for_each(|joint| map.push(std::array::from_fn(|k| k < joint.equations.len())));
         map
     }
 

@@ -44,7 +44,7 @@ impl Energy {
     /// What the time integration has taken: `numerical` but for what swings with the motion. Velocity Verlet keeps
     /// ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa of linear motion, so energies at a step swing by the last of these: by up to
     /// 1/(1 − (ωΔt/2)²), which is nearly three at 0.8 of the limit.
-    pub fn taken(&self) -> f64 {
+    pub fn numerical_dissipation(&self) -> f64 {
         self.numerical + self.verlet_energy_offset
     }
 }
@@ -53,12 +53,12 @@ impl Energy {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Balance {
     /// The most that it took, and that it made.
-    pub taken: f64,
-    pub made: f64,
+    pub dissipated: f64,
+    pub generated: f64,
     /// The most energy there was.
-    pub most: f64,
+    pub peak: f64,
     /// What there was at the start, and the most that was put in or let go since: no more can move.
-    pub had: f64,
+    pub available: f64,
     /// Dissipated by plastic flow.
     pub plastic: f64,
     start: Option<f64>,
@@ -69,26 +69,26 @@ pub struct Balance {
 impl Balance {
     /// The work of what acts from outside, which is known in every step: energies are summed at some only, and by then it may have
     /// been given back.
-    pub fn work(&mut self, external: f64) {
+    pub fn update_work(&mut self, external: f64) {
         self.external = self.external.max(external.abs());
-        self.most = self.most.max(external.abs());
+        self.peak = self.peak.max(external.abs());
     }
 
-    pub fn see(&mut self, energy: &Energy) {
+    pub fn update(&mut self, energy: &Energy) {
         let stored = energy.strain + energy.links + energy.contact;
         let sizes = energy.strain.abs() + energy.links.abs() + energy.contact.abs();
         let start = *self.start.get_or_insert(energy.kinetic + stored.abs());
-        self.work(energy.external);
+        self.update_work(energy.external);
         // Less than nothing is stored where preloads give way.
         self.released = self.released.max(-stored);
-        self.had = start + self.external + self.released;
+        self.available = start + self.external + self.released;
         self.plastic = energy.plastic;
-        let taken = energy.taken();
-        self.taken = self.taken.max(taken);
+        let dissipated = energy.numerical_dissipation();
+        self.dissipated = self.dissipated.max(dissipated);
         // A mode beyond the limit of stability may keep what central differences keep, and grow: then what moves tells.
-        self.made = self.made.max(-taken).max(energy.kinetic - self.had);
+        self.generated = self.generated.max(-dissipated).max(energy.kinetic - self.available);
         // Where the total is zero by chance, or external work, the motion is not.
-        self.most = self.most.max(energy.mechanical.abs()).max(energy.kinetic).max(sizes);
+        self.peak = self.peak.max(energy.mechanical.abs()).max(energy.kinetic).max(sizes);
     }
 }
 

@@ -134,7 +134,7 @@ impl System {
         F.fill([0.0; 6]);
         let mut scale = Scale::default();
         thread_partition::subtract_forces(&self.groups, now, &mut forces.partitions, forces.threads, F);
-        scale.meet(F);
+        scale.include(F);
         for inertia in &self.inertias {
             let node = &nodes[inertia.node];
             let mut f = inertia.force(node, &loading.field, self.dynamic, &mut scale);
@@ -154,7 +154,7 @@ impl System {
             crate::elements::subtract(&mut F[damping.node], 3, &(damping.rotation * node.omega));
         }
         self.add_loads(nodes, loading, F, &mut scale);
-        self.join(nodes, forces, &mut scale);
+        self.subtract_joint_forces(nodes, forces, &mut scale);
         self.transfer_to_masters(nodes, forces);
         scale
     }
@@ -181,7 +181,7 @@ impl System {
         for (load, factor) in self.loads.iter().zip(&loading.factors) {
             let (f, m) = load_on(load, *factor, &nodes[load.node]);
             let f = [f.x, f.y, f.z, m.x, m.y, m.z];
-            scale.meet(&[f]);
+            scale.include(&[f]);
             for (sum, f) in F[load.node].iter_mut().zip(f) {
                 *sum += f;
             }

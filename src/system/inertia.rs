@@ -29,12 +29,12 @@ impl Inertia {
     #[inline]
     pub fn force(&self, node: &Node, field: &Vec3, dynamic: bool, scale: &mut Scale) -> Force {
         let weight = self.mass * field;
-        scale.meet_force(&weight);
+        scale.include_force(&weight);
         if !dynamic {
             return [weight.x, weight.y, weight.z, 0.0, 0.0, 0.0];
         }
         let inertia = self.mass * node.a;
-        scale.meet_force(&inertia);
+        scale.include_force(&inertia);
         let f = weight - inertia;
         if !self.rotary {
             return [f.x, f.y, f.z, 0.0, 0.0, 0.0];
@@ -43,8 +43,8 @@ impl Inertia {
         let R = node.R();
         let (omega, alpha) = (R.tr_mul(&node.omega), R.tr_mul(&node.alpha));
         let (spin, gyroscopic) = (self.J0 * alpha, omega.cross(&(self.J0 * omega)));
-        scale.meet_moment(&spin);
-        scale.meet_moment(&gyroscopic);
+        scale.include_moment(&spin);
+        scale.include_moment(&gyroscopic);
         let m = R * (spin + gyroscopic);
         [f.x, f.y, f.z, -m.x, -m.y, -m.z]
     }

@@ -9,15 +9,15 @@
 
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
-use super::multipliers::{Multipliers, SHARED};
+use super::multipliers::{Multipliers, REGULARIZATION};
 use super::scale::Scale;
-use crate::constraints::joint::{Joint, MOST_ROWS, Row};
+use crate::constraints::joint::{Joint, MOST_EQUATIONS, ConstraintEquation};
 use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
 
 /// Directions of a local matrix: two nodes, and the joint's multipliers as a third.
-pub(super) const WIDTH: usize = 6 + 6 + MOST_ROWS;
+pub(super) const WIDTH: usize = 6 + 6 + MOST_EQUATIONS;
 
 /// Force and moment that a joint exerts on its first node, global components.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,24 +29,24 @@ pub struct JointState {
 impl System {
     /// Rows of all joints.
     pub fn multipliers(&self) -> usize {
-        self.joints.iter().map(|joint| joint.rows.len()).sum()
+        self.joints.iter().map(|joint| joint.equations.len()).sum()
     }
 
     /// Each joint with the number of its first row.
     fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
         self.joints.iter().scan(0, |next, joint| {
             let first = *next;
-            *next += joint.rows.len();
+            *next += joint.equations.len();
             Some((joint, first))
         })
     }
 
     /// Subtracts Gᵀλ and notes the gaps.
-    pub(super) fn join(&self, nodes: &[Node], forces: &mut Forces, scale: &mut Scale) {
+    pub(super) fn subtract_joint_forces(&self, nodes: &[Node], forces: &mut Forces, scale: &mut Scale) {
         let Forces { multipliers, on_nodes: F, .. } = forces;
         for (joint, first) in self.numbered() {
             let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            for (k, row) in joint.rows.iter().enumerate() {
+            for (k, row) in joint.equations.iter().enumerate() {
                 multipliers.gaps[first + k] = row.gap(a, b)[0];
                 let lambda = multipliers.values[first + k];
                 if lambda == 0.0 {
@@ -54,7 +54,7 @@ impl System {
                 }
                 for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
                     let pull = lambda * G;
-                    scale.meet(&pull.data.0);
+                    scale.include(&pull.data.0);
                     F[node].iter_mut().zip(&pull).for_each(|(f, pull)| *f -= pull);
                 }
             }
@@ -64,30 +64,30 @@ impl System {
     /// −Gᵀλ alone, handed to the masters.
     pub fn joint_forces(&self, nodes: &[Node], forces: &mut Forces) {
         forces.on_nodes.fill([0.0; 6]);
-        self.join(nodes, forces, &mut Scale::default());
+        self.subtract_joint_forces(nodes, forces, &mut Scale::default());
         self.transfer_to_masters(nodes, forces);
     }
 
     /// Per node: whether anything gives its translations, its rotations mass.
     pub fn has_mass(&self, nodes: usize) -> Vec<[bool; 2]> {
-        let mut massive = vec![[false; 2]; nodes];
-        self.inertias.iter().for_each(|inertia| massive[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);
+        let mut has_mass = vec![[false; 2]; nodes];
+        self.inertias.iter().for_each(|inertia| has_mass[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);
         for node in self.consistent.iter().flat_map(|mass| &mass.nodes) {
-            massive[*node][0] = true;
+            has_mass[*node][0] = true;
         }
         for dependent in self.rigid_links.iter().rev() {
-            let [moves, turns] = massive[dependent.node];
-            massive[dependent.master][0] |= moves && dependent.dofs[..3].contains(&true);
-            massive[dependent.master][1] |= turns && dependent.dofs[3..].contains(&true);
+            let [moves, turns] = has_mass[dependent.node];
+            has_mass[dependent.master][0] |= moves && dependent.dofs[..3].contains(&true);
+            has_mass[dependent.master][1] |= turns && dependent.dofs[3..].contains(&true);
         }
-        massive
+        has_mass
     }
 
     /// Writes the gaps (0) of the joints, or the first or second derivative in time.
     pub fn gaps(&self, nodes: &[Node], derivative: usize, gaps: &mut [f64]) {
         for (joint, first) in self.numbered() {
             let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            for (k, row) in joint.rows.iter().enumerate() {
+            for (k, row) in joint.equations.iter().enumerate() {
                 gaps[first + k] = row.gap(a, b)[derivative];
             }
         }
@@ -95,19 +95,19 @@ impl System {
 
     /// The largest gap over what it is to be measured by: positions of size `reach`, angles of 1.
     pub fn largest_gap(&self, gaps: &[f64], reach: f64) -> f64 {
-        let rows = self.joints.iter().flat_map(|joint| &joint.rows);
-        let relative = |(row, gap): (&Row, &f64)| if row.turns() { gap.abs() } else { gap.abs() / reach };
+        let rows = self.joints.iter().flat_map(|joint| &joint.equations);
+        let relative = |(row, gap): (&ConstraintEquation, &f64)| if row.is_rotational() { gap.abs() } else { gap.abs() / reach };
         rows.zip(gaps).map(relative).fold(0.0, |largest, gap| if gap > largest || gap.is_nan() { gap } else { largest })
     }
 
     /// The joint and the row of a multiplier.
-    pub fn row(&self, multiplier: usize) -> Option<(usize, &Row)> {
+    pub fn row(&self, multiplier: usize) -> Option<(usize, &ConstraintEquation)> {
         let of = |(j, (joint, first)): (usize, (&_, usize))| {
             let joint: &Joint = joint;
-            (first + joint.rows.len() > multiplier).then_some((j, first))
+            (first + joint.equations.len() > multiplier).then_some((j, first))
         };
         let (j, first) = self.numbered().enumerate().find_map(of)?;
-        Some((j, &self.joints[j].rows[multiplier - first]))
+        Some((j, &self.joints[j].equations[multiplier - first]))
     }
 
     /// What joints do to their first nodes, in the order of the model's list.
@@ -116,7 +116,7 @@ impl System {
         out.extend(self.numbered().map(|(joint, first)| {
             let [a, b] = joint.nodes.map(|n| &nodes[n]);
             let (mut f, mut m) = (Vec3::zeros(), Vec3::zeros());
-            for (row, lambda) in joint.rows.iter().zip(&values[first..]) {
+            for (row, lambda) in joint.equations.iter().zip(&values[first..]) {
                 let [G, _] = row.gradient(a, b);
                 f -= *lambda * linear(&G);
                 m -= *lambda * angular(&G);
@@ -178,17 +178,17 @@ pub(super) fn tangents(
     let mut first = 0;
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for (k, row) in joint.rows.iter().enumerate() {
+        for (k, row) in joint.equations.iter().enumerate() {
             let s = diagonal.stiffness(&row.gradient(a, b), projections, values).unwrap_or(0.0);
             multipliers.penalties[first + k] = s;
-            let stiffest = &mut stiffest[usize::from(row.turns())];
+            let stiffest = &mut stiffest[usize::from(row.is_rotational())];
             *stiffest = stiffest.max(s);
         }
-        first += joint.rows.len();
+        first += joint.equations.len();
     }
-    let rows = system.joints.iter().flat_map(|joint| &joint.rows);
+    let rows = system.joints.iter().flat_map(|joint| &joint.equations);
     for (s, row) in multipliers.penalties.iter_mut().zip(rows) {
-        let other = stiffest[usize::from(row.turns())];
+        let other = stiffest[usize::from(row.is_rotational())];
         if *s == 0.0 {
             *s = if other > 0.0 { other } else { 1.0 };
         }
@@ -198,7 +198,7 @@ pub(super) fn tangents(
     for (j, joint) in system.joints.iter().enumerate() {
         K.fill(0.0);
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for (k, row) in joint.rows.iter().enumerate() {
+        for (k, row) in joint.equations.iter().enumerate() {
             let (s, lambda) = (multipliers.penalties[first + k], multipliers.values[first + k]);
             if stiffness {
                 row.stiffness(a, b, lambda, |i, j, block| {
@@ -218,9 +218,9 @@ pub(super) fn tangents(
                 K[i * WIDTH + 12 + k] = s * G[i];
                 K[(12 + k) * WIDTH + i] = s * G[i];
             }
-            K[(12 + k) * (WIDTH + 1)] = -SHARED * s;
+            K[(12 + k) * (WIDTH + 1)] = -REGULARIZATION * s;
         }
         add(j, &K, values);
-        first += joint.rows.len();
+        first += joint.equations.len();
     }
 }

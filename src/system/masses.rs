@@ -8,7 +8,7 @@ use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, skew, stack};
 use crate::state::Node;
 
 /// Part of what an inertia was before others were taken from it that counts as none.
-const NOTHING: f64 = 1e-12;
+const NEGLIGIBLE: f64 = 1e-12;
 /// Velocities that what is held leaves to a node are corrected so many times.
 pub const CORRECTIONS: usize = 2;
 
@@ -33,19 +33,19 @@ pub struct MassBlock {
     J0: Mat3,
     /// Of a body: where it turns about, from the node, and its inertia about that.
     arm: Vec3,
-    turning: Mat3,
-    inverse: Mat3,
-    kind: Kind,
+    J_pivot: Mat3,
+    J_pivot_inverse: Mat3,
+    kind: BlockKind,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum BlockKind {
     /// No rotation is an unknown, or the centre is the node and the inertia is one number.
-    Point { of_turn: f64 },
+    Point { inverse_inertia: f64 },
     /// Rotations are free. The centre is the node, or moves freely; or the node does not move and is what the body turns about.
-    Body,
+    RigidBody,
     /// Some directions are held.
-    Held,
+    Restrained,
 }
 
 /// Velocities and accelerations, global components.
@@ -97,7 +97,7 @@ impl Masses {
             let s0 = if mass > 0.0 { moment / mass } else { Vec3::zeros() };
             let mut J0 = J - point(mass, &s0);
             // What is left of a point mass at the end of an arm.
-            let trace = NOTHING * J.amax();
+            let trace = NEGLIGIBLE * J.amax();
             J0.iter_mut().filter(|J| J.abs() < trace).for_each(|J| *J = 0.0);
             place[node] = Some(blocks.len() as u32);
             blocks.push(MassBlock::new(node, free, mass, s0, J0));
@@ -126,17 +126,17 @@ impl MassBlock {
         let centred = s0.amax() == 0.0;
         let equal = J0 == Mat3::identity() * J0[(0, 0)];
         let kind = match (turns, all(&free[3..]), centred) {
-            (false, ..) => Kind::Point { of_turn: 0.0 },
-            (true, _, true) if equal => Kind::Point { of_turn: 1.0 / J0[(0, 0)] },
-            (true, true, true) => Kind::Body,
-            (true, true, false) if all(&free) => Kind::Body,
-            (true, true, false) if !free[..3].contains(&true) => Kind::Body,
-            _ => Kind::Held,
+            (false, ..) => BlockKind::Point { inverse_inertia: 0.0 },
+            (true, _, true) if equal => BlockKind::Point { inverse_inertia: 1.0 / J0[(0, 0)] },
+            (true, true, true) => BlockKind::RigidBody,
+            (true, true, false) if all(&free) => BlockKind::RigidBody,
+            (true, true, false) if !free[..3].contains(&true) => BlockKind::RigidBody,
+            _ => BlockKind::Restrained,
         };
         let pivots = !free[..3].contains(&true);
-        let (arm, turning) = if pivots { (Vec3::zeros(), J0 - mass * skew(&s0) * skew(&s0)) } else { (s0, J0) };
-        let inverse = turning.try_inverse().unwrap_or_else(Mat3::zeros);
-        MassBlock { node, free, mass, s0, J0, arm, turning, inverse, kind }
+        let (arm, J_pivot) = if pivots { (Vec3::zeros(), J0 - mass * skew(&s0) * skew(&s0)) } else { (s0, J0) };
+        let J_pivot_inverse = J_pivot.try_inverse().unwrap_or_else(Mat3::zeros);
+        MassBlock { node, free, mass, s0, J0, arm, J_pivot, J_pivot_inverse, kind }
     }
 
     /// The matrix of all six directions, about the node as it lies.
@@ -162,15 +162,15 @@ impl MassBlock {
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
         let kept = |a: Vec6| Vec6::from_fn(|i, _| if self.free[i] { a[i] } else { 0.0 });
         match self.kind {
-            Kind::Point { of_turn } => kept(stack(&(f / self.mass), &(m * of_turn))),
-            Kind::Body => {
+            BlockKind::Point { inverse_inertia } => kept(stack(&(f / self.mass), &(m * inverse_inertia))),
+            BlockKind::RigidBody => {
                 let R = node.R();
                 // About the centre of mass, and back.
                 let s = R * self.arm;
-                let alpha = R * (self.inverse * R.tr_mul(&(m - s.cross(&f))));
+                let alpha = R * (self.J_pivot_inverse * R.tr_mul(&(m - s.cross(&f))));
                 kept(stack(&(f / self.mass - alpha.cross(&s)), &alpha))
             }
-            Kind::Held => {
+            BlockKind::Restrained => {
                 let mut M = self.matrix(&node.R());
                 let mut x = Vec6::from(*F);
                 let scale = M.diagonal();
@@ -184,8 +184,8 @@ impl MassBlock {
     #[inline]
     pub fn inner_product(&self, node: &Node, a: &Vec6, b: &Vec6) -> f64 {
         match self.kind {
-            Kind::Point { of_turn } => {
-                let turn = if of_turn > 0.0 { angular(a).dot(&angular(b)) / of_turn } else { 0.0 };
+            BlockKind::Point { inverse_inertia } => {
+                let turn = if inverse_inertia > 0.0 { angular(a).dot(&angular(b)) / inverse_inertia } else { 0.0 };
                 self.mass * linear(a).dot(&linear(b)) + turn
             }
             _ => {
@@ -199,16 +199,16 @@ impl MassBlock {
     }
 
     /// About what accelerations of translations and of rotations weigh, for a quick look.
-    pub fn about(&self) -> [f64; 2] {
+    pub fn mean_mass(&self) -> [f64; 2] {
         [self.mass, self.J0.trace() / 3.0]
     }
 
     /// F ← F − M a: what accelerations leave of a force, on directions that are held too.
     #[inline]
-    pub fn settle(&self, node: &Node, a: &Vec6, F: &mut Force) {
+    pub fn subtract_inertia(&self, node: &Node, a: &Vec6, F: &mut Force) {
         // Elsewhere nothing couples what is held with what is not.
         let coupled = self.s0.amax() > 0.0 && self.free.contains(&false);
-        if !coupled && self.kind != Kind::Held {
+        if !coupled && self.kind != BlockKind::Restrained {
             return;
         }
         let rest = self.matrix(&node.R()) * a;
@@ -229,13 +229,13 @@ impl MassBlock {
     #[inline]
     pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> Motion {
         let h = 0.5 * dt;
-        if self.kind != Kind::Body {
+        if self.kind != BlockKind::RigidBody {
             let mean = |push: Vec6| {
                 let (a, alpha) = (now.a + linear(&push), now.alpha + angular(&push));
                 Motion { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
             };
             let mut end = mean(self.accelerate(now, F));
-            for _ in 0..if self.kind == Kind::Held { CORRECTIONS } else { 0 } {
+            for _ in 0..if self.kind == BlockKind::Restrained { CORRECTIONS } else { 0 } {
                 let R = now.R();
                 let given = |i: usize| if self.free[3 + i] { end.omega[i] } else { now.omega[i] };
                 let change =
@@ -247,7 +247,7 @@ impl MassBlock {
         }
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
         let (R0, R) = (start.R(), now.R());
-        let times = |R: &Mat3, v: &Vec3| R * (self.turning * R.tr_mul(v));
+        let times = |R: &Mat3, v: &Vec3| R * (self.J_pivot * R.tr_mul(v));
         let centripetal = |node: &Node, s: &Vec3| node.alpha.cross(s) + node.omega.cross(&node.omega.cross(s));
         let (s0, s) = (R0 * self.arm, R * self.arm);
         // About the centre of mass, or a node that does not move: Ḷ = m, on both sides of the step.
@@ -255,7 +255,7 @@ impl MassBlock {
         let m0 = times(&R0, &start.alpha) + start.omega.cross(&L0);
         let m1 = m - s.cross(&f) + times(&R, &now.alpha) + now.omega.cross(&times(&R, &now.omega));
         let L = L0 + h * (m0 + m1);
-        let divided = |v: &Vec3| R * (self.inverse * R.tr_mul(v));
+        let divided = |v: &Vec3| R * (self.J_pivot_inverse * R.tr_mul(v));
         let omega = divided(&L);
         let alpha = divided(&(m1 - omega.cross(&L)));
         let a0 = start.a + centripetal(start, &s0);
@@ -281,7 +281,7 @@ fn eliminate(M: &mut Mat6, b: &mut Vec6, free: &[bool; 6], scale: &Vec6) -> Opti
             continue;
         }
         let pivot = M[(k, k)];
-        if pivot <= NOTHING * scale[k] {
+        if pivot <= NEGLIGIBLE * scale[k] {
             lost = lost.or(Some(k));
             b[k] = 0.0;
             continue;
@@ -294,7 +294,7 @@ fn eliminate(M: &mut Mat6, b: &mut Vec6, free: &[bool; 6], scale: &Vec6) -> Opti
             b[i] -= l * b[k];
         }
     }
-    for k in (0..6).rev().filter(|&k| free[k] && M[(k, k)] > NOTHING * scale[k]) {
+    for k in (0..6).rev().filter(|&k| free[k] && M[(k, k)] > NEGLIGIBLE * scale[k]) {
         let sum: f64 = (k + 1..6).filter(|&j| free[j]).map(|j| M[(k, j)] * b[j]).sum();
         b[k] = (b[k] - sum) / M[(k, k)];
     }

@@ -1,7 +1,7 @@
 //! The Lagrange multipliers of joints in the iteration; see [`super::joints`] for the equations.
 
 /// ε: a repeated row is felt as 1e-16/ε of a length, and a gap shrinks by ε in an iteration.
-pub(super) const SHARED: f64 = 1e-7;
+pub(super) const REGULARIZATION: f64 = 1e-7;
 
 /// What joints carry, a number for each row of all joints.
 #[derive(Debug, Clone, Default)]
@@ -27,19 +27,19 @@ impl Multipliers {
 
     /// The right-hand side of the second equation.
     #[inline]
-    pub fn ask(&self, tail: &mut [f64]) {
+    pub fn write_rhs(&self, tail: &mut [f64]) {
         for ((r, s), c) in tail.iter_mut().zip(&self.penalties).zip(&self.gaps) {
-            *r = -s * (1.0 + SHARED) * c;
+            *r = -s * (1.0 + REGULARIZATION) * c;
         }
     }
 
     /// From δμ to δλ/s.
     #[inline]
-    pub fn shift(&self, tail: &mut [f64]) {
+    pub fn subtract_gaps(&self, tail: &mut [f64]) {
         tail.iter_mut().zip(&self.gaps).for_each(|(r, c)| *r -= c);
     }
 
-    /// λ ← λ + s times what [`Multipliers::shift`] has left.
+    /// λ ← λ + s times what [`Multipliers::subtract_gaps`] has left.
     #[inline]
     pub fn add(&mut self, tail: &[f64]) {
         for ((value, s), r) in self.values.iter_mut().zip(&self.penalties).zip(tail) {

@@ -76,7 +76,7 @@ impl Plane {
         let in_plane = |dof: usize| if dof < 3 { dof != self.normal } else { dof - 3 == self.normal };
         let joint_holds = |joint: &Joint| {
             let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
-            joint.rows.iter().all(|row| row.in_plane(self.normal, &d).is_some())
+            joint.equations.iter().all(|row| row.in_plane(self.normal, &d).is_some())
         };
         let constraints = &model.constraints;
         constraints.restraints.iter().all(|restraint| restraint.motion.is_none() || in_plane(restraint.dof))

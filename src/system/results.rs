@@ -66,8 +66,8 @@ impl System {
     pub fn plastic_strains(&self, now: &Configuration, out: &mut Vec<f64>) {
         out.clear();
         for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
-            let past = group.share(now).history;
-            out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, past)));
+            let history = group.share(now).history;
+            out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, history)));
         }
     }
 

@@ -12,17 +12,17 @@ pub struct Scale {
 
 impl Scale {
     #[inline]
-    pub(super) fn meet_force(&mut self, f: &Vec3) {
+    pub(super) fn include_force(&mut self, f: &Vec3) {
         self.force = f.iter().fold(self.force, |most, f| larger(most, f.abs()));
     }
 
     #[inline]
-    pub(super) fn meet_moment(&mut self, m: &Vec3) {
+    pub(super) fn include_moment(&mut self, m: &Vec3) {
         self.moment = m.iter().fold(self.moment, |most, m| larger(most, m.abs()));
     }
 
     #[inline]
-    pub(super) fn meet(&mut self, forces: &[Force]) {
+    pub(super) fn include(&mut self, forces: &[Force]) {
         let mut most = [0.0; 6];
         for f in forces {
             for i in 0..6 {

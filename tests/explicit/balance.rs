@@ -111,12 +111,12 @@ fn what_swings_is_not_made_from_nothing() {
     let mut last = None;
     run_to_the_end(&model, &mut |frame| {
         let energy = frame.derived.energy.unwrap();
-        balance.see(&energy);
+        balance.update(&energy);
         swing = swing.max(-energy.numerical);
         last = Some(energy);
         Vec::new()
     });
-    let Balance { made, taken, most, had, .. } = balance;
+    let Balance { generated: made, dissipated: taken, peak: most, available: had, .. } = balance;
     println!("swings by {:.2} of the most, makes {:.1e}", swing / most, made / most);
     assert!(swing > 0.02 * most, "{swing} of {most}");
     assert!(made.max(taken) < 1e-12 * most, "{made} and {taken} of {most}"); // rounding
@@ -127,8 +127,8 @@ fn what_swings_is_not_made_from_nothing() {
         *energy *= 100.0;
     }
     (grown.numerical, grown.verlet_energy_offset) = (1.0 - grown.mechanical, grown.mechanical - 1.0);
-    balance.see(&grown);
-    assert_eq!(balance.made, grown.kinetic - 1.0);
+    balance.update(&grown);
+    assert_eq!(balance.generated, grown.kinetic - 1.0);
     // Others do not swing.
     let sets = ["integrator.scheme=\"newmark\"", "analysis.time_step=0.01"];
     run_to_the_end(&steps_of_row(12, 0.0, &sets), &mut |frame| {
@@ -180,7 +180,7 @@ fn load_steps_and_preloads_balance() {
     for (text, step) in [(stepped("") + "start = 1.8\n", 0.18), (stepped(preload) + "end = 1.8\n", 0.05)] {
         for step in [step, 0.1] {
             let model = scene(&text, &[&format!("analysis.time_step={step}")]);
-            let Balance { made, taken, most, .. } = balance_of(&model);
+            let Balance { generated: made, dissipated: taken, peak: most, .. } = balance_of(&model);
             println!("made {made:.1e}, taken {taken:.1e} of {most:.2}");
             // Half of 10 · 0.1 moves, but for (ω Δt/2)² of it: a quarter.
             assert!(most > 0.37, "{most}");
@@ -191,7 +191,7 @@ fn load_steps_and_preloads_balance() {
     for scheme in ["wilson-theta", "generalized-alpha"] {
         let set = format!("integrator.scheme=\"{scheme}\"");
         let model = scene(&(stepped(preload) + "end = 1.8\n"), &[&set, "analysis.time_step=0.01"]);
-        let Balance { taken, most, .. } = balance_of(&model);
+        let Balance { dissipated: taken, peak: most, .. } = balance_of(&model);
         println!("{scheme}: taken {taken:.1e} of {most:.2}");
         // At 0.1 rad a step the schemes damp less than two per cent in the three periods and a half that are left.
         assert!(most > 0.45 && taken < 0.1 * most, "{taken} of {most}");

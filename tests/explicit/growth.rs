@@ -142,15 +142,15 @@ interval = 0.01
 fn motion_that_grows_by_itself_fails() {
     let text = thrown("lumped", -10.0, "");
     let balance = balance_of(&scene(&text, &[]));
-    println!("made {:.3} of {:.3}", balance.made, balance.had);
-    assert!(balance.made < 0.2 * balance.had, "{balance:?}"); // of second order: bends by a third of the length at 2.5 rad a step
+    println!("made {:.3} of {:.3}", balance.generated, balance.available);
+    assert!(balance.generated < 0.2 * balance.available, "{balance:?}"); // of second order: bends by a third of the length at 2.5 rad a step
     // 0.91 of the limit, without energies asked for too.
     for energy in ["output.energy=true", "output.energy=false"] {
         let model = scene(&text, &["analysis.time_step=1e-4", energy]);
         let done = support::run(&model, &mut |_| Vec::new());
         let Outcome::Failed { time, failure } = done.outcome else { panic!("{:?}", done.outcome) };
         println!("{time}: {failure}");
-        assert!(matches!(failure, Failure::EnergyGrowth { made } if made > 1.0), "{failure:?}");
+        assert!(matches!(failure, Failure::EnergyGrowth { ratio } if ratio > 1.0), "{failure:?}");
         assert!(time < 0.2, "{time}");
         assert!(failure.to_string().contains("times the energy that there was"), "{failure}");
     }
@@ -170,9 +170,9 @@ direction = [0.0, 0.0, -1.0]
 "#;
     for (mass, end) in [("consistent", "analysis.end_time=0.05"), ("lumped", "analysis.end_time=0.5")] {
         let balance = balance_of(&scene(&thrown(mass, -3.0, stop), &[end]));
-        println!("{mass}: made {:.4}, taken {:.4} of {:.4}", balance.made, balance.taken, balance.had);
+        println!("{mass}: made {:.4}, taken {:.4} of {:.4}", balance.generated, balance.dissipated, balance.available);
         // Of second order where the tip leaves the stop between two steps.
-        assert!(balance.made.max(balance.taken) < 0.1 * balance.had, "{balance:?}");
+        assert!(balance.generated.max(balance.dissipated) < 0.1 * balance.available, "{balance:?}");
     }
 }
 
@@ -215,7 +215,7 @@ interval = {}
             let (outcome, _) = run.run(&mut ());
             assert!(matches!(outcome, Outcome::Done), "{step}, {end}, {outputs} outputs: {outcome:?}");
             // m g h is 20 J, and the floor gives way by v √(m/k), 0.014: 0.28 J more.
-            let most = run.balance().most;
+            let most = run.balance().peak;
             assert!((most / 20.28 - 1.0).abs() < 0.01, "{step}, {end}, {outputs} outputs: {most}");
         }
     }

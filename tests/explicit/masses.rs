@@ -204,9 +204,9 @@ interval = 0.1
     });
     let [(centred, _), (held, guided)] = ends;
     let off = difference(&held, &centred);
-    println!("{off:.1e}, on a guide made {:.1e} of {:.1e}", guided.made, guided.had);
+    println!("{off:.1e}, on a guide made {:.1e} of {:.1e}", guided.generated, guided.available);
     // Rounding of 2000 steps of 0.15 rad, and a mass of 1e-9 beside 15.
     assert!(off < 1e-8, "{off}");
     // At 0.3 rad a step, of second order; moments that met the predicted velocities alone made two thousand times what there was.
-    assert!(guided.made < 0.05 * guided.had, "{guided:?}");
+    assert!(guided.generated < 0.05 * guided.available, "{guided:?}");
 }

@@ -113,7 +113,7 @@ fn steps_of_row(count: usize, damping: f64, sets: &[&str]) -> Model {
 fn balance_of(model: &Model) -> Balance {
     let mut balance = Balance::default();
     run_to_the_end(model, &mut |frame| {
-        balance.see(&frame.derived.energy.unwrap());
+        balance.update(&frame.derived.energy.unwrap());
         Vec::new()
     });
     balance

@@ -14,7 +14,7 @@ use rdsolve::model::{AnalysisKind, Beam, Link, MassKind, Model, NodalDamping, Pa
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
 use rdsolve::system::assembly::Weights;
-use rdsolve::system::{Drive, Forces, Loading, System};
+use rdsolve::system::{Excitation, Forces, Loading, System};
 
 /// A scene at an instant within a step.
 struct Instant {
@@ -41,7 +41,7 @@ impl Instant {
             (AnalysisKind::Dynamic, scheme) => scheme.coefficients(m.analysis.nominal_step()),
         };
         let mut loading = Loading::default();
-        Drive::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);
+        Excitation::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);
         let whole = turn(rng);
         let R = rdsolve::math::rotation::matrix(&whole);
         let mut start: Vec<Node> = m.nodes.iter().map(|n| Node::at_rest(R * n.x + vector(rng, 0.15))).collect();

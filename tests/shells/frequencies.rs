@@ -8,7 +8,7 @@ use rdsolve::model::Model;
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Node};
 use rdsolve::system::assembly::Weights;
-use rdsolve::system::{Drive, Forces, Loading, Side, System};
+use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::f64::consts::TAU;
 
 /// A square plate of n by n elements, 10 by 10.
@@ -28,7 +28,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     let plan = Plan::new(model, &system, 1);
     let nodes: Vec<Node> = model.nodes.iter().map(|n| Node::at_rest(n.x)).collect();
     let mut loading = Loading::default();
-    Drive::new(model).loading(0.0, Side::After, &mut loading);
+    Excitation::new(model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len());
     system.residual(&Configuration::of(&nodes), &loading, &mut forces);
     let (mut solver, mut assembly) = plan.build(&system).unwrap();

@@ -12,6 +12,6 @@ pub static KIND: JointKind = JointKind {
     make: Make {
         axes: one_axis,
         ends_meet: true,
-        rows: |axes, d| sliding(axes, d, rotations([false, true, true], axes)),
+        equations: |axes, d| sliding(axes, d, rotations([false, true, true], axes)),
     },
 };

@@ -1,7 +1,7 @@
 //! The distance joint keeps the distance of its ends: a rigid rod without mass between two spherical joints.
 
 use super::kind::{JointKind, Make, no_axis};
-use crate::constraints::joint::Row;
+use crate::constraints::joint::ConstraintEquation;
 
 pub static KIND: JointKind = JointKind {
     word: "distance",
@@ -9,5 +9,5 @@ pub static KIND: JointKind = JointKind {
     guesses: &["rod", "rigid-link"],
     about: "All is free but the distance of the ends: a rigid rod without mass. 1 constraint equation.",
     keys: &[],
-    make: Make { axes: no_axis, ends_meet: false, rows: |_, d| vec![Row::Distance { length: d.norm() }] },
+    make: Make { axes: no_axis, ends_meet: false, equations: |_, d| vec![ConstraintEquation::Distance { length: d.norm() }] },
 };

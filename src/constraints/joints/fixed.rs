@@ -9,5 +9,5 @@ pub static KIND: JointKind = JointKind {
     guesses: &["welded", "clamp", "rigid", "lock"],
     about: "Nothing is free: the ends are welded together. 6 constraint equations.",
     keys: &[],
-    make: Make { axes: no_axis, ends_meet: true, rows: |axes, d| meeting(d, rotations([true; 3], axes)) },
+    make: Make { axes: no_axis, ends_meet: true, equations: |axes, d| meeting(d, rotations([true; 3], axes)) },
 };

@@ -1,6 +1,6 @@
 //! What a kind of joint says of itself, and what several kinds share.
 
-use crate::constraints::joint::{Row, translations};
+use crate::constraints::joint::{ConstraintEquation, translations};
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key, Kind};
 
@@ -14,7 +14,7 @@ pub struct Make {
     /// The two ends lie at the same place at t = 0; otherwise they must not.
     pub ends_meet: bool,
     /// The constraint equations, from the axes and from x_a − x_b at t = 0.
-    pub rows: fn(&Mat3, &Vec3) -> Vec<Row>,
+    pub equations: fn(&Mat3, &Vec3) -> Vec<ConstraintEquation>,
 }
 
 /// The key of joints with one axis.
@@ -39,12 +39,12 @@ pub fn one_axis(given: &mut Given) -> Option<Mat3> {
 }
 
 /// Equations that keep the ends at one place, then others.
-pub fn meeting(d: &Vec3, others: Vec<Row>) -> Vec<Row> {
+pub fn meeting(d: &Vec3, others: Vec<ConstraintEquation>) -> Vec<ConstraintEquation> {
     translations([true; 3], d).chain(others).collect()
 }
 
 /// Equations that keep the first end on the first axis through the second, then others.
-pub fn sliding(axes: &Mat3, d: &Vec3, others: Vec<Row>) -> Vec<Row> {
-    let across = (1..3).map(|i| axes.column(i).into_owned()).map(|e| Row::Carried { e, at: d.dot(&e) });
+pub fn sliding(axes: &Mat3, d: &Vec3, others: Vec<ConstraintEquation>) -> Vec<ConstraintEquation> {
+    let across = (1..3).map(|i| axes.column(i).into_owned()).map(|e| ConstraintEquation::BodyAxis { e, at: d.dot(&e) });
     across.chain(others).collect()
 }

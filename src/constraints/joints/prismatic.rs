@@ -9,5 +9,5 @@ pub static KIND: JointKind = JointKind {
     guesses: &["translational", "sliding"],
     about: "The displacement along `axis` is free. 5 constraint equations.",
     keys: &[AXIS],
-    make: Make { axes: one_axis, ends_meet: true, rows: |axes, d| sliding(axes, d, rotations([true; 3], axes)) },
+    make: Make { axes: one_axis, ends_meet: true, equations: |axes, d| sliding(axes, d, rotations([true; 3], axes)) },
 };

@@ -8,5 +8,5 @@ pub static KIND: JointKind = JointKind {
     guesses: &["ball-and-socket"],
     about: "Three rotations are free: a ball-and-socket joint. 3 constraint equations.",
     keys: &[],
-    make: Make { axes: no_axis, ends_meet: true, rows: |_, d| meeting(d, Vec::new()) },
+    make: Make { axes: no_axis, ends_meet: true, equations: |_, d| meeting(d, Vec::new()) },
 };

@@ -22,7 +22,7 @@ pub static KIND: JointKind = JointKind {
             about: "The arm of the cross that `to` carries, global at t = 0, perpendicular to `axis`. Any length.",
         },
     ],
-    make: Make { axes, ends_meet: true, rows: |axes, d| meeting(d, rotations([false, false, true], axes)) },
+    make: Make { axes, ends_meet: true, equations: |axes, d| meeting(d, rotations([false, false, true], axes)) },
 };
 
 /// Cosine of the angle between the arms of a cross below which they count as perpendicular.

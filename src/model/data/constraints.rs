@@ -1,6 +1,6 @@
 //! Dependent nodes, joints and restraints.
 
-use crate::constraints::joint::Row;
+use crate::constraints::joint::ConstraintEquation;
 use crate::deck::supports::History;
 
 /// What ties nodes to one another and to the ground.
@@ -31,7 +31,7 @@ pub struct Joint {
     pub name: String,
     /// Nodes at `from` and `to`: dependent nodes of a node or body, the node itself, or a restrained node for the ground.
     pub ends: [usize; 2],
-    pub rows: Vec<Row>,
+    pub equations: Vec<ConstraintEquation>,
     /// It holds a dependent node to its support, whose reactions say what it carries.
     pub supports: bool,
 }

@@ -9,7 +9,7 @@ use std::ops::Range;
 pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     let mut lines = degrees_of_freedom(plan, system);
     if !model.constraints.joints.is_empty() {
-        let all: usize = model.constraints.joints.iter().map(|joint| joint.rows.len()).sum();
+        let all: usize = model.constraints.joints.iter().map(|joint| joint.equations.len()).sum();
         let kept = system.multipliers();
         if all > kept {
             lines.push(format!("{} constraint equations of joints: out of the plane of the motion", all - kept));

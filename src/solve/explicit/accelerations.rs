@@ -100,7 +100,7 @@ impl Accelerations {
             }
             ties.add_rates(missing);
             ties.solve();
-            ties.push(missing);
+            ties.subtract_response(missing);
             if joints {
                 ws.forces.multipliers.values.copy_from_slice(&ties.x);
             }
@@ -170,7 +170,7 @@ impl Accelerations {
         if let (Some(masses), None) = (&self.masses, &self.ties) {
             for block in &masses.blocks {
                 let (node, F) = (&ws.trial[block.node], &mut ws.forces.on_nodes[block.node]);
-                block.settle(node, &self.missing[block.node], F);
+                block.subtract_inertia(node, &self.missing[block.node], F);
             }
             return;
         }

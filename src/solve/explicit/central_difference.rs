@@ -191,7 +191,7 @@ impl CentralDifferenceStepper {
     fn set_end_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) {
         let Accelerations { masses, ties, missing, .. } = &self.accelerations;
         if let Some(ties) = ties {
-            ties.pull(&mut ws.forces.on_nodes);
+            ties.subtract_forces(&mut ws.forces.on_nodes);
         }
         for &node in &cx.independent_nodes {
             let (start, now) = (&state.nodes[node], &ws.trial[node]);

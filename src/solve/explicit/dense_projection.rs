@@ -103,5 +103,5 @@ fn project_velocities(
 fn least_change(ties: &mut ConstraintSchur, masses: &Masses, change: &mut [Vec6]) {
     ties.solve();
     masses.blocks.iter().for_each(|block| change[block.node] = Vec6::zeros());
-    ties.push(change);
+    ties.subtract_response(change);
 }

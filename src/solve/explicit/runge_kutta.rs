@@ -255,7 +255,7 @@ impl RungeKuttaStepper {
 fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     // What is given at the end is at hand.
     if c < 1.0 {
-        cx.excitation.held(time, &mut ws.prescribed.instant);
+        cx.excitation.prescribed(time, &mut ws.prescribed.instant);
     } else {
         ws.prescribed.instant.copy_from_slice(&ws.prescribed.end);
     }

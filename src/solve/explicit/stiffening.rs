@@ -30,7 +30,7 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     };
     let (mut force, mut size) = (0.0, 0.0);
     for block in &masses.blocks {
-        let [mass, inertia] = block.about();
+        let [mass, inertia] = block.mean_mass();
         let (da, q) = (change(block.node), &increments[block.node].q);
         force -= mass * linear(&da).dot(&linear(q)) + inertia * angular(&da).dot(&angular(q));
         size += mass * linear(q).norm_squared() + inertia * angular(q).norm_squared();
@@ -71,7 +71,7 @@ pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     let (mut increase, mut size, mut next) = (0.0, 0.0, 0.0);
     for block in &masses.blocks {
         let start = &state.nodes[block.node];
-        let [mass, inertia] = block.about();
+        let [mass, inertia] = block.mean_mass();
         let first = change(block.node);
         let second = first - state.jerk[block.node] * dt;
         let now = first + stack(&start.a, &start.alpha);

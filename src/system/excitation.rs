@@ -21,7 +21,7 @@ pub enum Side {
 }
 
 /// The given functions of time of a model.
-pub struct Drive<'a> {
+pub struct Excitation<'a> {
     model: &'a Model,
     /// Of each amplitude.
     jumps: Vec<Vec<Jump>>,
@@ -67,25 +67,25 @@ impl Extrapolation {
     }
 }
 
-impl<'a> Drive<'a> {
+impl<'a> Excitation<'a> {
     pub fn new(model: &'a Model) -> Self {
         let jumps = model.loading.amplitudes.iter().map(Amplitude::jumps).collect();
-        let mut drive =
-            Drive { model, jumps, slack: 1e-9 * model.analysis.end_time, loads: Vec::new(), motions: Vec::new() };
+        let mut excitation =
+            Excitation { model, jumps, slack: 1e-9 * model.analysis.end_time, loads: Vec::new(), motions: Vec::new() };
         if model.analysis.step_length.is_arc_length() {
             let end = model.analysis.end_time;
             let loads = model.loading.amplitudes.iter();
-            drive.loads =
+            excitation.loads =
                 loads.map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
             let beyond = |held: &Restraint| {
                 let Some(motion) = &held.motion else { return Extrapolation::new(0.0, end, |_| 0.0, |_| 0.0) };
                 let amplitude = &model.loading.amplitudes[motion.amplitude];
-                let given = |t: f64| prescribed(motion, amplitude, t);
+                let given = |t: f64| prescribed_motion(motion, amplitude, t);
                 Extrapolation::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
             };
-            drive.motions = model.constraints.restraints.iter().map(beyond).collect();
+            excitation.motions = model.constraints.restraints.iter().map(beyond).collect();
         }
-        drive
+        excitation
     }
 
     fn factor(&self, amplitude: usize, t: f64, side: Side) -> f64 {
@@ -166,13 +166,13 @@ impl<'a> Drive<'a> {
 
     /// Motion of the held directions at time t, in the model's order. A static analysis has places but no rates, or
     /// dampers would act in it.
-    pub fn held(&self, t: f64, out: &mut Vec<Prescribed>) {
+    pub fn prescribed(&self, t: f64, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();
         out.extend(self.model.constraints.restraints.iter().enumerate().map(|(i, held)| match &held.motion {
             None => Prescribed::default(),
             Some(motion) => {
-                let given = |t: f64| prescribed(motion, &self.model.loading.amplitudes[motion.amplitude], t);
+                let given = |t: f64| prescribed_motion(motion, &self.model.loading.amplitudes[motion.amplitude], t);
                 match self.motions.get(i) {
                     Some(beyond) => Prescribed { u: beyond.value(t, |t| given(t).u), ..Prescribed::default() },
                     None if dynamic => given(t),
@@ -183,7 +183,7 @@ impl<'a> Drive<'a> {
     }
 }
 
-fn prescribed(motion: &Motion, amplitude: &Amplitude, t: f64) -> Prescribed {
+fn prescribed_motion(motion: &Motion, amplitude: &Amplitude, t: f64) -> Prescribed {
     let (u, v, a) = match motion.history {
         History::Displacement => (amplitude.value(t), amplitude.rate(t), amplitude.second_rate(t)),
         History::Velocity => (amplitude.integral(t), amplitude.value(t), amplitude.rate(t)),
