@@ -152,7 +152,12 @@ impl<'d> Supports<'_, 'd> {
         }
         if new != [false; 6] {
             let name = format!("{} on its support", self.topology.label(spot.node));
-            self.joints.push(Joint { name, ends: [spot.node, support_point], equations: equations(new), supports: true });
+            self.joints.push(Joint {
+                name,
+                ends: [spot.node, support_point],
+                equations: equations(new),
+                supports: true,
+            });
         }
     }
 }

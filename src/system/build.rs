@@ -283,7 +283,11 @@ pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
     let joint = |joint: &model::Joint| {
         let d = x[joint.ends[0]] - x[joint.ends[1]];
         let says = |row: &&ConstraintEquation| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
-        Joint { nodes: joint.ends, equations: joint.equations.iter().filter(says).copied().collect(), supports: joint.supports }
+        Joint {
+            nodes: joint.ends,
+            equations: joint.equations.iter().filter(says).copied().collect(),
+            supports: joint.supports,
+        }
     };
     model.constraints.joints.iter().map(joint).collect()
 }

@@ -11,7 +11,7 @@ use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::multipliers::{Multipliers, REGULARIZATION};
 use super::scale::Scale;
-use crate::constraints::joint::{Joint, MOST_EQUATIONS, ConstraintEquation};
+use crate::constraints::joint::{ConstraintEquation, Joint, MOST_EQUATIONS};
 use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
@@ -96,7 +96,8 @@ impl System {
     /// The largest gap over what it is to be measured by: positions of size `reach`, angles of 1.
     pub fn largest_gap(&self, gaps: &[f64], reach: f64) -> f64 {
         let rows = self.joints.iter().flat_map(|joint| &joint.equations);
-        let relative = |(row, gap): (&ConstraintEquation, &f64)| if row.is_rotational() { gap.abs() } else { gap.abs() / reach };
+        let relative =
+            |(row, gap): (&ConstraintEquation, &f64)| if row.is_rotational() { gap.abs() } else { gap.abs() / reach };
         rows.zip(gaps).map(relative).fold(0.0, |largest, gap| if gap > largest || gap.is_nan() { gap } else { largest })
     }
 

@@ -9,5 +9,9 @@ pub static KIND: JointKind = JointKind {
     guesses: &["rod", "rigid-link"],
     about: "All is free but the distance of the ends: a rigid rod without mass. 1 constraint equation.",
     keys: &[],
-    make: Make { axes: no_axis, ends_meet: false, equations: |_, d| vec![ConstraintEquation::Distance { length: d.norm() }] },
+    make: Make {
+        axes: no_axis,
+        ends_meet: false,
+        equations: |_, d| vec![ConstraintEquation::Distance { length: d.norm() }],
+    },
 };

@@ -9,5 +9,9 @@ pub static KIND: JointKind = JointKind {
     guesses: &["pin", "pinned", "rotational"],
     about: "The rotation about `axis` is free. 5 constraint equations.",
     keys: &[AXIS],
-    make: Make { axes: one_axis, ends_meet: true, equations: |axes, d| meeting(d, rotations([false, true, true], axes)) },
+    make: Make {
+        axes: one_axis,
+        ends_meet: true,
+        equations: |axes, d| meeting(d, rotations([false, true, true], axes)),
+    },
 };

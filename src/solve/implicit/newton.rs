@@ -87,7 +87,11 @@ impl Newton {
         };
         let weights = plan.dofs.nodal_dofs().iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
         // In place of multipliers stand gaps.
-        let gaps = system.joints.iter().flat_map(|joint| &joint.equations).map(|row| if row.is_rotational() { length } else { 1.0 });
+        let gaps = system
+            .joints
+            .iter()
+            .flat_map(|joint| &joint.equations)
+            .map(|row| if row.is_rotational() { length } else { 1.0 });
         let searches = system.history > 0 && !along;
         let line_search = || LineSearch::new(plan.dofs.nodal_dofs().len(), model.nodes.len(), system.multipliers());
         Ok(Newton {
