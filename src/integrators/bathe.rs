@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
+use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::newmark::Newmark;
 use super::scheme::{Backward, Make, Scheme, SchemeKind, Stepping, TwoStages};
 use crate::math::rotation::RotationUpdate;
 use crate::names::short;
@@ -54,7 +54,7 @@ impl Scheme for Bathe {
     }
 
     fn coefficients(&self, dt: f64) -> Coefficients {
-        Newmark { gamma: 0.5, beta: 0.25, rotation: self.rotation }.coefficients(self.split * dt)
+        AlphaFamily::trapezoidal(self.rotation).coefficients(self.split * dt)
     }
 }
 

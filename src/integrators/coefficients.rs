@@ -23,6 +23,18 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
+    /// Central differences as velocity Verlet: q is as predicted; at the instant of equilibrium q̇ is predicted too, and q̈ the unknown.
+    pub fn verlet(dt: f64, rotation: RotationUpdate) -> Coefficients {
+        Coefficients {
+            instant: 1.0,
+            rate: [0.0, 1.0, dt],
+            acceleration: [0.0; 4],
+            prediction: [dt, 0.5 * dt * dt, 0.0],
+            end: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.5 * dt, 0.5 * dt], [0.0, 0.0, 0.0, 1.0]],
+            rotation,
+        }
+    }
+
     /// ∂q̇/∂q and ∂q̈/∂q: what multiplies C and M in the matrix of the step.
     pub fn weights(&self) -> (f64, f64) {
         (self.rate[0], self.acceleration[0])

@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
 use super::scheme::{Make, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
@@ -33,14 +34,9 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
-/// Newmark's scheme and HHT-α are members of the family.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GeneralizedAlpha {
-    pub alpha_m: f64,
-    pub alpha_f: f64,
-    pub gamma: f64,
-    pub beta: f64,
-    pub rotation: RotationUpdate,
+    pub family: AlphaFamily,
 }
 
 impl GeneralizedAlpha {
@@ -49,7 +45,7 @@ impl GeneralizedAlpha {
         let (alpha_m, alpha_f) = ((2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0));
         let gamma = 0.5 - alpha_m + alpha_f;
         let beta = 0.25 * (1.0 - alpha_m + alpha_f).powi(2);
-        GeneralizedAlpha { alpha_m, alpha_f, gamma, beta, rotation }
+        GeneralizedAlpha { family: AlphaFamily { alpha_m, alpha_f, gamma, beta, rotation } }
     }
 }
 
@@ -59,31 +55,15 @@ impl Scheme for GeneralizedAlpha {
     }
 
     fn in_words(&self) -> String {
-        format!("{} with a spectral radius of {}", KIND.word, short(self.alpha_f / (1.0 - self.alpha_f)))
+        format!("{} with a spectral radius of {}", KIND.word, short(self.family.alpha_f / (1.0 - self.family.alpha_f)))
     }
 
-    /// Of (q, v, a, q̈ at the start).
     fn coefficients(&self, dt: f64) -> Coefficients {
-        let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta, rotation } = *self;
-        let (m, f) = ((1.0 - alpha_m) / (1.0 - alpha_f), 1.0 - alpha_f);
-        // a₁ = q/(β Δt²) − v/(β Δt) − (1/2β − 1) a, v₁ = v + Δt ((1 − γ) a + γ a₁)
-        let old = 0.5 / beta - 1.0;
-        let rate = [gamma / (beta * dt), 1.0 - gamma / beta, dt * (1.0 - 0.5 * gamma / beta)];
-        Coefficients {
-            instant: 1.0,
-            rate,
-            acceleration: [m / (beta * dt * dt), -m / (beta * dt), alpha_m / f - m * old, -alpha_f / f],
-            prediction: [dt, 0.5 * dt * dt, dt * dt * dt / 6.0],
-            end: [[1.0, 0.0, 0.0, 0.0], [rate[0], rate[1], rate[2], 0.0], [0.0, 0.0, 0.0, 1.0]],
-            rotation,
-        }
+        self.family.coefficients(dt)
     }
 
-    /// `None` where a₁ is q̈₁.
     fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
-        let m = 1.0 - self.alpha_m;
-        let follows = self.alpha_m != 0.0 || self.alpha_f != 0.0;
-        follows.then(|| [-self.alpha_m / m, self.alpha_f / m, (1.0 - self.alpha_f) / m])
+        self.family.algorithmic_acceleration()
     }
 }
 
@@ -101,7 +81,7 @@ mod tests {
         let acceleration = c1 * q + c2 * v + c3 * a + c4 * b;
         let [of_a, of_start, of_end] = scheme.algorithmic_acceleration().expect("it is not equilibrium's");
         let a1 = of_a * a + of_start * b + of_end * acceleration;
-        let (beta, gamma) = (scheme.beta, scheme.gamma);
+        let (beta, gamma) = (scheme.family.beta, scheme.family.gamma);
         assert!((dt * v + dt * dt * ((0.5 - beta) * a + beta * a1) - q).abs() < 1e-15);
         assert!((v + dt * ((1.0 - gamma) * a + gamma * a1) - rate).abs() < 1e-14);
     }

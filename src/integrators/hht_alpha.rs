@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::generalized_alpha::GeneralizedAlpha;
 use super::scheme::{Make, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Key};
@@ -36,9 +36,9 @@ pub struct HhtAlpha {
 }
 
 impl HhtAlpha {
-    fn family(&self) -> GeneralizedAlpha {
+    fn family(&self) -> AlphaFamily {
         let (gamma, beta) = (0.5 - self.alpha, 0.25 * (1.0 - self.alpha).powi(2));
-        GeneralizedAlpha { alpha_m: 0.0, alpha_f: -self.alpha, gamma, beta, rotation: self.rotation }
+        AlphaFamily { alpha_m: 0.0, alpha_f: -self.alpha, gamma, beta, rotation: self.rotation }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Time integration schemes: a scheme is a handful of numbers ([`Coefficients`], [`Tableau`]) and how a step uses them
 //! ([`Stepping`]). One more is a file of its own and an entry of [`SCHEMES`].
 
+pub mod alpha_family;
 pub mod bathe;
 pub mod central_difference;
 pub mod coefficients;
@@ -11,10 +12,12 @@ pub mod newmark;
 pub mod runge_kutta;
 pub mod scheme;
 pub mod spectrum;
+pub mod stability_limit;
 pub mod tableau;
 pub mod wilson_theta;
 
 pub use crate::math::rotation::RotationUpdate;
+pub use alpha_family::AlphaFamily;
 pub use bathe::Bathe;
 pub use central_difference::CentralDifference;
 pub use coefficients::Coefficients;

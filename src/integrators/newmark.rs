@@ -4,8 +4,8 @@
 
 use std::sync::Arc;
 
+use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::generalized_alpha::GeneralizedAlpha;
 use super::scheme::{Make, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Given, Key};
@@ -91,7 +91,6 @@ impl Scheme for Newmark {
     }
 
     fn coefficients(&self, dt: f64) -> Coefficients {
-        let Newmark { gamma, beta, rotation } = *self;
-        GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.0, gamma, beta, rotation }.coefficients(dt)
+        AlphaFamily::newmark(self.gamma, self.beta, self.rotation).coefficients(dt)
     }
 }

@@ -8,7 +8,6 @@
 
 use std::sync::Arc;
 
-use super::central_difference::CentralDifference;
 use super::coefficients::Coefficients;
 use super::scheme::{Make, Scheme, SchemeKind, Stepping};
 use super::tableau::Tableau;
@@ -79,7 +78,7 @@ impl Scheme for RungeKutta {
     }
 
     fn coefficients(&self, dt: f64) -> Coefficients {
-        CentralDifference { rotation: RotationUpdate::Exponential }.coefficients(dt)
+        Coefficients::verlet(dt, RotationUpdate::Exponential)
     }
 }
 

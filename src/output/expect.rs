@@ -2,27 +2,35 @@
 //!
 //! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
 
-use super::tables::{bodies, contacts, energy, links, nodes, reactions, shells};
+use super::table::Answers;
+use super::tables::TABLES;
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
-use crate::quantities::{
-    CONTACT, CONTACT_FORCE, ENERGY, JOINT, LINK, MOTION, PLASTIC_STRAIN, QUATERNION, TIME, VON_MISES, names,
-};
-use crate::solve::{Frame, Observer};
+use crate::solve::{Frame, Observer, Wanted};
 use serde::Serialize;
 use std::io;
 
-/// The names `quantity` may take, in the order in which their values are taken.
+/// The names `quantity` may take.
 pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
-    match at {
-        ExpectAt::Analysis => vec![TIME.name],
-        ExpectAt::Node(_) => [names(&MOTION), names(&[&QUATERNION])].concat(),
-        ExpectAt::Energy => names(&[&ENERGY]),
-        ExpectAt::Link(_) => names(&[&LINK]),
-        ExpectAt::Joint(_) => names(&[&JOINT]),
-        ExpectAt::Contact(_) => names(&[&CONTACT, &[CONTACT_FORCE]]),
-        ExpectAt::Elements(..) => vec![PLASTIC_STRAIN.name],
-        ExpectAt::Shells(..) => vec![VON_MISES.name, PLASTIC_STRAIN.name],
-    }
+    answers(at).flat_map(|answers| (answers.quantities)(at)).collect()
+}
+
+/// What the solver must compute where something is expected of one thing.
+pub fn needs(at: ExpectAt) -> Wanted {
+    answers(at).fold(Wanted::NOTHING, |all, answers| all | answers.needs)
+}
+
+/// What the tables answer about one thing.
+fn answers(at: ExpectAt) -> impl Iterator<Item = &'static Answers> {
+    let all = TABLES.into_iter().filter_map(|table| table.answers.as_ref());
+    all.filter(move |answers| !(answers.quantities)(at).is_empty())
+}
+
+/// The answers that a quantity of one thing is among, and its index there.
+fn find(at: ExpectAt, quantity: &str) -> Option<(&'static Answers, usize)> {
+    answers(at).find_map(|answers| {
+        let index = (answers.quantities)(at).iter().position(|name| *name == quantity)?;
+        Some((answers, index))
+    })
 }
 
 /// How one expectation went.
@@ -55,8 +63,8 @@ pub struct Expectations {
 
 struct Watch {
     expect: Expect,
-    /// Index into [`quantities`].
-    column: Option<usize>,
+    /// `None`: there is no quantity of that name.
+    quantity: Option<(&'static Answers, usize)>,
     sample: Option<Sample>,
 }
 
@@ -69,7 +77,7 @@ struct Sample {
 impl Expectations {
     pub fn new(model: &Model) -> Expectations {
         let watch = |expect: &Expect| Watch {
-            column: quantities(expect.at).iter().position(|name| *name == expect.quantity),
+            quantity: find(expect.at, &expect.quantity),
             expect: expect.clone(),
             sample: None,
         };
@@ -92,7 +100,7 @@ impl Observer for Expectations {
             if matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time) {
                 continue;
             }
-            let Some(value) = watch.column.and_then(|column| sample(watch.expect.at, column, frame)) else { continue };
+            let Some(value) = watch.value(frame) else { continue };
             let better = |old: Sample| match watch.expect.when {
                 When::Time(t) => (time - t).abs() < (old.time - t).abs(),
                 When::Passing(_) => false,
@@ -108,29 +116,13 @@ impl Observer for Expectations {
     }
 }
 
-/// The value of a column now, where this frame has it.
-fn sample(at: ExpectAt, column: usize, frame: &Frame) -> Option<f64> {
-    let derived = frame.derived;
-    match at {
-        ExpectAt::Node(i) => {
-            let now = frame.state.nodes.get(i)?;
-            let motion = nodes::values(&frame.model.nodes[i], now);
-            Some(motion.get(column).copied().unwrap_or_else(|| bodies::quaternion(now)[column - motion.len()]))
-        }
-        ExpectAt::Analysis => Some(frame.state.time),
-        ExpectAt::Energy => derived.energy.as_ref().map(|of| energy::values(of)[column]),
-        ExpectAt::Link(i) => derived.links.get(i).map(|link| links::values(link)[column]),
-        ExpectAt::Joint(i) => derived.joints.get(i).map(|joint| reactions::of_joint(joint)[column]),
-        ExpectAt::Contact(i) => derived.contacts.get(i).map(|contact| contacts::values(contact)[column]),
-        ExpectAt::Shells(from, to) => {
-            let of = [shells::von_mises, shells::plastic_strain][column];
-            derived.shells.iter().filter(|state| (from..to).contains(&state.part)).map(of).reduce(f64::max)
-        }
-        ExpectAt::Elements(from, to) => derived.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max),
-    }
-}
-
 impl Watch {
+    /// The value now, where the frame has it.
+    fn value(&self, frame: &Frame) -> Option<f64> {
+        let (answers, index) = self.quantity?;
+        (answers.value)(self.expect.at, index, frame)
+    }
+
     fn verdict(&self) -> Verdict {
         let Expect { quantity, value: expected, tolerance, when, source, label, .. } = &self.expect;
         let (limit, unit, relative) = match *tolerance {
@@ -150,7 +142,7 @@ impl Watch {
         };
         // Multiplied rather than divided: an expected 0 with a relative tolerance is met by 0.
         let passed = difference.is_some_and(|difference| difference <= limit * unit);
-        let reason = match (self.column, self.sample, *when) {
+        let reason = match (self.quantity, self.sample, *when) {
             _ if passed => None,
             (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),

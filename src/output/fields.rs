@@ -9,7 +9,6 @@
 
 use super::disk::{at, replace};
 use super::shape::Surface;
-use super::tables::shells;
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::{Drawing, Model, Part, PartKind};
@@ -234,8 +233,8 @@ impl Fields {
             cells("membrane_force", 3, &|state, i| state.at.N[i]);
             cells("bending_moment", 3, &|state, i| state.at.M[i]);
             cells("shear_force", 2, &|state, i| state.at.Q[i]);
-            cells("von_mises_bottom", 1, &|state, _| shells::outer(state)[0]);
-            cells("von_mises_top", 1, &|state, _| shells::outer(state)[1]);
+            cells("von_mises_bottom", 1, &|state, _| state.outer_von_mises()[0]);
+            cells("von_mises_top", 1, &|state, _| state.outer_von_mises()[1]);
         }
         text.push_str("</CellData>\n");
         text.push_str(&self.cells);

@@ -1,12 +1,13 @@
 //! The files that grow with a run: those the deck asks for are opened, and every accepted step is shown to each.
 
 use super::disk::at;
+use super::expect::needs;
 use super::fields::Fields;
 use super::folder::remove_stale;
 use super::table::{TableKind, WriteRows};
 use super::table_file::TableFile;
 use super::tables::TABLES;
-use crate::model::{Cadence, ExpectAt, Model, PartKind};
+use crate::model::{Cadence, Model, PartKind};
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
 use std::io;
@@ -97,15 +98,7 @@ pub fn listed(model: &Model) -> String {
 pub fn wanted(model: &Model) -> Wanted {
     let tables = TABLES.into_iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS);
-    let expects = model.expects.iter().map(|expect| match expect.at {
-        ExpectAt::Analysis | ExpectAt::Node(_) => Wanted::NOTHING,
-        ExpectAt::Energy => Wanted::ENERGY,
-        ExpectAt::Link(_) => Wanted::LINKS,
-        ExpectAt::Joint(_) => Wanted::REACTIONS,
-        ExpectAt::Contact(_) => Wanted::CONTACTS,
-        ExpectAt::Elements(..) => Wanted::PLASTIC_STRAINS,
-        ExpectAt::Shells(..) => Wanted::SHELLS,
-    });
+    let expects = model.expects.iter().map(|expect| needs(expect.at));
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
     if model.has(PartKind::Shell) { all } else { all.without(Wanted::SHELLS) }

@@ -2,7 +2,7 @@
 //! describes tables reads this and nothing else of them.
 
 use super::table_file::TableFile;
-use crate::model::Model;
+use crate::model::{ExpectAt, Model};
 use crate::quantities::{Column, STEP, TIME};
 use crate::solve::{Frame, Wanted};
 use std::io;
@@ -25,6 +25,19 @@ pub struct TableKind {
     /// Of every accepted step, whatever the cadence of output.
     pub every_step: bool,
     pub rows: fn(&Model) -> WriteRows,
+    /// What `[[expect]]` may ask about the things in its rows.
+    pub answers: Option<Answers>,
+}
+
+/// Quantities of the things a table has rows for, as `[[expect]]` asks for them: at any step, and whether or not the table is
+/// written.
+pub struct Answers {
+    /// Names of the quantities of one thing; none where it is no thing of this table.
+    pub quantities: fn(ExpectAt) -> Vec<&'static str>,
+    /// What the solver must compute for them.
+    pub needs: Wanted,
+    /// The value of one of these quantities, given by its index, where the frame has it.
+    pub value: fn(ExpectAt, usize, &Frame) -> Option<f64>,
 }
 
 impl TableKind {

@@ -41,6 +41,24 @@ pub struct ShellState {
     pub at: ShellResultants,
 }
 
+impl ShellState {
+    /// Von Mises stress in the lowest layer and in the highest.
+    pub fn outer_von_mises(&self) -> [f64; 2] {
+        let layers = self.at.layers();
+        [layers.first(), layers.last()].map(|layer| layer.map_or(0.0, |layer| layer.von_mises()))
+    }
+
+    /// Von Mises stress, the largest over the layers.
+    pub fn von_mises(&self) -> f64 {
+        self.at.layers().iter().map(|layer| layer.von_mises()).fold(0.0, f64::max)
+    }
+
+    /// Accumulated plastic strain, the largest over the layers.
+    pub fn plastic_strain(&self) -> f64 {
+        self.at.layers().iter().map(|layer| layer.plastic_strain).fold(0.0, f64::max)
+    }
+}
+
 impl System {
     /// States of all links in deck order.
     pub fn link_states(&self, nodes: &[Node], out: &mut Vec<LinkState>) {

@@ -11,7 +11,7 @@ mod points;
 mod result;
 
 use super::disk::at;
-use super::tables::{self, TABLES};
+use super::tables::TABLES;
 use crate::quantities::{ENERGY, Unit};
 use data::Scene;
 use histories::History;
@@ -23,6 +23,8 @@ use std::path::Path;
 
 const PAGE: &str = include_str!("page.html");
 pub(crate) const STYLE: &str = include_str!("page.css");
+/// The column with what the time integration made of the energy balance.
+const BALANCE: &str = "numerical";
 const SCRIPTS: [&str; 5] = [
     include_str!("data.js"),
     include_str!("plot.js"),
@@ -104,9 +106,8 @@ fn filled(page: &str, parts: &[(&str, String)]) -> String {
 
 /// Energies at the start, at the end and at their largest, and what the time integration made of the balance.
 fn energy(histories: &[History]) -> String {
-    let Some(history) = histories.iter().find(|history| history.file == tables::energy::TABLE.file) else {
-        return String::new();
-    };
+    let has_balance = |history: &&History| history.columns.iter().any(|name| name == BALANCE);
+    let Some(history) = histories.iter().find(has_balance) else { return String::new() };
     let is_energy = |name: &&String| ENERGY.iter().any(|known| known.unit == Unit::Energy && known.answers_to(name));
     let number = |value: f32| crate::names::short(f64::from(value));
     let mut largest = 0.0_f32;
@@ -115,7 +116,7 @@ fn energy(histories: &[History]) -> String {
     for name in history.columns.iter().filter(is_energy) {
         let Some(line) = history.line(0, name) else { continue };
         let most = line.iter().filter(|value| value.is_finite()).fold(0.0_f32, |most, value| most.max(value.abs()));
-        if name == "numerical" {
+        if name == BALANCE {
             lost = most
         } else {
             largest = largest.max(most)

@@ -1,8 +1,11 @@
 //! bodies.csv: the motion of the rigid bodies at their centres of mass, global components.
 
-use crate::output::table::TableKind;
+use crate::model::ExpectAt;
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, POSITION, QUATERNION, VELOCITY};
+use crate::quantities::{
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, POSITION, QUATERNION, VELOCITY, names,
+};
 use crate::solve::{Frame, Wanted};
 use crate::state::Node;
 use std::io;
@@ -23,10 +26,24 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::NOTHING,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };
 
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Node(_) => names(&[&QUATERNION]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Node(i) = at else { return None };
+    let now = frame.state.nodes.get(i)?;
+    quaternion(now).get(index).copied()
+}
+
 /// The motion of one body. Of the two quaternions of its rotation the one with qw ≥ 0.
-pub fn values(now: &Node) -> [f64; 19] {
+fn values(now: &Node) -> [f64; 19] {
     let q = quaternion(now);
     let vectors = [now.v, now.omega, now.a, now.alpha];
     std::array::from_fn(|i| match i {
@@ -37,7 +54,7 @@ pub fn values(now: &Node) -> [f64; 19] {
 }
 
 /// Its columns `qw qx qy qz`.
-pub fn quaternion(now: &Node) -> [f64; 4] {
+fn quaternion(now: &Node) -> [f64; 4] {
     let q = if now.rotation.w < 0.0 { -now.rotation } else { now.rotation };
     [q.w, q.i, q.j, q.k]
 }

@@ -1,9 +1,9 @@
 //! contacts.csv: clearances and forces of the contacts.
 
-use crate::model::{Contact, PartKind};
-use crate::output::table::TableKind;
+use crate::model::{Contact, ExpectAt, PartKind};
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{CONTACT, Column};
+use crate::quantities::{CONTACT, CONTACT_FORCE, Column, names};
 use crate::solve::{ContactState, Frame, Wanted};
 use std::io;
 
@@ -16,10 +16,24 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::CONTACTS,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::CONTACTS, value }),
 };
 
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Contact(_) => names(&[&CONTACT, &[CONTACT_FORCE]]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Contact(i) = at else { return None };
+    let contact = frame.derived.contacts.get(i)?;
+    values(contact).get(index).copied()
+}
+
 /// The columns of one contact, and the magnitude of the force, which only `[[expect]]` asks for.
-pub fn values(contact: &ContactState) -> [f64; 9] {
+fn values(contact: &ContactState) -> [f64; 9] {
     let ContactState { touching, gap, f, m } = *contact;
     [touching as f64, gap, f.x, f.y, f.z, m.x, m.y, m.z, f.norm()]
 }

@@ -1,8 +1,9 @@
 //! energy.csv: the energy balance and the momenta.
 
-use crate::output::table::TableKind;
+use crate::model::ExpectAt;
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::ENERGY;
+use crate::quantities::{ENERGY, names};
 use crate::solve::{Frame, Wanted};
 use crate::system::energy::Energy;
 use std::io;
@@ -16,10 +17,24 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::ENERGY,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::ENERGY, value }),
 };
 
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Energy => names(&[&ENERGY]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Energy = at else { return None };
+    let energy = frame.derived.energy.as_ref()?;
+    values(energy).get(index).copied()
+}
+
 /// The columns of one state.
-pub fn values(e: &Energy) -> [f64; 18] {
+fn values(e: &Energy) -> [f64; 18] {
     let [p, l] = [e.p, e.l];
     [
         e.kinetic,

@@ -34,6 +34,7 @@ pub static TABLE: TableKind = TableKind {
         let order = ShellOrder::of(model);
         Box::new(move |table, frame| write(table, &order, frame))
     },
+    answers: None,
 };
 
 fn write(table: &mut TableFile, order: &ShellOrder, frame: &Frame) -> io::Result<()> {

@@ -1,9 +1,9 @@
 //! links.csv: elongations and forces of the links.
 
-use crate::model::{Link, PartKind};
-use crate::output::table::TableKind;
+use crate::model::{ExpectAt, Link, PartKind};
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{Column, LINK};
+use crate::quantities::{Column, LINK, names};
 use crate::solve::{Frame, LinkState, Wanted};
 use std::io;
 
@@ -15,10 +15,24 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::LINKS,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::LINKS, value }),
 };
 
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Link(_) => names(&[&LINK]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Link(i) = at else { return None };
+    let link = frame.derived.links.get(i)?;
+    values(link).get(index).copied()
+}
+
 /// The columns of one link.
-pub fn values(link: &LinkState) -> [f64; 9] {
+fn values(link: &LinkState) -> [f64; 9] {
     let LinkState { elongation, rate, force, f, m } = *link;
     [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z]
 }

@@ -1,16 +1,16 @@
 //! The tables of results, a file each. One more is one more file and one line of [`TABLES`].
 
-pub mod bodies;
-pub mod contacts;
-pub mod energy;
+mod bodies;
+mod contacts;
+mod energy;
 mod layers;
-pub mod links;
-pub mod nodes;
+mod links;
+mod nodes;
 mod parts;
-pub mod reactions;
+mod reactions;
 mod sections;
 mod shell_order;
-pub mod shells;
+mod shells;
 mod steps;
 
 use super::table::TableKind;

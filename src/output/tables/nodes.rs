@@ -1,11 +1,12 @@
 //! nodes.csv: the motion of the chosen nodes, global components.
 
 use crate::math::rotation;
-use crate::model;
-use crate::output::table::TableKind;
+use crate::model::{self, ExpectAt};
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{
-    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, POSITION, ROTATION, VELOCITY,
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, MOTION, POSITION, ROTATION, VELOCITY,
+    names,
 };
 use crate::solve::{Frame, Wanted};
 use crate::state;
@@ -28,10 +29,24 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::NOTHING,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };
 
-/// The motion of one node, in the order of [`crate::quantities::MOTION`]. The rotation vector is the shortest, of length at most π.
-pub fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Node(_) => names(&MOTION),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Node(i) = at else { return None };
+    let now = frame.state.nodes.get(i)?;
+    values(&frame.model.nodes[i], now).get(index).copied()
+}
+
+/// The motion of one node, in the order of [`MOTION`]. The rotation vector is the shortest, of length at most π.
+fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
     let vectors = [now.x, now.moved(&start.x), rotation::log(&now.rotation), now.v, now.omega, now.a, now.alpha];
     std::array::from_fn(|i| vectors[i / 3][i % 3])
 }

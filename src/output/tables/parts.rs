@@ -1,8 +1,9 @@
 //! parts.csv: the elastic energy of each beam, bar and shell.
 
-use crate::output::table::TableKind;
+use crate::model::ExpectAt;
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{Column, Unit};
+use crate::quantities::{Column, PLASTIC_STRAIN, Unit};
 use crate::solve::{Frame, Wanted};
 use std::io;
 
@@ -19,7 +20,20 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::PARTS,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::PLASTIC_STRAINS, value }),
 };
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Elements(..) => vec![PLASTIC_STRAIN.name],
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Elements(from, to) = at else { return None };
+    frame.derived.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max)
+}
 
 fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
     frame.derived.parts.iter().try_for_each(|part| {

@@ -1,9 +1,9 @@
 //! reactions.csv: force or moment on the structure in every restrained direction, and on the first part of every joint.
 
-use crate::model::DIRECTIONS;
-use crate::output::table::TableKind;
+use crate::model::{DIRECTIONS, ExpectAt};
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{Axes, Column, Unit};
+use crate::quantities::{Axes, Column, JOINT, Unit, names};
 use crate::solve::{Frame, JointState, Wanted};
 use std::io;
 
@@ -25,10 +25,24 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::REACTIONS,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::REACTIONS, value }),
 };
 
-/// What a joint exerts on its first part, in the order of [`crate::quantities::JOINT`].
-pub fn of_joint(joint: &JointState) -> [f64; 6] {
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Joint(_) => names(&[&JOINT]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Joint(i) = at else { return None };
+    let joint = frame.derived.joints.get(i)?;
+    of_joint(joint).get(index).copied()
+}
+
+/// What a joint exerts on its first part, in the order of [`JOINT`].
+fn of_joint(joint: &JointState) -> [f64; 6] {
     let [f, m] = [joint.f, joint.m];
     [f.x, f.y, f.z, m.x, m.y, m.z]
 }

@@ -37,6 +37,7 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::SECTIONS,
     every_step: false,
     rows: |_| Box::new(write),
+    answers: None,
 };
 
 fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {

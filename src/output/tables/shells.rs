@@ -1,10 +1,10 @@
 //! shells.csv: stress resultants of the shells' elements.
 
 use super::shell_order::ShellOrder;
-use crate::model::PartKind;
-use crate::output::table::TableKind;
+use crate::model::{ExpectAt, PartKind};
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit};
+use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit, VON_MISES};
 use crate::solve::{Frame, ShellState, Wanted};
 use std::io;
 
@@ -59,28 +59,32 @@ pub static TABLE: TableKind = TableKind {
         let order = ShellOrder::of(model);
         Box::new(move |table, frame| write(table, &order, frame))
     },
+    answers: Some(Answers { quantities, needs: Wanted::SHELLS, value }),
 };
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Shells(..) => vec![VON_MISES.name, PLASTIC_STRAIN.name],
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Shells(from, to) = at else { return None };
+    let of = [ShellState::von_mises, ShellState::plastic_strain][index];
+    frame.derived.shells.iter().filter(|state| (from..to).contains(&state.part)).map(of).reduce(f64::max)
+}
 
 fn write(table: &mut TableFile, order: &ShellOrder, frame: &Frame) -> io::Result<()> {
     order.states(frame).try_for_each(|state| {
         let at = &state.at;
         table.row(frame.step, frame.state.time).text(frame.model.parts[state.part].name()).count(state.element);
-        table.numbers(&at.N).numbers(&at.M).numbers(&at.Q).numbers(&outer(state)).number(plastic_strain(state)).end()
+        table
+            .numbers(&at.N)
+            .numbers(&at.M)
+            .numbers(&at.Q)
+            .numbers(&state.outer_von_mises())
+            .number(state.plastic_strain())
+            .end()
     })
-}
-
-/// Von Mises stress in the lowest layer and in the highest.
-pub fn outer(state: &ShellState) -> [f64; 2] {
-    let layers = state.at.layers();
-    [layers.first(), layers.last()].map(|layer| layer.map_or(0.0, |layer| layer.von_mises()))
-}
-
-/// Von Mises stress, the largest over the layers.
-pub fn von_mises(state: &ShellState) -> f64 {
-    state.at.layers().iter().map(|layer| layer.von_mises()).fold(0.0, f64::max)
-}
-
-/// Accumulated plastic strain, the largest over the layers.
-pub fn plastic_strain(state: &ShellState) -> f64 {
-    state.at.layers().iter().map(|layer| layer.plastic_strain).fold(0.0, f64::max)
 }

@@ -1,8 +1,9 @@
 //! steps.csv: what each accepted step cost, whether or not it is written elsewhere.
 
-use crate::output::table::TableKind;
+use crate::model::ExpectAt;
+use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
-use crate::quantities::{Column, Unit};
+use crate::quantities::{Column, TIME, Unit};
 use crate::solve::{Frame, Wanted};
 use std::io;
 
@@ -24,7 +25,19 @@ pub static TABLE: TableKind = TableKind {
     needs: Wanted::EVERY_STEP,
     every_step: true,
     rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Analysis => vec![TIME.name],
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
+    matches!(at, ExpectAt::Analysis).then_some(frame.state.time)
+}
 
 fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
     if frame.step == 0 {

@@ -12,7 +12,7 @@ use super::adaptive::StepController;
 use super::error_measure::ErrorMeasure;
 use super::lasting_error::LastingError;
 use crate::integrators::spectrum::error_constant;
-use crate::integrators::{Newmark, RotationUpdate, Scheme};
+use crate::integrators::{AlphaFamily, RotationUpdate};
 use crate::math::{Vec3, Vec6, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -148,7 +148,7 @@ impl<'a> ErrorController<'a> {
         let mut run = cx.model.analysis.end_time;
         for part in TRIALS {
             let dt = part * run;
-            let scheme = Newmark { gamma: 0.5, beta: 0.25, rotation: RotationUpdate::Exponential }.coefficients(dt);
+            let scheme = AlphaFamily::trapezoidal(RotationUpdate::Exponential).coefficients(dt);
             let to = state.time + dt;
             match self.stepper.newton.stage(cx, ws, state, &Stage::from(&scheme), to) {
                 Ok(_) => self.measure.look_ahead(cx.model, state),

@@ -4,7 +4,7 @@
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
-use crate::integrators::central_difference::longest_step;
+use crate::integrators::stability_limit::longest_step;
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::model::Model;
