@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
 use rdsolve::materials::{
-    Dissipation, Fibre, Hardening, Law, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
+    Dissipation, FibreStress, Hardening, MaterialLaw, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
 };
 
 const E: f64 = 200e3;
@@ -14,14 +14,14 @@ const EY: f64 = YIELD / E;
 
 /// A point that is led along a path.
 struct Point<'a, S> {
-    law: &'a Law,
+    law: &'a MaterialLaw,
     state: S,
     history: Vec<f64>,
     work: Dissipation,
 }
 
 impl<'a, S: Copy> Point<'a, S> {
-    fn new<const N: usize>(law: &'a Law, state: S) -> Self
+    fn new<const N: usize>(law: &'a MaterialLaw, state: S) -> Self
     where
         S: StressState<N>,
     {
@@ -80,14 +80,14 @@ fn power(fluidity: f64, exponent: f64) -> Option<Viscosity> {
 }
 
 /// Every hardening with every kinematic share, rate independent and with every overstress function at a fluidity.
-fn laws(fluidity: f64) -> Vec<(Law, Hardening, f64, Option<Viscosity>)> {
+fn laws(fluidity: f64) -> Vec<(MaterialLaw, Hardening, f64, Option<Viscosity>)> {
     let mut viscosities = vec![None];
     viscosities.extend(overstresses().into_iter().map(|overstress| Some(Viscosity { fluidity, overstress })));
     let mut all = Vec::new();
     for hardening in hardenings() {
         for share in [0.0, 0.4, 1.0] {
             for viscosity in &viscosities {
-                let law = Law::new(E, NU, hardening.clone(), share, *viscosity);
+                let law = MaterialLaw::new(E, NU, hardening.clone(), share, *viscosity);
                 all.push((law, hardening.clone(), share, *viscosity));
             }
         }
@@ -118,7 +118,7 @@ impl Mises<1> for Uniaxial {
     }
 }
 
-impl Mises<3> for Fibre {
+impl Mises<3> for FibreStress {
     fn compliance([s, y, z]: &[f64; 3]) -> [f64; 3] {
         [s / E, y / G, z / G]
     }
@@ -168,7 +168,7 @@ fn radial<const N: usize, S: Mises<N>>(state: S) {
     for hardening in hardenings() {
         for share in [0.0, 0.4, 1.0] {
             for _ in 0..20 {
-                let law = Law::new(E, NU, hardening.clone(), share, None);
+                let law = MaterialLaw::new(E, NU, hardening.clone(), share, None);
                 let direction: [f64; N] = random(&mut rng, 1.0);
                 let unit = direction.map(|d| d / S::mises(&direction));
                 let (mut X, mut plastic, mut p, mut sign) = (0.0, 0.0, 0.0, 1.0);
@@ -202,7 +202,7 @@ fn radial<const N: usize, S: Mises<N>>(state: S) {
 #[test]
 fn radial_and_cyclic_paths_are_exact_in_any_step() {
     radial(Uniaxial);
-    radial(Fibre);
+    radial(FibreStress);
     radial(PlaneStress);
 }
 
@@ -212,7 +212,7 @@ fn a_fibre_without_shear_and_a_layer_under_one_stress_are_a_bar() {
     let mut rng = SmallRng::seed_from_u64(4);
     for (law, ..) in laws(0.3) {
         let (mut bar, mut fibre, mut layer) =
-            (Point::new(&law, Uniaxial), Point::new(&law, Fibre), Point::new(&law, PlaneStress));
+            (Point::new(&law, Uniaxial), Point::new(&law, FibreStress), Point::new(&law, PlaneStress));
         for _ in 0..30 {
             let strain = 10.0 * EY * rng.random_range(-1.0..1.0);
             let dt = rng.random_range(0.0..0.1);
@@ -234,7 +234,7 @@ fn a_fibre_without_shear_and_a_layer_under_one_stress_are_a_bar() {
 fn a_fibre_is_a_layer_free_of_stress_across() {
     let mut rng = SmallRng::seed_from_u64(5);
     for (law, ..) in laws(0.3) {
-        let (mut fibre, mut layer) = (Point::new(&law, Fibre), Point::new(&law, PlaneStress));
+        let (mut fibre, mut layer) = (Point::new(&law, FibreStress), Point::new(&law, PlaneStress));
         let mut across = 0.0;
         for _ in 0..30 {
             let [axial, shear] = random(&mut rng, 5.0 * EY);
@@ -257,13 +257,13 @@ fn a_fibre_is_a_layer_free_of_stress_across() {
 /// rule integrates to γ(θ) = σ_Y (1/(√3 G) − √3/E) sin θ + √3 (σ_Y/E) artanh sin θ; for 3G = E, √3 τ/σ_Y = tanh(E γ/(√3 σ_Y)).
 #[test]
 fn a_twisted_tube_converges_to_its_closed_form() {
-    let law = Law::new(E, NU, linear(0.0), 0.0, None);
+    let law = MaterialLaw::new(E, NU, linear(0.0), 0.0, None);
     let root = 3f64.sqrt();
     let s = 0.9f64;
     let twist = YIELD * (1.0 / (root * G) - root / E) * s + root * EY * s.atanh();
     let exact = [YIELD * (1.0 - s * s).sqrt(), YIELD * s / root];
     let run = |steps: usize| {
-        let (mut fibre, mut layer) = (Point::new(&law, Fibre), Point::new(&law, PlaneStress));
+        let (mut fibre, mut layer) = (Point::new(&law, FibreStress), Point::new(&law, PlaneStress));
         fibre.to([EY, 0.0, 0.0], 0.0);
         layer.to([EY, -NU * EY, 0.0], 0.0);
         let (mut sigma, mut strain) = ([0.0; 3], [EY, -NU * EY, 0.0]);
@@ -291,7 +291,7 @@ fn a_twisted_tube_converges_to_its_closed_form() {
 /// Derivative by differences of fourth order, and whether they stay clear of kinks: the same side of the yield surface, the
 /// same line of the table.
 fn differences<const N: usize, S: StressState<N>>(
-    law: &Law,
+    law: &MaterialLaw,
     state: S,
     strain: &[f64; N],
     dt: f64,
@@ -354,7 +354,7 @@ fn tangent_error<const N: usize, S: StressState<N>>(state: S) -> f64 {
 /// is left out, (h/ε_Y)⁴ times a fifth derivative that is large beside the onset of viscous flow, is as small.
 #[test]
 fn tangents_are_the_derivatives() {
-    let errors = [tangent_error(Uniaxial), tangent_error(Fibre), tangent_error(PlaneStress)];
+    let errors = [tangent_error(Uniaxial), tangent_error(FibreStress), tangent_error(PlaneStress)];
     assert!(errors.iter().all(|e| *e < 1e-9), "{errors:?}");
 }
 
@@ -371,7 +371,7 @@ fn first_order(last: f64, exact: f64, run: impl Fn(usize) -> f64) {
 fn a_bar_drawn_at_constant_rate_approaches_its_overstress() {
     let (rate, gamma) = (2.0, 0.5);
     for H in [0.0, 0.1 * E] {
-        let law = Law::new(E, NU, linear(H), 1.0, power(gamma, 1.0));
+        let law = MaterialLaw::new(E, NU, linear(H), 1.0, power(gamma, 1.0));
         let time = 1.5 * YIELD / (E * gamma);
         let v = E * rate / ((E + H) * gamma) * (1.0 - (-(E + H) * gamma * time / YIELD).exp());
         let plastic = EY + rate * time - (YIELD * (1.0 + v)) / E;
@@ -392,7 +392,7 @@ fn the_steady_stress_is_that_of_the_rate() {
     for exponent in 1..=50 {
         let n = f64::from(exponent);
         for ratio in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
-            let law = Law::new(E, NU, linear(0.0), 0.0, power(1.0, n));
+            let law = MaterialLaw::new(E, NU, linear(0.0), 0.0, power(1.0, n));
             let mut bar = Point::new(&law, Uniaxial);
             let exact = YIELD * (1.0 + f64::powf(ratio, 1.0 / n));
             let step = exact / E;
@@ -415,7 +415,7 @@ fn mild_steel_follows_cowper_and_symonds() {
         (100.0, 2.19874),
     ];
     let beyond = [(1000.0, 2.89987), (1e4, 1.0 + (1e4f64 / 40.4).powf(0.2))];
-    let law = Law::new(E, NU, linear(0.0), 0.0, power(40.4, 5.0));
+    let law = MaterialLaw::new(E, NU, linear(0.0), 0.0, power(40.4, 5.0));
     for (rate, ratio) in table.into_iter().chain(beyond) {
         let mut bar = Point::new(&law, Uniaxial);
         let sigma = (1..=60).fold(0.0, |_, k| bar.to([0.005 * f64::from(k)], 0.005 / rate)[0]);
@@ -437,7 +437,7 @@ fn relaxed(overstress: Overstress, s: f64) -> f64 {
 fn relaxation<const N: usize, S: Mises<N>>(state: S, unit: [f64; N], c: f64) {
     let gamma = 0.5;
     for overstress in overstresses().into_iter().filter(|o| *o != Overstress::Power { exponent: 50.0 }) {
-        let law = Law::new(E, NU, linear(0.0), 0.0, Some(Viscosity { fluidity: gamma, overstress }));
+        let law = MaterialLaw::new(E, NU, linear(0.0), 0.0, Some(Viscosity { fluidity: gamma, overstress }));
         let strain = S::compliance(&unit.map(|u| 2.5 * YIELD * u / S::mises(&unit)));
         let time = 0.8 * YIELD / (c * gamma);
         first_order(5e-4, 1.0 + relaxed(overstress, 0.8), |steps| {
@@ -452,8 +452,8 @@ fn relaxation<const N: usize, S: Mises<N>>(state: S, unit: [f64; N], c: f64) {
 #[test]
 fn overstress_relaxes_as_its_function_says() {
     relaxation(Uniaxial, [-1.0], E);
-    relaxation(Fibre, [1.0, 0.0, 0.0], E);
-    relaxation(Fibre, [0.0, 0.6, -0.8], 3.0 * G);
+    relaxation(FibreStress, [1.0, 0.0, 0.0], E);
+    relaxation(FibreStress, [0.0, 0.6, -0.8], 3.0 * G);
     relaxation(PlaneStress, [1.0, -1.0, 0.5], 3.0 * G);
     relaxation(PlaneStress, [1.0, 1.0, 0.0], E / (2.0 * (1.0 - NU)));
 }
@@ -463,7 +463,7 @@ fn overstress_relaxes_as_its_function_says() {
 fn a_bar_creeps_at_constant_rate() {
     for n in [1.0, 2.5, 5.0] {
         let (gamma, stress) = (0.3, 1.4 * YIELD);
-        let law = Law::new(E, NU, linear(0.0), 0.0, power(gamma, n));
+        let law = MaterialLaw::new(E, NU, linear(0.0), 0.0, power(gamma, n));
         let mut bar = Point::new(&law, Uniaxial);
         bar.to([stress / E], 0.0);
         let mut strain = [stress / E];
@@ -481,7 +481,7 @@ fn a_bar_creeps_at_constant_rate() {
 #[test]
 fn relaxation_turns_elastic_energy_into_work() {
     for overstress in overstresses() {
-        let law = Law::new(E, NU, linear(1e4), 0.4, Some(Viscosity { fluidity: 0.5, overstress }));
+        let law = MaterialLaw::new(E, NU, linear(1e4), 0.4, Some(Viscosity { fluidity: 0.5, overstress }));
         let mut bar = Point::new(&law, Uniaxial);
         let strain = [2.5 * EY];
         bar.to(strain, 0.0);
@@ -504,11 +504,11 @@ fn without_and_with_endless_fluidity_viscosity_vanishes() {
     for exponent in 1..=50 {
         let n = f64::from(exponent);
         for hardening in hardenings() {
-            let law = |viscosity| Law::new(E, NU, hardening.clone(), 0.4, viscosity);
+            let law = |viscosity| MaterialLaw::new(E, NU, hardening.clone(), 0.4, viscosity);
             let strain: [f64; 3] = random(&mut rng, 20.0 * EY);
             let old = [0.0; 8];
             let plastic = law(None).stress(PlaneStress, &strain, 1.0, &old);
-            let elastic = Law::new(E, NU, linear(f64::INFINITY), 0.0, None);
+            let elastic = MaterialLaw::new(E, NU, linear(f64::INFINITY), 0.0, None);
             let elastic = elastic.stress_and_tangent(PlaneStress, &strain, 1.0, &[0.0; 4]);
             for (gamma, dt) in [(1e-300, 1.0), (1.0, 0.0), (0.0, 1.0), (1e-150, 1e-150)] {
                 let got = law(power(gamma, n)).stress_and_tangent(PlaneStress, &strain, dt, &old);
@@ -556,7 +556,7 @@ fn any_viscosity(rng: &mut SmallRng) -> Option<Viscosity> {
 fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
     let (hardening, share) = (any_hardening(rng), [0.0, 0.4, 1.0][rng.random_range(0..3)]);
     let viscosity = any_viscosity(rng);
-    let law = Law::new(E, NU, hardening.clone(), share, viscosity);
+    let law = MaterialLaw::new(E, NU, hardening.clone(), share, viscosity);
     let mut old = vec![0.0; law.history(state)];
     for decades in [1.0, 6.0] {
         let size = EY * 10f64.powf(rng.random_range(-1.0..decades));
@@ -603,7 +603,7 @@ fn any_step_from_any_state_has_an_answer() {
     let mut rng = SmallRng::seed_from_u64(8);
     for _ in 0..40_000 {
         any_step(Uniaxial, &mut rng);
-        any_step(Fibre, &mut rng);
+        any_step(FibreStress, &mut rng);
         any_step(PlaneStress, &mut rng);
     }
 }

@@ -3,7 +3,7 @@
 use rdsolve::diagnostic::Source;
 use rdsolve::elements::beam::IntegrationRule;
 use rdsolve::elements::pressure::Face;
-use rdsolve::materials::{Hardening, Law, Overstress, Viscosity};
+use rdsolve::materials::{Hardening, MaterialLaw, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
     self, ArcLength, Bar, Beam, Cadence, ExpectAt, History, Link, LinkKind, MassKind, Method, Model, Passage, Shape,
@@ -87,7 +87,7 @@ fn materials_that_yield_reach_their_parts() {
     let brace = beams[3].yielding.as_ref().unwrap();
     assert_eq!((brace.rule, brace.points, brace.shear), (IntegrationRule::Lobatto, 4, false));
     let hardening = Hardening::Linear { yield_stress: 235e6, modulus: 1e9 };
-    assert_eq!(brace.law, Law::new(210e9, 0.3, hardening, 0.5, None));
+    assert_eq!(brace.law, MaterialLaw::new(210e9, 0.3, hardening, 0.5, None));
     // Whatever the fibres are, they are the section.
     let sum = |of: fn(&Fibre) -> f64| brace.fibres.iter().map(|fibre| fibre.area * of(fibre)).sum::<f64>();
     let (area, moment) = (0.05 * 0.05, 0.05f64.powi(4) / 12.0);
@@ -100,7 +100,7 @@ fn materials_that_yield_reach_their_parts() {
     let cable = bars[2];
     let hardening = Hardening::table(vec![[0.0, 235e6], [0.02, 240e6], [0.2, 360e6]]).unwrap();
     let viscosity = Viscosity { fluidity: 40.4, overstress: Overstress::Power { exponent: 5.0 } };
-    assert_eq!(cable.yielding, Some(Law::new(210e9, 0.3, hardening, 0.0, Some(viscosity))));
+    assert_eq!(cable.yielding, Some(MaterialLaw::new(210e9, 0.3, hardening, 0.0, Some(viscosity))));
     assert!(cable.tension_only);
     assert_eq!((model.solution.iteration.method, model.solution.iteration.limit), (Method::InitialLoad, 15));
 }

@@ -3,7 +3,7 @@
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
 use super::link::{Link, LinkLaw, Links};
-use crate::materials::{Dissipation, Law, Uniaxial};
+use crate::materials::{Dissipation, MaterialLaw, Uniaxial};
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node, elongation, stretch};
 
@@ -35,7 +35,7 @@ pub fn elastic_bars(
 pub struct YieldingBars {
     elements: Vec<BarElement>,
     area: f64,
-    law: Law,
+    law: MaterialLaw,
     tension_only: bool,
     /// Factor of stiffness-proportional damping (time).
     damping: f64,
@@ -69,7 +69,7 @@ impl YieldingBars {
     pub fn new(
         elements: &[[usize; 2]],
         axial_stiffness: f64,
-        law: &Law,
+        law: &MaterialLaw,
         tension_only: bool,
         free: f64,
         x: &[Vec3],

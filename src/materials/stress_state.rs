@@ -4,7 +4,7 @@
 //! equivalent stress is ρ² = Σ pᵢ ξᵢ². The plastic strain grows by pᵢ ξᵢ/ρ per multiplier, so a return takes
 //! cᵢ = eᵢ pᵢ off the equivalent stress per multiplier: 3G in every mode but the first.
 
-use super::Elastic;
+use super::constants::ElasticConstants;
 
 /// N components of stress, and strains work-conjugate to them (shear strains are engineering strains).
 pub trait StressState<const N: usize>: Copy + Send + Sync {
@@ -12,7 +12,7 @@ pub trait StressState<const N: usize>: Copy + Send + Sync {
     const P: [f64; N];
 
     /// e of each mode.
-    fn moduli(elastic: &Elastic) -> [f64; N];
+    fn moduli(elastic: &ElasticConstants) -> [f64; N];
 
     /// Components to modes and modes to components, of stress or strain: orthogonal and its own inverse.
     #[inline(always)]
@@ -21,13 +21,13 @@ pub trait StressState<const N: usize>: Copy + Send + Sync {
     }
 }
 
-/// σ, with ε: a bar, or a fibre whose shear stays elastic.
+/// A bar, or a fibre of a beam without shear: σ.
 #[derive(Debug, Clone, Copy)]
 pub struct Uniaxial;
 
 /// A fibre of a beam: (σ, τ_y, τ_z), with (ε, γ_y, γ_z).
 #[derive(Debug, Clone, Copy)]
-pub struct Fibre;
+pub struct FibreStress;
 
 /// A layer of a shell: (σ_x, σ_y, τ_xy), with (ε_x, ε_y, γ_xy). Modes: sum and difference of the normal stresses, shear.
 #[derive(Debug, Clone, Copy)]
@@ -37,16 +37,16 @@ impl StressState<1> for Uniaxial {
     const P: [f64; 1] = [1.0];
 
     #[inline(always)]
-    fn moduli(elastic: &Elastic) -> [f64; 1] {
+    fn moduli(elastic: &ElasticConstants) -> [f64; 1] {
         [elastic.E]
     }
 }
 
-impl StressState<3> for Fibre {
+impl StressState<3> for FibreStress {
     const P: [f64; 3] = [1.0, 3.0, 3.0];
 
     #[inline(always)]
-    fn moduli(elastic: &Elastic) -> [f64; 3] {
+    fn moduli(elastic: &ElasticConstants) -> [f64; 3] {
         [elastic.E, elastic.G, elastic.G]
     }
 }
@@ -55,7 +55,7 @@ impl StressState<3> for PlaneStress {
     const P: [f64; 3] = [0.5, 1.5, 3.0];
 
     #[inline(always)]
-    fn moduli(elastic: &Elastic) -> [f64; 3] {
+    fn moduli(elastic: &ElasticConstants) -> [f64; 3] {
         [elastic.biaxial, 2.0 * elastic.G, elastic.G]
     }
 

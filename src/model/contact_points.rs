@@ -9,7 +9,7 @@ use super::scene::Scene;
 use super::sections::half_depth;
 use crate::deck::contacts as words;
 use crate::diagnostic::At;
-use crate::elements::contact::{MOST_NODES, Point};
+use crate::elements::contact::{ContactPoint, MOST_NODES};
 use crate::math::{Vec3, quadrature};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -56,7 +56,7 @@ impl<'d> Finder<'_, 'd> {
         name: &str,
         contact: &'d words::Contact,
         carrier: Option<usize>,
-    ) -> Option<Vec<Point>> {
+    ) -> Option<Vec<ContactPoint>> {
         let between = match &contact.points {
             Some(at) if at.value > MOST_POINTS as u64 => {
                 let message = format!("`points` is {}: at most {MOST_POINTS} are allowed", at.value);
@@ -139,7 +139,7 @@ impl<'d> Finder<'_, 'd> {
         Some(found)
     }
 
-    fn contact_point(&self, touch: Touch, given: Option<f64>, friction: bool) -> Point {
+    fn contact_point(&self, touch: Touch, given: Option<f64>, friction: bool) -> ContactPoint {
         let (mut nodes, mut weights) = ([touch.nodes[0].0; MOST_NODES], [0.0; MOST_NODES]);
         for (k, (node, weight)) in touch.nodes.iter().enumerate() {
             (nodes[k], weights[k]) = (*node, *weight);
@@ -148,7 +148,7 @@ impl<'d> Finder<'_, 'd> {
         // A point without rotation cannot be turned by friction.
         let turns = touch.nodes.iter().all(|&(node, _)| self.topology.turns(self.topology.root(node)));
         let rolling_radius = if friction && turns { radius } else { 0.0 };
-        Point { nodes, weights, count: touch.nodes.len(), radius, rolling_radius }
+        ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius }
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {

@@ -9,7 +9,7 @@ use super::scene::Scene;
 use super::values::span;
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution::{self, Loss};
-use crate::elements::contact::{Law, Point, Surface};
+use crate::elements::contact::{ContactLaw, ContactPoint, Surface};
 use crate::math::Vec3;
 use crate::names::short;
 use std::f64::consts::{PI, TAU};
@@ -50,7 +50,7 @@ pub(super) fn contacts<'d>(
                 continue;
             }
             topology.connect(node, true);
-            points.iter().flat_map(Point::nodes).for_each(|&node| topology.connect(node, false));
+            points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
             check_start(&owner, node, &surface, &points, topology, report);
         }
         let chosen = law.is_some() && contact.stiffness.is_none();
@@ -133,9 +133,9 @@ impl LawReader<'_, '_> {
         owner: &Owner,
         contact: &words::Contact,
         carrier: usize,
-        points: &[Point],
+        points: &[ContactPoint],
         report: &mut Report,
-    ) -> Option<Law> {
+    ) -> Option<ContactLaw> {
         if report.is_spoiled(owner.span, "stiffness") {
             return None;
         }
@@ -160,7 +160,7 @@ impl LawReader<'_, '_> {
             _ => Loss::None,
         };
         let resolved = dynamic && meeting.rigid && frequency.is_finite();
-        Some(Law {
+        Some(ContactLaw {
             stiffness,
             loss,
             friction: contact.friction.as_ref().map_or(0.0, |at| at.value),
@@ -193,7 +193,7 @@ impl LawReader<'_, '_> {
         if restrained { f64::INFINITY } else { self.at_nodes.get(root).copied().unwrap_or(0.0) }
     }
 
-    fn meeting(&self, carrier: usize, points: &[Point]) -> Meeting {
+    fn meeting(&self, carrier: usize, points: &[ContactPoint]) -> Meeting {
         let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
         let other = if on_ground { f64::INFINITY } else { self.mass(carrier) };
         let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, true);
@@ -217,7 +217,7 @@ impl LawReader<'_, '_> {
     }
 
     /// By how much a body is easier to move at a point than at its centre, per force: r²/J.
-    fn ease(&self, point: &Point) -> f64 {
+    fn ease(&self, point: &ContactPoint) -> f64 {
         let root = self.topology.root(point.nodes[0]);
         let body = self.scene.bodies.iter().find(|body| body.node == root);
         body.map_or(0.0, |body| {
@@ -238,12 +238,12 @@ fn check_start(
     owner: &Owner,
     node: usize,
     surface: &Surface,
-    points: &[Point],
+    points: &[ContactPoint],
     topology: &Topology,
     report: &mut Report,
 ) {
     let center = topology.x(node);
-    let gap = |point: &Point| {
+    let gap = |point: &ContactPoint| {
         let x: Vec3 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w * topology.x(node)).sum();
         surface.distance(&(x - center)) - point.radius
     };

@@ -8,7 +8,7 @@ use crate::deck::environment::Environment;
 use crate::deck::materials as words;
 use crate::deck::words::{Maybe, Named, Table};
 use crate::diagnostic::At;
-use crate::materials::{Hardening, Law, Overstress, Viscosity};
+use crate::materials::{Hardening, MaterialLaw, Overstress, Viscosity};
 
 /// Cowper-Symonds exponents lie between 1 and 10; far beyond this the overstress is a step.
 const MOST_EXPONENT: f64 = 100.0;
@@ -17,7 +17,7 @@ const MOST_EXPONENT: f64 = 100.0;
 pub(super) struct Materials<'d> {
     table: &'d Named<Table<words::Material>>,
     /// By material: how it yields; `None` for an elastic one and one with errors.
-    laws: Vec<Option<Law>>,
+    laws: Vec<Option<MaterialLaw>>,
     /// Deformable parts must have a mass: in dynamics, and where gravity pulls or the ground accelerates.
     inertia_matters: bool,
 }
@@ -49,7 +49,7 @@ impl<'d> Materials<'d> {
     }
 
     /// How the material of a part yields, `Some(None)` where it is elastic or the part has none; `None` where it has errors.
-    pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<Law>> {
+    pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<MaterialLaw>> {
         let Some(name) = name else { return Some(None) };
         let index = self.table.position(name)?;
         let (_, material) = &self.table.0[index];
@@ -91,7 +91,7 @@ fn law_of<'d>(
     material: &'d words::Material,
     model: words::Model,
     report: &mut Report<'d>,
-) -> Option<Law> {
+) -> Option<MaterialLaw> {
     let yields = [
         ("yield_stress", span(&material.yield_stress)),
         ("hardening_modulus", span(&material.hardening_modulus)),
@@ -125,7 +125,7 @@ fn law_of<'d>(
         _ => None,
     };
     let ratio = material.poisson_ratio.as_ref().map_or(0.0, |ratio| ratio.value);
-    Some(Law::new(material.youngs_modulus.as_ref()?.value, ratio, hardening?, share, viscosity))
+    Some(MaterialLaw::new(material.youngs_modulus.as_ref()?.value, ratio, hardening?, share, viscosity))
 }
 
 fn hardening<'d>(owner: &Owner<'d>, material: &'d words::Material, report: &mut Report<'d>) -> Option<Hardening> {

@@ -9,7 +9,7 @@ use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};
 use crate::elements::beam::{BeamGeometry, Beams, FibreModel};
 use crate::elements::bushing::{Bushing, Bushings};
-use crate::elements::contact::{Contacts, MOST_NODES, Point};
+use crate::elements::contact::{ContactPoint, Contacts, MOST_NODES};
 use crate::elements::link::{Link, Links};
 use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Triangles};
 use crate::math::{Mat3, Vec3, quadrature};
@@ -241,7 +241,7 @@ fn contacts(contact: &model::Contact) -> Vec<(Box<dyn ElementBlock>, usize)> {
     let Some(law) = contact.law else { return Vec::new() };
     let mut blocks: Vec<(Box<dyn ElementBlock>, usize)> = Vec::new();
     for count in 1..=MOST_NODES {
-        let points: Vec<Point> = contact.points.iter().filter(|point| point.count == count).cloned().collect();
+        let points: Vec<ContactPoint> = contact.points.iter().filter(|point| point.count == count).cloned().collect();
         for piece in pieces(points.len()) {
             let block = Contacts::new(law, contact.surface.clone(), contact.node, points[piece.clone()].to_vec());
             blocks.push((Box::new(block), piece.start));

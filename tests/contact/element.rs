@@ -3,7 +3,7 @@
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::contact::restitution::{Loss, number};
-use rdsolve::elements::contact::{Contacts, Law, MOST_NODES, Point, Shape, Surface};
+use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Shape, Surface};
 use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3};
@@ -30,7 +30,7 @@ struct Touch {
 
 /// `count` nodes carry the point; `slide` is the way along the surface since the past.
 fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f64, slide: f64) -> Touch {
-    let law = Law {
+    let law = ContactLaw {
         stiffness: 1e3,
         loss: Loss::Restitution { number: number(0.5), floor: 0.1 },
         friction,
@@ -47,7 +47,7 @@ fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f6
     (0..count).for_each(|k| weights[k] = parts[k] / sum);
     let mut of = [1; MOST_NODES];
     (0..count).for_each(|k| of[k] = 1 + k);
-    let point = Point { nodes: of, weights, count, radius, rolling_radius: radius };
+    let point = ContactPoint { nodes: of, weights, count, radius, rolling_radius: radius };
 
     // The carrier anywhere, the point a little inside the surface.
     let mut nodes = vec![Node::at_rest(vector(rng, 1.0)); count + 1];

@@ -9,7 +9,7 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::linear;
-use rdsolve::materials::{Hardening, Law as Material, Overstress, Viscosity};
+use rdsolve::materials::{Hardening, MaterialLaw as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::*;
 use rdsolve::plan::Plan;

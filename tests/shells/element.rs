@@ -7,7 +7,7 @@ use rdsolve::elements::shell::{
     DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
 use rdsolve::elements::{ElementBlock, Force, Moduli};
-use rdsolve::materials::{Hardening, Law};
+use rdsolve::materials::{Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
 use std::time::Instant;
@@ -114,8 +114,8 @@ fn at_rest(x: &[Vec3]) -> Vec<Node> {
     x.iter().map(|&x| Node::at_rest(x)).collect()
 }
 
-fn law() -> Law {
-    Law::new(1e3, 0.3, Hardening::Linear { yield_stress: 10.0, modulus: 50.0 }, 0.3, None)
+fn law() -> MaterialLaw {
+    MaterialLaw::new(1e3, 0.3, Hardening::Linear { yield_stress: 10.0, modulus: 50.0 }, 0.3, None)
 }
 
 /// Six zeros and no more: eigenvalues of flat, warped and narrow elements. Zeros are rounding of the largest.

@@ -8,7 +8,7 @@ use rdsolve::elements::shell::{
     DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
 use rdsolve::elements::{ElementBlock, ShellResultants};
-use rdsolve::materials::{Hardening, Law};
+use rdsolve::materials::{Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::{Model, Shell};
 use rdsolve::solve::ShellState;
@@ -76,7 +76,7 @@ fn assert_near(found: &[f64], wanted: &[f64], bound: f64) {
 #[test]
 fn even_strain() {
     let mut rng = StdRng::seed_from_u64(21);
-    let law = Law::new(E, NU, Hardening::Linear { yield_stress: 1e9, modulus: 0.0 }, 0.0, None);
+    let law = MaterialLaw::new(E, NU, Hardening::Linear { yield_stress: 1e9, modulus: 0.0 }, 0.0, None);
     let layered = LayerModel { law, layers: 3 };
     for triangles in [false, true] {
         for yielding in [None, Some(&layered)] {
@@ -212,7 +212,7 @@ fn a_cantilever_obeys_statics() {
 #[test]
 fn layers_yield_one_by_one() {
     let (limit, hardening) = (1e-6, 50.0);
-    let law = Law::new(E, NU, Hardening::Linear { yield_stress: limit, modulus: hardening }, 0.3, None);
+    let law = MaterialLaw::new(E, NU, Hardening::Linear { yield_stress: limit, modulus: hardening }, 0.3, None);
     let layered = LayerModel { law, layers: 5 };
     let (z, w) = quadrature::gauss(5);
     for triangles in [false, true] {

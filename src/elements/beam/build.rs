@@ -5,7 +5,7 @@ use super::kinematics::{Beam, Beams};
 use super::section::{BeamSection, BeamStiffness};
 use super::shape::{IntegrationRule, ShapeFunctions};
 use crate::elements::block::ElementBlock;
-use crate::materials::{self, Law, StressState, Uniaxial};
+use crate::materials::{FibreStress, MaterialLaw, StressState, Uniaxial};
 use crate::math::{Mat3, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ impl<const N: usize> Beams<N> {
 /// A section of fibres whose material yields.
 #[derive(Debug, Clone)]
 pub struct FibreModel {
-    pub law: Law,
+    pub law: MaterialLaw,
     /// The fibres of the section, in section axes.
     pub fibres: Vec<Fibre>,
     /// Shear stress enters the yield condition; otherwise shear and torsion stay elastic.
@@ -54,7 +54,7 @@ impl FibreModel {
         damping: f64,
     ) -> Box<dyn ElementBlock> {
         match self.shear {
-            true => self.in_state::<N, _, 3>(materials::Fibre, elements, x, damping),
+            true => self.in_state::<N, _, 3>(FibreStress, elements, x, damping),
             false => self.in_state::<N, _, 1>(Uniaxial, elements, x, damping),
         }
     }

@@ -6,7 +6,7 @@
 
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
-use crate::materials::{Dissipation, Law, StressState};
+use crate::materials::{Dissipation, MaterialLaw, StressState};
 use crate::math::{Mat3, Mat6, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use crate::state::Configuration;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The fibres of a section and their law, shared by all elements of a beam.
 pub struct FibreProfile<S, const N: usize> {
-    law: Law,
+    law: MaterialLaw,
     state: S,
     fibres: Vec<Fibre>,
     /// The number of history variables of a fibre.
@@ -30,7 +30,7 @@ pub struct FibreProfile<S, const N: usize> {
 
 impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
     /// `state` says which stresses a fibre has; `section` is the stiffness of the whole elastic section.
-    pub fn new(law: &Law, state: S, fibres: &[Fibre], section: &Stiffness) -> Self {
+    pub fn new(law: &MaterialLaw, state: S, fibres: &[Fibre], section: &Stiffness) -> Self {
         let stiffness = law.stiffness(state);
         let mut own = FibreSum::default();
         fibres.iter().for_each(|fibre| own.add(fibre, &stiffness));

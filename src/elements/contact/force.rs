@@ -3,7 +3,7 @@
 use super::friction::{FrictionForce, friction_force};
 use super::history::{self, PointHistory};
 use super::kinematics::{ContactKinematics, Contacts};
-use super::point::Point;
+use super::point::ContactPoint;
 use super::restitution::{NormalForce, normal_force};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
@@ -21,7 +21,7 @@ pub(super) struct ContactForce {
 /// The force on a point that lies at `at`.
 pub(super) fn contact_force(
     contacts: &Contacts,
-    point: &Point,
+    point: &ContactPoint,
     at: &ContactKinematics,
     old: PointHistory,
     nodes: &[Node],

@@ -3,7 +3,7 @@
 //! the rotations of the point's nodes where friction turns them.
 
 use super::kinematics::Contacts;
-use super::point::Point;
+use super::point::ContactPoint;
 use crate::math::Vec3;
 use crate::math::rotation::{log, renormalise};
 use crate::state::Node;
@@ -158,6 +158,12 @@ pub(super) fn each<'a>(contacts: &Contacts, history: &'a [f64]) -> impl Iterator
 }
 
 /// Rotation vector of the k-th node of a point relative to the surface, from the remembered rotation to the present one.
-pub(super) fn rotation_since(contacts: &Contacts, point: &Point, k: usize, old: PointHistory, nodes: &[Node]) -> Vec3 {
+pub(super) fn rotation_since(
+    contacts: &Contacts,
+    point: &ContactPoint,
+    k: usize,
+    old: PointHistory,
+    nodes: &[Node],
+) -> Vec3 {
     log(&renormalise(&(contacts.relative_rotation(point.nodes[k], nodes) * old.rotation(k).conjugate())))
 }

@@ -1,7 +1,7 @@
 //! Points against a surface, and how one of them lies and moves against it.
 
-use super::law::Law;
-use super::point::{MOST_NODES, Point};
+use super::law::ContactLaw;
+use super::point::{ContactPoint, MOST_NODES};
 use super::surface::{ClosestPoint, Surface};
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
@@ -9,11 +9,11 @@ use nalgebra::Quaternion;
 
 /// Points with equally many nodes against one surface.
 pub struct Contacts {
-    pub(super) law: Law,
+    pub(super) law: ContactLaw,
     pub(super) surface: Surface,
     /// The node that carries the surface.
     pub(super) carrier: usize,
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<ContactPoint>,
     /// Nodes of each point, then the carrier.
     pub(super) nodes: Vec<[usize; MOST_NODES + 1]>,
     /// Nodes that carry a point.
@@ -46,7 +46,7 @@ impl ContactKinematics {
 
 impl Contacts {
     /// `points` have equally many nodes, one or more.
-    pub fn new(law: Law, surface: Surface, carrier: usize, points: Vec<Point>) -> Self {
+    pub fn new(law: ContactLaw, surface: Surface, carrier: usize, points: Vec<ContactPoint>) -> Self {
         let count = points.first().map_or(1, |point| point.count);
         let rolls = law.friction > 0.0 && points.iter().any(|point| point.rolling_radius > 0.0);
         let nodes = points
@@ -62,7 +62,7 @@ impl Contacts {
 
     /// Position and velocity relative to the carrier, global components.
     #[inline]
-    pub(super) fn relative(&self, point: &Point, nodes: &[Node]) -> (Vec3, Vec3) {
+    pub(super) fn relative(&self, point: &ContactPoint, nodes: &[Node]) -> (Vec3, Vec3) {
         let carrier = &nodes[self.carrier];
         let (mut d, mut v) = (Vec3::zeros(), Vec3::zeros());
         for (node, weight) in point.parts() {
@@ -73,7 +73,7 @@ impl Contacts {
     }
 
     #[inline]
-    pub(super) fn kinematics(&self, point: &Point, nodes: &[Node]) -> ContactKinematics {
+    pub(super) fn kinematics(&self, point: &ContactPoint, nodes: &[Node]) -> ContactKinematics {
         let (d, w) = self.relative(point, nodes);
         let R = nodes[self.carrier].R();
         let p = R.tr_mul(&d);

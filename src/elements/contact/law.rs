@@ -4,7 +4,7 @@ use super::restitution::Loss;
 
 /// What acts where a point touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Law {
+pub struct ContactLaw {
     /// Force per depth, normal and tangential.
     pub stiffness: f64,
     /// What an impact loses.

@@ -33,8 +33,8 @@ mod tangent;
 mod update;
 
 pub use kinematics::Contacts;
-pub use law::Law;
-pub use point::{MOST_NODES, Point};
+pub use law::ContactLaw;
+pub use point::{ContactPoint, MOST_NODES};
 pub use resultant::{Resultant, least_gap, resultant};
 pub use steps::{longest_step, misses};
 pub use surface::{ClosestPoint, Shape, Surface};

@@ -8,7 +8,7 @@ pub const MOST_NODES: usize = 5;
 
 /// A point that may touch: a weighted sum of nodes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
+pub struct ContactPoint {
     /// The first `count` of them carry it.
     pub nodes: [usize; MOST_NODES],
     /// Share of each node in the point's position; their sum is 1.
@@ -20,7 +20,7 @@ pub struct Point {
     pub rolling_radius: f64,
 }
 
-impl Point {
+impl ContactPoint {
     /// The nodes that carry the point.
     pub fn nodes(&self) -> &[usize] {
         &self.nodes[..self.count]

@@ -2,7 +2,7 @@
 
 use super::force::touch;
 use super::kinematics::Contacts;
-use super::point::Point;
+use super::point::ContactPoint;
 use super::surface::Surface;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
@@ -36,9 +36,10 @@ pub fn resultant(contacts: &Contacts, now: &Configuration) -> Resultant {
 }
 
 /// Least distance of points from a surface; infinite where there are none.
-pub fn least_gap(surface: &Surface, carrier: usize, points: &[Point], nodes: &[Node]) -> f64 {
+pub fn least_gap(surface: &Surface, carrier: usize, points: &[ContactPoint], nodes: &[Node]) -> f64 {
     let carrier = &nodes[carrier];
     let R = carrier.R();
-    let gap = |point: &Point| surface.distance(&R.tr_mul(&point.relative_position(carrier, nodes))) - point.radius;
+    let gap =
+        |point: &ContactPoint| surface.distance(&R.tr_mul(&point.relative_position(carrier, nodes))) - point.radius;
     points.iter().map(gap).fold(f64::INFINITY, f64::min)
 }

@@ -13,7 +13,7 @@ struct Frames {
     turn: f64,
 }
 
-/// True where a step from `start` to `now` must be shorter: see [`super::Law::resolution`].
+/// True where a step from `start` to `now` must be shorter: see [`super::ContactLaw::resolution`].
 pub fn misses(contacts: &Contacts, start: &[Node], now: &Configuration) -> bool {
     let (a, b) = (&start[contacts.carrier], &now.nodes[contacts.carrier]);
     let turn = 2.0 * (b.rotation - a.rotation).norm().min((b.rotation + a.rotation).norm());

@@ -3,7 +3,7 @@
 use super::force::{ContactForce, touch};
 use super::history;
 use super::kinematics::{ContactKinematics, Contacts};
-use super::point::Point;
+use super::point::ContactPoint;
 use crate::math::rotation::inverse_tangent_matrix;
 use crate::math::{Mat3, Vec3, skew};
 use crate::state::Configuration;
@@ -49,7 +49,7 @@ pub(super) fn tangent(contacts: &Contacts, e: usize, now: &Configuration, rate_w
 }
 
 fn derivatives(
-    point: &Point,
+    point: &ContactPoint,
     at: &ContactKinematics,
     acting: &ContactForce,
     omega: &Vec3,
@@ -94,7 +94,7 @@ fn derivatives(
 /// The tangent of a point while it is filled.
 struct Tangent<'a> {
     K: &'a mut [f64],
-    point: &'a Point,
+    point: &'a ContactPoint,
     count: usize,
     /// Cross product with the arm from the carrier to the point.
     D: Mat3,

@@ -3,7 +3,7 @@
 use super::force::{ContactForce, contact_force};
 use super::history::{self, PointHistory, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
-use super::point::Point;
+use super::point::ContactPoint;
 use crate::materials::Dissipation;
 use crate::math::Vec3;
 use crate::math::rotation::{self, renormalise};
@@ -79,7 +79,7 @@ fn impact(contacts: &Contacts, gap: f64, rate: f64, dt: f64, old: PointHistory, 
 /// Writes the anchor, the force on it and the rotations from which the nodes roll; returns what slip dissipated.
 fn update_friction(
     contacts: &Contacts,
-    point: &Point,
+    point: &ContactPoint,
     (at, acting): (&ContactKinematics, Option<&ContactForce>),
     now: &Configuration,
     part: f64,
@@ -123,7 +123,7 @@ fn update_friction(
 /// anchor: `rolled` are the normal and the anchor.
 fn update_rotations(
     contacts: &Contacts,
-    point: &Point,
+    point: &ContactPoint,
     mut rolled: Option<(&Vec3, &mut Vec3)>,
     now: &Configuration,
     part: f64,
@@ -145,7 +145,7 @@ fn update_rotations(
 }
 
 /// Unit vector along the slip, in the frame of the surface; zero for what does not slip faster than its weight makes it.
-fn sliding_direction(contacts: &Contacts, point: &Point, at: &ContactKinematics, now: &Configuration) -> Vec3 {
+fn sliding_direction(contacts: &Contacts, point: &ContactPoint, at: &ContactKinematics, now: &Configuration) -> Vec3 {
     let n = &at.closest.n;
     let spin: Vec3 = point.parts().map(|(node, weight)| weight * now.nodes[node].omega).sum();
     let spin = at.R.tr_mul(&(spin - now.nodes[contacts.carrier].omega));

@@ -3,7 +3,7 @@
 use super::section::{ShellSection, ShellStiffness, StrainOperator};
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
-use crate::materials::{Dissipation, Law, PlaneStress};
+use crate::materials::{Dissipation, MaterialLaw, PlaneStress};
 use crate::math::quadrature;
 use crate::state::Configuration;
 use nalgebra::SMatrix;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The layers of a shell whose material yields.
 #[derive(Debug, Clone)]
 pub struct LayerModel {
-    pub law: Law,
+    pub law: MaterialLaw,
     /// The number of Gauss points through the thickness, at most [`super::MOST_LAYERS`].
     pub layers: usize,
 }
@@ -35,7 +35,7 @@ impl LayerModel {
 
 /// The layers and their law, shared by all elements of a part.
 pub struct Layers {
-    law: Law,
+    law: MaterialLaw,
     /// Height above the reference surface, and thickness, of each layer.
     at: Vec<[f64; 2]>,
     /// The number of history variables of a layer.

@@ -4,7 +4,7 @@
 use super::node::Node;
 use crate::deck::beams::MassKind;
 use crate::elements::beam;
-use crate::elements::contact::{self, Point, Surface};
+use crate::elements::contact::{self, ContactPoint, Surface};
 use crate::elements::link::LinkLaw;
 use crate::elements::shell::{self, Plate};
 use crate::materials;
@@ -67,7 +67,7 @@ pub struct Bar {
     /// Length without force over that at t = 0.
     pub free: f64,
     /// `None`: the material is elastic.
-    pub yielding: Option<materials::Law>,
+    pub yielding: Option<materials::MaterialLaw>,
     pub elements: Vec<[usize; 2]>,
 }
 
@@ -138,9 +138,9 @@ pub struct Contact {
     pub node: usize,
     /// In the frame of that node.
     pub surface: Surface,
-    pub points: Vec<Point>,
+    pub points: Vec<ContactPoint>,
     /// `None`: a clearance monitor, nothing acts.
-    pub law: Option<contact::Law>,
+    pub law: Option<contact::ContactLaw>,
     /// The deck left the stiffness open.
     pub chosen: bool,
 }

@@ -10,7 +10,17 @@
 //! (Xᵢ += k ξᵢ/R). R, k and T follow from the multiplier Δλ, and viscosity ties Δλ to v: Δλ = γΔt φ(v). Without it v = 0.
 //! After Simo & Hughes, Computational Inelasticity (1998), 3.3 and 3.4.
 
-use super::{Law, Viscosity};
+use super::hardening::Hardening;
+use super::overstress::Viscosity;
+
+/// When and how a material yields.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Yielding {
+    pub hardening: Hardening,
+    /// β: how much of the hardening shifts the yield surface (Prager) instead of widening it.
+    pub kinematic_share: f64,
+    pub viscosity: Option<Viscosity>,
+}
 
 /// What the multiplier depends on of a trial stress that yields.
 pub(super) struct Trial {
@@ -28,7 +38,7 @@ pub(super) struct Trial {
 
 /// A point of the return.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Return {
+pub(super) struct ReturnPoint {
     /// Δλ.
     pub multiplier: f64,
     pub overstress: f64,
@@ -47,7 +57,7 @@ pub(super) struct Return {
 /// A number and its change per relative change of the unknown.
 type Varied = [f64; 2];
 
-impl Return {
+impl ReturnPoint {
     /// T of a mode.
     #[inline(always)]
     pub fn T(&self, mode: usize) -> f64 {
@@ -55,9 +65,9 @@ impl Return {
     }
 }
 
-impl Law {
+impl Yielding {
     /// Where the yield condition holds at the end of the step. `last`: the overstress at its beginning.
-    pub(super) fn solve(&self, trial: &Trial, dt: f64, last: f64) -> Return {
+    pub(super) fn solve(&self, trial: &Trial, dt: f64, last: f64) -> ReturnPoint {
         // Newton's first step, from Δλ = 0. A single mode with linear hardening has arrived there.
         let slope = self.hardening.rise(trial.accumulated).1;
         let first = (trial.rho - trial.radius).max(0.0)
@@ -69,8 +79,9 @@ impl Law {
                 // Beyond 1e300 nothing but rounding is left of v.
                 let rate = (fluidity * dt).min(1e300);
                 let elastic = (trial.rho / trial.radius - 1.0).max(0.0);
-                // Where it flows on as before the last overstress is near. Otherwise from the larger side, where the equation is steep: φ grows no further than the rate-independent return and v no
-                // further than the elastic stress.
+                // Where it flows on as before, the last overstress is near. Otherwise the search starts from the larger side, where
+                // the equation is steep: φ grows no further than the rate-independent return and v no further than the elastic
+                // stress.
                 let bound = (trial.rho - trial.radius).max(0.0) / trial.c[0].min(trial.c[1]);
                 let flow = rate * overstress.phi(last).0;
                 let (most, start) = if last < elastic && flow > 1e-3 * bound && flow < bound {
@@ -91,7 +102,7 @@ impl Law {
     }
 
     #[inline]
-    fn point(&self, trial: &Trial, [multiplier, dmultiplier]: Varied, [v, dv]: Varied) -> Return {
+    fn point(&self, trial: &Trial, [multiplier, dmultiplier]: Varied, [v, dv]: Varied) -> ReturnPoint {
         let (rise, slope) = self.hardening.rise(trial.accumulated + multiplier);
         let (back_share, drise) = (self.kinematic_share, slope * dmultiplier);
         let radius = self.hardening.initial() + (1.0 - back_share) * rise;
@@ -103,7 +114,7 @@ impl Law {
         let inverse = T.map(f64::recip);
         let part = [0, 1].map(|j| trial.share[j] * (trial.rho * inverse[j]).powi(2));
         let slope = [0, 1].map(|j| part[j] * ((dS + trial.c[j] * dmultiplier) * inverse[j]));
-        Return {
+        ReturnPoint {
             multiplier,
             overstress: v,
             T,
@@ -124,7 +135,7 @@ const STEEP: f64 = 1e-6;
 /// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection takes over
 /// where a step leaves the bracket or has not halved the misfit.
 #[inline]
-fn root(mut x: f64, at: impl Fn(f64) -> Return) -> Return {
+fn root(mut x: f64, at: impl Fn(f64) -> ReturnPoint) -> ReturnPoint {
     let (mut low, mut high, mut last) = (0.0, f64::INFINITY, f64::INFINITY);
     let mut point = at(x);
     // Bisection from the greatest number to the least takes 2100 steps; Newton takes 3 to 7.
