@@ -70,7 +70,7 @@ pub enum ShapeKind {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
-    /// Names of points or sets; each node gets the whole mass.
+    /// Names of points, bodies or sets; each gets the whole mass.
     #[schemars(required)]
     pub at: Maybe<Names>,
     /// Mass, above 0.

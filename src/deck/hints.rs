@@ -1,7 +1,7 @@
 //! Words that other programs have for what ours has another word for. A user who guesses one is told ours.
 //!
-//! Words for schemes, sections and joints stand with these, see [`Kind`]. A row is only used where one of our words is known in the table at hand, so that the same guess may mean `area` in a section
-//! and nothing elsewhere. What stands in another place of the deck has a sentence of its own.
+//! Words for schemes, sections and joints stand with these, see [`Kind`]. A row is only used where one of our words is known in
+//! the table at hand, so that the same guess may mean `area` in a section and nothing elsewhere. What stands in another place of the deck has a sentence of its own.
 
 use crate::constraints::joints::JOINTS;
 use crate::integrators::SCHEMES;
@@ -20,7 +20,7 @@ const KEYS: &[Row] = &[
     (&["max_iterations", "max_iter", "maxiter", "iterations"], &["limit"]),
     (&["algorithm", "integrator", "solver"], &["scheme", "method"]),
     (&["rho_inf", "rhoinf", "rho_infinity"], &["spectral_radius"]),
-    (&["young", "youngs", "young_modulus", "elastic_modulus", "modulus", "Ex"], &["youngs_modulus"]),
+    (&["e", "young", "youngs", "young_modulus", "elastic_modulus", "modulus", "Ex"], &["youngs_modulus"]),
     (&["poisson", "poissons_ratio", "PRXY", "prxy"], &["poisson_ratio"]),
     (&["mass_density", "DENS", "dens"], &["density"]),
     (&["fy", "Fy", "sigma_y", "SIGY", "yield", "yield_strength", "sigy"], &["yield_stress"]),
@@ -51,12 +51,12 @@ const KEYS: &[Row] = &[
     (&["geometry"], &["shape"]),
     (&["node", "nodes", "point", "on", "set"], &["at", "nodes", "with", "path"]),
     (&["fixed", "dof", "dofs", "constrain", "restrain", "boundary"], &["fix"]),
-    (&["displacement", "prescribed", "imposed"], &["motion"]),
+    (&["displacement", "prescribed", "imposed", "move"], &["motion"]),
     (&["torque", "couple", "moments"], &["moment"]),
     (&["value", "magnitude", "f", "F"], &["force"]),
     (&["function", "curve", "time_series", "time_function", "drive", "tsTag"], &["amplitude"]),
     (&["factor"], &["scale"]),
-    (&["values", "data", "table", "file", "csv", "path"], &["points"]),
+    (&["table"], &["points"]),
     (&["freq", "f"], &["frequency"]),
     (&["k", "K", "spring", "rate", "penalty", "contact_stiffness"], &["stiffness"]),
     (&["c", "C", "damper", "viscous"], &["damping"]),
@@ -67,17 +67,16 @@ const KEYS: &[Row] = &[
     (&["body2", "body_2", "body_b", "body_j", "bodyB", "child", "node2", "node_j", "end"], &["to"]),
     (&["mu", "coulomb", "friction_coefficient"], &["friction"]),
     (&["cor", "e", "bounce"], &["restitution"]),
-    (&["slave", "secondary", "points"], &["with"]),
+    (&["slave", "slaves", "secondary", "points"], &["with", "nodes"]),
     (&["master", "primary", "target"], &["surface"]),
     (&["master", "rigid_body", "reference"], &["body"]),
     (&["n", "divisions", "mesh", "num_elements", "n_elements", "nel"], &["elements"]),
     (&["mat", "material_name"], &["material"]),
     (&["profile", "cross_section", "sec"], &["section"]),
-    (&["up", "n1", "y_axis", "local_y", "vecxz"], &["orientation"]),
+    (&["up", "n1", "y_axis", "local_y"], &["orientation"]),
     (&["degree", "p"], &["order"]),
     (&["frequency", "stride", "freq"], &["every"]),
     (&["g", "acceleration"], &["gravity"]),
-    (&["rayleigh"], &["mass_factor"]),
     (&["alphaM", "a0", "alpha_m"], &["mass_factor"]),
     (&["betaK", "a1", "beta_k", "beta_R"], &["stiffness_factor"]),
     (&["nodes", "node", "coordinates", "vertices"], &["points"]),
@@ -88,7 +87,7 @@ const KEYS: &[Row] = &[
     (&["boundary", "boundaries", "bc", "bcs", "constraints", "spc", "fixes", "boundary_conditions"], &["supports"]),
     (&["springs", "spring", "dampers", "bushings", "connectors", "gaps"], &["links"]),
     (&["forces", "force", "cload", "pressures"], &["loads"]),
-    (&["curves", "functions", "time_series", "drives", "amplitude"], &["amplitudes"]),
+    (&["curves", "functions", "time_series", "timeseries", "drives", "amplitude"], &["amplitudes"]),
     (&["groups", "nset", "elset"], &["sets"]),
     (&["mpc", "rbe2", "equaldof", "couplings", "tie", "ties"], &["attachments"]),
     (&["contact_pairs", "collisions", "interactions"], &["contacts"]),
@@ -108,6 +107,111 @@ const ELSEWHERE: &[(&[&str], &str)] = &[
     (&["elements"], "elements are [[beams]], [[bars]] and [[shells]]"),
     (&["modes", "frequencies", "eigenvalues"], "there is no modal analysis"),
     (&["temperature", "thermal"], "there are no temperatures"),
+];
+
+/// Guesses that one word of ours does not answer, in the table that has the key in the middle: the sentence, and the key that
+/// is then not missing.
+const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
+    (
+        &["vecxz", "local_z", "z_axis"],
+        "shear_yields",
+        "that is `orientation` here, which lies in the local x-y plane, not in x-z",
+        Some("orientation"),
+    ),
+    (
+        &["file", "csv", "path", "record"],
+        "angular_frequency",
+        "no file is read: paste the record as `points` = [[time, value], ...]",
+        Some("points"),
+    ),
+    (
+        &["times", "time", "t", "values", "data", "y"],
+        "angular_frequency",
+        "that is `points` here, in pairs: [[time, value], ...]",
+        Some("points"),
+    ),
+    (&["rayleigh"], "nodal", "those are `alpha` and `beta` here: C = alpha M + beta K", None),
+    (
+        &["ratio", "damping_ratio", "xi", "zeta", "critical", "modal"],
+        "nodal",
+        "a ratio xi at the angular frequency w is `alpha` = 2 xi w, or `beta` = 2 xi / w",
+        None,
+    ),
+    (
+        &["motion", "drive", "motor", "velocity", "angular_velocity", "effort", "torque", "moment", "force", "actuator"],
+        "cross_axis",
+        "joints have no drives: a motor is a support with `motion` on a body, against the ground",
+        None,
+    ),
+    (
+        &["friction", "mu", "stiffness", "damping", "spring", "limits", "stops", "k", "c"],
+        "cross_axis",
+        "joints are ideal; springs and dampers between the same ends are a link, with `bushing` for six components",
+        None,
+    ),
+    (&["bodies", "between", "nodes", "ends"], "cross_axis", "give its two ends: `from` and `to`", None),
+    (&["name", "at", "id"], "ground", "an end is { node = ... }, { body = ... } or { ground = [x, y, z] }", None),
+    (&["fx", "fy", "fz", "Fx", "Fy", "Fz", "px", "py", "pz"], "follower", "that is `force` = [x, y, z] here", Some("force")),
+    (&["mx", "my", "mz", "Mx", "My", "Mz"], "follower", "that is `moment` = [x, y, z] here", Some("moment")),
+    (
+        &["q", "w", "udl", "beam", "beams", "line_load", "distributed", "load_per_length"],
+        "follower",
+        "beams take no loads per length: give forces at points along them; gravity acts by itself",
+        None,
+    ),
+    (&["stages", "stage", "phases"], "integrator", "a deck is one analysis: there are no stages", None),
+    (
+        &["rigid_links", "rigid_link", "diaphragm", "diaphragms", "rigid_diaphragm", "rigid_elements"],
+        "integrator",
+        "that is a body in [[bodies]], with the nodes that move with it in [[attachments]]",
+        None,
+    ),
+    (
+        &["ground_motion", "earthquake", "base_acceleration", "base_excitation", "uniform_excitation", "ground_acceleration"],
+        "integrator",
+        "that is [[environment.base_acceleration]] here",
+        None,
+    ),
+    (
+        &["displacement", "displacements", "velocity", "velocities", "acceleration", "accelerations", "disp", "u"],
+        "layers",
+        "nodes.csv has them, for the nodes that `nodes` chooses",
+        None,
+    ),
+    (&["stress", "stresses", "strain", "forces", "section_forces", "S"], "layers", "that is `sections` here", None),
+    (&["joints", "joint_forces", "rf", "RF"], "layers", "that is `reactions` here", None),
+    (&["bodies"], "layers", "bodies.csv is written by itself", None),
+    (&["vtk", "vtu", "paraview"], "layers", "that is `fields` = { format = \"vtu\" } here", None),
+    (&["half", "half_size", "half_lengths", "dimensions", "lengths", "extent"], "ends", "that is `size` here, full lengths", Some("size")),
+    (
+        &["displacement", "displacements", "position", "positions", "rotation"],
+        "profile",
+        "parts begin where their points lie: only velocities are given",
+        None,
+    ),
+    (&["value", "constant"], "history", "that is `scale` here, with an `amplitude` of kind \"constant\" or \"ramp\"", None),
+    (
+        &["rotation", "euler", "angles", "quaternion", "orientation", "frame"],
+        "inertia",
+        "a body's axes at t = 0 are the global ones: give its inertia about them",
+        None,
+    ),
+];
+
+/// Examples of values behind a key, for whoever has written another type.
+const EXAMPLES: &[(&[&str], &str)] = &[
+    (&["from", "to"], "such as { body = \"block\" }, { node = \"tip\" } or { ground = [0.0, 0.0, 0.0] }"),
+    (&["surface"], "such as { shape = \"plane\", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }"),
+    (&["fields"], "such as { format = \"vtu\" }"),
+    (&["stop", "when"], "such as { at = \"knee\", quantity = \"ux\", value = 0.2 }"),
+    (&["viscosity"], "such as { law = \"power\", rate = 40.4, exponent = 5.0 }"),
+    (&["motion"], "such as { ux = { amplitude = \"quake\" } }"),
+    (&["ux", "uy", "uz", "rx", "ry", "rz"], "such as { amplitude = \"quake\", scale = 0.1 }"),
+    (&["shape"], "such as { kind = \"box\", size = [1.0, 1.0, 1.0] }"),
+    (&["base_acceleration"], "begin it with [[environment.base_acceleration]]"),
+    (&["point"], "coordinates; an end of a link or joint on a named point is { node = ... }"),
+    (&["inertia"], "three moments: xx, yy, zz; or six: xx, yy, zz, xy, yz, zx"),
+    (&["fix", "dofs"], "\"all\", or directions such as [\"ux\", \"ry\"]"),
 ];
 
 const VALUES: &[Row] = &[
@@ -135,7 +239,11 @@ const VALUES: &[Row] = &[
     (&["tabular", "series", "piecewise-linear", "points"], &["table"]),
     (&["sin", "harmonic", "cos", "cosine", "periodic"], &["sine"]),
     (&["heaviside", "rectangular", "pulse"], &["step"]),
+    (&["spring", "elastic"], &["linear"]),
     (&["nonlinear", "multilinear"], &["table"]),
+    (&["maximum", "largest"], &["max"]),
+    (&["minimum", "smallest"], &["min"]),
+    (&["absolute", "absmax"], &["abs"]),
     (&["gap", "compression", "no-tension"], &["compression-only"]),
     (&["cable", "tension", "no-compression", "hook"], &["tension-only"]),
     (&["diagonal"], &["lumped"]),
@@ -183,6 +291,17 @@ fn ours(rows: &[Row], guess: &str, known: &[&str]) -> Option<&'static str> {
 /// The key of a table that a guessed one is meant to be.
 pub fn key(guess: &str, known: &[&str]) -> Option<&'static str> {
     ours(KEYS, guess, known)
+}
+
+/// What to say of a guessed key that one word does not answer, and the key that is then not missing.
+pub fn note(guess: &str, known: &[&str]) -> Option<(&'static str, Option<&'static str>)> {
+    let meant = |(guesses, mark, ..): &&(&[&str], &str, _, _)| guesses.contains(&guess) && known.contains(mark);
+    NOTES.iter().find(meant).map(|(_, _, sentence, key)| (*sentence, *key))
+}
+
+/// What may stand behind a key.
+pub fn example(key: &str) -> Option<&'static str> {
+    EXAMPLES.iter().find(|(keys, _)| keys.contains(&key)).map(|(_, example)| *example)
 }
 
 /// Where to say what a guessed key says, if not in this table.
@@ -237,6 +356,12 @@ mod tests {
         for (_, ours) in KEYS {
             ours.iter().for_each(|word| assert!(keys.contains(*word), "there is no key `{word}`"));
         }
+        for (_, mark, _, meant) in NOTES {
+            [Some(*mark), *meant].into_iter().flatten().for_each(|word| assert!(keys.contains(word), "no key `{word}`"));
+        }
+        for (named, _) in EXAMPLES {
+            named.iter().for_each(|word| assert!(keys.contains(*word), "there is no key `{word}`"));
+        }
         for (_, ours) in VALUES {
             ours.iter().for_each(|word| assert!(words.contains(*word), "there is no word `{word}`"));
         }
@@ -252,5 +377,7 @@ mod tests {
         assert!(value("cowper-symonds", &["power", "linear"]).unwrap().contains("exponent = q"));
         assert!(value("hex", &["quadrilateral"]).unwrap().contains("no solid elements"));
         assert!(elsewhere("extends").unwrap().contains("--set"));
+        assert_eq!(note("vecxz", &["orientation", "shear_yields"]).unwrap().1, Some("orientation"));
+        assert!(note("vecxz", &["axis"]).is_none());
     }
 }

@@ -126,6 +126,10 @@ impl Reader {
         // The key it was meant to be is then not missing.
         let mut spoil =
             |meant: &str| self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: meant.to_owned() });
+        if let Some((sentence, meant)) = hints::note(key, known) {
+            meant.into_iter().for_each(spoil);
+            return diagnostic.hint(sentence);
+        }
         if let Some(ours) = hints::key(key, known) {
             spoil(ours);
             return diagnostic.hint(format!("that is `{ours}` here"));
@@ -168,15 +172,26 @@ impl Reader {
                 return Diagnostic::error(format!("`{key}` is a list of tables"))
                     .hint(format!("each begins with [[{key}]]"));
             }
-            return Diagnostic::error(format!("{subject} must be {}, not {}", wanted(expected), found_words(found)));
+            let message = format!("{subject} must be {}, not {}", wanted(expected), found_words(found));
+            return with_example(Diagnostic::error(message), key, expected, found);
         }
         if let Some(length) = problem.strip_prefix("invalid length ") {
             return Diagnostic::error(format!("{subject} must be {}; there are {length}", wanted(expected)));
         }
         if problem.starts_with("wanted ") {
-            return Diagnostic::error(format!("{subject} must be a word in quotes"));
+            return with_example(Diagnostic::error(format!("{subject} must be a word in quotes")), key, "", "");
         }
         Diagnostic::error(format!("{subject}: {message}"))
+    }
+}
+
+/// An example of what may stand behind the key; of a number with its unit, that it has none.
+fn with_example(problem: Diagnostic, key: &str, expected: &str, found: &str) -> Diagnostic {
+    let with_unit = expected == "f64" && found.starts_with("string \"") && found[8..].starts_with(|c: char| c.is_ascii_digit());
+    match hints::example(key) {
+        _ if with_unit => problem.hint("numbers stand without quotes and units"),
+        Some(example) => problem.hint(example),
+        None => problem,
     }
 }
 

@@ -1,9 +1,9 @@
 //! `--set KEY=VALUE`: one entry of the deck, overridden before it is read.
 //!
 //! An argument is itself a line of TOML. It is parsed behind as many blanks as its offset in the [`Source`], so that its
-//! spans are already those of the source. One freedom is added for the sake of shells, which eat quotes: a value that
+//! spans are already those of the source. Two freedoms are added. For the sake of shells, which eat quotes, a value that
 //! is a bare word or the name of a file, and neither a number nor `true` or `false`, is text
-//! (`--set integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`).
+//! (`--set integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`). And `loads[0].force` is `loads.0.force`.
 //!
 //! [`Source`]: crate::diagnostic::Source
 
@@ -18,13 +18,30 @@ const SINGLE: [&str; 8] = ["mesh", "analysis", "integrator", "iteration", "envir
 /// Tables whose entries are named by the user.
 const NAMED: [&str; 5] = ["materials", "sections", "points", "sets", "amplitudes"];
 
-/// The argument behind `offset` blanks, a bare word in quotes.
+/// The argument behind `offset` blanks, a bare word in quotes, an index in brackets behind a dot; no byte changes its place.
 pub fn padded(offset: usize, argument: &str) -> String {
     let blank = " ".repeat(offset);
-    match equals(argument).map(|at| argument.split_at(at + 1)) {
-        Some((key, value)) if is_bare_word(value) => format!("{blank}{key}\"{value}\""),
-        _ => format!("{blank}{argument}"),
-    }
+    let Some((key, value)) = equals(argument).map(|at| argument.split_at(at + 1)) else {
+        return format!("{blank}{argument}");
+    };
+    let key = dotted(key);
+    if is_bare_word(value) { format!("{blank}{key}\"{value}\"") } else { format!("{blank}{key}{value}") }
+}
+
+/// `a[0].b` as `a.0 .b`, brackets in quotes as they are.
+fn dotted(key: &str) -> String {
+    let mut quote = None;
+    let mut plain = |c: char| {
+        match (quote, c) {
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), _) if open == c => quote = None,
+            (None, '[') => return '.',
+            (None, ']') => return ' ',
+            _ => {}
+        }
+        c
+    };
+    key.chars().map(&mut plain).collect()
 }
 
 fn is_bare_word(value: &str) -> bool {
@@ -57,8 +74,14 @@ pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argumen
         .map(|at| offset + at)?;
     let mut table = DeTable::parse(padded)
         .map_err(|error| {
-            let diagnostic = Diagnostic::error(format!("this is not KEY=VALUE with a TOML value: {}", error.message()));
-            diagnostic.at(&error.span().unwrap_or(all.clone())).hint("text with blanks or signs needs quotes")
+            let place = error.span().unwrap_or(all.clone());
+            let hint = match argument[equals + 1 - offset..].trim_start() {
+                _ if place.start < equals => "the key is a dotted path, such as beams.portal.elements or loads.0.force",
+                value if value.contains(',') => "several numbers need brackets, such as [1.0, 0.0, 0.0]",
+                value if value.starts_with(|c: char| c.is_ascii_digit()) => "a number, without arithmetic and units",
+                _ => "text with blanks or signs needs quotes",
+            };
+            Diagnostic::error(format!("this is not KEY=VALUE with a TOML value: {}", error.message())).at(&place).hint(hint)
         })?
         .into_inner();
     if let Some(problem) = super::aliases::unify(&mut table).pop() {

@@ -45,13 +45,12 @@ pub(super) fn contacts<'d>(
         let mut law = None;
         if !is_zone {
             let chooser = LawReader { scene, masses, at_nodes: &at_nodes, gravity, topology: &*topology };
-            law = chooser.contact_law(&owner, contact, node, &points, report);
-            if law.is_none() {
-                continue;
-            }
+            let Some(found) = chooser.contact_law(&owner, contact, node, &points, report) else { continue };
+            let at_rest = chooser.depth_at_rest(node, &points, found.stiffness);
             topology.connect(node, true);
             points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
-            check_start(&owner, node, &surface, &points, topology, report);
+            check_start(&owner, node, &surface, &points, at_rest, topology, report);
+            law = Some(found);
         }
         let chosen = law.is_some() && contact.stiffness.is_none();
         contacts.push(Contact { name, node, surface, points, law, chosen });
@@ -93,12 +92,12 @@ fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Opti
             ("damping", span(&contact.damping)),
             ("friction", span(&contact.friction)),
         ];
-        report.reject_unused("a zone, a contact of stiffness 0 where nothing acts", &keys);
+        report.reject_unused("a clearance monitor, a contact of stiffness 0 where nothing acts", &keys);
     }
     if let Some(at) = &contact.restitution {
         if !(restitution::LEAST..=1.0).contains(&at.value) {
             let message = format!("`restitution` lies between {} and 1", restitution::LEAST);
-            report.error_with::<()>(&at.span, message, "a landing without a rebound takes `damping`");
+            report.error_with::<()>(&at.span, message, "for restitution 0 give `damping`");
         }
         if let Some(damping) = &contact.damping {
             report.error::<()>(&damping.span, format!("{} takes `restitution` or `damping`, not both", owner.what));
@@ -172,6 +171,11 @@ impl LawReader<'_, '_> {
         })
     }
 
+    /// How deep its weight presses what touches into the surface, if it rests on one point.
+    fn depth_at_rest(&self, carrier: usize, points: &[ContactPoint], stiffness: f64) -> f64 {
+        self.gravity.norm() * self.meeting(carrier, points).mean / stiffness
+    }
+
     /// The stiffness with which an impact lasts some steps, or why none can be chosen.
     fn chosen_stiffness(&self, meeting: &Meeting) -> Result<f64, &'static str> {
         if self.scene.analysis.kind != AnalysisKind::Dynamic {
@@ -233,12 +237,13 @@ impl LawReader<'_, '_> {
     }
 }
 
-/// Warns of what begins inside a surface, which is pushed out by a blow.
+/// Warns of what begins deeper inside a surface than its weight on one point holds it, `at_rest`: it is pushed out by a blow.
 fn check_start(
     owner: &Owner,
     node: usize,
     surface: &Surface,
     points: &[ContactPoint],
+    at_rest: f64,
     topology: &Topology,
     report: &mut Report,
 ) {
@@ -250,8 +255,12 @@ fn check_start(
     let least = points.iter().map(gap).fold(f64::INFINITY, f64::min);
     let size = points.iter().map(|point| topology.x(point.nodes[0]).norm()).fold(center.norm(), f64::max);
     // Decks have some digits only.
-    if least < -1e-6 * size {
+    if least < -1e-6 * size && -least > 1.001 * at_rest {
         let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));
-        report.warn(owner.span, message, "it is pushed out at t = 0");
+        let hint = match at_rest {
+            depth if depth > 0.0 => format!("it is pushed out at t = 0; at rest its weight holds it {} inside", short(depth)),
+            _ => "it is pushed out at t = 0".to_owned(),
+        };
+        report.warn(owner.span, message, hint);
     }
 }

@@ -95,7 +95,15 @@ impl<'d> Spread<'_, 'd> {
                 _ => {
                     let what = if self.line.is_some() { "edges of shells" } else { "shells" };
                     let message = format!("this load acts on {what}, and `{}` is {}", name.value, place.kind());
-                    report.error::<()>(&name.span, message);
+                    match place {
+                        Place::Beam(_) | Place::Bar(_) => {
+                            let hint = "beams and bars take forces at points along them; gravity acts by itself";
+                            report.error_with::<()>(&name.span, message, hint);
+                        }
+                        _ => {
+                            report.error::<()>(&name.span, message);
+                        }
+                    }
                 }
             },
         }

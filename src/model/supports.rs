@@ -52,7 +52,7 @@ impl<'d> Supports<'_, 'd> {
         }
         for (dof, _, place) in motions.extract_if(.., |(dof, ..)| fixed[*dof]) {
             let message = format!("{} is both fixed and prescribed by this support", DIRECTIONS[dof]);
-            self.report.error::<()>(place, message);
+            self.report.error_with::<()>(place, message, "list the other directions in `fix`, such as [\"uy\", \"uz\"]");
         }
         for spot in &spots {
             if !self.topology.is_loose(spot, "this support", self.report) {
@@ -86,7 +86,7 @@ impl<'d> Supports<'_, 'd> {
     /// The motions of a support.
     fn motions(&mut self, motions: &'d At<Table<words::Motions>>) -> Vec<Given<'d>> {
         let given = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
-        if given.iter().all(|motion| motion.is_none()) {
+        if given.iter().all(|motion| motion.is_none()) && !self.report.is_any_spoiled(&motions.span) {
             let hint = "such as { ux = { amplitude = \"quake\" } }";
             self.report.error_with::<()>(&motions.span, "`motion` is empty", hint);
         }

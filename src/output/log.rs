@@ -34,15 +34,15 @@ impl Log {
 }
 
 impl Observer for Log {
-    /// Notes the steps that had to be cut, and what a path goes through.
+    /// Notes the steps that took cutbacks, and what a path goes through.
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.see_path(frame)?;
         if frame.cuts == 0 {
             return Ok(());
         }
-        let times = if frame.cuts == 1 { "once".into() } else { format!("{} times", frame.cuts) };
-        let (step, time, dt) = (frame.step, frame.state.time, frame.dt);
-        self.say(&format!("step {step} to t = {time}: cut {times}, accepted with dt = {dt}"))
+        let cutbacks = if frame.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.cuts) };
+        let (step, time, dt) = (frame.step, digits(frame.state.time), digits(frame.dt));
+        self.say(&format!("step {step} to t = {time}: {cutbacks}, accepted with dt = {dt}"))
     }
 }
 
@@ -58,9 +58,14 @@ impl Log {
             (false, false) => format!("a limit point or a bifurcation: negative pivots {before}, now {now}"),
             (false, true) => return Ok(()),
         };
-        let (step, time) = (frame.step, frame.state.time);
+        let (step, time) = (frame.step, digits(frame.state.time));
         self.say(&format!("step {step} to t = {time}: {what}"))
     }
+}
+
+/// A time to nine digits, without those that rounding leaves behind.
+fn digits(time: f64) -> f64 {
+    format!("{time:.8e}").parse().unwrap_or(time)
 }
 
 #[cfg(test)]

@@ -308,13 +308,16 @@ impl<T: JsonSchema> JsonSchema for Named<T> {
     }
 }
 
-/// "all", "translations", "rotations", or a list of directions.
+/// "all", "translations", "rotations", one direction, or a list of directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Directions(pub [bool; 6]);
 
 impl Directions {
     pub const ALL: Directions = Directions([true; 6]);
 }
+
+/// The words for several directions, and those for one.
+const WORDS: [&str; 9] = ["all", "translations", "rotations", "ux", "uy", "uz", "rx", "ry", "rz"];
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -342,7 +345,11 @@ impl<'de> Deserialize<'de> for Directions {
                     "all" => Ok(Directions::ALL),
                     "translations" => Ok(Directions([true, true, true, false, false, false])),
                     "rotations" => Ok(Directions([false, false, false, true, true, true])),
-                    _ => Err(E::unknown_variant(word, &["all", "translations", "rotations", "[\"ux\", \"ry\"]"])),
+                    _ => {
+                        let one = WORDS[3..].iter().position(|direction| *direction == word);
+                        let one = one.ok_or_else(|| E::unknown_variant(word, &WORDS))?;
+                        Ok(Directions(std::array::from_fn(|direction| direction == one)))
+                    }
                 }
             }
 
@@ -367,6 +374,7 @@ impl JsonSchema for Directions {
         let direction = generator.subschema_for::<Direction>();
         json_schema!({ "anyOf": [
             { "enum": ["all", "translations", "rotations"] },
+            direction,
             { "type": "array", "items": direction },
         ] })
     }

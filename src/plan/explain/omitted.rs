@@ -16,6 +16,10 @@ pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
         }
     }
     lines.extend(terms(plan, model, system).into_iter().map(str::to_owned));
+    if model.output.nodes.is_empty() {
+        let why = "no node is named; `[output] nodes` takes \"all\", sets and groups of the mesh";
+        lines.push(format!("nodes.csv: {why}"));
+    }
     lines
 }
 
@@ -37,7 +41,11 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
         (DofStatus::Plane, 0..6, &plane),
     ];
     let counted = reasons.into_iter().map(|(why, dofs, what)| (plan.count(why, dofs), what));
-    counted.filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()
+    let line = |(count, what): (usize, &str)| match count {
+        1 => format!("1 {}", what.replacen("degrees of freedom", "degree of freedom", 1)),
+        _ => format!("{count} {what}"),
+    };
+    counted.filter(|(count, _)| *count > 0).map(line).collect()
 }
 
 /// Terms of the equation of motion that this scene does without.
