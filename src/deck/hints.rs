@@ -138,7 +138,18 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
         None,
     ),
     (
-        &["motion", "drive", "motor", "velocity", "angular_velocity", "effort", "torque", "moment", "force", "actuator"],
+        &[
+            "motion",
+            "drive",
+            "motor",
+            "velocity",
+            "angular_velocity",
+            "effort",
+            "torque",
+            "moment",
+            "force",
+            "actuator",
+        ],
         "cross_axis",
         "joints have no drives: a motor is a support with `motion` on a body, against the ground",
         None,
@@ -151,7 +162,12 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
     ),
     (&["bodies", "between", "nodes", "ends"], "cross_axis", "give its two ends: `from` and `to`", None),
     (&["name", "at", "id"], "ground", "an end is { node = ... }, { body = ... } or { ground = [x, y, z] }", None),
-    (&["fx", "fy", "fz", "Fx", "Fy", "Fz", "px", "py", "pz"], "follower", "that is `force` = [x, y, z] here", Some("force")),
+    (
+        &["fx", "fy", "fz", "Fx", "Fy", "Fz", "px", "py", "pz"],
+        "follower",
+        "that is `force` = [x, y, z] here",
+        Some("force"),
+    ),
     (&["mx", "my", "mz", "Mx", "My", "Mz"], "follower", "that is `moment` = [x, y, z] here", Some("moment")),
     (
         &["q", "w", "udl", "beam", "beams", "line_load", "distributed", "load_per_length"],
@@ -167,7 +183,14 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
         None,
     ),
     (
-        &["ground_motion", "earthquake", "base_acceleration", "base_excitation", "uniform_excitation", "ground_acceleration"],
+        &[
+            "ground_motion",
+            "earthquake",
+            "base_acceleration",
+            "base_excitation",
+            "uniform_excitation",
+            "ground_acceleration",
+        ],
         "integrator",
         "that is [[environment.base_acceleration]] here",
         None,
@@ -182,14 +205,24 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
     (&["joints", "joint_forces", "rf", "RF"], "layers", "that is `reactions` here", None),
     (&["bodies"], "layers", "bodies.csv is written by itself", None),
     (&["vtk", "vtu", "paraview"], "layers", "that is `fields` = { format = \"vtu\" } here", None),
-    (&["half", "half_size", "half_lengths", "dimensions", "lengths", "extent"], "ends", "that is `size` here, full lengths", Some("size")),
+    (
+        &["half", "half_size", "half_lengths", "dimensions", "lengths", "extent"],
+        "ends",
+        "that is `size` here, full lengths",
+        Some("size"),
+    ),
     (
         &["displacement", "displacements", "position", "positions", "rotation"],
         "profile",
         "parts begin where their points lie: only velocities are given",
         None,
     ),
-    (&["value", "constant"], "history", "that is `scale` here, with an `amplitude` of kind \"constant\" or \"ramp\"", None),
+    (
+        &["value", "constant"],
+        "history",
+        "that is `scale` here, with an `amplitude` of kind \"constant\" or \"ramp\"",
+        None,
+    ),
     (
         &["rotation", "euler", "angles", "quaternion", "orientation", "frame"],
         "inertia",
@@ -357,7 +390,10 @@ mod tests {
             ours.iter().for_each(|word| assert!(keys.contains(*word), "there is no key `{word}`"));
         }
         for (_, mark, _, meant) in NOTES {
-            [Some(*mark), *meant].into_iter().flatten().for_each(|word| assert!(keys.contains(word), "no key `{word}`"));
+            [Some(*mark), *meant]
+                .into_iter()
+                .flatten()
+                .for_each(|word| assert!(keys.contains(word), "no key `{word}`"));
         }
         for (named, _) in EXAMPLES {
             named.iter().for_each(|word| assert!(keys.contains(*word), "there is no key `{word}`"));

@@ -187,7 +187,8 @@ impl Reader {
 
 /// An example of what may stand behind the key; of a number with its unit, that it has none.
 fn with_example(problem: Diagnostic, key: &str, expected: &str, found: &str) -> Diagnostic {
-    let with_unit = expected == "f64" && found.starts_with("string \"") && found[8..].starts_with(|c: char| c.is_ascii_digit());
+    let with_unit =
+        expected == "f64" && found.starts_with("string \"") && found[8..].starts_with(|c: char| c.is_ascii_digit());
     match hints::example(key) {
         _ if with_unit => problem.hint("numbers stand without quotes and units"),
         Some(example) => problem.hint(example),

@@ -81,7 +81,9 @@ pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argumen
                 value if value.starts_with(|c: char| c.is_ascii_digit()) => "a number, without arithmetic and units",
                 _ => "text with blanks or signs needs quotes",
             };
-            Diagnostic::error(format!("this is not KEY=VALUE with a TOML value: {}", error.message())).at(&place).hint(hint)
+            Diagnostic::error(format!("this is not KEY=VALUE with a TOML value: {}", error.message()))
+                .at(&place)
+                .hint(hint)
         })?
         .into_inner();
     if let Some(problem) = super::aliases::unify(&mut table).pop() {

@@ -17,7 +17,10 @@ impl Hardening {
             return Err("the hardening table is empty".into());
         };
         if first[0] != 0.0 {
-            return Err(format!("the first plastic strain is {}, but must be 0: pairs are [plastic strain, yield stress]", first[0]));
+            return Err(format!(
+                "the first plastic strain is {}, but must be 0: pairs are [plastic strain, yield stress]",
+                first[0]
+            ));
         }
         for [plastic_strain, stress] in &points {
             if !(plastic_strain.is_finite() && stress.is_finite() && *stress > 0.0) {

@@ -258,7 +258,9 @@ fn check_start(
     if least < -1e-6 * size && -least > 1.001 * at_rest {
         let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));
         let hint = match at_rest {
-            depth if depth > 0.0 => format!("it is pushed out at t = 0; at rest its weight holds it {} inside", short(depth)),
+            depth if depth > 0.0 => {
+                format!("it is pushed out at t = 0; at rest its weight holds it {} inside", short(depth))
+            }
             _ => "it is pushed out at t = 0".to_owned(),
         };
         report.warn(owner.span, message, hint);

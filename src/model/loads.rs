@@ -45,7 +45,11 @@ fn nodal_load<'d>(
     let keys = ["force", "moment", "force_per_length", "force_per_area", "pressure"];
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
     if load.force.is_none() && load.moment.is_none() && !unread {
-        report.error_with::<()>(owner.span, "this load is empty", "give it `force` or `moment`; of shells also `pressure`, `force_per_area` or `force_per_length`");
+        report.error_with::<()>(
+            owner.span,
+            "this load is empty",
+            "give it `force` or `moment`; of shells also `pressure`, `force_per_area` or `force_per_length`",
+        );
     }
     let follower = flag(&load.follower, false);
     let mut loads = Vec::new();

@@ -52,7 +52,11 @@ impl<'d> Supports<'_, 'd> {
         }
         for (dof, _, place) in motions.extract_if(.., |(dof, ..)| fixed[*dof]) {
             let message = format!("{} is both fixed and prescribed by this support", DIRECTIONS[dof]);
-            self.report.error_with::<()>(place, message, "list the other directions in `fix`, such as [\"uy\", \"uz\"]");
+            self.report.error_with::<()>(
+                place,
+                message,
+                "list the other directions in `fix`, such as [\"uy\", \"uz\"]",
+            );
         }
         for spot in &spots {
             if !self.topology.is_loose(spot, "this support", self.report) {
