@@ -1,39 +1,42 @@
-//! Two nodes held to one another by multipliers (57): what elimination cannot do, because a node already rides elsewhere,
-//! is held, or closes a loop.
+//! Two nodes joined by Lagrange multipliers (57). This does what elimination cannot do where a node already depends on
+//! another one, is restrained, or closes a loop.
 //!
-//! A joint is a list of rows, each one equation c(x, R) = 0 between the positions of its nodes. With a multiplier λ it pulls by
-//! Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it holds. Its derivative is K = λ ∂²c, spatial spins like everywhere.
+//! A joint is a list of constraint equations c(x, R) = 0 between the positions and rotations of its nodes. With a
+//! multiplier λ it exerts the forces Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it is closed. Its stiffness is K
+//! = λ ∂²c, for spatial spins as everywhere.
 
 use crate::math::{Mat3, Vec3, Vec6, skew, stack};
 use crate::state::Node;
 
-/// Directions of a multiplier's node: a joint has at most so many rows.
+/// Largest number of constraint equations of a joint: a node of multipliers has six rows.
 pub const MOST_EQUATIONS: usize = 6;
 
-/// A joint of two nodes, the first as seen from the second.
+/// A joint of two nodes; its equations describe the first as seen from the second.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
+    /// The two nodes.
     pub nodes: [usize; 2],
+    /// The constraint equations, at most six.
     pub equations: Vec<ConstraintEquation>,
-    /// The second node only moves as it is held.
+    /// True where the second node is restrained and stands for a support.
     pub supports: bool,
 }
 
-/// One equation. Vectors are unit vectors at t = 0, carried by the node they belong to.
+/// One constraint equation. Vectors are unit vectors at t = 0, fixed to the node that they belong to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ConstraintEquation {
-    /// Along a global axis the nodes stay as they were: (x_a − x_b)·e = `at`.
+    /// The relative position along a global axis is constant: (x_a − x_b)·e = `at`.
     GlobalAxis { axis: usize, at: f64 },
-    /// Along a direction of the second node they do: (x_a − x_b)·R_b e = `at`.
+    /// The relative position along an axis of the second node is constant: (x_a − x_b)·R_b e = `at`.
     BodyAxis { e: Vec3, at: f64 },
-    /// A direction of the first node stays square to one of the second: R_a p · R_b s = 0.
+    /// An axis of the first node stays perpendicular to one of the second: R_a p · R_b s = 0.
     Perpendicular { p: Vec3, s: Vec3 },
-    /// The distance of the nodes stays: |x_a − x_b| = `length` > 0.
+    /// The distance of the nodes is constant: |x_a − x_b| = `length` > 0.
     Distance { length: f64 },
 }
 
 impl ConstraintEquation {
-    /// c, ċ and c̈.
+    /// The violation c with its derivatives ċ and c̈.
     pub fn gap(&self, a: &Node, b: &Node) -> [f64; 3] {
         let (d, v, w) = (a.relative_position(b), a.v - b.v, a.a - b.a);
         match self {
@@ -55,7 +58,7 @@ impl ConstraintEquation {
         }
     }
 
-    /// ∂c/∂(x, θ) of the two nodes.
+    /// The gradient G = ∂c/∂(x, θ) of the two nodes.
     pub fn gradient(&self, a: &Node, b: &Node) -> [Vec6; 2] {
         let zero = Vec3::zeros();
         let d = a.relative_position(b);
@@ -79,7 +82,8 @@ impl ConstraintEquation {
         }
     }
 
-    /// Calls `add(row, column, k)` for the 3×3 blocks of ∂(Gᵀλ)/∂(x, θ); rows and columns count x_a, θ_a, x_b, θ_b.
+    /// Adds the stiffness: calls `add(row, column, k)` for the 3×3 blocks of ∂(Gᵀλ)/∂(x, θ), whose rows and columns are
+    /// numbered in the order x_a, θ_a, x_b, θ_b.
     pub fn stiffness(&self, a: &Node, b: &Node, lambda: f64, mut add: impl FnMut(usize, usize, Mat3)) {
         let d = a.relative_position(b);
         match self {
@@ -111,13 +115,13 @@ impl ConstraintEquation {
         }
     }
 
-    /// Its multiplier is a moment, its gap an angle; otherwise they are a force and a length.
+    /// True where the multiplier is a moment and the gap an angle; otherwise they are a force and a length.
     pub fn is_rotational(&self) -> bool {
         matches!(self, ConstraintEquation::Perpendicular { .. })
     }
 
-    /// Where all moves in the plane normal to a global axis: whether the row says anything there. `None`: it would push out of
-    /// that plane.
+    /// For motion in the plane normal to a global axis, whether the equation constrains anything; `None` where its
+    /// forces would act out of that plane. `d` is x_a − x_b.
     pub fn in_plane(&self, normal: usize, d: &Vec3) -> Option<bool> {
         const SMALL: f64 = 1e-12; // what rounding leaves of a zero
         let along = |v: &Vec3| v[normal].abs() > 1.0 - SMALL;
@@ -132,7 +136,7 @@ impl ConstraintEquation {
         }
     }
 
-    /// What it holds, in a word.
+    /// A word for what the equation constrains, as messages and tables give it.
     pub fn word(&self) -> &'static str {
         match self {
             ConstraintEquation::GlobalAxis { axis, .. } => ["ux", "uy", "uz"][*axis],
@@ -143,27 +147,28 @@ impl ConstraintEquation {
     }
 }
 
-/// A direction of a node with its first two derivatives in time.
+/// An axis fixed to a node with its first two derivatives in time, global components.
 fn body_vector(node: &Node, e: &Vec3) -> [Vec3; 3] {
     let e = node.R() * e;
     let de = node.omega.cross(&e);
     [e, de, node.alpha.cross(&e) + node.omega.cross(&de)]
 }
 
-/// Rows that keep the nodes together in global directions where they meet, as [`super::attachment`] does.
+/// Equations that keep the nodes together along global axes where they meet, as [`super::rigid_link`] does.
 pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = ConstraintEquation> {
     (0..3).filter(move |&axis| dofs[axis]).map(move |axis| ConstraintEquation::GlobalAxis { axis, at: d[axis] })
 }
 
-/// Rows that keep the nodes from turning against each other about some of the axes of the second: with one axis free a hinge,
-/// with two a universal joint whose cross is square at t = 0. The free axes turn with the nodes.
+/// Equations that keep the nodes from turning against each other about some of the axes of the second: with one axis
+/// free they make a revolute joint, with two a universal joint whose cross is perpendicular at t = 0. The free axes
+/// turn with the nodes.
 pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<ConstraintEquation> {
     let e = |i: usize| axes.column(i % 3).into_owned();
     let square = |i: usize, j: usize| ConstraintEquation::Perpendicular { p: e(i), s: e(j) };
     let held: Vec<usize> = (0..3).filter(|&i| dofs[i]).collect();
     match held.as_slice() {
         [k] => vec![square(k + 1, k + 2)],
-        // The free axis of the first stays square to the other two of the second.
+        // The free axis of the first node stays perpendicular to the other two of the second.
         [i, j] => vec![square(3 - i - j, *i), square(3 - i - j, *j)],
         [] => Vec::new(),
         _ => vec![square(0, 1), square(1, 2), square(2, 0)],

@@ -1,4 +1,4 @@
-//! Nodes that follow other nodes, by elimination or by multipliers.
+//! Kinematic constraints between nodes, by elimination (rigid links) or by Lagrange multipliers (joints).
 
 pub mod joint;
 pub mod joints;

@@ -1,51 +1,55 @@
-//! A node that rides on another, in all or some of its six directions, at the end of a rigid arm (45)-(58).
+//! A node rigidly attached to a master node, in all or some of its six degrees of freedom (45)-(58).
 //!
-//! The arm follows the finite rotation of its master exactly, S = R_d S₀, so a rigid link keeps its length. Elimination
-//! is x_b = x_d + S, v_b = v_d + ω×S, a_b = a_d + α×S + ω×(ω×S); forces go the other way by Dᵀ. Directions that are not
-//! constrained remain the node's own. Components are global.
+//! The arm follows the finite rotation of the master exactly, S = R_d S₀, so a rigid link keeps its length. Elimination
+//! is x_b = x_d + S, v_b = v_d + ω×S, a_b = a_d + α×S + ω×(ω×S); forces are transferred by Dᵀ. Degrees of freedom that
+//! are not constrained remain the node's own. Components are global.
 
 use crate::math::rotation::change;
 use crate::math::{Mat3, Mat6, Vec3, skew};
 use crate::state::{Increment, Node};
 
-/// A node on its master.
+/// A dependent node and its master.
 #[derive(Debug, Clone)]
 pub struct RigidLink {
+    /// The dependent node.
     pub node: usize,
+    /// The node that it depends on.
     pub master: usize,
-    /// The first of its masters, their masters and so on that is not attached in all directions: it has the same turn in a step.
+    /// The first in the chain of masters that is not itself dependent in all degrees of freedom: both have the same
+    /// rotation in a step.
     turner: usize,
-    /// From master to node in the undeformed state.
+    /// Vector from master to node in the undeformed state.
     pub S0: Vec3,
-    /// Where master and node lay then.
+    /// Positions of master and node in the undeformed state.
     start: [Vec3; 2],
-    /// Directions taken from the master.
+    /// True for each degree of freedom that follows the master.
     pub dofs: [bool; 6],
-    /// All six are.
+    /// True where all six do.
     pub rigid: bool,
 }
 
 impl RigidLink {
-    /// `x`: initial positions of all nodes.
+    /// Links `node` to `master` in the degrees of freedom `dofs`; `x` are the initial positions of all nodes.
     pub fn new(node: usize, master: usize, x: &[Vec3], dofs: [bool; 6]) -> Self {
         let start = [x[master], x[node]];
         let rigid = dofs == [true; 6];
         RigidLink { node, master, turner: master, S0: start[1] - start[0], start, dofs, rigid }
     }
 
-    /// S = R_d S₀.
+    /// The arm S = R_d S₀, global components.
     #[inline]
     pub fn arm(&self, master: &Node) -> Vec3 {
         self.S0 + change(&master.rotation, &self.S0)
     }
 
-    /// Sets the constrained part of the node's motion from its master. `start` is the node at the start of the step;
-    /// the free directions have been advanced with its increment already. Where all are constrained nobody asks for that.
+    /// Sets the dependent part of the node's motion from its master. `start` is the node at the start of the step; its
+    /// free degrees of freedom have been advanced with its increment already. Where all six depend on the master, the
+    /// increment is not written: nobody reads it.
     #[inline]
     pub fn follow(&self, nodes: &mut [Node], increments: &mut [Increment], start: &Node) {
         let master = &nodes[self.master];
         let Node { rotation: q, omega, alpha, .. } = *master;
-        // By displacements, whose digits the position does not have: u_b = u_d + (R_d − 1) S₀.
+        // The position follows from displacements, which have digits that positions do not: u_b = u_d + (R_d − 1) S₀.
         let turned = change(&q, &self.S0);
         let [u, low] = master.parts(&self.start[0]);
         let S = self.S0 + turned;
@@ -62,8 +66,8 @@ impl RigidLink {
         let mut placed = *master;
         placed.place(&self.start[1], &(low + turned), &u);
         let u = placed.relative_position(start);
-        // The rotation of a node with some directions of its own is put together from components of the step's rotation
-        // vector, then advanced like any other.
+        // A node with free rotations of its own has a rotation vector of the step with components from both, and is
+        // advanced like any other node.
         let turn = increments[self.turner];
         let own = &mut increments[self.node];
         for i in 0..3 {
@@ -80,14 +84,14 @@ impl RigidLink {
         }
         let own = *own;
         nodes[self.node].advance(start, &own, crate::math::rotation::RotationUpdate::Exponential);
-        // Positions once more, without the rounding of start + (x − start).
+        // Positions are written once more, without the rounding of start + (x − start).
         for i in (0..3).filter(|&i| self.dofs[i]) {
             nodes[self.node].x[i] = placed.x[i];
             nodes[self.node].low[i] = placed.low[i];
         }
     }
 
-    /// Hands the force on the constrained directions over to the master: F_d += Dᵀ F_b.
+    /// Transfers the force on the dependent degrees of freedom to the master: F_d += Dᵀ F_b.
     #[inline]
     pub fn transfer_to_masters(&self, nodes: &[Node], F: &mut [[f64; 6]]) {
         let mut f = F[self.node];
@@ -107,7 +111,8 @@ impl RigidLink {
         }
     }
 
-    /// The constrained rows of D (48): rates of the node from rates of the master.
+    /// The constraint matrix D (48), which gives rates of the node from rates of the master; rows of free degrees of
+    /// freedom are zero.
     pub fn D(&self, nodes: &[Node]) -> Mat6 {
         let mut D = Mat6::identity();
         D.fixed_view_mut::<3, 3>(0, 3).copy_from(&-skew(&self.arm(&nodes[self.master])));
@@ -117,14 +122,15 @@ impl RigidLink {
         D
     }
 
-    /// Derivative of the moment S×f of a force on the node with respect to the rotation of the master, at fixed f.
+    /// Derivative of the moment S×f of a force `f` on the node with respect to the rotation of the master, at fixed
+    /// `f`.
     pub fn arm_stiffness(&self, nodes: &[Node], f: &Vec3) -> Mat3 {
         let kept = Vec3::from_fn(|i, _| if self.dofs[i] { f[i] } else { 0.0 });
         skew(&kept) * skew(&self.arm(&nodes[self.master]))
     }
 }
 
-/// Rigid links in an order in which every master comes before its dependent nodes; `None` where there is a cycle.
+/// Sorts rigid links so that every master comes before its dependent nodes; `None` where there is a cycle.
 pub fn sorted(mut links: Vec<RigidLink>, nodes: usize) -> Option<Vec<RigidLink>> {
     let mut waiting = vec![false; nodes];
     for a in &links {

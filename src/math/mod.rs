@@ -1,11 +1,15 @@
-//! Vectors and matrices of fixed size, rotations, quadrature.
+//! Vectors and matrices of fixed size, rotations, quadrature rules.
 
 pub mod quadrature;
 pub mod rotation;
 
+/// Column vector of three numbers.
 pub type Vec3 = nalgebra::Vector3<f64>;
+/// Matrix of 3×3 numbers.
 pub type Mat3 = nalgebra::Matrix3<f64>;
+/// Column vector of six numbers: translation, then rotation.
 pub type Vec6 = nalgebra::Vector6<f64>;
+/// Matrix of 6×6 numbers over translations and rotations.
 pub type Mat6 = nalgebra::Matrix6<f64>;
 
 /// a b + c, rounded once where the target has such an instruction; a library call in its place would be slow.

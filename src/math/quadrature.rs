@@ -1,6 +1,6 @@
-//! Gauss and Lobatto points on [−1, 1].
+//! Gauss and Lobatto quadrature on [−1, 1].
 
-/// Points and weights of the n-point Gauss rule, n = 1..=10; exact to degree 2n − 1.
+/// Points and weights of the n-point Gauss rule for n = 1..=10, exact to degree 2n − 1.
 pub fn gauss(n: usize) -> (&'static [f64], &'static [f64]) {
     match n {
         1 => (&[0.0], &[2.0]),
@@ -134,7 +134,7 @@ pub fn gauss(n: usize) -> (&'static [f64], &'static [f64]) {
     }
 }
 
-/// Points and weights of the n-point Lobatto rule (ends included), n = 2..=5; exact to degree 2n − 3.
+/// Points and weights of the n-point Lobatto rule, which includes the ends, for n = 2..=5; exact to degree 2n − 3.
 pub fn lobatto(n: usize) -> (&'static [f64], &'static [f64]) {
     match n {
         2 => (&[-1.0, 1.0], &[1.0, 1.0]),

@@ -22,7 +22,7 @@ pub enum RotationUpdate {
 }
 
 impl RotationUpdate {
-    /// As the deck writes it.
+    /// The deck's word for it.
     pub fn word(self) -> &'static str {
         match self {
             RotationUpdate::Exponential => "exponential",
@@ -31,8 +31,9 @@ impl RotationUpdate {
         }
     }
 
-    /// The unit quaternion of the step and how far the unprojected matrix was from orthogonal (its stretch minus one).
-    /// The truncated maps leave the axis alone and turn by the angle of their 2×2 block, which projection keeps.
+    /// The unit quaternion of the step, and the stretch minus one by which the unprojected matrix departs from
+    /// orthogonality. The truncated maps leave the axis alone and turn by the angle of their 2×2 block, which
+    /// projection keeps.
     #[inline]
     pub fn quaternion(self, theta: &Vec3) -> (Quaternion<f64>, f64) {
         if self == RotationUpdate::Exponential {
@@ -45,10 +46,10 @@ impl RotationUpdate {
     }
 }
 
-/// Squared angle below which coefficients come from their series in θ². Every step of a resolved motion lies there.
+/// Below this squared angle the coefficients come from their series in θ². Every step of a resolved motion lies there.
 const SERIES: f64 = 0.25;
 
-/// Terms of the series: the first one left out is below 1e-16 of the sum.
+/// Number of terms of the series: the first omitted one is below 1e-16 of the sum.
 const TERMS: usize = 7;
 
 /// Coefficients of Σ (−x)^k/(2k + m)!.
@@ -105,14 +106,14 @@ fn half_angle(t2: f64) -> (f64, f64) {
     }
 }
 
-/// Unit quaternion of a rotation vector.
+/// The unit quaternion of a rotation vector.
 #[inline]
 pub fn exp(theta: &Vec3) -> Quaternion<f64> {
     let (s, c) = half_angle(theta.norm_squared());
     Quaternion::new(c, s * theta.x, s * theta.y, s * theta.z)
 }
 
-/// Rotation vector of a unit quaternion, of length at most π.
+/// The rotation vector of a unit quaternion, of length at most π.
 #[inline]
 pub fn log(q: &Quaternion<f64>) -> Vec3 {
     let q = if q.w < 0.0 { -q } else { *q };
@@ -125,7 +126,7 @@ pub fn log(q: &Quaternion<f64>) -> Vec3 {
     (2.0 * s.atan2(q.w) / s) * v
 }
 
-/// R v − v of a unit quaternion: small for small turns, to its own digits.
+/// The change R v − v of a vector under the rotation of a unit quaternion, exact to its own digits for small rotations.
 #[inline]
 pub fn change(q: &Quaternion<f64>, v: &Vec3) -> Vec3 {
     let axis = Vec3::new(q.i, q.j, q.k);
@@ -133,7 +134,7 @@ pub fn change(q: &Quaternion<f64>, v: &Vec3) -> Vec3 {
     2.0 * (q.w * across + axis.cross(&across))
 }
 
-/// Rotation matrix of a unit quaternion.
+/// The rotation matrix of a unit quaternion.
 #[inline]
 pub fn matrix(q: &Quaternion<f64>) -> Mat3 {
     let (w, x, y, z) = (q.w, q.i, q.j, q.k);
@@ -151,13 +152,14 @@ pub fn matrix(q: &Quaternion<f64>) -> Mat3 {
     )
 }
 
-/// q scaled to unit length. One Newton step of 1/√: exact to round-off for the drift of a product of unit quaternions.
+/// Scales a quaternion to unit length by one Newton step of 1/√: exact to round-off for the drift of a product of unit
+/// quaternions.
 #[inline]
 pub fn renormalise(q: &Quaternion<f64>) -> Quaternion<f64> {
     q * (1.5 - 0.5 * q.norm_squared())
 }
 
-/// c₁ = (1 − cos θ)/θ², c₂ = (θ − sin θ)/θ³ and dc₁/d(½θ²), dc₂/d(½θ²).
+/// The coefficients c₁ = (1 − cos θ)/θ², c₂ = (θ − sin θ)/θ³ and their derivatives dc₁/d(½θ²), dc₂/d(½θ²).
 #[inline]
 fn coefficients(t2: f64) -> (f64, f64, f64, f64) {
     if t2 < SERIES {
@@ -171,7 +173,7 @@ fn coefficients(t2: f64) -> (f64, f64, f64, f64) {
     }
 }
 
-/// Angular velocity and acceleration of the motion R = exp(Θ(t)~) R_n from Θ, Θ̇, Θ̈.
+/// Spatial angular velocity and acceleration of the motion R = exp(Θ(t)~) R_n, from Θ, Θ̇ and Θ̈.
 #[inline(always)]
 pub fn rates(theta: &Vec3, d: &Vec3, dd: &Vec3) -> (Vec3, Vec3) {
     let t2 = theta.norm_squared();
@@ -189,7 +191,7 @@ pub fn rates(theta: &Vec3, d: &Vec3, dd: &Vec3) -> (Vec3, Vec3) {
     (omega, alpha)
 }
 
-/// T⁻¹(Θ) δθ: change of the rotation vector when a small spatial rotation δθ follows exp(Θ~).
+/// The change T⁻¹(Θ) δθ of the rotation vector when a small spatial rotation δθ follows exp(Θ~).
 #[inline]
 pub fn inverse_tangent(theta: &Vec3, dtheta: &Vec3) -> Vec3 {
     let txd = theta.cross(dtheta);

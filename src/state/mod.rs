@@ -1,31 +1,39 @@
-//! What changes when a step is accepted, and nothing else: time, the motion of every node, work done so far.
+//! The state of a scene, and nothing but what changes when a step is accepted: time, the motion of every node, history
+//! variables, work done so far.
 
 use crate::materials::Dissipation;
 use crate::math::rotation::{self, RotationUpdate};
 use crate::math::{Mat3, Vec3, Vec6, angular, linear};
 use nalgebra::Quaternion;
 
-/// Motion of one node, all in global components.
+/// The motion of one node, all in global components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
+    /// Position.
     pub x: Vec3,
-    /// What the position has beyond the digits of `x`: displacements and distances keep theirs however far off the origin is.
+    /// Low-order part of the position, beyond the digits of `x`: displacements and distances keep their own digits
+    /// however far the origin is.
     pub low: Vec3,
-    /// Rotation from the undeformed state, unit quaternion; see [`Node::R`].
+    /// Rotation from the undeformed state as a unit quaternion; see [`Node::R`].
     pub rotation: Quaternion<f64>,
+    /// Velocity.
     pub v: Vec3,
+    /// Angular velocity.
     pub omega: Vec3,
+    /// Acceleration.
     pub a: Vec3,
+    /// Angular acceleration.
     pub alpha: Vec3,
 }
 
 impl Node {
+    /// A node at rest at `x`, unrotated.
     pub fn at_rest(x: Vec3) -> Self {
         let zero = Vec3::zeros();
         Node { x, low: zero, rotation: Quaternion::identity(), v: zero, omega: zero, a: zero, alpha: zero }
     }
 
-    /// Puts it `u` away from `x` + `low`.
+    /// Sets the position to `x` + `low` + `u`.
     #[inline]
     pub fn place(&mut self, x: &Vec3, low: &Vec3, u: &Vec3) {
         for i in 0..3 {
@@ -34,7 +42,7 @@ impl Node {
         }
     }
 
-    /// How far it is from `x`.
+    /// The displacement from `x`.
     #[inline]
     pub fn moved(&self, x: &Vec3) -> Vec3 {
         (self.x - x) + self.low
@@ -46,7 +54,8 @@ impl Node {
         (self.x - other.x) + (self.low - other.low)
     }
 
-    /// The displacement from `x` in two parts: differences of such from node to node are exact to their own digits.
+    /// The displacement from `x` as a sum of two vectors: differences of such displacements between nodes are exact to
+    /// their own digits.
     #[inline]
     pub fn parts(&self, x: &Vec3) -> [Vec3; 2] {
         let mut parts = [Vec3::zeros(); 2];
@@ -63,8 +72,8 @@ impl Node {
         rotation::matrix(&self.rotation)
     }
 
-    /// The node moved from `start` by an increment q = (Δu, Θ) whose rates are q̇, q̈: the only place where a rotation is
-    /// updated, R = exp(Θ~) R_n. Returns how far the matrix of a truncated update was from orthogonal.
+    /// Moves the node from `start` by an increment q = (Δu, Θ) with the rates q̇, q̈: the only place where a rotation
+    /// is updated, R = exp(Θ~) R_n. Returns the departure from orthogonality of a truncated rotation update.
     #[inline]
     pub fn advance(&mut self, start: &Node, increment: &Increment, update: RotationUpdate) -> f64 {
         let Increment { q, d, dd } = increment;
@@ -79,7 +88,7 @@ impl Node {
     }
 }
 
-/// a + b and what rounding has taken from it (Knuth).
+/// The sum a + b and its rounding error (Knuth).
 #[inline]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -87,38 +96,42 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - c)) + (b - c))
 }
 
-/// How much further than `a` a node `b` has moved, from where they lay at t = 0.
+/// The displacement of node `b` relative to node `a`, from their positions `start` at t = 0.
 #[inline]
 pub fn stretch(a: &Node, b: &Node, start: &[Vec3; 2]) -> Vec3 {
     let ([a, a_low], [b, b_low]) = (a.parts(&start[0]), b.parts(&start[1]));
     (b - a) + (b_low - a_low)
 }
 
-/// Change of the length of a vector `d`, |d + u| − |d|, to the digits of `u`; `before`, `now`: the lengths |d| and |d + u|.
+/// The change of length |d + u| − |d| of a vector `d`, exact to the digits of `u`; `before` and `now` are |d| and |d +
+/// u|.
 #[inline]
 pub fn elongation(d: &Vec3, before: f64, u: &Vec3, now: f64) -> f64 {
     let sum = now + before;
     if sum > 0.0 { (2.0 * d + u).dot(u) / sum } else { 0.0 }
 }
 
-/// Motion of a node within a step: displacement and rotation vector from the start of the step, with their rates.
+/// The motion of a node within a step: displacement and rotation vector from the start of the step, with their rates.
 /// At the start of the step the rates of the rotation vector are ω and α themselves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Increment {
+    /// Displacement and rotation vector (Δu, Θ).
     pub q: Vec6,
+    /// First derivative q̇.
     pub d: Vec6,
+    /// Second derivative q̈.
     pub dd: Vec6,
 }
 
 impl State {
-    /// The configuration of the state itself.
+    /// The configuration of the state itself, at the time that it holds.
     pub fn configuration(&self) -> Configuration<'_> {
         Configuration { nodes: &self.nodes, history: &self.history, dt: 0.0 }
     }
 }
 
 impl State {
-    /// Takes over another state of the same scene without allocating.
+    /// Copies another state of the same scene without allocating.
     pub fn copy_from(&mut self, other: &State) {
         let State { time, nodes, history, jerk, reactions, multipliers, algorithmic_accelerations, work } = other;
         (self.time, self.work) = (*time, *work);
@@ -132,6 +145,7 @@ impl State {
 }
 
 impl Increment {
+    /// No motion.
     pub const ZERO: Increment = {
         let zero = Vec6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         Increment { q: zero, d: zero, dd: zero }
@@ -156,39 +170,45 @@ impl<'a> Configuration<'a> {
     }
 }
 
-/// Time and nodes at the end of an accepted step.
+/// The state at the end of an accepted step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct State {
+    /// Time at the end of the step.
     pub time: f64,
+    /// Motion by node, in the order of the model.
     pub nodes: Vec<Node>,
-    /// What the material points remember: plastic strains and their kin, a range for each group of elements. Zero at t = 0.
+    /// History variables of all integration points and contacts: plastic strains and the like, a range for each group
+    /// of elements. They are zero at t = 0.
     pub history: Vec<f64>,
-    /// Change of (a, α) per time over the last step, for the prediction of the next.
+    /// Rate of change of (a, α) over the last step, for the prediction of the next.
     pub jerk: Vec<Vec6>,
-    /// Forces on the held directions, in the order of the model's list.
+    /// Reactions at the restrained degrees of freedom, in the order of the model's list.
     pub reactions: Vec<f64>,
-    /// Forces and moments in the joints, a number for each row.
+    /// Lagrange multipliers of the joints, one for each constraint equation: forces and moments.
     pub multipliers: Vec<f64>,
-    /// Accelerations (a, α) that follow those of equilibrium, where the scheme runs on such.
+    /// Algorithmic accelerations (a, α) of schemes that keep accelerations besides those of equilibrium; empty for
+    /// others.
     pub algorithmic_accelerations: Vec<Vec6>,
+    /// Work and dissipation since t = 0.
     pub work: Work,
 }
 
 /// Running integrals of power since t = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Work {
-    /// Done by loads, gravity and prescribed motion.
+    /// Work of loads, gravity and prescribed motion.
     pub external: f64,
-    /// Taken by dampers, nodal and Rayleigh damping.
+    /// Energy dissipated by dampers, nodal and Rayleigh damping.
     pub damping: f64,
-    /// Power of the damping at the end of the step.
+    /// Power of this damping at the end of the step.
     pub damping_power: f64,
-    /// Of the material points.
+    /// Energy dissipated and stored by materials and contacts.
     pub material: Dissipation,
-    /// By how much energies at a step are more than what central differences keep, ⅛ Δt² aᵀMa, than they were at the start. Loads
-    /// that jump change accelerations and put nothing in.
+    /// Offset between the energy at a step and the energy that velocity Verlet conserves: the change of ⅛ Δt² aᵀMa
+    /// since the start. Jumps of loads change accelerations and do no work.
     pub verlet_energy_offset: f64,
-    /// aᵀMa, and the length of the last step; none at the start and after a jump. With central differences alone.
+    /// The product aᵀMa at the end of the last step, and the length of that step; both are zero at the start, after a
+    /// jump, and with other schemes than central differences.
     pub accelerations: f64,
     pub step: f64,
 }

@@ -1,13 +1,14 @@
-//! Matrices of elements by blocks of 6×6 into a symmetric matrix: one place per pair of nodes, in place of one per number.
+//! Scatters 6×6 blocks of element matrices into a symmetric matrix: one slot for each pair of nodes instead of one for
+//! each entry.
 
 use crate::linear::{BlockSlot, Solver};
 
-/// The blocks of all elements, one after the other.
+/// The blocks of all elements, in the order of the elements.
 pub(super) struct BlockScatter(Vec<Pair>);
 
-/// The block of two nodes of an element.
+/// The block that couples two nodes of an element.
 struct Pair {
-    /// Of the block's rows and columns in the system.
+    /// Numbers, within the element, of the nodes that the block's rows and columns belong to.
     nodes: [u16; 2],
     slot: BlockSlot,
 }
@@ -21,7 +22,8 @@ impl BlockScatter {
         self.0.len()
     }
 
-    /// `rows`: the first of the six rows of each node. False, and nothing is added, where a block has no place of its own.
+    /// Adds the blocks of an element; `rows` are the first of the six rows of each of its nodes. Returns false and adds
+    /// nothing where a block has no slot.
     pub fn push(&mut self, solver: &Solver, rows: &[usize]) -> bool {
         let before = self.0.len();
         for (a, &of_a) in rows.iter().enumerate() {
@@ -37,7 +39,7 @@ impl BlockScatter {
         true
     }
 
-    /// Adds the symmetric part of an element's matrix, row-major; `range` are its blocks.
+    /// Adds the symmetric part of an element's matrix `K`, row-major, to `values`; `range` holds its blocks.
     #[inline]
     pub fn add(&self, K: &[f64], range: std::ops::Range<usize>, values: &mut [f64]) {
         let width = K.len().isqrt();

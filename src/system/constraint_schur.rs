@@ -1,5 +1,6 @@
-//! Joints between bodies of their own (see [`Masses`]) by a small dense system, a row for each multiplier: (G M⁻¹ Gᵀ) λ = c.
-//! It gives accelerations that the joints allow, and closes their gaps by the least change in the norm of the masses.
+//! Joints between nodes that are rigid bodies of their own (see [`Masses`]), by the Schur complement of the constraint
+//! equations: (G M⁻¹ Gᵀ) λ = c, a small dense system. It gives accelerations that the joints allow, and closes gaps by
+//! the least change of positions in the norm of the masses.
 
 use super::equations::System;
 use super::masses::Masses;
@@ -8,34 +9,36 @@ use crate::elements::Force;
 use crate::math::{Vec6, angular, linear, stack};
 use crate::state::Node;
 
-/// Rows at most: beyond, a sparse factorisation is cheaper.
+/// The largest number of constraint equations; beyond it a sparse factorization is cheaper.
 const MOST: usize = 64;
 
-/// Part of a row that counts as none.
+/// An entry counts as zero below this fraction of the largest in its equation.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// Allocated once.
+/// The dense system of the constraint equations. It is allocated once, before the first step.
 pub struct ConstraintSchur {
-    /// Of each row: the nodes that move the two ends of its joint, where they are unknown.
+    /// For each constraint equation, the independent nodes that move the two ends of its joint; `None` where a node has
+    /// no unknown.
     rows: Vec<[Option<usize>; 2]>,
-    /// Rows of a joint may say what others say.
+    /// True where constraint equations may be redundant.
     shares: bool,
-    /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit of the multiplier causes there.
+    /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit multiplier causes at them.
     G: Vec<[Vec6; 2]>,
     W: Vec<[Vec6; 2]>,
-    /// Rows that pull at held directions only, as out of the plane of bodies that stay in one: no acceleration answers them, and
-    /// they carry nothing.
+    /// Equations that act on restrained degrees of freedom only, such as those out of the plane of a plane motion: no
+    /// acceleration responds to them, and their multipliers stay zero.
     inert: Vec<bool>,
-    /// G M⁻¹ Gᵀ, and its Cholesky factor; row-major.
+    /// G M⁻¹ Gᵀ and its Cholesky factor, row-major.
     S: Vec<f64>,
     L: Vec<f64>,
-    /// What is asked for, then what answers it, and room beside it.
+    /// Right-hand side on entry of [`ConstraintSchur::solve`], then the solution; `scratch` holds a copy.
     pub x: Vec<f64>,
     scratch: Vec<f64>,
 }
 
 impl ConstraintSchur {
-    /// `None`: too many rows, or an end rides in some directions only.
+    /// Returns `None` where there are too many equations, or where an end depends on its master in some directions
+    /// only.
     pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<ConstraintSchur> {
         let count = system.multipliers();
         if count > MOST {
@@ -77,7 +80,8 @@ impl ConstraintSchur {
         })
     }
 
-    /// Forms and factorises the system for joints as they lie; false where they leave no way to close them.
+    /// Forms and factorizes G M⁻¹ Gᵀ at the given configuration. Returns false where it is singular: the joints cannot
+    /// be closed.
     pub fn form(&mut self, system: &System, masses: &Masses, nodes: &[Node]) -> bool {
         let mut k = 0;
         for joint in &system.joints {
@@ -145,14 +149,14 @@ impl ConstraintSchur {
         true
     }
 
-    /// x ← (G M⁻¹ Gᵀ)⁻¹ x; of rows that say the same, each has its share.
+    /// Solves x ← (G M⁻¹ Gᵀ)⁻¹ x. Redundant equations share the load in equal parts.
     pub fn solve(&mut self) {
         let n = self.rows.len();
         self.x.iter_mut().zip(&self.inert).filter(|(_, inert)| **inert).for_each(|(x, _)| *x = 0.0);
         if !self.shares {
             return substitute(&self.L, &mut self.x);
         }
-        // The shares leave a part of what is asked to be found again; twice leaves its square.
+        // The regularization leaves the fraction ε of the right-hand side; one iterative refinement leaves ε².
         std::mem::swap(&mut self.scratch, &mut self.x);
         self.x.copy_from_slice(&self.scratch);
         substitute(&self.L, &mut self.x);
@@ -164,14 +168,14 @@ impl ConstraintSchur {
         self.x.iter_mut().zip(&self.scratch).for_each(|(x, more)| *x += more);
     }
 
-    /// x ← x + G δ, by node.
+    /// Adds the constraint rates: x ← x + G δ, with δ by node.
     pub fn add_rates(&mut self, motion: &[Vec6]) {
         for ((x, ends), G) in self.x.iter_mut().zip(&self.rows).zip(&self.G) {
             *x += ends.iter().zip(G).filter_map(|(master, G)| master.map(|master| G.dot(&motion[master]))).sum::<f64>();
         }
     }
 
-    /// F ← F − Gᵀ x, on the nodes that move.
+    /// Subtracts the constraint forces on independent nodes: F ← F − Gᵀ x.
     pub fn subtract_forces(&self, F: &mut [Force]) {
         for ((x, ends), G) in self.x.iter().zip(&self.rows).zip(&self.G) {
             for (master, G) in ends.iter().zip(G) {
@@ -182,7 +186,7 @@ impl ConstraintSchur {
         }
     }
 
-    /// δ ← δ − M⁻¹ Gᵀ x, by node.
+    /// Subtracts the response to the constraint forces: δ ← δ − M⁻¹ Gᵀ x, by node.
     pub fn subtract_response(&self, motion: &mut [Vec6]) {
         for ((x, ends), W) in self.x.iter().zip(&self.rows).zip(&self.W) {
             for (master, W) in ends.iter().zip(W) {
@@ -194,7 +198,7 @@ impl ConstraintSchur {
     }
 }
 
-/// L Lᵀ x = b.
+/// Solves L Lᵀ x = b; `x` holds b on entry.
 fn substitute(L: &[f64], x: &mut [f64]) {
     let n = x.len();
     for k in 0..n {

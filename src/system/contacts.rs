@@ -1,4 +1,4 @@
-//! Contacts of a scene: how far a step may go, and what they come to.
+//! Contacts of a scene: whether a step passes or fails to resolve an impact, and the resultants for output.
 
 use super::equations::System;
 use super::group::Group;
@@ -7,25 +7,26 @@ use crate::math::Vec3;
 use crate::model::{Contact, Model, PartType};
 use crate::state::{Configuration, Node, State};
 
-/// A contact at the end of a step.
+/// The state of a contact at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactState {
-    /// Points that touch.
+    /// Number of points in contact.
     pub touching: usize,
-    /// Least distance of all points; negative inside.
+    /// Smallest gap of all points; negative where they penetrate.
     pub gap: f64,
-    /// On the surface, and its moment about the centre of the body that carries it, or about the ground surface's own point.
+    /// Force on the surface, and its moment about the centre of the body that carries it, or about the reference point
+    /// of a ground surface; global components.
     pub f: Vec3,
     pub m: Vec3,
 }
 
 impl System {
-    /// True where anything may touch.
+    /// True where the scene has contacts.
     pub fn has_contacts(&self) -> bool {
         self.contacts < self.groups.len()
     }
 
-    /// True where material remembers.
+    /// True where any material has history variables.
     pub fn yields(&self) -> bool {
         self.groups[..self.contacts].iter().any(|group| !group.history.is_empty())
     }
@@ -36,8 +37,8 @@ impl System {
             .filter_map(|group| Some((group, group.block.as_any()?.downcast_ref::<Contacts>()?)))
     }
 
-    /// The contact, by its place in [`Model::parts`], with an impact after `state` that a step which writes equilibrium `ahead`
-    /// ahead would not resolve.
+    /// The contact, by its index in [`Model::parts`], with an impact after `state` that is not resolved by a step whose
+    /// equilibrium is written the time `ahead` later.
     pub fn unresolved_impact(&self, state: &State, ahead: f64) -> Option<usize> {
         let unresolved = |(group, block): &(&Group, &Contacts)| {
             ahead > contact::longest_step(block, &state.history[group.history.clone()]) * (1.0 + 1e-9)
@@ -45,15 +46,15 @@ impl System {
         self.contact_groups().find(unresolved).map(|(group, _)| group.part)
     }
 
-    /// The contact, by its place in [`Model::parts`], through whose surface a step from `start` to `now` would go, or into
-    /// whose impact without resolving it.
+    /// The contact, by its index in [`Model::parts`], whose surface a point would pass through in a step from `start`
+    /// to `now`, or whose impact the step would not resolve.
     pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
         self.contact_groups()
             .find(|(group, block)| contact::misses(block, start, &group.share(now)))
             .map(|(group, _)| group.part)
     }
 
-    /// States of all contacts in deck order.
+    /// Writes the states of all contacts into `out`, in deck order.
     pub fn contact_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ContactState>) {
         out.clear();
         let contacts = model.parts.iter().enumerate().filter_map(|(place, part)| Some((place, Contact::of(part)?)));

@@ -1,4 +1,4 @@
-//! Energies and momenta of a state.
+//! The energies and momenta of a state.
 
 use super::equations::System;
 use super::thread_partition;
@@ -6,60 +6,62 @@ use crate::math::Vec3;
 use crate::model::{Model, Part, PartKind};
 use crate::state::{Configuration, State};
 
-/// The columns of energy.csv.
+/// Energies and momenta at the end of a step: the columns of energy.csv.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy {
+    /// Kinetic energy.
     pub kinetic: f64,
-    /// Elastic energy of beams and bars, and what kinematic hardening keeps.
+    /// Elastic energy of beams, bars and shells, with the energy stored by kinematic hardening.
     pub strain: f64,
-    /// Dissipated so far by plastic flow.
+    /// Energy dissipated so far by plastic flow.
     pub plastic: f64,
-    /// Dissipated so far by viscous flow.
+    /// Energy dissipated so far by viscoplastic overstress.
     pub viscoplastic: f64,
-    /// Dissipated so far by dampers, nodal and Rayleigh damping.
+    /// Energy dissipated so far by dampers, nodal and Rayleigh damping.
     pub damping: f64,
-    /// Stored in links.
+    /// Elastic energy of links.
     pub links: f64,
-    /// Work of loads, gravity and prescribed motion so far.
+    /// Work done so far by loads, gravity and prescribed motion.
     pub external: f64,
-    /// What the time integration has taken: initial energy + external − dissipated − stored.
+    /// Algorithmic dissipation, the remainder of the balance: initial energy + external − dissipated − stored.
     pub numerical: f64,
-    /// kinetic + strain + links + contact.
+    /// Mechanical energy: kinetic + strain + links + contact.
     pub mechanical: f64,
     /// Linear momentum.
     pub p: Vec3,
     /// Angular momentum about the origin.
     pub l: Vec3,
-    /// Stored in contacts.
+    /// Elastic energy of contacts.
     pub contact: f64,
-    /// Dissipated so far by friction.
+    /// Energy dissipated so far by friction.
     pub friction: f64,
-    /// Dissipated so far in impacts.
+    /// Energy dissipated so far in impacts.
     pub impact: f64,
-    /// [`crate::state::Work::verlet_energy_offset`]. Not a column.
+    /// Offset of the energies of velocity Verlet, [`crate::state::Work::verlet_energy_offset`]. It is not a column.
     pub verlet_energy_offset: f64,
 }
 
 impl Energy {
-    /// What the time integration has taken: `numerical` but for what swings with the motion. Velocity Verlet keeps
-    /// ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa of linear motion, so energies at a step swing by the last of these: by up to
-    /// 1/(1 − (ωΔt/2)²), which is nearly three at 0.8 of the limit.
+    /// Algorithmic dissipation without the oscillation that velocity Verlet has by itself. In linear motion it
+    /// conserves ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa, so the energy at a step oscillates by the last term: up to a factor 1/(1
+    /// − (ωΔt/2)²), nearly three at 0.8 of the stability limit.
     pub fn numerical_dissipation(&self) -> f64 {
         self.numerical + self.verlet_energy_offset
     }
 }
 
-/// What the time integration has made of energies, over a run.
+/// The largest departures from the balance of energy over a run.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Balance {
-    /// The most that it took, and that it made.
+    /// Largest algorithmic dissipation and largest energy growth so far.
     pub dissipated: f64,
     pub generated: f64,
-    /// The most energy there was.
+    /// Largest energy of any form so far.
     pub peak: f64,
-    /// What there was at the start, and the most that was put in or let go since: no more can move.
+    /// Initial energy plus the largest external work and the largest release from preloads: the motion cannot have
+    /// more.
     pub available: f64,
-    /// Dissipated by plastic flow.
+    /// Energy dissipated by plastic flow.
     pub plastic: f64,
     start: Option<f64>,
     external: f64,
@@ -67,47 +69,53 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// The work of what acts from outside, which is known in every step: energies are summed at some only, and by then it may have
-    /// been given back.
+    /// Takes account of the external work of a step. Energies are summed at some steps only, and by then the work may
+    /// have been given back.
     pub fn update_work(&mut self, external: f64) {
         self.external = self.external.max(external.abs());
         self.peak = self.peak.max(external.abs());
     }
 
+    /// Takes account of the energies of a step.
     pub fn update(&mut self, energy: &Energy) {
         let stored = energy.strain + energy.links + energy.contact;
         let sizes = energy.strain.abs() + energy.links.abs() + energy.contact.abs();
         let start = *self.start.get_or_insert(energy.kinetic + stored.abs());
         self.update_work(energy.external);
-        // Less than nothing is stored where preloads give way.
+        // The stored energy is negative where preloads are released.
         self.released = self.released.max(-stored);
         self.available = start + self.external + self.released;
         self.plastic = energy.plastic;
         let dissipated = energy.numerical_dissipation();
         self.dissipated = self.dissipated.max(dissipated);
-        // A mode beyond the limit of stability may keep what central differences keep, and grow: then what moves tells.
+        // A mode beyond the stability limit may conserve the energy of central differences and still grow: then the
+        // kinetic energy shows it.
         self.generated = self.generated.max(-dissipated).max(energy.kinetic - self.available);
-        // Where the total is zero by chance, or external work, the motion is not.
+        // The sum may vanish by chance while its terms do not.
         self.peak = self.peak.max(energy.mechanical.abs()).max(energy.kinetic).max(sizes);
     }
 }
 
-/// Elastic energy of a part.
+/// The elastic energy of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartEnergy {
-    /// Place in [`Model::parts`]; of a shell with triangles and quadrilaterals that of the first of the two.
+    /// The part's index in [`Model::parts`]; a shell with triangles and quadrilaterals has that of the first of the
+    /// two.
     pub part: usize,
+    /// Elastic energy.
     pub strain: f64,
 }
 
 impl PartEnergy {
+    /// The part itself.
     pub fn of<'m>(&self, model: &'m Model) -> &'m Part {
         &model.parts[self.part]
     }
 }
 
 impl System {
-    /// Elastic energy of each beam, bar and shell, in deck order; without what kinematic hardening keeps.
+    /// Writes the elastic energy of each beam, bar and shell in deck order, without the energy stored by kinematic
+    /// hardening.
     pub fn part_energies(&self, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
         for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
             let energy = group.block.energy(&group.share(now));
@@ -119,7 +127,8 @@ impl System {
         }
     }
 
-    /// `initial`: the total at t = 0, against which the balance is drawn.
+    /// Energies and momenta of a state. `initial` is the mechanical energy at t = 0, from which the balance is drawn;
+    /// `None` at t = 0.
     pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
         let stored = |of: &(dyn Fn(PartKind) -> bool + Sync)| -> f64 {

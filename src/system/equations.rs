@@ -1,4 +1,4 @@
-//! Everything that acts on the nodes of a scene, and the residual that it leaves.
+//! Everything that acts on the nodes of a scene, and the residual of the equation of motion.
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
@@ -16,47 +16,50 @@ use crate::math::{Vec3, Vec6, angular, linear, rotation};
 use crate::model::{self, Model, PartKind};
 use crate::state::{Configuration, Node};
 
-/// Everything that acts on the nodes. Constant over a run.
+/// Everything that acts on the nodes: elements, masses, constraints, loads and damping. It is constant over a run.
 pub struct System {
+    /// Groups of like elements; those of contacts stand last.
     pub groups: Vec<Group>,
-    /// Numbers that material points remember.
+    /// Number of history variables of all elements.
     pub history: usize,
-    /// At most one per node, by node.
+    /// Lumped inertia, at most one entry for each node, in ascending order of nodes.
     pub inertias: Vec<Inertia>,
     pub(super) consistent: Vec<ConsistentMass>,
-    /// Masters before their dependent nodes.
+    /// The dependent nodes, ordered so that a master stands before the nodes that depend on it.
     pub rigid_links: Vec<RigidLink>,
-    /// In the order of the model's list, without the rows that a plane motion does not need.
+    /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
     pub joints: Vec<Joint>,
     pub(super) watched: Vec<Watched>,
-    /// Where their groups begin; they are the last.
+    /// Index of the first group of contacts; these stand last.
     pub(super) contacts: usize,
     pub(super) loads: Vec<model::Load>,
     pub(super) pressures: Vec<model::Pressure>,
     pub(super) nodal_damping: Vec<model::NodalDamping>,
     pub(super) mass_damping: f64,
-    /// The matrix may hold C(r) (37).
+    /// The tangent may hold the gyroscopic matrix C(r) (37).
     pub(super) gyroscopic: bool,
-    /// The global axis normal to the motion, where the scene is plane.
+    /// The global axis normal to the plane of motion, where the scene is plane.
     pub plane: Option<usize>,
-    /// Inertia does not act in a static analysis; weight does.
+    /// True in dynamics. A static analysis has weight but no inertia forces.
     pub(super) dynamic: bool,
 }
 
-/// What acts, as the residual leaves it. Written by [`System::residual`].
+/// The residual and the constraint forces. [`System::residual`] writes them.
 #[derive(Debug, Clone)]
 pub struct Forces {
-    /// f_ext − f_int − C v − M a per node; what falls on a constrained direction has been handed to the master.
+    /// f_ext − f_int − C v − M a at each node, global components; forces on dependent degrees of freedom have been
+    /// transferred to the masters.
     pub on_nodes: Vec<Force>,
-    /// The forces so handed over, in the order of [`System::rigid_links`].
+    /// The forces so transferred, in the order of [`System::rigid_links`]; the tangent needs them.
     pub on_dependents: Vec<Vec3>,
+    /// Lagrange multipliers of the joints and violations of their constraint equations.
     pub multipliers: Multipliers,
     partitions: Vec<Partition>,
     threads: bool,
 }
 
 impl Forces {
-    /// For one thread.
+    /// Zero forces for this number of nodes, to be summed on one thread.
     pub fn new(system: &System, nodes: usize) -> Self {
         Forces {
             on_nodes: vec![[0.0; 6]; nodes],
@@ -67,15 +70,17 @@ impl Forces {
         }
     }
 
-    /// The same, summed on several threads where that pays.
+    /// The same forces, to be summed on several threads where the scene is large.
     pub fn on_threads(self, threads: usize) -> Self {
         Forces { threads: threads > 1, ..self }
     }
 }
 
 impl System {
+    /// Builds the system from the model at its initial positions.
+    ///
     /// # Errors
-    /// Fails on a cycle among the rigid links, which [`crate::model`] excludes.
+    /// The rigid links form a cycle, which [`crate::model`] excludes.
     pub fn new(model: &Model) -> Result<System, String> {
         let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
         let rigid_links =
@@ -105,7 +110,8 @@ impl System {
         })
     }
 
-    /// Masses at nodes, what rides on what, and the joints, without all that resists: what joints are closed with.
+    /// The inertias, rigid links and joints without elements, loads and damping: with them joints are closed and
+    /// explicit accelerations found.
     pub fn bare(&self) -> System {
         System {
             groups: Vec::new(),
@@ -126,8 +132,8 @@ impl System {
         }
     }
 
-    /// Sums f_ext − f_int − C v − M a per node and hands the forces on constrained directions to their masters (58).
-    /// Returns the magnitude of what was summed.
+    /// Sums f_ext − f_int − C v − M a at each node and transfers the forces on dependent degrees of freedom to their
+    /// masters (58). Returns the magnitudes of the terms.
     pub fn residual(&self, now: &Configuration, loading: &Loading, forces: &mut Forces) -> Scale {
         let nodes = now.nodes;
         let F = &mut forces.on_nodes[..];
@@ -159,7 +165,8 @@ impl System {
         scale
     }
 
-    /// Loads and weight alone, in a static analysis: with rates for a loading, how the residual changes with the time.
+    /// Writes loads and weight alone, without inertia forces. With the rates of the loads as `loading` this is ∂r/∂t at
+    /// fixed positions.
     pub fn external(&self, nodes: &[Node], loading: &Loading, forces: &mut Forces) {
         let F = &mut forces.on_nodes[..];
         let mut scale = Scale::default();
@@ -201,8 +208,8 @@ impl System {
         }
     }
 
-    /// Work of loads and weight over a step, by the mean of the forces at its ends; of pressures that follow, by the volume
-    /// that faces sweep.
+    /// Work of loads and weight between two configurations. Forces at nodes do it by their mean at the ends, follower
+    /// pressures by the volume that their faces sweep.
     pub fn external_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> f64 {
         let field = 0.5 * (from.1.field + to.1.field);
         let moved = |node: usize| to.0[node].relative_position(&from.0[node]);
@@ -226,8 +233,8 @@ impl System {
         work
     }
 
-    /// Writes what material points will remember of `part` of the way from the last state to `now` into `history`; returns what
-    /// became of the work of plastic strains on it.
+    /// Writes the history variables at the fraction `part` of the way from the last accepted state to `now` into
+    /// `history`. Returns what the plastic strains on that way have dissipated.
     pub fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64], threads: usize) -> Dissipation {
         thread_partition::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
             if group.history.is_empty() {
@@ -237,12 +244,12 @@ impl System {
         })
     }
 
-    /// True where work on elements is worth that many threads.
+    /// True where the elements are many enough for several threads to pay.
     pub(super) fn splits(&self, threads: usize) -> bool {
         threads > 1 && thread_partition::is_large(&self.groups)
     }
 
-    /// Power that dampers take.
+    /// Power that viscous damping dissipates: dampers, nodal and Rayleigh damping.
     pub fn damping_power(&self, now: &Configuration, threads: usize) -> f64 {
         let nodes = now.nodes;
         let mut power: f64 = thread_partition::sum(&self.groups, self.splits(threads), &|group| {
@@ -260,21 +267,22 @@ impl System {
         power
     }
 
-    /// True where fibres that strain alike in a plane motion are one.
+    /// True where fibres of a yielding beam with the same strain in a plane motion are merged into one.
     pub fn merges_fibres(&self, part: &model::Beam) -> bool {
         part.yielding.is_some() && build::in_plane(part, self.plane).is_some()
     }
 
+    /// Dampers between nodes and the ground.
     pub fn nodal_damping(&self) -> &[model::NodalDamping] {
         &self.nodal_damping
     }
 
-    /// True when anything takes energy by rate.
+    /// True where any viscous damping acts.
     pub fn is_damped(&self) -> bool {
         self.mass_damping > 0.0 || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
     }
 
-    /// True when no term of the equation of motion depends on the motion other than linearly, with a constant matrix.
+    /// True where the equation of motion is linear in the motion, with constant matrices.
     pub fn is_linear(&self) -> bool {
         self.groups.iter().all(|g| g.block.is_linear())
             && self.rigid_links.is_empty()
@@ -285,7 +293,8 @@ impl System {
 }
 
 impl System {
-    /// Small motions of dependent nodes from those of their masters, about the nodes as they lie: D of (48).
+    /// Writes the small motions (u, θ) of dependent nodes from those of their masters, at the current positions: D of
+    /// (48).
     pub fn project(&self, nodes: &[Node], motions: &mut [Vec6]) {
         for dependent in &self.rigid_links {
             let carried = dependent.D(nodes) * motions[dependent.master];
@@ -295,7 +304,8 @@ impl System {
         }
     }
 
-    /// M times small motions per node, into the forces of nodes that do not ride. Riders are carried first.
+    /// Multiplies the small motions of all nodes by M. The products are written into `forces.on_nodes`, transferred to
+    /// independent nodes; `motions` receives those of dependent nodes.
     pub fn apply_mass(&self, nodes: &[Node], motions: &mut [Vec6], forces: &mut Forces) {
         self.project(nodes, motions);
         let F = &mut forces.on_nodes[..];

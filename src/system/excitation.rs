@@ -1,49 +1,53 @@
-//! What is given over time: factors of loads, the field of gravity and ground acceleration, motion of held directions.
+//! The excitation as a function of time: factors of loads, the fields of gravity and ground acceleration, prescribed
+//! motion.
 
 use super::loads::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, History, Model, Motion, Restraint};
 
-/// Displacement, velocity and acceleration of a held direction.
+/// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Prescribed {
+    /// Displacement or rotation.
     pub u: f64,
+    /// Its first derivative in time.
     pub v: f64,
+    /// Its second derivative in time.
     pub a: f64,
 }
 
-/// On which side of a jump a load is wanted.
+/// The side of a jump on which a load is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     Before,
     After,
 }
 
-/// The given functions of time of a model.
+/// The functions of time that a model prescribes.
 pub struct Excitation<'a> {
     model: &'a Model,
-    /// Of each amplitude.
+    /// The jumps of each amplitude.
     jumps: Vec<Vec<Jump>>,
-    /// Times that differ by less are the same.
+    /// Times that differ by less count as equal.
     slack: f64,
-    /// Of each amplitude, then of each held direction, along a path: its iterates pass the ends of the run, and what is given
-    /// there must go on.
+    /// Continuations of each amplitude and of each restrained degree of freedom beyond the run, along an equilibrium
+    /// path: its iterates pass the ends of the run, and the excitation must go on there.
     loads: Vec<Extrapolation>,
     motions: Vec<Extrapolation>,
 }
 
-/// A given function as a line beyond the ends of a run.
+/// A function of time, continued as a line beyond the ends of a run.
 #[derive(Debug, Clone, Copy)]
 struct Extrapolation {
     begin: f64,
     end: f64,
-    /// Before the beginning its slope there; after the end, where only iterates come, the slope of the chord over the last
-    /// [`TAIL`] of the run: a function that comes to rest at the end would lead nowhere.
+    /// Slope before the beginning, that of the function there; and after the end, where only iterates come, that of the
+    /// chord over the last [`TAIL`] of the run: a function that comes to rest at the end would lead nowhere.
     slopes: [f64; 2],
 }
 
-/// Part of a run.
+/// Fraction of a run over which the slope beyond its end is taken.
 const TAIL: f64 = 0.01;
 
 impl Extrapolation {
@@ -52,7 +56,7 @@ impl Extrapolation {
         Extrapolation { begin, end, slopes: [rate(begin), (value(end) - value(end - tail)) / tail] }
     }
 
-    /// Outside the run: its nearest end, and the slope there.
+    /// Outside the run, the time of its nearer end and the slope there.
     fn at(&self, t: f64) -> Option<(f64, f64)> {
         match t {
             _ if t < self.begin => Some((self.begin, self.slopes[0])),
@@ -61,13 +65,14 @@ impl Extrapolation {
         }
     }
 
-    /// A function within the run, and the line that continues it.
+    /// The value of the function within the run, and of the line that continues it outside.
     fn value(&self, t: f64, value: impl Fn(f64) -> f64) -> f64 {
         self.at(t).map_or_else(|| value(t), |(end, slope)| value(end) + slope * (t - end))
     }
 }
 
 impl<'a> Excitation<'a> {
+    /// The excitation of a model.
     pub fn new(model: &'a Model) -> Self {
         let jumps = model.loading.amplitudes.iter().map(Amplitude::jumps).collect();
         let mut excitation =
@@ -103,7 +108,7 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// A load without an amplitude: constant in dynamics, growing linearly over a static analysis.
+    /// Factor of a load without an amplitude: constant in dynamics, growing linearly over a static analysis.
     fn plain_factor(&self, t: f64) -> f64 {
         match self.model.analysis.kind {
             AnalysisKind::Dynamic => 1.0,
@@ -111,7 +116,7 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// Loads at time t, into `loading`.
+    /// Writes the loads at time `t` into `loading`; at a jump those of `side`.
     pub fn loading(&self, t: f64, side: Side, loading: &mut Loading) {
         loading.factors.clear();
         let factor = |amplitude: Option<usize>| match amplitude {
@@ -128,13 +133,14 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// When the first load or held motion of a static analysis begins to change; infinite where none does.
+    /// The time at which the first load or prescribed motion of a static analysis begins to change; infinite where none
+    /// does.
     pub fn begin(&self) -> f64 {
         let model = self.model;
         let rest = |amplitude: Option<usize>| amplitude.map_or(0.0, |i| model.loading.amplitudes[i].rest());
         let moves = |motion: &Motion| match motion.history {
             History::Displacement => rest(Some(motion.amplitude)),
-            // A velocity that stays moves on.
+            // A constant velocity changes the position all the same.
             History::Velocity | History::Acceleration => 0.0,
         };
         let loads = model.loading.nodal.iter().map(|load| rest(load.amplitude));
@@ -145,7 +151,7 @@ impl<'a> Excitation<'a> {
         loads.chain(pressures).chain(bases).chain(held).fold(gravity, f64::min)
     }
 
-    /// Rates of the loads at time t, into `loading`: to the right of a kink.
+    /// Writes the rates of the loads at time `t` into `loading`; at a kink those to its right.
     pub fn rates(&self, t: f64, loading: &mut Loading) {
         let plain = match self.model.analysis.kind {
             AnalysisKind::Dynamic => 0.0,
@@ -164,8 +170,8 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// Motion of the held directions at time t, in the model's order. A static analysis has places but no rates, or
-    /// dampers would act in it.
+    /// Writes the prescribed motion at time `t` into `out`, in the order of the model's restraints. A static analysis
+    /// has displacements but no rates, or dampers would act in it.
     pub fn prescribed(&self, t: f64, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();
@@ -192,7 +198,7 @@ fn prescribed_motion(motion: &Motion, amplitude: &Amplitude, t: f64) -> Prescrib
     Prescribed { u: motion.scale * u, v: motion.scale * v, a: motion.scale * a }
 }
 
-/// y ← a + s (b − a): given values at an instant from those at the ends of a step.
+/// Interpolates loads within a step: y ← a + s (b − a).
 pub fn between(a: &Loading, b: &Loading, s: f64, y: &mut Loading) {
     let mix = |a: &[f64], b: &[f64], y: &mut Vec<f64>| {
         y.clear();

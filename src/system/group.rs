@@ -5,20 +5,22 @@ use crate::model::PartKind;
 use crate::state::Configuration;
 use std::ops::Range;
 
-/// A group of like elements, of one part: all of them, or some in a row where they are many.
+/// A group of like elements of one part: all of them, or a contiguous range where they are many.
 pub struct Group {
+    /// The elements with their formulation.
     pub block: Box<dyn ElementBlock>,
+    /// The kind of the part, which says to which energy the elements contribute.
     pub kind: PartKind,
-    /// Place in [`crate::model::Model::parts`] of the part; of links, which share groups, that of the first.
+    /// The part's index in [`crate::model::Model::parts`]. Links share one group; it has the index of the first link.
     pub part: usize,
-    /// The part's number of its first element.
+    /// Number, within the part, of the group's first element.
     pub first: usize,
-    /// Its share of [`crate::state::State::history`].
+    /// The group's range of [`crate::state::State::history`].
     pub history: Range<usize>,
 }
 
 impl Group {
-    /// The configuration with this group's own history alone.
+    /// The configuration with this group's range of the history variables alone.
     #[inline]
     pub fn share<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
         Configuration { history: &now.history[self.history.clone()], ..*now }

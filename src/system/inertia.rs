@@ -1,31 +1,31 @@
-//! Mass of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: m and J₀ at a node, the
-//! Newton-Euler equations (33); what falls on one node is summed once, before the run.
+//! Inertia of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: a mass m and a tensor
+//! J₀ at a node with the Newton-Euler equations (33). All that falls on one node is summed once, before the run.
 
 use super::scale::Scale;
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, quadrature, skew};
 use crate::state::Node;
 
-/// Mass and inertia at a node; `J0` in the axes that were global at t = 0.
+/// Mass and inertia tensor of a node; `J0` has components in axes fixed to the node that were global at t = 0.
 #[derive(Debug, Clone)]
 pub struct Inertia {
     pub node: usize,
     pub mass: f64,
     pub J0: Mat3,
-    /// J₀ ≠ 0.
+    /// True where J₀ ≠ 0.
     pub rotary: bool,
 }
 
 impl Inertia {
-    /// J = R J₀ Rᵀ (28).
+    /// The inertia tensor J = R J₀ Rᵀ (28), global components.
     #[inline]
     pub fn J(&self, node: &Node) -> Mat3 {
         let R = node.R();
         R * self.J0 * R.transpose()
     }
 
-    /// m (field − a), −(J α + ω×J ω)                                                        (33)
-    /// `scale` meets the terms one by one: in free motion they cancel.
+    /// The force m (field − a) and the moment −(J α + ω×J ω) of (33); weight alone unless `dynamic`. `scale` takes in
+    /// each term by itself, for in free motion they cancel.
     #[inline]
     pub fn force(&self, node: &Node, field: &Vec3, dynamic: bool, scale: &mut Scale) -> Force {
         let weight = self.mass * field;
@@ -39,7 +39,7 @@ impl Inertia {
         if !self.rotary {
             return [f.x, f.y, f.z, 0.0, 0.0, 0.0];
         }
-        // In body axes J₀ is constant: rotate the two vectors instead of the tensor.
+        // J₀ is constant in body axes: two vectors are rotated in place of a tensor.
         let R = node.R();
         let (omega, alpha) = (R.tr_mul(&node.omega), R.tr_mul(&node.alpha));
         let (spin, gyroscopic) = (self.J0 * alpha, omega.cross(&(self.J0 * omega)));
@@ -49,6 +49,7 @@ impl Inertia {
         [f.x, f.y, f.z, -m.x, -m.y, -m.z]
     }
 
+    /// Subtracts the Rayleigh damping force `factor` × M v from `f`.
     pub fn add_damping(&self, node: &Node, factor: f64, f: &mut Force) {
         crate::elements::subtract(f, 0, &(factor * self.mass * node.v));
         if self.rotary {
@@ -56,6 +57,7 @@ impl Inertia {
         }
     }
 
+    /// The kinetic energy of translation and rotation.
     pub fn kinetic_energy(&self, node: &Node) -> f64 {
         let mut twice = self.mass * node.v.norm_squared();
         if self.rotary {
@@ -64,8 +66,9 @@ impl Inertia {
         0.5 * twice
     }
 
-    /// Derivative of the inertia and mass-damping force (sign of a stiffness) for increments of weights q̇ and q̈.
-    /// With `gyroscopic`, all of it (unsymmetric: C(r) (37) and the turning of J); without, M and α M alone.
+    /// Derivative of the inertia and mass-damping forces, with the sign of a stiffness, for increments of the weights
+    /// q̇ and q̈. With `gyroscopic` it is complete, which makes it unsymmetric by C(r) (37) and the rotation of J;
+    /// without, it is M and α M alone.
     pub fn tangent(&self, node: &Node, (rate, acceleration): (f64, f64), damping: f64, gyroscopic: bool) -> Mat6 {
         let mut K = Mat6::zeros();
         let w = acceleration + damping * rate;
@@ -88,19 +91,22 @@ impl Inertia {
     }
 }
 
-/// Sums what falls on each node.
+/// Sums mass and inertia on each node.
 pub struct Lumped(Vec<(f64, Mat3)>);
 
 impl Lumped {
+    /// No mass at this number of nodes.
     pub fn new(nodes: usize) -> Self {
         Lumped(vec![(0.0, Mat3::zeros()); nodes])
     }
 
+    /// Adds a mass and an inertia tensor J₀ at a node.
     pub fn add(&mut self, node: usize, mass: f64, J0: &Mat3) {
         self.0[node].0 += mass;
         self.0[node].1 += J0;
     }
 
+    /// The nodes that have mass or inertia.
     pub fn finish(self) -> Vec<Inertia> {
         let entry = |(node, (mass, J0)): (usize, (f64, Mat3))| {
             let rotary = J0 != Mat3::zeros();
@@ -110,16 +116,16 @@ impl Lumped {
     }
 }
 
-/// Translational mass of an element by its shape functions: the same number for each direction.
+/// The consistent mass matrix of an element for translations; it is the same for each direction.
 #[derive(Debug, Clone)]
 pub struct ConsistentMass {
     pub nodes: Vec<usize>,
-    /// Row-major over the nodes.
+    /// Entries, row-major over the nodes of the element.
     pub m: Vec<f64>,
 }
 
 impl ConsistentMass {
-    /// ∫ N_a N_b over a straight element of this mass with Lobatto nodes.
+    /// Entries ∫ N_a N_b over a straight element of this mass with Lobatto nodes.
     pub fn new(nodes: &[usize], mass: f64) -> Self {
         let n = nodes.len();
         let (at, _) = quadrature::lobatto(n);
@@ -132,7 +138,7 @@ impl ConsistentMass {
         ConsistentMass { nodes: nodes.to_vec(), m }
     }
 
-    /// ∫ N_a N_b over a shell of this mass per area, with the corners at `x`.
+    /// Entries ∫ N_a N_b over a shell element of this mass per area with the corners `x`.
     pub fn of_shell(nodes: &[usize], x: &[Vec3], mass: f64) -> Self {
         let n = nodes.len();
         let products = crate::elements::shell::products(x);
@@ -140,11 +146,13 @@ impl ConsistentMass {
         ConsistentMass { nodes: nodes.to_vec(), m }
     }
 
+    /// Each entry of the matrix with its row's and its column's node.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let n = self.nodes.len();
         self.m.iter().enumerate().map(move |(i, &m)| (self.nodes[i / n], self.nodes[i % n], m))
     }
 
+    /// Subtracts M (a − field) and the Rayleigh damping force `damping` × M v from `F`; weight alone unless `dynamic`.
     pub fn add_forces(&self, nodes: &[Node], field: &Vec3, dynamic: bool, damping: f64, F: &mut [Force]) {
         for (a, b, m) in self.pairs() {
             let mut acceleration = -field;
@@ -155,11 +163,12 @@ impl ConsistentMass {
         }
     }
 
+    /// The kinetic energy ½ vᵀ M v.
     pub fn kinetic_energy(&self, nodes: &[Node]) -> f64 {
         self.pairs().map(|(a, b, m)| 0.5 * m * nodes[a].v.dot(&nodes[b].v)).sum()
     }
 
-    /// Linear momentum, and angular momentum about the origin.
+    /// Linear momentum, and angular momentum about the origin, global components.
     pub fn momentum(&self, nodes: &[Node]) -> (Vec3, Vec3) {
         self.pairs().fold((Vec3::zeros(), Vec3::zeros()), |(p, l), (a, b, m)| {
             (p + m * nodes[b].v, l + m * nodes[a].x.cross(&nodes[b].v))

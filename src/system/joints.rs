@@ -1,11 +1,11 @@
-//! Joints in the equation of motion: their forces, their gaps, their part of the matrix (57). With f the residual without
-//! them the iteration solves
+//! Joints in the equation of motion: their forces, the violations of their constraint equations, their part of the matrix
+//! (57). With f the residual without them the iteration solves
 //!   [K + GᵀsG  Gᵀs ] [δq]   [ f − Gᵀλ ]
 //!   [sG        −ε s] [δμ] = [−s(1+ε)c ],   δλ = s (δμ − c),
-//! which is Newton's equation for f = Gᵀλ, c = 0 with the penalty s for a unit of λ and, which changes nothing but the
-//! path of elimination, with sGᵀ times the second equation added to the first: pivots then have no zeros. O. A. Bauchau,
-//! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Rows that say the same twice share what they carry by
-//! least norm: ε decides, and leaves a fraction ε of a gap to the next iteration.
+//! which is Newton's equation for f = Gᵀλ, c = 0 with the penalty s for a unit of λ. The second equation, times sGᵀ, is
+//! added to the first; this changes nothing but the path of elimination, whose pivots then do not vanish. O. A. Bauchau,
+//! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Redundant equations share the load with the least norm:
+//! ε decides, and leaves the fraction ε of a gap to the next iteration.
 
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
@@ -16,23 +16,25 @@ use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
 
-/// Directions of a local matrix: two nodes, and the joint's multipliers as a third.
+/// Size of a joint's matrix: the degrees of freedom of its two nodes, then its multipliers as those of a third node.
 pub(super) const WIDTH: usize = 6 + 6 + MOST_EQUATIONS;
 
 /// Force and moment that a joint exerts on its first node, global components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointState {
+    /// Force.
     pub f: Vec3,
+    /// Moment.
     pub m: Vec3,
 }
 
 impl System {
-    /// Rows of all joints.
+    /// Number of constraint equations of all joints.
     pub fn multipliers(&self) -> usize {
         self.joints.iter().map(|joint| joint.equations.len()).sum()
     }
 
-    /// Each joint with the number of its first row.
+    /// Each joint with the number of its first constraint equation.
     fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
         self.joints.iter().scan(0, |next, joint| {
             let first = *next;
@@ -41,7 +43,7 @@ impl System {
         })
     }
 
-    /// Subtracts Gᵀλ and notes the gaps.
+    /// Subtracts the constraint forces Gᵀλ and writes the gaps.
     pub(super) fn subtract_joint_forces(&self, nodes: &[Node], forces: &mut Forces, scale: &mut Scale) {
         let Forces { multipliers, on_nodes: F, .. } = forces;
         for (joint, first) in self.numbered() {
@@ -61,14 +63,14 @@ impl System {
         }
     }
 
-    /// −Gᵀλ alone, handed to the masters.
+    /// Writes the constraint forces −Gᵀλ alone, transferred to the masters.
     pub fn joint_forces(&self, nodes: &[Node], forces: &mut Forces) {
         forces.on_nodes.fill([0.0; 6]);
         self.subtract_joint_forces(nodes, forces, &mut Scale::default());
         self.transfer_to_masters(nodes, forces);
     }
 
-    /// Per node: whether anything gives its translations, its rotations mass.
+    /// For each node, whether any mass acts on its translations and any inertia on its rotations.
     pub fn has_mass(&self, nodes: usize) -> Vec<[bool; 2]> {
         let mut has_mass = vec![[false; 2]; nodes];
         self.inertias.iter().for_each(|inertia| has_mass[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);
@@ -83,7 +85,7 @@ impl System {
         has_mass
     }
 
-    /// Writes the gaps (0) of the joints, or the first or second derivative in time.
+    /// Writes the gaps of the joints (`derivative` 0) or their first or second derivative in time.
     pub fn gaps(&self, nodes: &[Node], derivative: usize, gaps: &mut [f64]) {
         for (joint, first) in self.numbered() {
             let [a, b] = joint.nodes.map(|n| &nodes[n]);
@@ -93,7 +95,7 @@ impl System {
         }
     }
 
-    /// The largest gap over what it is to be measured by: positions of size `reach`, angles of 1.
+    /// The largest gap relative to its reference: `reach`, the size of positions, for lengths, and 1 for angles.
     pub fn largest_gap(&self, gaps: &[f64], reach: f64) -> f64 {
         let rows = self.joints.iter().flat_map(|joint| &joint.equations);
         let relative =
@@ -101,7 +103,7 @@ impl System {
         rows.zip(gaps).map(relative).fold(0.0, |largest, gap| if gap > largest || gap.is_nan() { gap } else { largest })
     }
 
-    /// The joint and the row of a multiplier.
+    /// The joint and the constraint equation of a multiplier.
     pub fn row(&self, multiplier: usize) -> Option<(usize, &ConstraintEquation)> {
         let of = |(j, (joint, first)): (usize, (&_, usize))| {
             let joint: &Joint = joint;
@@ -111,7 +113,7 @@ impl System {
         Some((j, &self.joints[j].equations[multiplier - first]))
     }
 
-    /// What joints do to their first nodes, in the order of the model's list.
+    /// Writes the force and moment of each joint on its first node, in the order of the model's list.
     pub fn joint_states(&self, nodes: &[Node], values: &[f64], out: &mut Vec<JointState>) {
         out.clear();
         out.extend(self.numbered().map(|(joint, first)| {
@@ -127,8 +129,9 @@ impl System {
     }
 }
 
-/// Where a joint's nodes move: of each node and each independent node that it moves with, its place in [`super::assembly::independent nodes`], and the
-/// places of its six directions on the diagonal of the matrix.
+/// The slots of the diagonal of the matrix on which a joint acts: for each independent node that one of its nodes moves
+/// with, the end, the node, the index in [`super::assembly::independent_nodes`] and the slots of its six degrees of
+/// freedom.
 pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
 
 impl Diagonal {
@@ -146,7 +149,8 @@ impl Diagonal {
         Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }
 
-    /// The stiffness against which a row acts, Σ g²/K over all directions that it pulls at, inverted; none where nothing resists.
+    /// The penalty factor of an equation: the inverse of Σ g²/K over the degrees of freedom that it acts on. `None`
+    /// where none has stiffness.
     fn stiffness(&self, G: &[Vec6; 2], projections: &[Vec<Mat6>], values: &[f64]) -> Option<f64> {
         let mut compliance = 0.0;
         for (end, node, k, slots) in &self.0 {
@@ -164,7 +168,8 @@ impl Diagonal {
 }
 
 /// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
-/// `projections`: how nodes move with their independent nodes; `stiffness`: with the derivative of its forces.
+/// `projections` are those of the nodes onto independent nodes; with `stiffness` the matrix holds the derivative of the
+/// joint's forces.
 pub(super) fn tangents(
     system: &System,
     nodes: &[Node],
@@ -174,7 +179,8 @@ pub(super) fn tangents(
     values: &mut [f64],
     mut add: impl FnMut(usize, &[f64], &mut [f64]),
 ) {
-    // The matrix at hand, before any joint has added to it. A row that nothing resists is weighed like the stiffest other.
+    // The penalty factors rest on the matrix before any joint has added to it. An equation on which nothing acts has
+    // the factor of the stiffest other.
     let mut stiffest = [0.0f64; 2];
     let mut first = 0;
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {

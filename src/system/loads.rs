@@ -1,21 +1,21 @@
-//! Loads as they act at an instant.
+//! The loads that act at one instant.
 
 use crate::math::{Mat3, Vec3, skew};
 use crate::model;
 use crate::state::Node;
 
-/// Loads at the instant of equilibrium.
+/// Values of the loads at the instant where equilibrium is written. [`super::Excitation`] writes them.
 #[derive(Debug, Clone, Default)]
 pub struct Loading {
-    /// Of the model's loads.
+    /// Factor of each nodal load, in the order of the model's list.
     pub factors: Vec<f64>,
-    /// The model's pressures that follow, with their factors.
+    /// Pressure of each follower pressure times its factor, in the order of the model's list.
     pub pressures: Vec<f64>,
-    /// The acceleration that every mass feels.
+    /// Gravity less the acceleration of the base, global components: every mass m feels the force m × field.
     pub field: Vec3,
 }
 
-/// Force and moment of a load; a follower turns with its node.
+/// Force and moment of a load on its node, global components; those of a follower load rotate with the node.
 #[inline]
 pub(super) fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Vec3) {
     let (f, m) = (factor * load.force, factor * load.moment);
@@ -27,7 +27,7 @@ pub(super) fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Ve
     }
 }
 
-/// ∂(f, m)/∂θ of a follower, as internal force (with the sign of a stiffness).
+/// Load stiffness −∂(f, m)/∂θ of a follower load, as the skew matrices of its force and its moment.
 pub(super) fn follower_stiffness(load: &model::Load, factor: f64, node: &Node) -> [Mat3; 2] {
     let (f, m) = load_on(load, factor, node);
     [skew(&f), skew(&m)]

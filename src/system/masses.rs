@@ -1,5 +1,6 @@
-//! Accelerations from forces where each moving node is a rigid body of its own: its mass and inertia, with those of all that
-//! rides on it, about the centre that they have together. In body axes these never change, so nothing is ever factorised.
+//! Accelerations from forces where each moving node is a rigid body of its own: its mass and inertia, with those of all
+//! nodes rigidly attached to it, about their common centre of mass. In body axes these are constant, so nothing is
+//! factorized during the run.
 
 use super::dofs::DofMap;
 use super::equations::System;
@@ -7,31 +8,35 @@ use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, skew, stack};
 use crate::state::Node;
 
-/// Part of what an inertia was before others were taken from it that counts as none.
+/// An entry counts as zero below this fraction of what it was before others were subtracted from it.
 const NEGLIGIBLE: f64 = 1e-12;
-/// Velocities that what is held leaves to a node are corrected so many times.
+/// Number of corrections of the velocities of a node with restrained degrees of freedom.
 pub const CORRECTIONS: usize = 2;
 
-/// The masses of a scene, one for each node that has an unknown.
+/// The masses of a scene: one block for each node that has an unknown.
 #[derive(Debug, Clone)]
 pub struct Masses {
+    /// The blocks, in ascending order of nodes.
     pub blocks: Vec<MassBlock>,
-    /// By node: its place in `blocks`, where it has unknowns.
+    /// For each node the index of its block in `blocks`; `None` where it has no unknown.
     place: Vec<Option<u32>>,
 }
 
-/// Mass and inertia that move with a node.
+/// The mass and inertia that move with a node.
 #[derive(Debug, Clone)]
 pub struct MassBlock {
+    /// The node that they move with.
     pub node: usize,
-    /// Directions that are unknowns.
+    /// True for each degree of freedom that is an unknown.
     pub free: [bool; 6],
+    /// Mass, with that of all rigidly attached nodes.
     pub mass: f64,
-    /// From the node to the centre of mass; axes that were global at t = 0, like those of `J0`.
+    /// Vector from the node to the centre of mass, in axes fixed to the node that were global at t = 0, like those of
+    /// `J0`.
     s0: Vec3,
-    /// About the centre of mass.
+    /// Inertia tensor about the centre of mass.
     J0: Mat3,
-    /// Of a body: where it turns about, from the node, and its inertia about that.
+    /// Vector from the node to the point that a rigid body turns about, the inertia tensor about it, and its inverse.
     arm: Vec3,
     J_pivot: Mat3,
     J_pivot_inverse: Mat3,
@@ -40,30 +45,36 @@ pub struct MassBlock {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum BlockKind {
-    /// No rotation is an unknown, or the centre is the node and the inertia is one number.
+    /// No rotation is an unknown, or the node is the centre of mass and J₀ is a multiple of the identity.
     Point { inverse_inertia: f64 },
-    /// Rotations are free. The centre is the node, or moves freely; or the node does not move and is what the body turns about.
+    /// All rotations are unknowns. The node is the centre of mass, or the centre moves freely, or the node does not
+    /// translate and the body turns about it.
     RigidBody,
-    /// Some directions are held.
+    /// Some degrees of freedom are restrained.
     Restrained,
 }
 
-/// Velocities and accelerations, global components.
+/// Velocities and accelerations of a node, global components.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion {
+    /// Velocity.
     pub v: Vec3,
+    /// Angular velocity.
     pub omega: Vec3,
+    /// Acceleration.
     pub a: Vec3,
+    /// Angular acceleration.
     pub alpha: Vec3,
 }
 
 impl Masses {
-    /// `None`: masses of several nodes belong together, by their elements or by dependent nodes that turn on their own.
+    /// Returns `None` where masses of several nodes are coupled: by consistent masses, or by dependent nodes with free
+    /// rotations of their own.
     pub fn new(system: &System, dofs: &DofMap) -> Option<Masses> {
         if !system.consistent.is_empty() {
             return None;
         }
-        // Mass, its moment, inertia about the node.
+        // The sums are mass, its first moment, and the inertia tensor about the node.
         let mut sums = vec![(0.0, Vec3::zeros(), Mat3::zeros()); dofs.nodes()];
         let mut rides = vec![None; dofs.nodes()];
         system.rigid_links.iter().for_each(|dependent| rides[dependent.node] = Some(dependent));
@@ -72,7 +83,7 @@ impl Masses {
             let (mut node, mut arm, mut J0) = (inertia.node, Vec3::zeros(), inertia.J0);
             while let Some(dependent) = rides[node] {
                 if !dependent.rigid {
-                    // A ball joint takes over the mass and leaves the inertia.
+                    // A spherical joint hands on the mass and leaves the inertia.
                     if dependent.dofs != [true, true, true, false, false, false] || node != inertia.node {
                         return None;
                     }
@@ -96,7 +107,7 @@ impl Masses {
             }
             let s0 = if mass > 0.0 { moment / mass } else { Vec3::zeros() };
             let mut J0 = J - point(mass, &s0);
-            // What is left of a point mass at the end of an arm.
+            // A point mass at the end of an arm leaves nothing but rounding.
             let trace = NEGLIGIBLE * J.amax();
             J0.iter_mut().filter(|J| J.abs() < trace).for_each(|J| *J = 0.0);
             place[node] = Some(blocks.len() as u32);
@@ -105,12 +116,13 @@ impl Masses {
         Some(Masses { blocks, place })
     }
 
-    /// That of a node, where it has unknowns.
+    /// The block of a node; `None` where the node has no unknown.
     pub fn of(&self, node: usize) -> Option<&MassBlock> {
         self.place[node].map(|place| &self.blocks[place as usize])
     }
 
-    /// M⁻¹ F, into `out` by node, where there is an unknown; accelerations of what is held stay zero.
+    /// Writes M⁻¹ F into `out`, by node, where there is an unknown; accelerations of restrained degrees of freedom stay
+    /// as they are.
     pub fn accelerate(&self, nodes: &[Node], F: &[Force], out: &mut [Vec6]) {
         for block in &self.blocks {
             out[block.node] = block.accelerate(&nodes[block.node], &F[block.node]);
@@ -122,7 +134,7 @@ impl MassBlock {
     fn new(node: usize, free: [bool; 6], mass: f64, s0: Vec3, J0: Mat3) -> MassBlock {
         let all = |free: &[bool]| !free.contains(&false);
         let turns = free[3..].contains(&true);
-        // A node that is held turns a centre elsewhere about itself.
+        // The inertia matrix of a node is diagonal where the node is the centre of mass.
         let centred = s0.amax() == 0.0;
         let equal = J0 == Mat3::identity() * J0[(0, 0)];
         let kind = match (turns, all(&free[3..]), centred) {
@@ -139,7 +151,7 @@ impl MassBlock {
         MassBlock { node, free, mass, s0, J0, arm, J_pivot, J_pivot_inverse, kind }
     }
 
-    /// The matrix of all six directions, about the node as it lies.
+    /// The mass matrix of all six degrees of freedom, about the node; `R` is the node's rotation.
     fn matrix(&self, R: &Mat3) -> Mat6 {
         let s = skew(&(R * self.s0));
         let mut M = Mat6::identity() * self.mass;
@@ -149,14 +161,14 @@ impl MassBlock {
         M
     }
 
-    /// An unknown direction in which nothing resists but stiffness, as the node lies at t = 0.
+    /// A degree of freedom that is an unknown and has no inertia at t = 0.
     pub fn massless(&self) -> Option<usize> {
         let mut M = self.matrix(&Mat3::identity());
         let scale = M.diagonal();
         eliminate(&mut M, &mut Vec6::zeros(), &self.free, &scale)
     }
 
-    /// Accelerations of the unknown directions under a force and a moment at the node.
+    /// Accelerations of the unknown degrees of freedom under the force and moment `F` at the node; zero for the others.
     #[inline]
     pub fn accelerate(&self, node: &Node, F: &Force) -> Vec6 {
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
@@ -165,7 +177,7 @@ impl MassBlock {
             BlockKind::Point { inverse_inertia } => kept(stack(&(f / self.mass), &(m * inverse_inertia))),
             BlockKind::RigidBody => {
                 let R = node.R();
-                // About the centre of mass, and back.
+                // The moment is taken about the centre of mass, and the acceleration back to the node.
                 let s = R * self.arm;
                 let alpha = R * (self.J_pivot_inverse * R.tr_mul(&(m - s.cross(&f))));
                 kept(stack(&(f / self.mass - alpha.cross(&s)), &alpha))
@@ -180,7 +192,7 @@ impl MassBlock {
         }
     }
 
-    /// aᵀ M b of small motions of the node.
+    /// The product aᵀ M b of two small motions of the node.
     #[inline]
     pub fn inner_product(&self, node: &Node, a: &Vec6, b: &Vec6) -> f64 {
         match self.kind {
@@ -198,15 +210,15 @@ impl MassBlock {
         }
     }
 
-    /// About what accelerations of translations and of rotations weigh, for a quick look.
+    /// Mass and mean moment of inertia, a rough measure for comparisons.
     pub fn mean_mass(&self) -> [f64; 2] {
         [self.mass, self.J0.trace() / 3.0]
     }
 
-    /// F ← F − M a: what accelerations leave of a force, on directions that are held too.
+    /// Subtracts inertia forces, F ← F − M a, from all degrees of freedom, the restrained ones included.
     #[inline]
     pub fn subtract_inertia(&self, node: &Node, a: &Vec6, F: &mut Force) {
-        // Elsewhere nothing couples what is held with what is not.
+        // In all other cases no inertia couples restrained and free degrees of freedom.
         let coupled = self.s0.amax() > 0.0 && self.free.contains(&false);
         if !coupled && self.kind != BlockKind::Restrained {
             return;
@@ -215,17 +227,19 @@ impl MassBlock {
         F.iter_mut().zip(&rest).for_each(|(f, rest)| *f -= rest);
     }
 
-    /// What angular velocities make of mass off the node and of inertia: m ω × (ω × s), and ω × J ω about the centre.
+    /// Force and moment that angular velocities cause: m ω × (ω × s) of a mass off the node, and ω × J ω about the
+    /// centre of mass.
     fn gyroscopic_force(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
         let s = R * self.s0;
         let f = self.mass * omega.cross(&omega.cross(&s));
         stack(&f, &(omega.cross(&(R * (self.J0 * R.tr_mul(omega)))) + s.cross(&f)))
     }
 
-    /// Rates at the end of a step of length `dt` from `start`, where forces F are left over from the motion `now` there: the
-    /// mean of the accelerations makes the velocities. That of a body which turns freely is taken of its angular momentum,
-    /// which no moment of its own inertia changes. Elsewhere what masses off the node and inertias make of the predicted angular
-    /// velocities is corrected: it would feed the motion.
+    /// Velocities and accelerations at the end of a velocity Verlet step of length `dt` from `start`. `F` is the
+    /// residual at the motion `now` there, with predicted velocities. The velocities follow from the mean of the
+    /// accelerations; those of a freely turning body from the mean rate of its angular momentum, which no moment of its
+    /// own inertia changes. Where degrees of freedom are restrained, the gyroscopic terms of the predicted angular
+    /// velocities are corrected: they would feed energy into the motion.
     #[inline]
     pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> Motion {
         let h = 0.5 * dt;
@@ -250,7 +264,8 @@ impl MassBlock {
         let times = |R: &Mat3, v: &Vec3| R * (self.J_pivot * R.tr_mul(v));
         let centripetal = |node: &Node, s: &Vec3| node.alpha.cross(s) + node.omega.cross(&node.omega.cross(s));
         let (s0, s) = (R0 * self.arm, R * self.arm);
-        // About the centre of mass, or a node that does not move: Ḷ = m, on both sides of the step.
+        // The balance of angular momentum about the centre of mass, or about a node that does not translate: L̇ = m, at
+        // both ends of the step.
         let L0 = times(&R0, &start.omega);
         let m0 = times(&R0, &start.alpha) + start.omega.cross(&L0);
         let m1 = m - s.cross(&f) + times(&R, &now.alpha) + now.omega.cross(&times(&R, &now.omega));
@@ -263,7 +278,7 @@ impl MassBlock {
         let v = start.v + start.omega.cross(&s0) + h * (a0 + a1) - omega.cross(&s);
         let mut end = Motion { v, omega, a: a1, alpha };
         end.a -= alpha.cross(&s) + omega.cross(&omega.cross(&s));
-        // Where the centre is the node, it may be held.
+        // Translations may be restrained where the node is the centre of mass.
         for i in (0..3).filter(|&i| !self.free[i]) {
             (end.v[i], end.a[i]) = (now.v[i], now.a[i]);
         }
@@ -271,8 +286,8 @@ impl MassBlock {
     }
 }
 
-/// Solves M x = b for the free directions, which overwrites both; the others come out as zero. Returns a direction whose pivot
-/// vanishes, if any.
+/// Solves M x = b for the free degrees of freedom and overwrites both; the other entries of x are zero. Returns a
+/// degree of freedom whose pivot vanishes, if there is one.
 fn eliminate(M: &mut Mat6, b: &mut Vec6, free: &[bool; 6], scale: &Vec6) -> Option<usize> {
     let mut lost = None;
     for k in 0..6 {

@@ -1,5 +1,5 @@
-//! The equation of motion of a scene: residual, tangent, energies, for any state of its nodes. Bodies are seen here for
-//! the first time: what an element does to a node that rides on a body is handed to the body.
+//! The equation of motion of a scene: residual, tangent and energies for any configuration of its nodes. Rigid bodies
+//! enter here: the forces and matrices of elements at nodes attached to a body are transferred to the body's node.
 
 pub mod assembly;
 mod block_scatter;

@@ -1,31 +1,33 @@
 //! The Lagrange multipliers of joints in the iteration; see [`super::joints`] for the equations.
 
-/// ε: a repeated row is felt as 1e-16/ε of a length, and a gap shrinks by ε in an iteration.
+/// ε regularizes redundant constraint equations: rounding in a redundant equation is amplified by 1/ε, and an iteration
+/// leaves the fraction ε of a gap.
 pub(super) const REGULARIZATION: f64 = 1e-7;
 
-/// What joints carry, a number for each row of all joints.
+/// The Lagrange multipliers of all joints, one entry for each constraint equation.
 #[derive(Debug, Clone, Default)]
 pub struct Multipliers {
-    /// λ: forces and moments. Written by the iteration.
+    /// λ: the constraint forces and moments. The iteration writes them.
     pub values: Vec<f64>,
-    /// c: how far the joints gape. Written by [`super::System::residual`].
+    /// c: the violations of the constraint equations. [`super::System::residual`] writes them.
     pub gaps: Vec<f64>,
-    /// s. Written by the tangent.
+    /// s: the penalty factors. Assembly of the tangent writes them.
     pub(super) penalties: Vec<f64>,
 }
 
 impl Multipliers {
+    /// Zero multipliers for this number of constraint equations.
     pub fn new(rows: usize) -> Self {
         Multipliers { values: vec![0.0; rows], gaps: vec![0.0; rows], penalties: vec![0.0; rows] }
     }
 
-    /// All but the gaps of another.
+    /// Copies multipliers and penalty factors; the gaps belong to a configuration and are computed anew.
     pub fn copy_from(&mut self, other: &Multipliers) {
         self.values.copy_from_slice(&other.values);
         self.penalties.copy_from_slice(&other.penalties);
     }
 
-    /// The right-hand side of the second equation.
+    /// Writes the right-hand side −s (1 + ε) c of the constraint equations into `tail`, the rows of the multipliers.
     #[inline]
     pub fn write_rhs(&self, tail: &mut [f64]) {
         for ((r, s), c) in tail.iter_mut().zip(&self.penalties).zip(&self.gaps) {
@@ -33,13 +35,13 @@ impl Multipliers {
         }
     }
 
-    /// From δμ to δλ/s.
+    /// Turns the solution δμ in `tail` into δλ/s = δμ − c.
     #[inline]
     pub fn subtract_gaps(&self, tail: &mut [f64]) {
         tail.iter_mut().zip(&self.gaps).for_each(|(r, c)| *r -= c);
     }
 
-    /// λ ← λ + s times what [`Multipliers::subtract_gaps`] has left.
+    /// Updates λ ← λ + s `tail`, with `tail` as [`Multipliers::subtract_gaps`] leaves it.
     #[inline]
     pub fn add(&mut self, tail: &[f64]) {
         for ((value, s), r) in self.values.iter_mut().zip(&self.penalties).zip(tail) {

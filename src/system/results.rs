@@ -1,4 +1,4 @@
-//! What elements feel, for output: forces of links, stress resultants of beams.
+//! The results of elements for output: forces of links, stress resultants of beams and shells.
 
 use super::equations::System;
 use super::watched::Watched;
@@ -7,37 +7,41 @@ use crate::math::{Mat3, Vec3};
 use crate::model::{Beam, Model, PartType, Shell};
 use crate::state::{Configuration, Node};
 
-/// A link at the end of a step.
+/// The state of a link at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkState {
-    /// Of a bushing: along its first axis.
+    /// Elongation; of a bushing, the relative displacement along its first axis.
     pub elongation: f64,
+    /// Rate of the elongation.
     pub rate: f64,
-    /// Tension positive.
+    /// Axial force, positive in tension.
     pub force: f64,
     /// Force and moment that the link exerts on its first end (the second end pulls on it), global components.
     pub f: Vec3,
     pub m: Vec3,
 }
 
-/// An integration point of a beam.
+/// The state of an integration point of a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionPoint {
-    /// Place of the beam in [`Model::parts`].
+    /// The beam's index in [`Model::parts`].
     pub part: usize,
+    /// Number of the element within the beam.
     pub element: usize,
+    /// Number of the integration point within the element.
     pub point: usize,
-    /// At arc length `s` from the beam's start.
+    /// Resultants and strains at the arc length `s` from the beam's start.
     pub at: IntegrationPoint,
 }
 
-/// A shell element.
+/// The state of a shell element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShellState {
-    /// Place of the shell in [`Model::parts`].
+    /// The shell's index in [`Model::parts`].
     pub part: usize,
-    /// Its number in the deck's part.
+    /// The element's number in the deck's part.
     pub element: usize,
+    /// Stress resultants, and the stresses of layers.
     pub at: ShellResultants,
 }
 
@@ -60,7 +64,7 @@ impl ShellState {
 }
 
 impl System {
-    /// States of all links in deck order.
+    /// Writes the states of all links into `out`, in deck order.
     pub fn link_states(&self, nodes: &[Node], out: &mut Vec<LinkState>) {
         out.clear();
         out.extend(self.watched.iter().map(|link| match link {
@@ -72,7 +76,8 @@ impl System {
                 let (d, rate, f, m) = bushing.state(nodes);
                 let [first, second] = bushing.nodes.map(|n| &nodes[n]);
                 let B = first.R() * bushing.axes;
-                // Force and moment act at the second end; across the distance of the ends the force turns the first.
+                // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
+                // the first.
                 let f_global = B * f;
                 let m = B * m + (second.x - first.x).cross(&f_global);
                 LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
@@ -80,7 +85,8 @@ impl System {
         }));
     }
 
-    /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order.
+    /// Writes the largest accumulated plastic strain of each element into `out`: all beams, bars and shells in deck
+    /// order.
     pub fn plastic_strains(&self, now: &Configuration, out: &mut Vec<f64>) {
         out.clear();
         for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
@@ -89,7 +95,7 @@ impl System {
         }
     }
 
-    /// Stress resultants of all elements of all shells in deck order.
+    /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
     pub fn shell_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
         out.clear();
         for group in &self.groups {
@@ -108,7 +114,7 @@ impl System {
         }
     }
 
-    /// Stress resultants at all integration points of all beams in deck order.
+    /// Writes the stress resultants at all integration points of all beams into `out`, in deck order.
     pub fn section_points(&self, model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
         out.clear();
         let mut start = 0.0;

@@ -1,12 +1,14 @@
-//! Magnitudes of forces and moments.
+//! The magnitudes of forces and moments.
 
 use crate::elements::Force;
 use crate::math::{Vec3, larger};
 
-/// Magnitudes against which a residual is judged.
+/// The largest force and the largest moment met while a residual is summed. The residual is judged relative to them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Scale {
+    /// Largest absolute force component, global.
     pub force: f64,
+    /// Largest absolute moment component, global.
     pub moment: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Large scenes on several threads: which groups of elements go side by side, and how what they give is summed. The cut rests
-//! on the scene alone and sums keep their order, so bits do not depend on the number of threads.
+//! Partition of large scenes into groups of elements that several threads compute. The partition rests on the scene
+//! alone and sums keep their order, so results do not depend on the number of threads.
 
 use super::group::Group;
 use crate::elements::Force;
@@ -7,29 +7,29 @@ use crate::state::Configuration;
 use rayon::prelude::*;
 use std::ops::{AddAssign, Range};
 
-/// Elements in a group at most.
+/// Largest number of elements in a group.
 pub(super) const MOST_IN_GROUP: usize = 512;
-/// Below this many elements threads cost more than they save.
+/// Number of elements from which several threads pay.
 const WORTH_THREADS: usize = 1024;
-/// Each takes an array of forces.
+/// Largest number of partitions; each needs its own array of forces.
 const MOST_PARTITIONS: usize = 16;
 
-/// Groups whose forces are summed apart from those of others.
+/// Groups whose forces are summed in an array of their own.
 #[derive(Debug, Clone)]
 pub struct Partition {
     groups: Range<usize>,
-    /// Nodes that they act on.
+    /// The ranges of nodes on which they act.
     nodes: Vec<Range<usize>>,
-    /// By node. Written by [`subtract_forces`].
+    /// Forces by node. [`subtract_forces`] writes them.
     F: Vec<Force>,
 }
 
-/// True where elements are many enough for several threads.
+/// True where the elements are many enough for several threads.
 pub(super) fn is_large(groups: &[Group]) -> bool {
     groups.iter().map(|group| group.block.len()).sum::<usize>() >= WORTH_THREADS
 }
 
-/// None in a small scene.
+/// Partitions the groups of a large scene; a small scene has none.
 pub(super) fn partition(groups: &[Group]) -> Vec<Partition> {
     if !is_large(groups) {
         return Vec::new();
@@ -78,7 +78,7 @@ pub(super) fn subtract_forces(
     }
 }
 
-/// Σ over groups, by halves.
+/// Sums over groups by recursive halving, which keeps the order of additions for any number of threads.
 pub(super) fn sum<T>(groups: &[Group], threads: bool, of: &(impl Fn(&Group) -> T + Sync)) -> T
 where
     T: Default + AddAssign + Send,
@@ -95,7 +95,7 @@ where
     }
 }
 
-/// The same with each group's own part of `history`, which is that of `groups`.
+/// Sums over groups like [`sum`]; `of` also receives the group's range of `history`, which is that of all `groups`.
 pub(super) fn sum_with<T>(
     groups: &[Group],
     history: &mut [f64],

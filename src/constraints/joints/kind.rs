@@ -1,12 +1,13 @@
-//! What a kind of joint says of itself, and what several kinds share.
+//! The description of a kind of joint, and what several kinds share.
 
 use crate::constraints::joint::{ConstraintEquation, translations};
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key, Kind};
 
-/// A joint that the deck can name.
+/// A kind of joint that the deck can name.
 pub type JointKind = Kind<Make>;
 
+/// The constraint equations of a kind of joint.
 #[derive(Debug)]
 pub struct Make {
     /// The joint's axes as columns, global at t = 0; the first is the axis that the deck gives. `None` where a key is wrong.
@@ -25,15 +26,15 @@ pub const AXIS: Key = Key {
             bodies. Any length.",
 };
 
-/// Joints without an axis.
+/// The axes of joints without an axis of their own: the global ones.
 pub fn no_axis(_: &mut Given) -> Option<Mat3> {
     Some(Mat3::identity())
 }
 
-/// Joints with one axis; the other two are any that make a frame with it.
+/// The axes of joints with one axis; the other two are any that make a frame with it.
 pub fn one_axis(given: &mut Given) -> Option<Mat3> {
     let x = given.require_unit("axis")?;
-    // The global axis that is most nearly normal to it: which one is of no consequence.
+    // The global axis that is most nearly perpendicular to it is taken: which one is of no consequence.
     let y = x.cross(&Vec3::ith(x.iamin(), 1.0)).normalize();
     Some(Mat3::from_columns(&[x, y, x.cross(&y)]))
 }

@@ -1,5 +1,5 @@
-//! The kinds of joints: which constraint equations each sets up between its two ends, and from which axes. One more is a file of
-//! its own and an entry of [`JOINTS`].
+//! The kinds of joints: which constraint equations each sets up between its two ends, and from which axes. One more
+//! kind is a file of its own and an entry of [`JOINTS`].
 
 pub mod cylindrical;
 pub mod distance;
@@ -12,6 +12,7 @@ pub mod universal;
 
 pub use kind::JointKind;
 
+/// All kinds of joints, in the order in which help lists them.
 pub static JOINTS: [&JointKind; 7] = [
     &spherical::KIND,
     &revolute::KIND,

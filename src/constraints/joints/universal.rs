@@ -25,7 +25,7 @@ pub static KIND: JointKind = JointKind {
     make: Make { axes, ends_meet: true, equations: |axes, d| meeting(d, rotations([false, false, true], axes)) },
 };
 
-/// Cosine of the angle between the arms of a cross below which they count as perpendicular.
+/// The arms of a cross count as perpendicular below this cosine of their angle.
 const SQUARE: f64 = 1e-6;
 
 fn axes(given: &mut Given) -> Option<Mat3> {
