@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Table, Vector};
+use super::words::kinds::{Kinds, OneOf};
+use super::words::{Maybe, Names};
+use crate::elements::contact::SurfaceShape;
+use crate::elements::contact::surfaces::SURFACES;
+use crate::elements::contact::surfaces::kind::{MakeSurface, SurfaceKind};
 
 /// Points that push away from a surface, rub on it and bounce off it; or, with a stiffness of 0, a zone whose gap
 /// is watched.
@@ -15,7 +19,7 @@ pub struct Contact {
     pub name: Maybe<String>,
     /// The surface that is touched.
     #[schemars(required)]
-    pub surface: Maybe<Table<Surface>>,
+    pub surface: Maybe<OneOf<Surface>>,
     /// What touches it, by name: points, bodies (corners of a box, rims of a cylinder, a sphere as it is),
     /// sets, groups of the mesh, beams, bars, shells.
     #[schemars(required)]
@@ -42,38 +46,17 @@ pub struct Contact {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Surface {
-    #[schemars(required)]
-    pub shape: Maybe<Shape>,
     /// Name of the body that carries it. Default: the ground.
     pub body: Maybe<String>,
-    /// A point of it: plane.
-    pub point: Maybe<Vector>,
-    /// Out of it, away from what is solid: plane.
-    pub normal: Maybe<Vector>,
-    /// Box, sphere, cylinder. Default: the body's centre.
-    pub center: Maybe<Vector>,
-    /// Full edge lengths: box.
-    pub size: Maybe<Vector>,
-    /// Of the box: x, and a vector in the x-y plane. Default: global.
-    pub axes: Maybe<Vec<Vector>>,
-    /// Sphere, cylinder, capsule.
-    pub radius: Maybe<f64>,
-    /// Cylinder.
-    pub axis: Maybe<Vector>,
-    /// Cylinder: between its flat ends.
-    pub length: Maybe<f64>,
-    /// Two points, the ends of the line that a capsule is round.
-    pub ends: Maybe<Vec<Vector>>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Shape {
-    /// Everything on one side is solid.
-    Plane,
-    Box,
-    Sphere,
-    Cylinder,
-    /// A cylinder with round ends.
-    Capsule,
+impl Kinds for Surface {
+    const CHOOSER: &'static str = "shape";
+    const ABOUT: &'static str = "The shape, on which the other keys depend.";
+    const REQUIRED: bool = true;
+    type Make = MakeSurface<SurfaceShape>;
+
+    fn list() -> &'static [&'static SurfaceKind<SurfaceShape>] {
+        SURFACES
+    }
 }

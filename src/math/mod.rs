@@ -48,3 +48,9 @@ pub fn linear(a: &Vec6) -> Vec3 {
 pub fn angular(a: &Vec6) -> Vec3 {
     Vec3::new(a[3], a[4], a[5])
 }
+
+/// A frame whose third axis is the given unit vector.
+pub fn frame_along(axis: &Vec3) -> Mat3 {
+    let x = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
+    Mat3::from_columns(&[x, axis.cross(&x), *axis])
+}

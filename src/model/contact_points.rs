@@ -1,6 +1,5 @@
 //! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
 
-use super::contact_surface::along;
 use super::data::{Bar, Beam, PartType, Shape as Drawn, Shell};
 use super::nodes::{Nodes, Topology};
 use super::place::Place;
@@ -10,7 +9,7 @@ use super::sections::half_depth;
 use crate::deck::contacts as words;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, MOST_NODES};
-use crate::math::{Vec3, quadrature};
+use crate::math::{Vec3, frame_along, quadrature};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
@@ -239,7 +238,7 @@ impl<'d> Finder<'_, 'd> {
                 }
             }
             Drawn::Cylinder { radius, length, axis, .. } => {
-                let axes = along(axis);
+                let axes = frame_along(axis);
                 for end in (0..=between + 1).map(|k| length * (k as f64 / (between + 1) as f64 - 0.5)) {
                     let rim = RIM * (between + 1);
                     for k in 0..rim {

@@ -18,7 +18,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::{Maybe, Numbers, OneOrMany, Vector};
 use crate::diagnostic::{At, Diagnostic, Span};
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::names::short;
 
 /// A key that one or several kinds of a table take.
@@ -67,6 +67,12 @@ pub struct Kind<M: 'static> {
 impl<M> Kind<M> {
     fn is_called(&self, word: &str) -> bool {
         self.word == word || self.aliases.contains(&word)
+    }
+
+    /// The same kind for another use.
+    pub const fn with<N>(&self, make: N) -> Kind<N> {
+        let Kind { word, aliases, guesses, about, keys, .. } = *self;
+        Kind { word, aliases, guesses, about, keys, make }
     }
 
     /// Whether it takes a key.
@@ -536,6 +542,19 @@ impl<'t> Given<'t> {
         unit(&v).or_else(|| self.error(key, format!("`{key}` must not be zero")))
     }
 
+    /// The frame whose x lies along the first of two vectors and whose x-y plane holds the second; global axes where the key is
+    /// not written.
+    pub fn axes(&mut self, key: &str) -> Option<Mat3> {
+        if self.is_unreadable(key) {
+            return None;
+        }
+        let vectors: Vec<Vec3> = self.numbers(key).chunks_exact(3).map(Vec3::from_column_slice).collect();
+        if !self.has(key) {
+            return Some(Mat3::identity());
+        }
+        axes(&vectors).map_or_else(|wrong| self.error(key, wrong), Some)
+    }
+
     /// Whether a key is written, but so that it could not be read.
     pub fn is_unreadable(&self, key: &str) -> bool {
         self.unreadable.contains(&key)
@@ -547,4 +566,17 @@ pub fn unit(v: &Vec3) -> Option<Vec3> {
     // Scaled first: the square of a large component may overflow, that of a small one vanish.
     let unit = v.try_normalize(0.0).or_else(|| (v / v.amax()).try_normalize(0.0));
     unit.filter(|unit| unit.amax().is_finite())
+}
+
+/// The frame whose x lies along the first of two vectors and whose x-y plane holds the second.
+///
+/// Errors, in words: other than two vectors; vectors that are zero or parallel.
+pub fn axes(vectors: &[Vec3]) -> Result<Mat3, &'static str> {
+    let [x, y] = vectors else {
+        return Err("`axes` takes two vectors: x, and a vector in the x-y plane");
+    };
+    let (x, y) = (x.try_normalize(0.0), y.try_normalize(0.0));
+    let z = x.zip(y).and_then(|(x, y)| x.cross(&y).try_normalize(1e-6));
+    let (x, z) = x.zip(z).ok_or("the two vectors of `axes` must be neither zero nor parallel")?;
+    Ok(Mat3::from_columns(&[x, z.cross(&x), z]))
 }

@@ -24,7 +24,6 @@ const SCATTERED: Known =
 /// Tables of numbers and formulas, which are read line by line; and what is still to be taken apart.
 const LONG: Known = &[
     ("math/quadrature.rs: gauss", 132),
-    ("model/contact_surface.rs: read_surface", 91),
     ("system/assembly.rs: new", 101),
 ];
 

@@ -3,18 +3,19 @@
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::contact::restitution::{Loss, number};
-use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Shape, Surface};
+use rdsolve::elements::contact::surfaces::{Capsule, Cuboid, Cylinder, Plane, Sphere};
+use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Surface, SurfaceShape};
 use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::state::{Configuration, Node};
 
-const SHAPES: [Shape; 5] = [
-    Shape::Plane,
-    Shape::Box { half: [0.3, 0.5, 0.8] },
-    Shape::Sphere { radius: 0.6 },
-    Shape::Cylinder { radius: 0.5, half: 0.7 },
-    Shape::Capsule { radius: 0.4, half: 0.6 },
+const SHAPES: [SurfaceShape; 5] = [
+    SurfaceShape::Plane(Plane),
+    SurfaceShape::Cuboid(Cuboid { half: [0.3, 0.5, 0.8] }),
+    SurfaceShape::Sphere(Sphere { radius: 0.6 }),
+    SurfaceShape::Cylinder(Cylinder { radius: 0.5, half: 0.7 }),
+    SurfaceShape::Capsule(Capsule { radius: 0.4, half: 0.6 }),
 ];
 
 fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
@@ -29,7 +30,7 @@ struct Touch {
 }
 
 /// `count` nodes carry the point; `slide` is the way along the surface since the past.
-fn touch(rng: &mut StdRng, shape: Shape, count: usize, radius: f64, friction: f64, slide: f64) -> Touch {
+fn touch(rng: &mut StdRng, shape: SurfaceShape, count: usize, radius: f64, friction: f64, slide: f64) -> Touch {
     let law = ContactLaw {
         stiffness: 1e3,
         loss: Loss::Restitution { number: number(0.5), floor: 0.1 },

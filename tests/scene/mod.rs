@@ -88,7 +88,11 @@ pub fn model() -> Model {
             Part::Contact(Contact {
                 name: "seat".into(),
                 node: 0,
-                surface: Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape: contact::Shape::Plane },
+                surface: Surface {
+                    center: Vec3::zeros(),
+                    axes: Mat3::identity(),
+                    shape: contact::SurfaceShape::Plane(contact::surfaces::Plane),
+                },
                 points: vec![],
                 law: None,
                 chosen: false,

@@ -6,7 +6,7 @@
 //! the way of its material at the contact, p − r φ × n, where φ is the rotation relative to the surface since the rotation
 //! that the history keeps.
 
-use super::surface::ClosestPoint;
+use super::surfaces::kind::ClosestPoint;
 use crate::math::{Mat3, Vec3, skew};
 
 /// Tangential force at an instant, in the frame of the surface.

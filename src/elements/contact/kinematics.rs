@@ -2,7 +2,8 @@
 
 use super::law::ContactLaw;
 use super::point::{ContactPoint, MOST_NODES};
-use super::surface::{ClosestPoint, Surface};
+use super::surface::Surface;
+use super::surfaces::kind::ClosestPoint;
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
 use nalgebra::Quaternion;

@@ -1,6 +1,6 @@
 //! Unilateral contact: points, with a radius or without, that touch a surface carried by a node.
 //!
-//! A penalty spring pushes out what is inside, f = k δ (1 + d δ̇) n, δ from the exact distance ([`surface`]), d from what an
+//! A penalty spring pushes out what is inside, f = k δ (1 + d δ̇) n, δ from the exact distance ([`surfaces`]), d from what an
 //! impact gives back ([`restitution`]); friction is a spring that slips ([`friction`]). All of it is written in the frame of
 //! the surface, in p = Rᵀ(x − x_s) and in the rotation φ of what touches relative to that frame, and so is objective. With
 //! F and M the force and moment on the point,
@@ -10,10 +10,10 @@
 //! ```
 //!
 //! which gives the forces on both sides, in balance, and the tangent. A point between nodes is a weighted sum of theirs, and
-//! its force and moment go to them by the same weights. Closed forms do for these five surfaces: normals and curvature are
+//! its force and moment go to them by the same weights. Closed forms do for these surfaces: normals and curvature are
 //! exact, nothing is iterated, and a general collision library would bring neither.
 //!
-//! `surface` finds the closest point, `kinematics` where a point lies against the surface and how it moves, `force` what acts
+//! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
 //! keep what a point remembers of the way it came; `block` is what the equations see; `steps` bounds the steps; `resultant`
 //! sums what is shown.
@@ -29,6 +29,7 @@ pub mod restitution;
 mod resultant;
 mod steps;
 pub mod surface;
+pub mod surfaces;
 mod tangent;
 mod update;
 
@@ -37,4 +38,6 @@ pub use law::ContactLaw;
 pub use point::{ContactPoint, MOST_NODES};
 pub use resultant::{Resultant, least_gap, resultant};
 pub use steps::{longest_step, misses};
-pub use surface::{ClosestPoint, Shape, Surface};
+pub use surface::Surface;
+pub use surfaces::SurfaceShape;
+pub use surfaces::kind::ClosestPoint;

@@ -2,7 +2,6 @@
 
 use super::explanation::Explanation;
 use crate::elements::beam::IntegrationRule;
-use crate::elements::contact::Shape;
 use crate::model::{Bar, Beam, Contact, MeshFile, Model, Part, PartKind, PartType, Shell};
 use crate::names::{joined, short};
 use crate::plan::Plan;
@@ -71,20 +70,14 @@ fn yielding(text: &mut Explanation, model: &Model, system: &System) {
 
 /// What meets what, and how.
 fn contact_in_words(model: &Model, contact: &Contact) -> String {
-    let shape = match contact.surface.shape {
-        Shape::Plane => "a plane",
-        Shape::Box { .. } => "a box",
-        Shape::Sphere { .. } => "a sphere",
-        Shape::Cylinder { .. } => "a cylinder",
-        Shape::Capsule { .. } => "a capsule",
-    };
+    let shape = contact.surface.shape.word();
     let carrier = model.bodies.iter().find(|body| body.node == contact.node);
     let on = carrier.map_or("the ground".to_string(), |body| format!("body `{}`", body.name));
     let (name, count) = (&contact.name, contact.points.len());
     let points = if count == 1 { "point" } else { "points" };
     let radius = contact.points.iter().map(|point| point.radius).fold(0.0, f64::max);
     let radius = if radius > 0.0 { format!(" of contact radius {}", short(radius)) } else { String::new() };
-    let pair = format!("`{name}`: {count} {points}{radius} against {shape} on {on}");
+    let pair = format!("`{name}`: {count} {points}{radius} against a {shape} on {on}");
     let Some(law) = &contact.law else { return format!("{pair}; clearance monitor, no force acts") };
     let chosen = if contact.chosen { " (chosen so that an impact lasts 20 steps)" } else { "" };
     let stiffness = format!("penalty stiffness {}{chosen}", short(law.stiffness));
