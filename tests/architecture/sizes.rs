@@ -22,10 +22,7 @@ const SCATTERED: Known =
     &[("plan/mod.rs: Plan", 4), ("sections/section.rs: Section", 8), ("system/equations.rs: System", 5)];
 
 /// Tables of numbers and formulas, which are read line by line; and what is still to be taken apart.
-const LONG: Known = &[
-    ("math/quadrature.rs: gauss", 132),
-    ("system/assembly.rs: new", 101),
-];
+const LONG: Known = &[("math/quadrature.rs: gauss", 132), ("system/assembly.rs: new", 101)];
 
 #[test]
 fn structs_have_few_public_fields() {
