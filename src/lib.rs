@@ -8,10 +8,10 @@
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
-//! changes when a step is accepted; all else that is written to lives in the step's own scratch. Everything moves as
-//! nodes: a rigid body is a node with inertia, an element sees nodes only, and what it does to a node that rides on a body
-//! is handed to the body in one place, [`system::assembly`]. A scheme is a handful of numbers,
-//! [`integrators::Coefficients`]. A [`study`] stands above all that: it runs the program itself, again and again.
+//! changes when a step is accepted; everything else that is written belongs to the workspace of a step. Everything moves as
+//! nodes: a rigid body is a node with inertia, and an element sees nodes only. Forces and matrices at nodes rigidly attached
+//! to a body are transferred to the body's node in one place, [`system::assembly`]. An integration scheme is a handful of
+//! numbers, [`integrators::Coefficients`]. A [`study`] stands above all that: it runs the program itself many times.
 //!
 //! Formulas and code share their symbols; "(58)" is equation 58 of Rojek & Kleiber, Nonlinear dynamic FE analysis of
 //! structures consisting of rigid and deformable parts, Part I (1993).
@@ -19,11 +19,12 @@
 //! | Thing | In formulas | In code |
 //! |---|---|---|
 //! | position, rotation vector of a step | x, Θ | `x`, `theta` |
-//! | rotation from the undeformed state | R, quaternion q | `R()`, `q` |
+//! | rotation from the undeformed state | R, unit quaternion | `R()`, `rotation` |
 //! | velocity, angular; accelerations | v, ω; a, α | `v`, `omega`; `a`, `alpha` |
 //! | increment of a step and its rates | q, q̇, q̈ | `q`, `d`, `dd` |
 //! | tangent, mass, inertia in the body and now | K, m, J₀, J | `K`, `mass`, `J0`, `J` |
-//! | arm, constraint map | S, D | `S`, `D` |
+//! | arm of a rigid link, its constraint matrix | S, D | `S`, `D` |
+//! | gradient of constraint equations, multipliers | G, λ | `G`, `lambda` |
 //! | stress, relative to the back stress X; plastic multiplier | σ, ξ; Δλ | `stress`, `relative`, `back`; `multiplier` |
 //! | strains, stress resultants, section stiffness | Γ, κ; n, m; C | `gamma`, `kappa`; `n`, `m`; `C` |
 //!

@@ -77,7 +77,7 @@ pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagno
     let plan = Plan::new(&loaded.model, &system, threads);
     let mut problems = plan.unreachable_targets(&loaded.model);
     problems.extend(plan.massless(&loaded.model, &system));
-    problems.extend(plan.half_turning(&loaded.model));
+    problems.extend(plan.partial_rotations(&loaded.model));
     if !problems.is_empty() {
         show(&problems, &loaded.source);
         complain(&format!("`{}` has {}", loaded.source.path, counted(problems.len(), "error")));

@@ -1,8 +1,9 @@
-//! Which factorisation, and what it costs against an iteration.
+//! The choice of the factorization, and its cost relative to an iteration.
 
 use crate::linear::{Factorization, Structure};
 use crate::model::Gyroscopic;
 
+/// The factorization for this structure: LU where the deck wants gyroscopic terms in the matrix, else the cheaper one.
 pub fn kind(structure: &Structure, gyroscopic: Gyroscopic) -> Factorization {
     match gyroscopic {
         Gyroscopic::Left => Factorization::BlockLu,
@@ -10,8 +11,9 @@ pub fn kind(structure: &Structure, gyroscopic: Gyroscopic) -> Factorization {
     }
 }
 
-/// Residuals-with-solves that one forming and factorising is worth: measured on chains of beams and on space frames (see
-/// benches/iteration.rs). A number of the plan, not of the clock, so that the same deck takes the same path.
+/// Cost of forming and factorizing a matrix, in units of one residual and one solve, measured on chains of beams and on
+/// space frames (benches/iteration.rs). It is a number of the plan, not of the clock, so that a deck always takes the
+/// same path.
 pub fn refresh_cost(kind: Factorization) -> f64 {
     match kind {
         Factorization::BlockLu => 3.0,

@@ -1,7 +1,7 @@
-//! What explicit schemes need to know of a scene: masses, and which directions have none.
+//! Requirements of explicit schemes on a scene: masses, and inertia at every unknown.
 
 use super::Plan;
-use super::place::DofStatus;
+use super::dof_status::DofStatus;
 use crate::diagnostic::Diagnostic;
 use crate::integrators::Stepping;
 use crate::model::{DIRECTIONS, Model};
@@ -9,23 +9,23 @@ use crate::system::System;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
 
-/// Named at most; more are counted.
+/// Largest number of named errors; more are counted.
 const MOST: usize = 5;
 
 impl Plan {
-    /// Where each moving node is a rigid body of its own.
+    /// The block-diagonal masses, where each moving node is a rigid body of its own.
     pub fn masses(&self, system: &System) -> Option<Masses> {
         Masses::new(system, &self.dofs)
     }
 
-    /// What stands in place of the matrix of an implicit step.
+    /// The matrix of an explicit step in words.
     pub(super) fn explain_masses(&self, system: &System) -> Vec<String> {
         let Some(masses) = self.masses(system) else {
             return vec![
                 "mass matrix (and joints), factorized at every evaluation: it couples several nodes".to_string(),
             ];
         };
-        match (system.multipliers(), ConstraintSchur::new(system, &masses, self.shares())) {
+        match (system.multipliers(), ConstraintSchur::new(system, &masses, self.has_redundant_constraints())) {
             (0, _) => vec!["block-diagonal masses: nothing is factorized".to_string()],
             (rows, Some(_)) => vec![format!(
                 "block-diagonal masses; a dense system of the {rows} constraint equations of joints at every evaluation"
@@ -34,7 +34,7 @@ impl Plan {
         }
     }
 
-    /// An error for each unknown of an explicit scheme that nothing gives a mass: it has no equation of motion.
+    /// An error for each unknown of an explicit scheme that has no mass, and so no equation of motion.
     pub fn massless(&self, model: &Model, system: &System) -> Vec<Diagnostic> {
         if !self.explicit {
             return Vec::new();
@@ -75,9 +75,9 @@ impl Plan {
         errors
     }
 
-    /// An error for each node that rides in some rotations and turns on its own in others, with Runge-Kutta: rotations of a step
-    /// tie it to its master, not rates at its stages, and that is of first order in them.
-    pub fn half_turning(&self, model: &Model) -> Vec<Diagnostic> {
+    /// An error for each node that follows its master in some rotations and has others of its own, with Runge-Kutta.
+    /// The rotation vector of a step ties it to its master, not the rates at the stages, which would be of first order.
+    pub fn partial_rotations(&self, model: &Model) -> Vec<Diagnostic> {
         if !matches!(model.solution.scheme.stepping(), Stepping::RungeKutta(_)) {
             return Vec::new();
         }

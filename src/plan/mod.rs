@@ -1,10 +1,10 @@
-//! What will be computed, decided once: which directions are unknowns and why the others are not, the structure of the
-//! matrix, the factorisation, when it is refreshed.
+//! The plan of a run, decided once: which degrees of freedom are unknowns and why the others are not, the structure of
+//! the matrix, its factorization, and when it is formed anew.
 
 mod choose;
 pub mod explain;
 pub mod explicit;
-mod place;
+mod dof_status;
 mod redundant_constraints;
 mod savings;
 mod unreachable_targets;
@@ -12,35 +12,41 @@ mod unreachable_targets;
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{self, Assembly};
+use dof_status::DofStatus;
 use crate::system::{DofMap, NodeRows, System};
 
-/// Decisions about a model. Constant over a run.
+/// The decisions about a model. They are constant over a run.
 pub struct Plan {
-    /// Rows of directions and multipliers.
+    /// Numbering of the unknowns.
     pub dofs: DofMap,
+    /// Groups of unknowns and their couplings.
     pub structure: Structure,
+    /// The factorization of the matrix.
     pub kind: linear::Factorization,
-    /// Steps solve for accelerations with the masses alone: the matrix is that of masses and joints.
+    /// True for explicit schemes: steps solve for accelerations, and the matrix is that of masses and joints.
     pub explicit: bool,
-    /// The matrix never changes: it is factorised once per length of step.
+    /// True where the matrix never changes: it is factorized once for each length of step.
     pub linear: bool,
-    /// Iterations that a fresh matrix may cost: forming and factorising it against one residual and one solve.
+    /// Cost of forming and factorizing the matrix, in units of one residual and one solve.
     pub refresh_cost: f64,
+    /// Number of threads.
     pub threads: usize,
-    /// Multipliers of joints that say what others say already; `None`: too many to tell.
+    /// Numbers of the multipliers of redundant constraint equations; `None` where there are too many equations to
+    /// search.
     pub redundant_constraints: Option<Vec<usize>>,
-    nodes: Vec<place::Place>,
+    nodes: Vec<dof_status::NodeStatus>,
 }
 
 impl Plan {
+    /// Decides on everything from the model and its system.
     pub fn new(model: &Model, system: &System, threads: usize) -> Plan {
-        let nodes = place::place(model, system);
-        let unknown = nodes.iter().map(|place| place.map(|why| why == place::DofStatus::Unknown));
+        let nodes = dof_status::classify(model, system);
+        let unknown = nodes.iter().map(|node| node.map(|status| status == DofStatus::Unknown));
         let dofs = DofMap::new(unknown, &system.joints);
         let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.solution.scheme.is_explicit();
         let structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
         let kind = choose::kind(&structure, model.solution.iteration.gyroscopic);
-        // A body that turns in space has J = R J₀ Rᵀ and a gyroscopic moment; about one axis neither changes.
+        // A body that rotates in space has J = R J₀ Rᵀ and a gyroscopic moment; about one fixed axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
         model
             .constraints
@@ -50,7 +56,7 @@ impl Plan {
             .for_each(|held| driven[held.node][held.dof] = true);
         let count = |of: &dyn Fn(usize) -> bool| (3..6).filter(|&dof| of(dof)).count();
         let turns = |node: usize| {
-            let unknown = count(&|dof| nodes[node][dof] == place::DofStatus::Unknown);
+            let unknown = count(&|dof| nodes[node][dof] == DofStatus::Unknown);
             unknown > 0 && unknown + count(&|dof| driven[node][dof]) > 1
         };
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
@@ -71,7 +77,7 @@ impl Plan {
         plan
     }
 
-    /// The solver and the assembly of the masses and joints alone.
+    /// The solver and the assembly of masses and joints alone.
     ///
     /// # Errors
     /// As for [`Plan::build`].
@@ -82,12 +88,12 @@ impl Plan {
         Ok((solver, assembly))
     }
 
-    /// True where joints may share what they carry.
-    pub fn shares(&self) -> bool {
+    /// True where constraint equations are redundant, or may be.
+    pub fn has_redundant_constraints(&self) -> bool {
         self.redundant_constraints.as_ref().is_none_or(|redundant_constraints| !redundant_constraints.is_empty())
     }
 
-    /// The solver and the assembly of this plan.
+    /// The solver and the assembly of the matrix of a step.
     ///
     /// # Errors
     /// There is no memory for the solver.
@@ -100,24 +106,25 @@ impl Plan {
         Ok((solver, assembly))
     }
 
-    /// How many of these degrees of freedom of all nodes are what they are for this reason.
-    fn count(&self, why: place::DofStatus, dofs: std::ops::Range<usize>) -> usize {
-        self.nodes.iter().map(|node| node[dofs.clone()].iter().filter(|&&of| of == why).count()).sum()
+    /// Number of these degrees of freedom, over all nodes, with this status.
+    fn count(&self, status: DofStatus, dofs: std::ops::Range<usize>) -> usize {
+        self.nodes.iter().map(|node| node[dofs.clone()].iter().filter(|&&of| of == status).count()).sum()
     }
 
-    /// True for directions that ride, are held or are left out: their increments do not come from the solution.
+    /// True for an unknown; increments of other degrees of freedom do not come from the solution.
     pub fn is_unknown(&self, node: usize, dof: usize) -> bool {
-        self.nodes[node][dof] == place::DofStatus::Unknown
+        self.nodes[node][dof] == DofStatus::Unknown
     }
 }
 
-/// Groups of unknowns, one for each node and each joint that has any, and who couples with whom.
+/// The structure of the matrix: groups of unknowns, one for each node and each joint that has any, and their couplings.
 fn structure(system: &System, dofs: &DofMap) -> Structure {
     let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
     grouped(&sizes, assembly::connectivity(system, sizes.len()), system.joints.len())
 }
 
-/// The same from the numbers of unknowns of nodes, of which the last `multipliers` hold multipliers, and from their couplings.
+/// The structure from the number of unknowns of each node, of which the last `multipliers` stand for joints, and from
+/// the connectivity of the nodes.
 fn grouped(unknowns: &[usize], connectivity: Vec<Vec<usize>>, multipliers: usize) -> Structure {
     let mut sizes = Vec::new();
     let mut last = 0;

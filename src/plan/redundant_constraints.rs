@@ -1,4 +1,5 @@
-//! Rows of joints that say at t = 0 what others say already: a closed loop of hinges in a plane holds the plane many times.
+//! Finds constraint equations of joints that are redundant at t = 0: a closed planar loop of revolute joints constrains
+//! the motion out of the plane many times.
 
 use crate::math::Vec3;
 use crate::model::Model;
@@ -6,12 +7,13 @@ use crate::state::Node;
 use crate::system::assembly;
 use crate::system::{DofMap, System};
 
-/// Part of a row that must be new for it to say something.
+/// An equation is redundant where less than this fraction of its gradient is linearly independent of earlier ones.
 const NEW: f64 = 1e-8;
-/// Operations that looking for them may take: more joints than that are not looked at.
+/// Largest number of operations for the search; larger sets of joints are not searched.
 const MOST: f64 = 5e7;
 
-/// Numbers of the multipliers whose rows depend on those before them; `None`: too many to tell.
+/// Numbers of the multipliers whose equations depend linearly on those before them; `None` where there are too many to
+/// search.
 pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
     let directions = dofs.nodal_dofs().len();
     let count = dofs.unknowns() - directions;
@@ -19,10 +21,10 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let independent_nodes = assembly::independent_nodes(system, nodes.len());
     let projections = assembly::projections(system, &nodes, &independent_nodes);
     let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
-    // What makes rotations comparable.
+    // The size of the scene makes rotations comparable with translations.
     let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
 
-    // Columns that joints touch, numbered as they come.
+    // The columns are the degrees of freedom on which joints act, numbered as they are met.
     let mut column = vec![None; directions];
     let mut columns = 0;
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
@@ -55,7 +57,7 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
         let mut v = vec![0.0; columns];
         entries.iter().for_each(|&(at, value)| v[at] += value);
         let whole = entries.iter().map(|(_, value)| value * value).sum::<f64>().sqrt();
-        // Twice is enough (Kahan).
+        // Orthogonalizing twice is enough (Kahan).
         for _ in 0..2 {
             for b in &basis {
                 let part: f64 = v.iter().zip(b).map(|(v, b)| v * b).sum();

@@ -1,17 +1,18 @@
-//! What the omissions of a plan save: the matrix with each of them undone, against that of the plan.
+//! The operations that the omissions of a plan avoid: the matrix with each of them undone, against that of the plan.
 
-use super::place::DofStatus;
+use super::dof_status::DofStatus;
 use super::{Plan, grouped};
 use crate::linear::{Factorization, Structure, operations};
 use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{connectivity, connectivity_with_multipliers};
 use crate::system::{NodeRows, System};
 
-/// Savings of less are not worth a line.
+/// Ratios below this are not worth a line.
 const WORTH: f64 = 1.05;
 
 impl Plan {
-    /// A line for each omission whose saving can be counted. The counts are those of the matrix of a step: nothing is run.
+    /// A line for each omission whose saving can be counted: operations of a factorization of the matrix of a step.
+    /// Nothing is run.
     pub fn savings(&self, model: &Model, system: &System) -> Vec<String> {
         if self.explicit || self.dofs.nodal_dofs().is_empty() {
             return Vec::new();
@@ -48,7 +49,7 @@ impl Plan {
         out
     }
 
-    /// Unknowns of each node and joint with the directions omitted for this reason kept.
+    /// Number of unknowns of each node and joint, with the degrees of freedom of this status kept.
     fn sizes_with(&self, why: DofStatus) -> Vec<usize> {
         let mut sizes: Vec<usize> = self.dofs.each().iter().map(NodeRows::count).collect();
         for (size, place) in sizes.iter_mut().zip(&self.nodes) {
@@ -57,7 +58,8 @@ impl Plan {
         sizes
     }
 
-    /// Riders with unknowns of their own and a multiplier for each direction that rides.
+    /// The structure with multipliers in place of elimination: dependent nodes with unknowns of their own, and a
+    /// multiplier for each of their dependent degrees of freedom.
     fn with_multipliers(&self, system: &System) -> Structure {
         let mut sizes = self.sizes_with(DofStatus::Dependent);
         let nodes = sizes.len();

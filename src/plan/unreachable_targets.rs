@@ -1,32 +1,33 @@
-//! Displacements that a path is to land on, but which the plan leaves out: they stay zero.
+//! Displacements that an equilibrium path is to reach, but which the plan omits: they stay zero.
 
 use super::Plan;
-use super::place::DofStatus;
+use super::dof_status::DofStatus;
 use crate::diagnostic::Diagnostic;
 use crate::model::{ArcLength, DIRECTIONS, Model, Passage, StepLength, When};
 
 impl Plan {
-    /// An error for each `stop` and each `when` of the model that no motion can come to, with its place in the deck.
+    /// An error for each `stop` and each `when` of the model whose displacement cannot change, with its place in the
+    /// deck.
     pub fn unreachable_targets(&self, model: &Model) -> Vec<Diagnostic> {
         let stop = match &model.analysis.step_length {
             StepLength::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
             _ => None,
         };
         let expected = model.expects.iter().filter_map(|expect| match &expect.when {
-            When::Passing(passage) => Some(passage),
+            When::Passing(target) => Some(target),
             _ => None,
         });
-        let passages = stop.into_iter().chain(expected);
-        passages.filter_map(|passage| self.why_unreachable(model, passage)).collect()
+        let targets = stop.into_iter().chain(expected);
+        targets.filter_map(|target| self.why_unreachable(model, target)).collect()
     }
 
-    fn why_unreachable(&self, model: &Model, passage: &Passage) -> Option<Diagnostic> {
-        let &Passage { node, dof, place: [start, end], .. } = passage;
+    fn why_unreachable(&self, model: &Model, target: &Passage) -> Option<Diagnostic> {
+        let &Passage { node, dof, place: [start, end], .. } = target;
         let why = match self.nodes[node][dof] {
-            // What rides moves with its master, which the deck allows or not.
+            // A dependent node moves with its master, which the deck allows or not.
             DofStatus::Unknown | DofStatus::Dependent => return None,
             DofStatus::Restrained => "a support gives it",
-            DofStatus::Nothing => "nothing acts on it",
+            DofStatus::Unused => "nothing acts on it",
             DofStatus::Inactive => "nothing sets it moving",
             DofStatus::Plane => "the scene is plane, and this is normal to it",
         };

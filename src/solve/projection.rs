@@ -182,7 +182,7 @@ impl ConstraintProjection {
     /// Constraint equations that say the same may carry anything against each other: they are left with the least that does what
     /// they do together.
     pub fn share_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
-        if !cx.plan.shares() {
+        if !cx.plan.has_redundant_constraints() {
             return;
         }
         let ConstraintProjection { bare, forces, r, matrix, .. } = self;

@@ -173,18 +173,18 @@ fn order_with_rotations_of_its_own() {
         assert_order(&ladder(scheme), 0.9..1.1);
     }
     // Stages of Runge-Kutta do not keep to it: said, not done.
-    let half_turning = |text: &str| {
+    let partial_rotations = |text: &str| {
         let model = scene(text, &[EIGHT]);
         let system = System::new(&model).unwrap();
-        Plan::new(&model, &system, 1).half_turning(&model)
+        Plan::new(&model, &system, 1).partial_rotations(&model)
     };
-    let problems = half_turning(ROTOR);
+    let problems = partial_rotations(ROTOR);
     assert_eq!(problems.len(), 1);
     assert!(problems[0].message.contains("`b` turns with `a` about some axes only"), "{}", problems[0].message);
     assert_eq!(&ROTOR[problems[0].place.clone().expect("a place")], "\"b\"");
     // All or none of the rotations are as good as any.
     for dofs in ["[\"ux\",\"uy\",\"uz\"]", "[\"ux\",\"uy\",\"uz\",\"rx\",\"ry\",\"rz\"]"] {
         let text = ROTOR.replace("[\"ux\", \"uy\", \"uz\", \"rx\", \"ry\"]", dofs).replace("6.0]", "0.5]");
-        assert!(half_turning(&text).is_empty());
+        assert!(partial_rotations(&text).is_empty());
     }
 }

@@ -1,8 +1,9 @@
-//! The analysis and the scheme of integration.
+//! The analysis and its integration scheme in words.
 
 use super::explanation::Explanation;
 use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 
+/// Adds lines about the analysis.
 pub fn explain(text: &mut Explanation, model: &Model) {
     let analysis = &model.analysis;
     let steps = (analysis.end_time / analysis.nominal_step() - 1e-9).ceil().max(1.0);

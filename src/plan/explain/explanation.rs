@@ -1,16 +1,17 @@
-//! Lines of text about a plan.
+//! The lines of text about a plan.
 
 use std::fmt::{self, Display, Formatter};
 
-/// What a plan comes to. Whoever prints it may add lines of what comes before and after the plan.
+/// A plan in words. Whoever prints it may add lines of what comes before and after the plan.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Explanation {
-    /// What a line is about, and what it says.
+    /// The label of each line, and its text.
     pub computed: Vec<(&'static str, String)>,
+    /// What is omitted, and why.
     pub omitted: Vec<String>,
-    /// What the omissions come to, where it can be counted.
+    /// The operations that the omissions avoid, where they can be counted.
     pub avoided: Vec<String>,
-    /// What the reader of a result must know.
+    /// Notes that the reader of a result must know.
     pub notes: Vec<String>,
 }
 

@@ -15,7 +15,7 @@ use crate::linear::Solver;
 use crate::model::Model;
 use crate::system::System;
 
-/// What will be computed, what is omitted and why.
+/// The plan in words without the costs, which take a while to count.
 pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     let mut text = Explanation::default();
     analysis::explain(&mut text, model);
@@ -26,7 +26,7 @@ pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     text
 }
 
-/// The same, with the factorization and what the omissions avoid, which take a while to count.
+/// The plan in words, with the factorization and the operations that the omissions avoid.
 pub fn explain_costs(plan: &Plan, model: &Model, system: &System, solver: &Solver) -> Explanation {
     let mut text = explain(plan, model, system);
     if !plan.explicit || plan.masses(system).is_none() {

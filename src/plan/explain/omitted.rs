@@ -1,11 +1,12 @@
-//! What is omitted, and why: degrees of freedom, constraint equations, terms of the equation of motion.
+//! The omissions in words: degrees of freedom, constraint equations, terms of the equation of motion, and why.
 
 use crate::model::{AnalysisKind, MassKind, Model, Part};
 use crate::plan::Plan;
-use crate::plan::place::DofStatus;
+use crate::plan::dof_status::DofStatus;
 use crate::system::System;
 use std::ops::Range;
 
+/// One line for each kind of omission.
 pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     let mut lines = degrees_of_freedom(plan, system);
     if !model.constraints.joints.is_empty() {
@@ -23,7 +24,7 @@ pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     lines
 }
 
-/// Those that are no unknowns.
+/// The degrees of freedom that are no unknowns, counted by reason.
 fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
     let axis = ["x", "y", "z"][system.plane.unwrap_or(0)];
     let plane =
@@ -35,8 +36,8 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
             0..6,
             "degrees of freedom of dependent nodes: eliminated at element level, the nodes being rigidly attached",
         ),
-        (DofStatus::Nothing, 0..3, "translations without element or mass"),
-        (DofStatus::Nothing, 3..6, "rotations without element or rotary inertia"),
+        (DofStatus::Unused, 0..3, "translations without element or mass"),
+        (DofStatus::Unused, 3..6, "rotations without element or rotary inertia"),
         (DofStatus::Inactive, 0..6, "inactive degrees of freedom: free masses that nothing sets in motion"),
         (DofStatus::Plane, 0..6, &plane),
     ];
@@ -48,7 +49,7 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
     counted.filter(|(count, _)| *count > 0).map(line).collect()
 }
 
-/// Terms of the equation of motion that this scene does without.
+/// The terms of the equation of motion that this scene does without.
 fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
     let kinds = || model.parts.iter().filter_map(Part::mass_kind);
     let deformable = kinds().next().is_some();

@@ -1,11 +1,11 @@
-//! Constraints that joints impose more than once.
+//! The redundant constraints of joints in words.
 
 use crate::model::Model;
 use crate::names::joined;
 use crate::plan::Plan;
 use crate::system::System;
 
-/// Constraints of joints that others impose already, a line for each joint.
+/// The redundant constraint equations, a line for each joint.
 pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     let Some(redundant) = &plan.redundant_constraints else {
         return vec!["too many joints to search for redundant constraints".to_string()];

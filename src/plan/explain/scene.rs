@@ -1,4 +1,4 @@
-//! What the scene consists of, and its unknowns.
+//! The scene in words, and its unknowns.
 
 use super::explanation::Explanation;
 use crate::elements::beam::IntegrationRule;
@@ -7,6 +7,7 @@ use crate::names::{joined, short};
 use crate::plan::Plan;
 use crate::system::System;
 
+/// Adds lines about the scene.
 pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &System) {
     text.add("scene", counts(model));
     if let Some(MeshFile { path, nodes, elements, used, .. }) = &model.origin.mesh {
@@ -30,7 +31,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
     }
 }
 
-/// How many there are of each thing.
+/// The number of things of each kind.
 fn counts(model: &Model) -> String {
     let parts = PartKind::ALL.map(|kind| {
         let of_kind = model.parts.iter().filter(|part| part.kind() == kind);
@@ -68,7 +69,7 @@ fn yielding(text: &mut Explanation, model: &Model, system: &System) {
     }
 }
 
-/// What meets what, and how.
+/// The two sides of a contact and its law.
 fn contact_in_words(model: &Model, contact: &Contact) -> String {
     let shape = contact.surface.shape.word();
     let carrier = model.bodies.iter().find(|body| body.node == contact.node);

@@ -1,4 +1,4 @@
-//! How a step is solved: the iteration, the matrix, and when it is formed anew.
+//! The solution of a step in words: the iteration, the matrix, and when it is formed anew.
 
 use super::explanation::Explanation;
 use crate::linear::Factorization;
@@ -6,6 +6,7 @@ use crate::model::{AnalysisKind, Gyroscopic, Method, Model, Update};
 use crate::plan::Plan;
 use crate::system::System;
 
+/// Adds lines about the iteration and the matrix.
 pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &System) {
     if plan.explicit {
         plan.explain_masses(system).into_iter().for_each(|what| text.add("matrix", what));

@@ -38,7 +38,7 @@ impl Accelerations {
         let nodes = cx.model.nodes.len();
         let (masses, ties) = match cx.plan.masses(cx.system) {
             Some(masses) if cx.system.joints.is_empty() => (Some(masses), None),
-            Some(masses) => match ConstraintSchur::new(cx.system, &masses, cx.plan.shares()) {
+            Some(masses) => match ConstraintSchur::new(cx.system, &masses, cx.plan.has_redundant_constraints()) {
                 Some(ties) => (Some(masses), Some(ties)),
                 None => (None, None),
             },

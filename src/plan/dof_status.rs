@@ -1,4 +1,4 @@
-//! For each direction of each node: unknown, held, riding, or left out, and why.
+//! The status of each degree of freedom: unknown, restrained, dependent or omitted, and why.
 
 use crate::constraints::joint::ConstraintEquation;
 use crate::elements::ElementBlock;
@@ -6,67 +6,70 @@ use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model};
 use crate::system::System;
 
-/// Why a direction is what it is.
+/// The status of a degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DofStatus {
+    /// An unknown of the system.
     Unknown,
-    /// At rest, or its motion is prescribed.
+    /// Restrained or prescribed by a support.
     Restrained,
-    /// Taken from a master.
+    /// Follows from a master by a rigid link.
     Dependent,
-    /// No element, inertia or link acts on it.
-    Nothing,
-    /// Only inertia acts, and nothing can set it moving.
+    /// No element, link or inertia acts on it.
+    Unused,
+    /// Only inertia acts on it, and nothing can excite it.
     Inactive,
-    /// Out of the plane of a plane scene.
+    /// Leads out of the plane of a plane motion.
     Plane,
 }
 
-pub type Place = [DofStatus; 6];
+/// The status of a node's six degrees of freedom.
+pub type NodeStatus = [DofStatus; 6];
 
-pub fn place(model: &Model, system: &System) -> Vec<Place> {
+/// The status of the degrees of freedom of all nodes, in the order of the model.
+pub fn classify(model: &Model, system: &System) -> Vec<NodeStatus> {
     let n = model.nodes.len();
     let resisted = resistance(system, n);
     let moved = causes(model, system, &resisted);
     let normal = system.plane;
-    let mut places = vec![[DofStatus::Nothing; 6]; n];
+    let mut statuses = vec![[DofStatus::Unused; 6]; n];
     for inertia in &system.inertias {
         for dof in 0..6 {
             if dof < 3 || inertia.rotary {
-                places[inertia.node][dof] =
+                statuses[inertia.node][dof] =
                     if moved[inertia.node][dof] { DofStatus::Unknown } else { DofStatus::Inactive };
             }
         }
     }
-    for (place, resisted) in places.iter_mut().zip(&resisted) {
+    for (status, resisted) in statuses.iter_mut().zip(&resisted) {
         for dof in 0..6 {
             if resisted[dof] {
-                place[dof] = DofStatus::Unknown;
+                status[dof] = DofStatus::Unknown;
             }
         }
     }
     if let Some(normal) = normal {
-        for place in &mut places {
-            for (dof, why) in place.iter_mut().enumerate() {
+        for status in &mut statuses {
+            for (dof, reason) in status.iter_mut().enumerate() {
                 let out = if dof < 3 { dof == normal } else { dof - 3 != normal };
-                if out && *why == DofStatus::Unknown {
-                    *why = DofStatus::Plane;
+                if out && *reason == DofStatus::Unknown {
+                    *reason = DofStatus::Plane;
                 }
             }
         }
     }
     for dependent in &model.constraints.dependents {
         for dof in (0..6).filter(|&d| dependent.dofs[d]) {
-            places[dependent.node][dof] = DofStatus::Dependent;
+            statuses[dependent.node][dof] = DofStatus::Dependent;
         }
     }
     for held in &model.constraints.restraints {
-        places[held.node][held.dof] = DofStatus::Restrained;
+        statuses[held.node][held.dof] = DofStatus::Restrained;
     }
-    places
+    statuses
 }
 
-/// Directions on which elements, links or dependent nodes act.
+/// The degrees of freedom on which elements, joints, dampers or dependent nodes act.
 fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     let mut acts = vec![[false; 6]; n];
     for group in &system.groups {
@@ -91,10 +94,10 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
             acts[node].iter_mut().zip(reach).for_each(|(acts, reaches)| *acts |= reaches);
         }
     }
-    // Per node: whether it has mass, and whether that has inertia.
+    // For each node, `None` without mass, else whether it has rotary inertia.
     let mut has_mass = vec![None; n];
     system.inertias.iter().for_each(|i| has_mass[i.node] = Some(i.rotary));
-    // What acts on a dependent node acts on its master; a force at an arm turns it.
+    // Whatever acts on a dependent node acts on its master; a force at an arm also exerts a moment.
     for dependent in system.rigid_links.iter().rev() {
         for dof in (0..6).filter(|&d| dependent.dofs[d]) {
             let own_mass = has_mass[dependent.node].is_some_and(|rotary| dof < 3 || rotary);
@@ -110,7 +113,7 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     acts
 }
 
-/// Directions of the two nodes on which a row of a joint can ever act.
+/// The degrees of freedom of the two nodes on which a constraint equation can ever act.
 fn reach_of(row: &ConstraintEquation) -> [[bool; 6]; 2] {
     let moves = [true, true, true, false, false, false];
     let turns = [false, false, false, true, true, true];
@@ -122,7 +125,8 @@ fn reach_of(row: &ConstraintEquation) -> [[bool; 6]; 2] {
     }
 }
 
-/// Directions on which an element acts: those of its matrix, but for links along a fixed direction only that one.
+/// The degrees of freedom on which an element acts: those of its matrix, but only one translation for a link along a
+/// global axis.
 fn reach(block: &dyn ElementBlock, e: usize) -> [bool; 6] {
     let mut reach = [false; 6];
     reach[..block.dofs()].fill(true);
@@ -134,7 +138,7 @@ fn reach(block: &dyn ElementBlock, e: usize) -> [bool; 6] {
     reach
 }
 
-/// Directions of masses that something can set moving.
+/// The degrees of freedom of masses that something can excite.
 fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 6]> {
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let mut moved = resisted.to_vec();
@@ -154,7 +158,7 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
     for base in &model.loading.base_accelerations {
         field += base.direction.map(f64::abs);
     }
-    // Rotations of a mass about the three axes act on one another; in statics there is no inertia to do so.
+    // Rotations of a mass about the three axes excite one another; in statics there is no inertia to do so.
     let turn = |moved: &mut [bool; 6]| {
         if dynamic && moved[3..6].contains(&true) {
             moved[3..6].fill(true);
@@ -168,7 +172,7 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
             moved[3 + i] |= dynamic && node.omega[i] != 0.0;
         }
     }
-    // What moves a dependent node moves its master; at an arm it turns it.
+    // Whatever excites a dependent node excites its master; at an arm it also rotates it.
     for dependent in system.rigid_links.iter().rev() {
         let of_dependent = moved[dependent.node];
         for dof in (0..6).filter(|&d| dependent.dofs[d] && of_dependent[d]) {
@@ -183,7 +187,7 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
         rotary[inertia.node] = inertia.rotary;
         turn(&mut moved[inertia.node]);
     }
-    // A master that turns takes along what rides, and by inertia the rotations that this one has of its own.
+    // A rotating master takes its dependent nodes along, and their inertia excites the free rotations that they have.
     for dependent in &system.rigid_links {
         for dof in (3..6).filter(|&d| dependent.dofs[d]) {
             moved[dependent.node][dof] |= moved[dependent.master][dof];
