@@ -2,9 +2,9 @@
 //! the matrix, its factorization, and when it is formed anew.
 
 mod choose;
+mod dof_status;
 pub mod explain;
 pub mod explicit;
-mod dof_status;
 mod redundant_constraints;
 mod savings;
 mod unreachable_targets;
@@ -12,8 +12,8 @@ mod unreachable_targets;
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{self, Assembly};
-use dof_status::DofStatus;
 use crate::system::{DofMap, NodeRows, System};
+use dof_status::DofStatus;
 
 /// The decisions about a model. They are constant over a run.
 pub struct Plan {
