@@ -30,7 +30,17 @@ pub fn joined(words: &[&str]) -> String {
 
 /// A number to four digits, for messages.
 pub fn short(number: f64) -> String {
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    to_digits(number, 4)
+}
+
+/// A time to nine digits, for messages: without those that rounding leaves behind.
+pub fn instant(time: f64) -> String {
+    to_digits(time, 9)
+}
+
+/// A number to so many digits, without zeros at its end; very large and very small ones with an exponent.
+pub fn to_digits(number: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{number:.*e}", digits.saturating_sub(1)).parse().unwrap_or(number);
     match rounded.abs() {
         size if size == 0.0 || (1e-4..1e6).contains(&size) => rounded.to_string(),
         _ => format!("{rounded:e}"),
@@ -59,5 +69,6 @@ mod tests {
         assert_eq!(joined(&["ux", "uy", "rz"]), "ux, uy and rz");
         assert_eq!(joined(&["ux"]), "ux");
         assert_eq!([-10.0, 0.123456, 2.1e17].map(short), ["-10", "0.1235", "2.1e17"]);
+        assert_eq!([0.31925000000000003, 1.0 / 3.0].map(instant), ["0.31925", "0.333333333"]);
     }
 }

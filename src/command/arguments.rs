@@ -10,8 +10,8 @@ pub const MAX_THREADS: i64 = 64;
 pub struct DeckArgs {
     /// The deck, a TOML file
     pub deck: PathBuf,
-    /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value
-    /// (beams.portal.elements=24); a bare word is taken as text; repeatable
+    /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value;
+    /// repeatable: beams.portal.elements=24, loads[0].force=[0.0,0.0,-50.0], integrator.scheme=newmark
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
 }
@@ -21,8 +21,8 @@ pub struct RunArgs {
     // As in `DeckArgs`: clap does not find a group within an optional group.
     /// The deck, a TOML file
     pub deck: PathBuf,
-    /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value
-    /// (beams.portal.elements=24); a bare word is taken as text; repeatable
+    /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value;
+    /// repeatable: beams.portal.elements=24, loads[0].force=[0.0,0.0,-50.0], integrator.scheme=newmark
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
     /// Folder for the results [default: the deck's name with .out, in the current folder]

@@ -15,7 +15,7 @@ use crate::output::compare::{
 #[command(
     after_help = "Rows are matched by time (within a thousandth of a step) and name; each column is measured against its \
 range, max - min over both folders, and where it is constant against the largest number of its kind in the file. With \
-different steps or output, common times are compared. Left out: run.log, timings, .vtu. Columns of steps.csv are shown but not \
+different steps or output, common times are compared. Not compared: run.log, timings, .vtu. Columns of steps.csv are shown but not \
 judged unless named: they say what a run cost.
 
 Exit codes: 0 the folders agree, 5 they do not, 6 one cannot be read, 2 usage."

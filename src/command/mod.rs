@@ -30,8 +30,8 @@ use clap::{Parser, Subcommand};
 )]
 #[command(after_help = "`rdsolve deck.toml` is short for `rdsolve run deck.toml`.
 
-Exit codes: 0 done, 1 internal error, 2 usage, 3 deck invalid, 4 did not converge, 5 a check failed, 6 input/output,
-75 stopped by a signal.")]
+Exit codes: 0 done, 1 internal error, 2 usage, 3 deck invalid, 4 did not converge, 5 an expected value was missed or folders
+differ, 6 input/output, 75 stopped by a signal.")]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -41,17 +41,17 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a deck
+    /// Run a deck: tables, field files and result.json go to a folder
     Run(RunArgs),
-    /// Read and validate a deck, and print what would be computed and what is omitted; runs nothing
+    /// Read and validate a deck, and print what would be computed, what is omitted and why; runs nothing
     Check(DeckArgs),
-    /// Compare two folders of results: do they agree within tolerances?
+    /// Compare two folders of results within tolerances, for regression tests
     Compare(compare::CompareArgs),
-    /// Make one HTML file of a folder of results: plots, energy balance, the moving deformed shape
+    /// Make one HTML file of a folder of results: plots, energy balance, the moving scene
     Report(report::ReportArgs),
-    /// Error against run time over time steps, schemes, methods and meshes; or what rigid parts would cost and save
+    /// Measure error against run time over time steps, schemes, methods and meshes; or what rigid parts would cost and save
     Study(Box<study::StudyArgs>),
-    /// Print the JSON Schema of the deck
+    /// Print the JSON Schema of the deck, for completion and checks in editors
     Schema,
 }
 

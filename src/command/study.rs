@@ -20,13 +20,13 @@ use crate::system::System;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Every setting is run as a process of its own: once for its answer, then again, in turn, for its time, of which \
-the least counts. Error = rms over equidistant times / largest value, all quantities together, against the reference of \
-`[study]`, or else against what the finest runs tend to, with a bound of its own error. Options go before the keys of the \
-deck's `[study]`, which they are named after.
+    after_help = "Every run is a process of its own: the first of a setting gives its error, the others, in turn with those of the \
+other settings, its time, of which the least counts. Error = rms over equidistant times / largest value, all quantities \
+together, relative to the reference of `[study]`, or else to what the finest runs tend to (Richardson extrapolation), with a \
+bound of its own error. An option overrides the key of the same name in the deck's `[study]`.
 
-Written: study.csv (a row for each run), study.svg, study.html; or rigidify.csv; and study.list, what of the folder is the \
-study's. Runs that failed are listed as failed.
+Written: study.csv (a row for each run), study.svg, study.html; or rigidify.csv; and study.list, the files that the study has \
+written. Runs that failed are listed as failed.
 
 Exit codes: 0 done, 2 usage, 3 deck invalid, 4 no run came to its end, 6 input/output, 75 stopped by a signal, with what there is."
 )]
@@ -36,34 +36,34 @@ pub struct StudyArgs {
     /// Override one entry of the deck, as for `run`; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
-    /// Schemes, with parameters if need be: newmark,generalized-alpha:spectral_radius=0.5
+    /// Schemes, with their parameters behind colons: newmark,generalized-alpha:spectral_radius=0.5
     #[arg(long, value_name = "SCHEME", value_delimiter = ',')]
     schemes: Vec<String>,
     /// Iteration methods: tangent-stiffness,initial-load,auto
     #[arg(long, value_name = "METHOD", value_delimiter = ',')]
     methods: Vec<String>,
-    /// Time steps; with --halvings, the longest
+    /// Time steps; with --halvings, the longest one
     #[arg(long, value_name = "DT", value_delimiter = ',', value_parser = positive)]
     time_steps: Vec<f64>,
-    /// Lines with an automatic time step, over these tolerances
+    /// Further runs with an automatic time step, at these error tolerances
     #[arg(long, value_name = "TOL", value_delimiter = ',', value_parser = positive)]
     error_tolerances: Vec<f64>,
-    /// Halve the time step so many times
+    /// Number of times the time step is halved
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=30))]
     halvings: Option<u64>,
     /// Factors on the numbers of elements: 1,2,4
     #[arg(long, value_name = "FACTOR", value_delimiter = ',', value_parser = positive)]
     meshes: Vec<f64>,
-    /// CSV file of the answer, a path from here
+    /// CSV file of reference values, relative to the current folder
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// Against what the finest runs tend to, whatever file the deck names
+    /// Measure against what the finest runs tend to, even if the deck names a reference
     #[arg(long, conflicts_with = "reference")]
     finest: bool,
-    /// What errors are measured on: tip.uz,block.x
+    /// Quantities on which errors are measured: tip.uz,block.x
     #[arg(long, alias = "quantity", value_name = "NAME.QUANTITY", value_delimiter = ',')]
     quantities: Vec<String>,
-    /// Intervals between the times at which errors are taken
+    /// Number of intervals between the times at which errors are taken
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     samples: Option<u64>,
     /// Name the cheapest setting for these errors
@@ -72,10 +72,10 @@ pub struct StudyArgs {
     /// Runs of each setting
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     repeats: u16,
-    /// No more runs of a setting once they have taken so many seconds together
+    /// Seconds after which a setting is not run again
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
-    /// Instead of a grid of settings: each part's share of the elastic energy, and runs with it rigid
+    /// Instead of a grid of settings, run with each part rigid in turn: its share of the elastic energy, error, time saved
     #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "meshes", "reference", "finest", "wanted_error"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
@@ -84,10 +84,10 @@ pub struct StudyArgs {
     /// Folder for the study [default: the deck's name with .study, in the current folder]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write into a folder that already holds files; what study.list there names, of an older study, goes
+    /// Write into a folder that already holds files; those of an older study, listed in its study.list, are removed
     #[arg(long)]
     overwrite: bool,
-    /// No progress bar, no warnings
+    /// Show errors only
     #[arg(long)]
     quiet: bool,
 }

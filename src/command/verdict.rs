@@ -1,7 +1,7 @@
 //! How a run ended, in words: its status, its warnings, its expectations.
 
 use crate::model::{ArcLength, DIRECTIONS, Model, StepLength};
-use crate::names::short;
+use crate::names::{instant, short, to_digits};
 use crate::output::expect::Verdict;
 use crate::output::result_json::Status;
 use crate::solve::{Outcome, Run};
@@ -20,7 +20,11 @@ pub struct End {
 impl End {
     /// The reason and what it means for the results.
     pub fn sentence(&self) -> String {
-        let valid = if self.valid_until.is_some() { "; results are valid up to this time" } else { "" };
+        let valid = match self.valid_until {
+            Some(_) if self.reason.contains('\n') => "\n  results are valid up to this time",
+            Some(_) => "; results are valid up to this time",
+            None => "",
+        };
         format!("{}{valid}", self.reason)
     }
 }
@@ -35,8 +39,8 @@ pub fn end(
 ) -> io::Result<End> {
     let (status, reason, valid_until) = match outcome {
         Outcome::Io(error) => return Err(error),
-        Outcome::Failed { time, failure } => (Status::NotConverged, format!("at t = {time}: {failure}"), Some(time)),
-        Outcome::Stopped { time } => (Status::Stopped, format!("stopped by a signal at t = {time}"), Some(time)),
+        Outcome::Failed { time, failure } => (Status::NotConverged, format!("at t = {}: {failure}", instant(time)), Some(time)),
+        Outcome::Stopped { time } => (Status::Stopped, format!("stopped by a signal at t = {}", instant(time)), Some(time)),
         Outcome::Done => match expectations.iter().filter(|verdict| !verdict.passed).count() {
             0 => (Status::Done, String::new(), None),
             missed => {
@@ -60,9 +64,11 @@ fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
     let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
     Some(format!(
-        "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {value} at the end, t = {time}, \
+        "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {} at the end, t = {}, \
          after {} steps",
         stop.value,
+        to_digits(value, DIGITS),
+        instant(time),
         run.counts().steps
     ))
 }
@@ -109,20 +115,24 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     }
 }
 
+/// Digits of values and of what was expected.
+const DIGITS: usize = 7;
+
 /// An expectation in a line.
 pub fn line(v: &Verdict) -> String {
     let mark = if v.passed { "ok  " } else { "MISS" };
-    let value = v.value.map_or("no value".to_string(), |value| format!("{value:.6e}"));
+    let value = v.value.map_or("no value".to_string(), |value| to_digits(value, DIGITS));
+    let expected = to_digits(v.expected, DIGITS);
     if let Some(bound) = v.bound {
-        return format!("{mark} {}: {value}, {bound} {:.6e}", v.label, v.expected);
+        return format!("{mark} {}: {value}, {bound} {expected}", v.label);
     }
     let error = match (v.error, &v.reason) {
         (Some(error), _) => {
             let kind = if v.relative { "relative" } else { "absolute" };
-            format!("{kind} error {error:.2e}, tolerance {}", short(v.tolerance))
+            format!("{kind} error {}, tolerance {}", to_digits(error, 3), short(v.tolerance))
         }
         (None, Some(reason)) => reason.clone(),
         (None, None) => String::new(),
     };
-    format!("{mark} {}: {value}, expected {:.6e}, {error}", v.label, v.expected)
+    format!("{mark} {}: {value}, expected {expected}, {error}", v.label)
 }

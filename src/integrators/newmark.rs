@@ -79,8 +79,8 @@ impl Scheme for Newmark {
     fn note(&self) -> Option<&'static str> {
         Some(match self.order() {
             2 => {
-                "the trapezoidal rule damps nothing: modes that no step resolves go on ringing in velocities, accelerations and \
-                 reactions"
+                "the trapezoidal rule damps nothing: modes that the time step does not resolve keep ringing in velocities, \
+                 accelerations and reactions"
             }
             _ => "with gamma above 0.5 the scheme is of first order and damps low modes too",
         })

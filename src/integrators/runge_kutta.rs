@@ -66,7 +66,7 @@ impl Scheme for RungeKutta {
     }
 
     fn note(&self) -> Option<&'static str> {
-        Some("explicit: stiff scenes need very short steps, and implicit schemes less time")
+        Some("explicit: stiff scenes need very short steps; an implicit scheme then takes less time")
     }
 
     fn order(&self) -> usize {

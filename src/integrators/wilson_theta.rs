@@ -57,8 +57,8 @@ impl Scheme for WilsonTheta {
 
     fn note(&self) -> Option<&'static str> {
         Some(
-            "Wilson-theta damps modes shorter than about 10 steps a period and overshoots their accelerations and \
-             velocities in the first steps; equilibrium holds at t + theta dt, reactions are taken there",
+            "Wilson-theta damps modes with periods below about 10 steps and overshoots their accelerations and \
+             velocities in the first steps; equilibrium is satisfied at t + theta dt, where reactions are taken",
         )
     }
 

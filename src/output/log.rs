@@ -1,6 +1,7 @@
 //! run.log: what happened, in plain lines. Timings are welcome here, as they are not in the tables.
 
 use super::disk::at;
+use crate::names::instant;
 use crate::solve::{Frame, Observer};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
@@ -41,7 +42,7 @@ impl Observer for Log {
             return Ok(());
         }
         let cutbacks = if frame.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.cuts) };
-        let (step, time, dt) = (frame.step, digits(frame.state.time), digits(frame.dt));
+        let (step, time, dt) = (frame.step, instant(frame.state.time), instant(frame.dt));
         self.say(&format!("step {step} to t = {time}: {cutbacks}, accepted with dt = {dt}"))
     }
 }
@@ -58,14 +59,9 @@ impl Log {
             (false, false) => format!("a limit point or a bifurcation: negative pivots {before}, now {now}"),
             (false, true) => return Ok(()),
         };
-        let (step, time) = (frame.step, digits(frame.state.time));
+        let (step, time) = (frame.step, instant(frame.state.time));
         self.say(&format!("step {step} to t = {time}: {what}"))
     }
-}
-
-/// A time to nine digits, without those that rounding leaves behind.
-fn digits(time: f64) -> f64 {
-    format!("{time:.8e}").parse().unwrap_or(time)
 }
 
 #[cfg(test)]

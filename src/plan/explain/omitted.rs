@@ -13,7 +13,8 @@ pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
         let all: usize = model.constraints.joints.iter().map(|joint| joint.equations.len()).sum();
         let kept = system.multipliers();
         if all > kept {
-            lines.push(format!("{} constraint equations of joints: out of the plane of the motion", all - kept));
+            let equations = if all - kept == 1 { "equation" } else { "equations" };
+            lines.push(format!("{} constraint {equations} of joints: out of the plane of the motion", all - kept));
         }
     }
     lines.extend(terms(plan, model, system).into_iter().map(str::to_owned));
