@@ -39,8 +39,12 @@ pub fn end(
 ) -> io::Result<End> {
     let (status, reason, valid_until) = match outcome {
         Outcome::Io(error) => return Err(error),
-        Outcome::Failed { time, failure } => (Status::NotConverged, format!("at t = {}: {failure}", instant(time)), Some(time)),
-        Outcome::Stopped { time } => (Status::Stopped, format!("stopped by a signal at t = {}", instant(time)), Some(time)),
+        Outcome::Failed { time, failure } => {
+            (Status::NotConverged, format!("at t = {}: {failure}", instant(time)), Some(time))
+        }
+        Outcome::Stopped { time } => {
+            (Status::Stopped, format!("stopped by a signal at t = {}", instant(time)), Some(time))
+        }
         Outcome::Done => match expectations.iter().filter(|verdict| !verdict.passed).count() {
             0 => (Status::Done, String::new(), None),
             missed => {

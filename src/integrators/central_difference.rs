@@ -40,7 +40,9 @@ impl Scheme for CentralDifference {
     }
 
     fn note(&self) -> Option<&'static str> {
-        Some("explicit: steps beyond the critical time step of the fastest mode are cut back, however slow the motion of interest is")
+        Some(
+            "explicit: steps beyond the critical time step of the fastest mode are cut back, however slow the motion of interest is",
+        )
     }
 
     fn stepping(&self) -> Stepping<'_> {
