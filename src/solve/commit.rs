@@ -1,4 +1,4 @@
-//! The end of a step: multipliers and reactions carried there, work accounted for, the state written once.
+//! The end of a step: multipliers and reactions extrapolated to it, work accounted for, the state written once.
 
 use super::context::Context;
 use super::projection::ConstraintProjection;
@@ -9,16 +9,16 @@ use crate::math::rotation::rates;
 use crate::math::{angular, linear, stack};
 use crate::state::State;
 
-/// What the end of a step leaves for the account of work.
+/// The energies of a step for the balance of work.
 #[derive(Default)]
 pub struct Account {
-    /// The work taken by material points.
+    /// Energy dissipated by materials and contacts.
     pub dissipated: Dissipation,
-    /// The power of dampers at the instant of equilibrium; `None` where work is accounted for by the caller.
+    /// Power of viscous damping at the instant of equilibrium; `None` where the caller accounts for work itself.
     pub damping_power: Option<f64>,
 }
 
-/// The trial motion becomes the state at `to`.
+/// Makes the trial motion the state at the time `to`.
 pub fn commit(
     cx: &Context,
     ws: &mut Workspace,
@@ -52,21 +52,22 @@ pub fn commit(
     state.time = to;
 }
 
-/// Where a scheme runs on accelerations other than those of equilibrium, they follow these.
+/// Updates the algorithmic accelerations of schemes that have them.
 fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut State) {
     let Some([of_a, of_start, of_end]) = cx.algorithmic_acceleration else { return };
     for &node in &cx.independent_nodes {
         let (start, increment) = (&state.nodes[node], &ws.increments[node]);
         let before = stack(&start.a, &start.alpha);
-        // In the rotation vector of the step, then as a spatial vector like every other.
+        // The combination holds for the second derivative of the rotation vector of the step; it is stored as a spatial
+        // vector like every other acceleration.
         let a = state.algorithmic_accelerations[node] * of_a + before * of_start + increment.dd * of_end;
         let (_, turn) = rates(&angular(&increment.q), &angular(&increment.d), &angular(&a));
         state.algorithmic_accelerations[node] = stack(&linear(&a), &turn);
     }
 }
 
-/// Reactions and dissipation are taken where equilibrium is written and carried to the end of the step on a straight line (at the
-/// end itself stiff parts are not at rest); the work follows.
+/// Updates reactions and work. Reactions and damping power are taken where equilibrium is written and extrapolated
+/// linearly to the end of the step, where stiff parts are not in equilibrium.
 fn update_reactions_and_work(
     cx: &Context,
     ws: &Workspace,
@@ -75,17 +76,17 @@ fn update_reactions_and_work(
     dt: f64,
     damping_power: f64,
 ) {
-    let carry = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
+    let extrapolate = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
     for (i, held) in cx.model.constraints.restraints.iter().enumerate() {
         let old = state.reactions[i];
-        let new = carry(old, -ws.forces.on_nodes[held.node][held.dof]);
+        let new = extrapolate(old, -ws.forces.on_nodes[held.node][held.dof]);
         let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
         state.work.external += 0.5 * (old + new) * moved;
         state.reactions[i] = new;
     }
     state.work.external += cx.system.external_work((&state.nodes, &ws.loads.start), (&ws.trial, &ws.loads.end));
     let old = state.work.damping_power;
-    let new = carry(old, damping_power);
+    let new = extrapolate(old, damping_power);
     state.work.damping += 0.5 * dt * (old + new);
     state.work.damping_power = new;
 }

@@ -1,11 +1,11 @@
-//! Whether a step is short enough for the contacts it meets.
+//! Checks whether a step is short enough for the contacts that it meets.
 
 use super::context::Context;
 use super::failure::Failure;
 use super::workspace::Workspace;
 use crate::state::{Configuration, State};
 
-/// Before any work is done on a step that reaches `ahead`: an impact goes on in steps that resolve it.
+/// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.
 ///
 /// # Errors
 /// [`Failure::ContactNotResolved`] where the step is too long for a contact.
@@ -16,7 +16,7 @@ pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failu
     cx.system.unresolved_impact(state, ahead).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
 }
 
-/// Before the motion found at `ahead` of the state is taken: nothing has gone through a surface.
+/// Checks the motion found at `ahead` of the state: no point may have passed through a surface.
 ///
 /// # Errors
 /// [`Failure::ContactNotResolved`] where something has.

@@ -1,4 +1,4 @@
-//! What a run only reads: the model, its plan, its system, and what follows from them once.
+//! The constants of a run: the model, its plan, its system, and what is computed from them once.
 
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model, Restraint};
@@ -6,29 +6,35 @@ use crate::plan::Plan;
 use crate::state::Node;
 use crate::system::{Excitation, System};
 
-/// Everything about a run that no step changes. Built once, borrowed by all that computes.
+/// Everything about a run that no step changes. It is built once and borrowed by all that computes.
 pub struct Context<'a> {
+    /// The model.
     pub model: &'a Model,
+    /// The plan of the run.
     pub plan: &'a Plan,
+    /// The system of equations.
     pub system: &'a System,
     /// Loads and prescribed motion as functions of time.
     pub excitation: Excitation<'a>,
     /// Nodes that move by increments of their own, in ascending order; the others do not move or follow a master.
     pub independent_nodes: Vec<usize>,
-    /// Prescribed directions, by their place in the model's list, whose motion joints hand on to others.
+    /// Prescribed degrees of freedom, by index in the model's list, whose motion joints transmit to other nodes.
     pub driving: Vec<usize>,
-    /// See [`crate::integrators::Scheme::algorithmic_acceleration`]; `None` also in statics.
+    /// Coefficients of [`crate::integrators::Scheme::algorithmic_acceleration`]; `None` in statics too.
     pub algorithmic_acceleration: Option<[f64; 3]>,
-    /// The largest distance of a node from the first: corrections are judged on it where hardly anything moves.
+    /// The largest distance of a node from the first, the length to which corrections are compared where hardly
+    /// anything moves.
     pub length: f64,
-    /// The first node at t = 0, from which distances are measured that rounding is judged against.
+    /// Position of the first node at t = 0, the origin of the distances by which rounding is measured.
     pub origin: Vec3,
-    /// Reactions or the work of forces are asked for.
+    /// True where reactions or the work of forces are wanted.
     pub wants_forces: bool,
+    /// True where energies are wanted.
     pub wants_energy: bool,
 }
 
 impl<'a> Context<'a> {
+    /// Computes the constants of a run.
     pub fn new(
         model: &'a Model,
         plan: &'a Plan,
@@ -52,22 +58,23 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// True for a dynamic analysis.
     pub fn is_dynamic(&self) -> bool {
         self.model.analysis.kind == AnalysisKind::Dynamic
     }
 
-    /// The number of unknowns that are directions of nodes; the multipliers of joints come after them.
+    /// Number of unknowns that are degrees of freedom of nodes; the multipliers of joints come after them.
     pub fn nodal_unknowns(&self) -> usize {
         self.plan.dofs.nodal_dofs().len()
     }
 }
 
-/// The nodes of the model where they lie at t = 0, at rest.
+/// The nodes of the model at rest at their initial positions.
 pub fn at_rest(model: &Model) -> Vec<Node> {
     model.nodes.iter().map(|node| Node::at_rest(node.x)).collect()
 }
 
-/// A node with nothing to move it stays where it is and costs nothing.
+/// The nodes that move by increments of their own. A node that nothing moves stays where it is and costs nothing.
 fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> {
     let n = model.nodes.len();
     let mut follows = vec![false; n];
@@ -78,11 +85,11 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
     (0..n).filter(moves).collect()
 }
 
-/// Prescribed directions of nodes that are the end of a joint or the master of one.
+/// The prescribed degrees of freedom of nodes at the end of a joint, and of the masters of such nodes.
 fn driving(model: &Model, system: &System) -> Vec<usize> {
     let mut leads = vec![false; model.nodes.len()];
     system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
-    // Dependent nodes come after their masters.
+    // In reverse order, for dependent nodes come after their masters.
     for dependent in system.rigid_links.iter().rev() {
         leads[dependent.master] |= leads[dependent.node];
     }

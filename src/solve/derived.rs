@@ -1,5 +1,5 @@
-//! Quantities that are computed only to be shown: energies, forces of links, joints and contacts, stress resultants, strains.
-//! A step itself needs none of them.
+//! Derived quantities, computed for output only: energies, forces of links, joints and contacts, stress resultants,
+//! strains. A step itself needs none of them.
 
 use crate::model::{Model, PartKind};
 use crate::state::State;
@@ -8,30 +8,40 @@ use crate::system::results::{LinkState, SectionPoint, ShellState};
 use crate::system::{ContactState, JointState, System};
 use std::ops::BitOr;
 
-/// A set of derived quantities: those that the observer needs. What is not wanted is not computed.
+/// A set of derived quantities, those that the observer needs; others are not computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Wanted(u16);
 
 impl Wanted {
+    /// No quantity.
     pub const NOTHING: Wanted = Wanted(0);
-    /// Something is written of every step.
+    /// Something is written at every step.
     pub const EVERY_STEP: Wanted = Wanted(1);
+    /// Energies and momenta.
     pub const ENERGY: Wanted = Wanted(1 << 1);
-    /// Those of supports and of joints.
+    /// Reactions of supports and joints.
     pub const REACTIONS: Wanted = Wanted(1 << 2);
+    /// Elongations and forces of links.
     pub const LINKS: Wanted = Wanted(1 << 3);
+    /// Gaps and forces of contacts.
     pub const CONTACTS: Wanted = Wanted(1 << 4);
+    /// Stress resultants of beams.
     pub const SECTIONS: Wanted = Wanted(1 << 5);
+    /// Elastic energies of parts.
     pub const PARTS: Wanted = Wanted(1 << 6);
+    /// Accumulated plastic strains.
     pub const PLASTIC_STRAINS: Wanted = Wanted(1 << 7);
+    /// Stress resultants of shells.
     pub const SHELLS: Wanted = Wanted(1 << 8);
+    /// All quantities.
     pub const ALL: Wanted = Wanted((1 << 9) - 1);
 
-    /// Whether all of `what` is in the set.
+    /// True where all of `what` is in the set.
     pub const fn has(self, what: Wanted) -> bool {
         self.0 & what.0 == what.0
     }
 
+    /// The set without `what`.
     #[must_use]
     pub const fn without(self, what: Wanted) -> Wanted {
         Wanted(self.0 & !what.0)
@@ -46,43 +56,50 @@ impl BitOr for Wanted {
     }
 }
 
-/// The derived quantities of one accepted step, each empty unless it is wanted and the step is due. The buffers are kept from
-/// step to step, so that nothing is allocated once they have grown.
+/// The derived quantities of one accepted step, each empty unless it is wanted and the step is due. The buffers are
+/// kept from step to step, so that nothing is allocated once they have grown.
 #[derive(Debug, Clone, Default)]
 pub struct Derived {
+    /// Energies and momenta.
     pub energy: Option<Energy>,
-    /// In the order of the links in [`Model::parts`].
+    /// States of links, in the order of [`Model::parts`].
     pub links: Vec<LinkState>,
-    /// In the order of [`Model::joints`].
+    /// States of joints, in the order of the model.
     pub joints: Vec<JointState>,
-    /// In the order of the contacts in [`Model::parts`].
+    /// States of contacts, in the order of [`Model::parts`].
     pub contacts: Vec<ContactState>,
-    /// Largest accumulated plastic strain of each element of all beams, then of all bars and shells, in deck order. Computed for
-    /// fields too, when the tables are not due.
+    /// Largest accumulated plastic strain of each element of all beams, bars and shells in deck order. It is computed
+    /// for fields too, when tables are not due.
     pub plastic_strains: Vec<f64>,
-    /// Of all elements of all shells in deck order. Computed for fields too, when the tables are not due.
+    /// Stress resultants of all shell elements in deck order. They are computed for fields too, when tables are not
+    /// due.
     pub shells: Vec<ShellState>,
-    /// Of all integration points of all beams in deck order.
+    /// Stress resultants at all integration points of all beams in deck order.
     pub sections: Vec<SectionPoint>,
-    /// Of all beams, bars and shells in deck order.
+    /// Elastic energies of all beams, bars and shells in deck order.
     pub parts: Vec<PartEnergy>,
 }
 
-/// What one accepted step is asked for.
+/// The request for the derived quantities of one accepted step.
 pub struct Request<'a> {
+    /// The model.
     pub model: &'a Model,
+    /// The system of equations.
     pub system: &'a System,
+    /// The state at the end of the step.
     pub state: &'a State,
-    /// The tables are due.
+    /// True where tables are due.
     pub due: bool,
-    /// The fields are drawn.
+    /// True where fields are drawn.
     pub drawn: bool,
-    /// Total energy at t = 0, against which the balance is drawn up; `None` where no energy is summed.
+    /// Mechanical energy at t = 0, from which the balance is drawn; `None` where no energy is summed.
     pub balance: Option<f64>,
+    /// Number of threads.
     pub threads: usize,
 }
 
 impl Derived {
+    /// Empty quantities, with room for all contacts.
     pub fn new(model: &Model) -> Self {
         Derived { contacts: Vec::with_capacity(model.count(PartKind::Contact)), ..Derived::default() }
     }

@@ -1,4 +1,5 @@
-//! Whether central differences make energy: nothing else tells of motion that grows though the scene as it lies is stable.
+//! Watches the balance of energy: with central differences nothing else tells of motion that grows though the scene at
+//! its current configuration is stable.
 
 use super::failure::Failure;
 use crate::integrators::Stepping;
@@ -8,18 +9,20 @@ use crate::state::State;
 use crate::system::System;
 use crate::system::energy::{Balance, Energy};
 
-/// The balance of energies of a motion in time. In statics the work of a step is that of its ends, whatever lies between.
+/// The balance of energy of a dynamic analysis. In statics the work of a step is that of its ends, whatever lies
+/// between.
 #[derive(Default)]
 pub struct EnergyGrowth {
     pub balance: Balance,
-    /// More energy was made than there was, when last looked at.
+    /// True where energy had grown at the last check.
     growing: bool,
 }
 
 impl EnergyGrowth {
-    /// Sums the balance up; `energy` is that of the state, where it is known. Central differences that have made more than there
-    /// was have failed; while there is next to nothing yet that says little, unless it is by far. What there was does not depend on
-    /// the times of output: work is looked at in every step, and energies are where links may let some go.
+    /// Updates the balance; `energy` is that of the state where it is known. Central differences have failed where they
+    /// have generated more energy than was available; where hardly any is available yet, only by far more. The verdict
+    /// must not depend on output times: work is taken account of in every step, and energies are summed where links may
+    /// release some.
     pub fn check(
         &mut self,
         (model, plan, system): (&Model, &Plan, &System),
@@ -39,16 +42,16 @@ impl EnergyGrowth {
         };
         self.balance.update(&energy.or_else(letting_go)?);
         let Balance { generated, available, plastic, .. } = self.balance;
-        // What plastic flow takes too much of does not move.
+        // Energy that plastic flow has dissipated in excess does not move anything.
         let most = if last && generated > plastic { available } else { FAR * available };
-        // A load that begins at rest moves things before it has done work: what grows does so in the next step too.
+        // A load that begins at rest moves nodes before it has done work: true growth is there in the next step too.
         let grows = is_watched(model) && available > 0.0 && generated > most;
         let went_on = std::mem::replace(&mut self.growing, grows) || last;
         (grows && went_on).then(|| Failure::EnergyGrowth { ratio: generated / available })
     }
 }
 
-/// Energies are summed whoever wants them.
+/// True where energies are summed whether the output wants them or not.
 pub fn is_watched(model: &Model) -> bool {
     matches!(model.solution.scheme.stepping(), Stepping::Verlet) && model.analysis.kind == AnalysisKind::Dynamic
 }

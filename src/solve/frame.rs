@@ -1,4 +1,4 @@
-//! What a run shows of itself: each accepted step, to an observer that can only read it.
+//! The frame that a run shows of each accepted step, to an observer that can only read it.
 
 use super::derived::Derived;
 use crate::model::Model;
@@ -6,33 +6,39 @@ use crate::state::State;
 
 /// One accepted step, read-only.
 pub struct Frame<'a> {
+    /// The model.
     pub model: &'a Model,
+    /// The state at the end of the step.
     pub state: &'a State,
     /// Accepted steps so far; 0 at t = 0.
     pub step: usize,
     /// Length of the step that led here; 0 at t = 0.
     pub dt: f64,
+    /// Iterations of the step.
     pub iterations: usize,
     pub refactorizations: usize,
     /// Relative residual at the last evaluation.
     pub residual: f64,
     /// Cutbacks before the step was accepted.
     pub cuts: usize,
-    /// Of the last matrix of a step by arc length.
+    /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
     /// True when the output cadence asks for this step; t = 0 and the last step always are.
     pub due: bool,
-    /// The run ends with it.
+    /// True for the last step of the run.
     pub last: bool,
-    /// Indices into [`Model::expects`] of those at whose displacement this step ends.
+    /// Indices into [`Model::expects`] of the displacements at which this step ends.
     pub passed: &'a [usize],
-    /// In the order of [`Model::held`]; force or moment on the structure, global components. Empty unless `due` and wanted.
+    /// Reactions on the structure, global components, in the order of the model's restraints; empty unless `due` and
+    /// wanted.
     pub reactions: &'a [f64],
+    /// Quantities computed for output only.
     pub derived: &'a Derived,
 }
 
-/// Whoever watches a run. Errors are input/output errors; they end the run with exit code 6.
+/// The observer of a run.
 pub trait Observer {
+    /// Receives each accepted step. An error is an input/output error; it ends the run with exit code 6.
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()>;
 }
 

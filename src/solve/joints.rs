@@ -1,17 +1,17 @@
-//! Whether the joints hold at the end of a step.
+//! Checks whether the joints are closed at the end of a step.
 
 use super::context::Context;
 use super::failure::{self, Failure};
 use super::workspace::Workspace;
 
-/// Corrections of a position before the step is given up.
+/// Largest number of corrections of positions before the step is given up.
 pub const MOST_CORRECTIONS: usize = 12;
-/// Gaps, relative to positions, that rounding may leave.
+/// A gap, relative to positions, that rounding may leave.
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// The largest gap, relative to positions, that a joint may have at the end of a step; iteration and projection leave far less.
 const LARGEST_GAP: f64 = 1e-9;
 
-/// Measures the gaps of the trial motion, and notes the largest.
+/// Measures the gaps of the trial motion and keeps the largest in the workspace.
 ///
 /// # Errors
 /// [`Failure::ConstraintsViolated`] where joints have not closed, however well forces balance: they contradict each other.
@@ -29,7 +29,7 @@ pub fn check(cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The joints cannot be closed; the gaps at hand say where.
+/// The failure of joints that cannot be closed; the gaps at hand say where.
 pub fn constraints_violated(cx: &Context, ws: &Workspace) -> Failure {
     Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, &ws.forces.multipliers.gaps) }
 }

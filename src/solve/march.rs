@@ -1,4 +1,4 @@
-//! What a run works on while it goes through time, handed as one to whatever leads it.
+//! The data of a run under way, handed as one to its controllers.
 
 use super::context::Context;
 use super::failure::Failure;
@@ -10,18 +10,25 @@ use super::workspace::Workspace;
 use crate::state::State;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A run under way: what it reads, what it writes, its state, and who watches it.
+/// A run under way: what it reads, what it writes, its state, and its observer.
 pub struct March<'r, 'a> {
+    /// Constants of the run.
     pub cx: &'r Context<'a>,
+    /// Workspace of the step.
     pub ws: &'r mut Workspace,
+    /// The state at the end of the last accepted step.
     pub state: &'r mut State,
+    /// The account of the run.
     pub recorder: &'r mut Recorder,
+    /// The observer of the run.
     pub observer: &'r mut dyn Observer,
-    /// Raised by whoever wants the run to end.
+    /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
 }
 
 impl March<'_, '_> {
+    /// Ends the run where the stop flag is raised.
+    ///
     /// # Errors
     /// [`Outcome::Stopped`] where the run is to end.
     pub fn check_stop(&self) -> Result<(), Outcome> {
@@ -31,7 +38,7 @@ impl March<'_, '_> {
         }
     }
 
-    /// Shows an accepted step.
+    /// Shows an accepted step to the observer.
     ///
     /// # Errors
     /// As for [`Recorder::notify`].
@@ -39,12 +46,12 @@ impl March<'_, '_> {
         self.recorder.notify(self.cx, self.ws, self.state, self.observer, step)
     }
 
-    /// The run ends here, because of this.
+    /// The outcome of a run that ends here by a failure.
     pub fn failed(&self, failure: Failure) -> Outcome {
         Outcome::Failed { time: self.state.time, failure }
     }
 
-    /// Shows the state at t = 0.
+    /// Shows the state at t = 0 to the observer.
     ///
     /// # Errors
     /// As for [`Recorder::notify`].
@@ -53,12 +60,12 @@ impl March<'_, '_> {
         self.notify(&AcceptedStep { dt: 0.0, report, cuts: 0, due: true, last: false, passed: &[] })
     }
 
-    /// Notes that a step was cut.
+    /// Counts a cutback.
     pub fn count_cut(&mut self) {
         self.recorder.counts.cuts += 1;
     }
 
-    /// True for a time within rounding of the end: no other step comes as near.
+    /// True for a time within rounding of the end of the run; no other step comes as near.
     pub fn is_end(&self, time: f64) -> bool {
         time >= self.cx.model.analysis.end_time * (1.0 - 1e-9)
     }

@@ -1,7 +1,8 @@
-//! The march through time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
+//! Integration in time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 //!
-//! From the bottom up: what a run reads ([`context`]) and what a step writes ([`workspace`]), both plain data; the parts of a step
-//! that all schemes share; the implicit and the explicit schemes; the controllers that give steps their lengths; the run on top.
+//! The files stand from the bottom up: what a run reads ([`context`]) and what a step writes ([`workspace`]), both
+//! plain data; the parts of a step that all schemes share; the implicit and the explicit schemes; the controllers of
+//! the step length; the run on top.
 
 mod commit;
 mod contacts;

@@ -1,4 +1,5 @@
-//! The motion of a step: what is prescribed, the first guess, the trial motion from the increments, and where they end.
+//! The motion of a step: prescribed motion, prediction, the trial motion from the increments, and the motion at the end
+//! of the step.
 
 use super::context::Context;
 use super::workspace::Workspace;
@@ -7,24 +8,26 @@ use crate::math::{Vec6, stack};
 use crate::state::{Increment, Node, State};
 use crate::system::{Prescribed, Side, between};
 
-/// How a stage of a step relates displacements, velocities and accelerations.
+/// The relation between displacements, velocities and accelerations in a stage of a step.
 #[derive(Clone, Copy)]
 pub struct Stage<'s> {
+    /// Coefficients of the scheme.
     pub scheme: &'s Coefficients,
-    /// What the scheme takes in place of the velocity and the acceleration at the start, by node: where a second stage looks back
-    /// beyond it.
+    /// Velocities and accelerations by node that stand in place of those at the start of the step, where a second stage
+    /// looks back beyond it.
     pub start_rates: Option<&'s [[Vec6; 2]]>,
 }
 
 impl<'s> From<&'s Coefficients> for Stage<'s> {
-    /// A stage that starts from the state alone.
+    /// A stage with the rates of the state alone.
     fn from(scheme: &'s Coefficients) -> Stage<'s> {
         Stage { scheme, start_rates: None }
     }
 }
 
 impl Stage<'_> {
-    /// What stands in place of a node's own velocity and acceleration at the start of the step.
+    /// The velocity and the acceleration of a node at the start of the step as the scheme uses them; `own` are those of
+    /// the state.
     #[inline]
     pub fn start_rates(&self, cx: &Context, state: &State, node: usize, own: [Vec6; 2]) -> [Vec6; 2] {
         if let Some(rates) = self.start_rates {
@@ -37,13 +40,14 @@ impl Stage<'_> {
     }
 }
 
-/// Velocity and acceleration of a node, translations first.
+/// The velocity and the acceleration of a node, translations first.
 #[inline]
 pub fn rates_of(node: &Node) -> [Vec6; 2] {
     [stack(&node.v, &node.omega), stack(&node.a, &node.alpha)]
 }
 
-/// Evaluates loads and prescribed motion at the ends of the step and, extrapolated from them, at the instant of equilibrium.
+/// Evaluates loads and prescribed motion at the ends of the step, and at the instant of equilibrium by interpolation or
+/// extrapolation from the ends.
 pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64) {
     let loads = &mut ws.loads;
     cx.excitation.loading(from, Side::After, &mut loads.start);
@@ -59,8 +63,9 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
         a: a.a + instant * (b.a - a.a),
     }));
     if instant > 1.0 {
-        // What joints tie to a prescribed motion takes its acceleration from positions: they must belong to one another. Past the
-        // end of the step a straight line of positions would leave six sevenths of it out.
+        // Joints take accelerations of what they tie to a prescribed motion from its positions, so positions and
+        // accelerations must be consistent. Past the end of the step, linear extrapolation of positions would leave six
+        // sevenths of the acceleration out.
         let tau = instant * (to - from);
         for &i in &cx.driving {
             let (start, now) = (&prescribed.start[i], &mut prescribed.instant[i]);
@@ -69,7 +74,7 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     }
 }
 
-/// Writes the first guess of the increments and of the multipliers.
+/// Writes the predicted increments, and the multipliers of the last step as a first guess.
 pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
     for &node in &cx.independent_nodes {
         let [v, a] = rates_of(&state.nodes[node]);
@@ -79,6 +84,7 @@ pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coeffic
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
 }
 
+/// Writes the largest coordinate of a node, by which rounding is measured.
 pub fn measure_reach(cx: &Context, ws: &mut Workspace, state: &State) {
     let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
     ws.reach = cx.independent_nodes.iter().fold(cx.length, farthest);
@@ -93,8 +99,8 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
     }
 }
 
-/// Writes the trial motion from the increments: rates by the scheme, prescribed directions as given, dependent nodes after their
-/// masters.
+/// Writes the trial motion at the instant of equilibrium from the increments: rates by the scheme, then prescribed
+/// degrees of freedom, then dependent nodes.
 pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
     differentiate(cx, ws, state, stage);
     for (held, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant) {
@@ -107,8 +113,8 @@ pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage
     update_dependent_nodes(cx, ws, &state.nodes);
 }
 
-/// Writes the trial motion from the increments at the end of the step: prescribed directions as given, dependent nodes after
-/// their masters.
+/// Writes the trial motion at the end of the step from the increments, with prescribed degrees of freedom and dependent
+/// nodes.
 pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
     for (i, held) in cx.model.constraints.restraints.iter().enumerate() {
         let (from, to) = (&ws.prescribed.start[i], &ws.prescribed.end[i]);
@@ -120,7 +126,7 @@ pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme:
     update_dependent_nodes(cx, ws, &state.nodes);
 }
 
-/// Moves dependent nodes after their masters, from where they were at `start`.
+/// Moves dependent nodes with their masters; `start` are the nodes at the start of the step.
 pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) {
     for dependent in &cx.system.rigid_links {
         dependent.follow(&mut ws.trial, &mut ws.increments, &start[dependent.node]);

@@ -1,17 +1,18 @@
-//! How a run ended, and what it took.
+//! The outcome of a run, and its effort.
 
 use super::failure::Failure;
 
-/// How a run ended.
+/// The way a run ended.
 #[derive(Debug)]
 pub enum Outcome {
+    /// The run came to its end.
     Done,
-    /// The least step failed; results are valid up to `time`.
+    /// No step could be taken, however short; results are valid up to `time`.
     Failed {
         time: f64,
         failure: Failure,
     },
-    /// The flag was raised.
+    /// The stop flag was raised.
     Stopped {
         time: f64,
     },
@@ -22,9 +23,14 @@ pub enum Outcome {
 /// The effort of a run so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
+    /// Accepted steps.
     pub steps: usize,
+    /// Iterations, or evaluations of the residual in an explicit scheme.
     pub iterations: usize,
+    /// Factorizations of a matrix.
     pub factorizations: usize,
+    /// Solutions of a linear system.
     pub solves: usize,
+    /// Cutbacks.
     pub cuts: usize,
 }

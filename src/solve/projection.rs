@@ -1,8 +1,9 @@
-//! Joints at the end of a step and at the start of a run. Where a scheme writes equilibrium past the end of the step, the end
-//! itself lies off the joints by its error; there position, velocity and acceleration are projected onto the constraints, one after
-//! the other, by the least change in the norm of the masses (E. Eich, SIAM J. Numer. Anal. 30 (1993)), as if the joints had pushed
-//! a little more or less within the step: they do not drift, and the accelerations of one step bring no oscillation into the next.
-//! How the iteration came there does not matter.
+//! Projection onto the constraints at the end of a step and at the start of a run. Where a scheme writes equilibrium
+//! past the end of the step, the joints are not closed at the end itself. Position, velocity and acceleration there are
+//! projected onto the constraints, one after the other, by the least change in the norm of the masses (E. Eich, SIAM J.
+//! Numer. Anal. 30 (1993)), as if the joints had exerted slightly other forces within the step: they do not drift, and
+//! the accelerations of one step bring no oscillation into the next. The result does not depend on the path of the
+//! iteration.
 
 use super::context::Context;
 use super::failure::Failure;
@@ -20,30 +21,32 @@ use crate::state::{Configuration, Node, State};
 use crate::system::assembly::Weights;
 use crate::system::{Forces, Loading, System};
 
-/// The mass that a direction without one is given, over the largest: so that it is the one that gives way.
+/// Mass given to a degree of freedom without one, relative to the largest: so it is the one that gives way.
 const TRACE: f64 = 1e-9;
 
-/// The masses and joints of a scene by themselves, with their own factorisation. Allocated once.
+/// The masses and joints of a scene alone, with their own factorization. It is allocated once.
 pub struct ConstraintProjection {
-    /// The system without stiffness.
+    /// The system without stiffness, loads and damping.
     bare: System,
     matrix: LinearSystem,
     loading: Loading,
     forces: Forces,
-    /// Gaps and right-hand side, then correction, per unknown.
+    /// Right-hand side, then correction, by unknown.
     r: Vec<f64>,
     diagonal: Vec<DiagonalSlot>,
-    /// The part of the diagonal that nothing gives a mass.
+    /// The slots of degrees of freedom without mass.
     massless: Vec<DiagonalSlot>,
 }
 
-/// A place on the diagonal of the matrix.
+/// A slot on the diagonal of the matrix.
 struct DiagonalSlot {
     slot: usize,
     is_rotation: bool,
 }
 
 impl ConstraintProjection {
+    /// Factors and buffers for the projection.
+    ///
     /// # Errors
     /// There is no memory for the solver.
     pub fn new(plan: &Plan, system: &System, nodes: usize) -> Result<Self, TooLarge> {
@@ -68,7 +71,7 @@ impl ConstraintProjection {
         })
     }
 
-    /// For a motion in time that has joints.
+    /// The projection for a dynamic analysis with joints; `None` for others.
     ///
     /// # Errors
     /// There is no memory for the solver.
@@ -77,7 +80,8 @@ impl ConstraintProjection {
         needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
     }
 
-    /// Puts the trial motion, at the end of a step of length `dt` from `state`, onto the joints; the increments lead there.
+    /// Projects the trial motion, at the end of a step of length `dt` from `state`, onto the constraints, and writes
+    /// the increments that lead there.
     ///
     /// # Errors
     /// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
@@ -94,7 +98,8 @@ impl ConstraintProjection {
         if closed { Ok(()) } else { Err(joints::constraints_violated(cx, ws)) }
     }
 
-    /// Factorises masses and joints as they lie; false where the joints leave no way to close them.
+    /// Factorizes masses and joints at the given configuration; false where the matrix is singular and the joints
+    /// cannot be closed.
     fn factor(&mut self, nodes: &[Node]) -> bool {
         let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
         let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly }, forces, loading, .. } = self;
@@ -112,12 +117,12 @@ impl ConstraintProjection {
         solver.factor().is_ok()
     }
 
-    /// Corrects positions until the gaps are those of rounding, then their rates; false where the gaps do not close.
+    /// Corrects positions until the gaps are at rounding, then their rates; false where the gaps do not close.
     fn close(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let gap = self.gap(cx, ws, 0);
-            // At rounding, or no longer falling next to it.
+            // The gap is at rounding, or near it and no longer decreasing.
             if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
                 self.close_rates(cx, ws, state, scheme, dt);
                 return true;
@@ -131,7 +136,8 @@ impl ConstraintProjection {
         false
     }
 
-    /// Rates are linear in themselves: one correction is exact but for what the positions have changed since.
+    /// Corrects velocities, then accelerations. The constraints are linear in them, so one correction is exact at given
+    /// positions.
     fn close_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) {
         for derivative in [1, 2] {
             let mut last = f64::INFINITY;
@@ -146,7 +152,7 @@ impl ConstraintProjection {
         }
     }
 
-    /// The largest gap of the trial motion, or of its derivative, relative.
+    /// The largest gap of the trial motion, or of its first or second derivative, relative to the reach.
     fn gap(&mut self, cx: &Context, ws: &Workspace, derivative: usize) -> f64 {
         let gaps = &mut self.forces.multipliers.gaps;
         cx.system.gaps(&ws.trial, derivative, gaps);
@@ -179,8 +185,8 @@ impl ConstraintProjection {
         update_dependent_nodes(cx, ws, &state.nodes);
     }
 
-    /// Constraint equations that say the same may carry anything against each other: they are left with the least that does what
-    /// they do together.
+    /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least
+    /// ones with the same forces.
     pub fn share_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         if !cx.plan.has_redundant_constraints() {
             return;

@@ -1,4 +1,4 @@
-//! What becomes of an accepted step: it is counted, its energies are checked, and it is shown to whoever watches the run.
+//! The recorder of accepted steps: it counts them, checks their energies and shows them to the observer.
 
 use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
@@ -11,32 +11,38 @@ use crate::model::{Cadence, Model};
 use crate::state::State;
 use std::time::{Duration, Instant};
 
-/// The account of a run. Allocated once.
+/// The account of a run. It is allocated once.
 pub struct Recorder {
     wanted: Wanted,
+    /// The effort so far.
     pub counts: Counts,
     /// Time spent in the observer.
     pub observing: Duration,
+    /// The balance of energy.
     pub growth: EnergyGrowth,
-    /// The mechanical energy at t = 0, where energies are summed.
+    /// Mechanical energy at t = 0, where energies are summed.
     initial_energy: Option<f64>,
     derived: Derived,
 }
 
-/// A step as it is shown.
+/// An accepted step as the recorder receives it.
 pub struct AcceptedStep<'s> {
+    /// Length of the step.
     pub dt: f64,
+    /// The report of the step.
     pub report: &'s StepReport,
+    /// Cutbacks before it.
     pub cuts: usize,
-    /// Its end is an output time, whatever the cadence says.
+    /// True where its end is an output time, whatever the cadence says.
     pub due: bool,
-    /// The run ends with it.
+    /// True for the last step of the run.
     pub last: bool,
-    /// See [`Frame::passed`].
+    /// Indices as in [`Frame::passed`].
     pub passed: &'s [usize],
 }
 
 impl Recorder {
+    /// A recorder that shows the `wanted` quantities.
     pub fn new(model: &Model, wanted: Wanted) -> Recorder {
         Recorder {
             wanted,
@@ -48,14 +54,14 @@ impl Recorder {
         }
     }
 
-    /// Notes the energy that the run starts with.
+    /// Sums the energy at the start of the run.
     pub fn begin(&mut self, cx: &Context, state: &State) {
         if self.wanted.has(Wanted::ENERGY) || is_watched(cx.model) {
             self.initial_energy = Some(cx.system.energy(state, None, cx.plan.threads).mechanical);
         }
     }
 
-    /// Counts a step, computes what is wanted of it and shows it.
+    /// Counts a step, computes the wanted quantities and shows it.
     ///
     /// # Errors
     /// [`Outcome::Io`] where the observer cannot write, [`Outcome::Failed`] where energy grows.
@@ -72,7 +78,7 @@ impl Recorder {
             self.counts.iterations += step.report.iterations;
         }
         let (due, drawn) = self.is_due(cx.model, step);
-        // Two looks at the clock are a twentieth of a step of two bodies.
+        // Reading the clock twice costs a twentieth of a step of two bodies.
         let began = (due || drawn || self.wanted.has(Wanted::EVERY_STEP)).then(Instant::now);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let watched = if is_watched(model) { Wanted::ENERGY } else { Wanted::NOTHING };
@@ -87,7 +93,7 @@ impl Recorder {
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
     }
 
-    /// Whether tables are due, and whether fields are drawn: these by steps, and at the end.
+    /// Whether tables are due, and whether fields are drawn; fields are drawn by steps and at the end.
     fn is_due(&self, model: &Model, step: &AcceptedStep) -> (bool, bool) {
         let due = match model.output.cadence {
             Cadence::Steps(every) => self.counts.steps.is_multiple_of(every.max(1)),
@@ -107,7 +113,7 @@ impl Recorder {
         due: bool,
     ) -> Frame<'f> {
         let &AcceptedStep { dt, report, cuts, last, passed, .. } = step;
-        // Each multiplier brings a negative pivot of its own.
+        // Each multiplier has a negative pivot of its own.
         let negative = || ws.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
         Frame {
             model: cx.model,

@@ -1,4 +1,4 @@
-//! The residual by unknown, how large it is, and the failures that it tells of.
+//! The residual by unknown, its relative size, and the failures that it shows.
 
 use super::context::Context;
 use super::failure::{self, Failure};
@@ -6,12 +6,13 @@ use super::workspace::Workspace;
 use crate::math::larger;
 use crate::system::Scale;
 
-/// Writes the residual per unknown; returns its largest entry relative to the forces (moments) it is made of.
+/// Writes the residual by unknown into `ws.r`. Returns its largest entry relative to the forces or moments that it is
+/// summed from.
 pub fn gather(cx: &Context, ws: &mut Workspace, scale: &Scale) -> f64 {
     let (mut force, mut moment) = (0.0, 0.0);
     for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
         *r = ws.forces.on_nodes[node][dof];
-        // NaN must not vanish in a comparison.
+        // A NaN must not vanish in a comparison.
         let size = if r.is_nan() { f64::INFINITY } else { r.abs() };
         if dof < 3 {
             force = larger(force, size);
@@ -19,19 +20,19 @@ pub fn gather(cx: &Context, ws: &mut Workspace, scale: &Scale) -> f64 {
             moment = larger(moment, size);
         }
     }
-    // Forces and moments are judged apart; one counts against the other over the model's length where its own scale is nil.
+    // Forces and moments are judged apart; where one has no scale of its own, the other counts over the model's length.
     let forces = scale.force.max(1e-3 * scale.moment / cx.length);
     let moments = scale.moment.max(1e-3 * scale.force * cx.length);
     let ratio = |size: f64, of: f64| if size == 0.0 { 0.0 } else { size / of.max(f64::MIN_POSITIVE) };
     ratio(force, forces).max(ratio(moment, moments))
 }
 
-/// The motion left the range of numbers.
+/// The failure of a motion that left the range of numbers.
 pub fn not_finite(cx: &Context, ws: &mut Workspace) -> Failure {
     Failure::NotFinite { largest: largest(cx, ws) }
 }
 
-/// No equilibrium was found at the length of the arc.
+/// The failure of a step by arc length without equilibrium.
 pub fn no_equilibrium(cx: &Context, ws: &mut Workspace) -> Failure {
     Failure::NoEquilibriumOnArc { largest: largest(cx, ws) }
 }

@@ -1,4 +1,4 @@
-//! A run of one scene, from 0 to the end time.
+//! A run of one scene from t = 0 to the end time.
 
 use super::context::Context;
 use super::control::Controller;
@@ -19,19 +19,19 @@ use crate::system::energy::Balance;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// A run of one scene. All that its steps need is allocated when it is made.
+/// A run of one scene. Whatever its steps need is allocated when it is made.
 pub struct Run<'a> {
     context: Context<'a>,
     workspace: Workspace,
     controller: Controller<'a>,
     recorder: Recorder,
     stop: &'a AtomicBool,
-    /// See [`Run::start_jump`].
+    /// The result of [`Run::start_jump`].
     velocity_change: f64,
 }
 
 impl<'a> Run<'a> {
-    /// The run ends early where `stop` is raised.
+    /// Prepares a run that shows the `wanted` quantities; it ends early where `stop` is raised.
     ///
     /// # Errors
     /// There is no memory for the solver.
@@ -51,7 +51,8 @@ impl<'a> Run<'a> {
         Ok(Run { context, workspace, controller, recorder, stop, velocity_change: 0.0 })
     }
 
-    /// Runs to the end, to a failure, or until stopped. The state it ends with is returned too.
+    /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
+    /// not start.
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, stop, velocity_change } = self;
         let mut state = match start(cx, ws) {
@@ -79,27 +80,27 @@ impl<'a> Run<'a> {
         self.recorder.observing
     }
 
-    /// The balance of energies of a motion in time.
+    /// The balance of energy of a dynamic analysis.
     pub fn balance(&self) -> &Balance {
         &self.recorder.growth.balance
     }
 
-    /// The largest departure from orthogonality that a truncated rotation update left to be mended.
+    /// Largest departure from orthogonality of a truncated rotation update before it was corrected.
     pub fn rotation_drift(&self) -> f64 {
         self.workspace.rotation_drift
     }
 
-    /// The largest gap of a joint that the end of a step was left with, relative to the largest coordinate; `None`: no joints.
+    /// Largest gap of a joint at the end of a step, relative to the largest coordinate; `None` without joints.
     pub fn joint_violation(&self) -> Option<f64> {
         (!self.context.system.joints.is_empty()).then_some(self.workspace.joint_violation)
     }
 
-    /// The largest change, relative to the largest velocity, that initial velocities needed to agree with the joints.
+    /// Largest change of initial velocities that the joints required, relative to the largest velocity.
     pub fn start_jump(&self) -> f64 {
         self.velocity_change
     }
 
-    /// Where a path ended that never came to its `stop`: the displacement asked for.
+    /// The displacement at the end of a path that did not reach its `stop`.
     pub fn short_of_stop(&self) -> Option<f64> {
         self.controller.short_of_stop()
     }

@@ -1,9 +1,11 @@
-//! How large a motion is, translations and rotations apart.
+//! The size of a motion, translations and rotations apart.
 
 /// The largest translation and the largest rotation of a set of nodes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Size {
+    /// Largest displacement.
     pub translation: f64,
+    /// Largest rotation, in radians.
     pub rotation: f64,
 }
 

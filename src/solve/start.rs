@@ -1,5 +1,5 @@
-//! The state at t = 0, positions and velocities as given and accelerations from equilibrium, and the state after a jump of the
-//! loads.
+//! The state at t = 0, with positions and velocities as given and accelerations from equilibrium, and the state after a
+//! jump of the loads.
 
 use super::context::Context;
 use super::failure::Failure;
@@ -11,8 +11,8 @@ use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::assembly::Weights;
 
-/// Finds the state at t = 0, and what the joints have made of the velocities given there: the largest change over the largest
-/// velocity.
+/// Finds the state at t = 0. Returns it with the largest change of initial velocities that the joints required,
+/// relative to the largest velocity.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted, [`Failure::ConstraintsViolated`] where joints do not fit the scene.
@@ -23,7 +23,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
     prescribe(cx, ws, &mut state);
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
     if cx.system.has_contacts() {
-        // What touches at t = 0 rubs from then on.
+        // Points in contact at t = 0 may rub from then on.
         update_history(cx, ws, &mut state);
     }
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
@@ -43,7 +43,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
         *reaction = -ws.forces.on_nodes[held.node][held.dof];
     }
     if cx.system.history > 0 {
-        // What has yielded before the start is no one's work.
+        // Yielding before the start is not part of the work of the run.
         update_history(cx, ws, &mut state);
     }
     if cx.is_dynamic() {
@@ -53,7 +53,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
     Ok((state, velocity_change))
 }
 
-/// The state as the model gives it, with nothing prescribed yet. Directions that are omitted have no motion at all.
+/// The state as the model gives it, before prescribed motion. Omitted degrees of freedom are at rest.
 fn given_state(cx: &Context) -> State {
     let node = |(i, spec): (usize, &crate::model::Node)| {
         let mut node = Node::at_rest(spec.x);
@@ -96,7 +96,8 @@ fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
             node.alpha[held.dof - 3] = given.a;
         }
     }
-    // Where a prescribed motion starts turned, dependent nodes start turned in the directions that follow.
+    // Where a prescribed motion starts rotated, dependent nodes start with the components of the rotation that follow
+    // the master.
     for dependent in &cx.system.rigid_links {
         let turn = rotation::log(&state.nodes[dependent.master].rotation);
         let following = Vec3::from_fn(|i, _| if dependent.dofs[3 + i] { turn[i] } else { 0.0 });
@@ -122,13 +123,13 @@ fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut
     }
 }
 
-/// With a factorised mass matrix: replaces velocities by those that the joints allow, the nearest in kinetic energy. Returns the
-/// largest change over the largest velocity.
+/// Replaces velocities by those that the joints allow, the nearest in kinetic energy; the mass matrix is factorized
+/// already. Returns the largest change relative to the largest velocity.
 fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f64 {
-    // Translations and rotations together: where one of them is nil, rounding of the other is no change.
+    // Translations and rotations are judged together: where one of them is zero, rounding of the other is no change.
     let speed = |v: &Vec3, omega: &Vec3| v.amax().max(omega.amax() * cx.length);
     let (mut change, mut largest) = (0.0f64, 0.0f64);
-    // Equations that share what they carry leave a part of it to the next time: three leave nothing.
+    // Redundant equations leave a fraction of the gaps to the next correction: three leave nothing.
     for _ in 0..3 {
         cx.system.gaps(nodes, 1, &mut ws.forces.multipliers.gaps);
         if ws.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
@@ -151,8 +152,8 @@ fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f
     if change > 0.0 { change / largest } else { 0.0 }
 }
 
-/// At a jump of the loads velocities go on, accelerations jump by M Δa = Δf and reactions with them; without this the scheme would
-/// carry the old acceleration into the next step and lose an order.
+/// Takes the state over a jump of the loads. Velocities are continuous, accelerations jump by M Δa = Δf and reactions
+/// with them; otherwise the scheme would take the old acceleration into the next step and lose an order.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
@@ -173,7 +174,7 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     let massless = factor_mass(cx, ws, &state.configuration())?;
     add_accelerations(cx, ws, state, &massless);
     if cx.wants_forces {
-        // Reactions jump too, by what the new accelerations leave of the new loads.
+        // Reactions jump by what the new accelerations leave of the new loads.
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
             *reaction -= ws.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
@@ -182,25 +183,26 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     Ok(())
 }
 
-/// a ← a + M⁻¹ f with the mass matrix factorised. Directions without mass have no equation for their acceleration: it stays.
+/// Adds M⁻¹ f to the accelerations, with the mass matrix factorized. Degrees of freedom without mass have no equation
+/// for their acceleration, which stays.
 fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massless: &[usize]) {
     for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
         *r = ws.forces.on_nodes[node][dof];
     }
     massless.iter().for_each(|&row| ws.r[row] = 0.0);
     solve_accelerations(cx, ws, state);
-    // Equations that share what they carry leave a part of it to be found: once more is enough.
+    // Redundant equations leave a fraction of the gaps: a second solution is enough.
     if !cx.system.joints.is_empty() {
         ws.r[..cx.nodal_unknowns()].fill(0.0);
         solve_accelerations(cx, ws, state);
     }
-    // After a start or a jump algorithmic accelerations follow from nowhere else.
+    // After a start or a jump algorithmic accelerations equal those of equilibrium.
     for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
         *acceleration = stack(&node.a, &node.alpha);
     }
 }
 
-/// Solves for accelerations with the forces in `r`, and with what the joints still ask for.
+/// Solves for accelerations with the forces in `r`, and with the accelerations of the gaps.
 fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
     let multipliers = &mut ws.forces.multipliers;
     multipliers.values.copy_from_slice(&state.multipliers);
@@ -222,20 +224,21 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
 }
 
-/// Forms and factorises M; returns the rows without mass, whose accelerations stay.
+/// Forms and factorizes M. Returns the rows without mass, whose accelerations stay.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
 fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<Vec<usize>, Failure> {
-    const HELD: f64 = 1e20; // times the mass: what is left of its acceleration is below rounding
-    // A direction without mass may lie aslant: a thin rod's axis, or that of an arm with a point mass at its end. It shows as a
-    // pivot that vanishes.
-    let mut aslant: Vec<usize> = Vec::new();
+    // A mass this many times larger leaves an acceleration below rounding.
+    const FIXED: f64 = 1e20;
+    // A direction without mass may lie oblique to the axes: that of a thin rod, or of an arm with a point mass at its
+    // end. It shows as a vanishing pivot.
+    let mut oblique: Vec<usize> = Vec::new();
     loop {
         let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
         let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
         matrix.assembly.tangent(cx.system, now, loads, &mut ws.forces, weights, &mut matrix.solver);
-        let mut massless = aslant.clone();
+        let mut massless = oblique.clone();
         for row in 0..cx.nodal_unknowns() {
             let Some(slot) = matrix.solver.slot(row, row) else { continue };
             let diagonal = &mut matrix.solver.values()[slot];
@@ -244,18 +247,18 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<
                 massless.push(row);
             }
         }
-        for &row in &aslant {
+        for &row in &oblique {
             if let Some(slot) = matrix.solver.slot(row, row) {
-                matrix.solver.values()[slot] *= HELD;
+                matrix.solver.values()[slot] *= FIXED;
             }
         }
         ws.factorizations += 1;
         match matrix.solver.factor() {
             Ok(()) => return Ok(massless),
-            Err(singular) if aslant.contains(&singular.row) => {
+            Err(singular) if oblique.contains(&singular.row) => {
                 return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row));
             }
-            Err(singular) => aslant.push(singular.row),
+            Err(singular) => oblique.push(singular.row),
         }
     }
 }

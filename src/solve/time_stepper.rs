@@ -1,4 +1,4 @@
-//! The steps a run can take, one variant for each machinery.
+//! The time steppers, one variant for each kind of step.
 
 use super::context::Context;
 use super::explicit::{CentralDifferenceStepper, RungeKuttaStepper};
@@ -10,10 +10,13 @@ use crate::integrators::Stepping;
 use crate::linear::TooLarge;
 use crate::state::State;
 
-/// What takes a step of given length.
+/// A stepper that takes a step of given length.
 pub enum TimeStepper<'a> {
+    /// Steps with equilibrium iterations, statics included.
     Implicit(Box<Implicit<'a>>),
+    /// Velocity Verlet steps.
     CentralDifference(Box<CentralDifferenceStepper>),
+    /// Steps of an explicit Runge-Kutta scheme.
     RungeKutta(Box<RungeKuttaStepper>),
 }
 
@@ -32,7 +35,7 @@ impl<'a> TimeStepper<'a> {
         })
     }
 
-    /// A run starts from this state, or goes on from it after a jump of the loads.
+    /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     pub fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         match self {
             TimeStepper::Implicit(stepper) => stepper.restart(state),
@@ -41,7 +44,7 @@ impl<'a> TimeStepper<'a> {
         }
     }
 
-    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
     /// See [`Failure`].

@@ -1,4 +1,4 @@
-//! What a step writes to, as plain data: allocated once, with no behaviour of its own.
+//! The workspace of a step: plain data, allocated once, without behaviour of its own.
 
 use super::context::{self, Context};
 use super::linear_system::LinearSystem;
@@ -8,38 +8,44 @@ use crate::system::{Forces, Loading, Prescribed};
 
 /// The numbers of the step at hand.
 pub struct Workspace {
-    /// The motion at the instant of equilibrium, later that at the end of the step; by node.
+    /// Motion of the nodes at the instant of equilibrium, later at the end of the step.
     pub trial: Vec<Node>,
-    /// The motion from the start of the step, with its rates; by node.
+    /// Increments of the nodes from the start of the step, with their rates.
     pub increments: Vec<Increment>,
-    /// What material points will remember at the end of the step.
+    /// History variables at the end of the step.
     pub history: Vec<f64>,
     /// Residual forces of the trial motion, and the multipliers of joints.
     pub forces: Forces,
-    /// The residual, then the correction; by unknown.
+    /// The residual, then the correction, by unknown.
     pub r: Vec<f64>,
+    /// Loads.
     pub loads: AtTimes<Loading>,
-    /// Displacements, velocities and accelerations of prescribed directions, in the order of the model's list.
+    /// Prescribed motion, in the order of the model's restraints; at the instant of equilibrium displacements count
+    /// from the start of the step.
     pub prescribed: AtTimes<Vec<Prescribed>>,
-    /// The largest coordinate of a node at the start of the step, counted from the first node at t = 0: what distances are rounded
-    /// against.
+    /// Largest coordinate of a node at the start of the step, counted from the first node at t = 0. The rounding of
+    /// distances is measured by it.
     pub reach: f64,
-    /// The matrix of the step: of its tangent, or of the masses.
+    /// The matrix of the step: its tangent, or that of masses and joints.
     pub matrix: LinearSystem,
+    /// Number of factorizations so far.
     pub factorizations: usize,
+    /// Number of solutions of a linear system so far.
     pub solves: usize,
-    /// The largest departure from orthogonality that a truncated rotation update left to be mended, over all steps.
+    /// Largest departure from orthogonality of a truncated rotation update before it was corrected, over all steps.
     pub rotation_drift: f64,
-    /// The largest gap of a joint that the end of a step was left with, relative to the reach, over all steps.
+    /// Largest gap of a joint at the end of a step, relative to `reach`, over all steps.
     pub joint_violation: f64,
 }
 
-/// Something that is given over time, at the times that count in a step.
+/// An excitation at the three times that a step needs.
 #[derive(Default)]
 pub struct AtTimes<T> {
+    /// Its value at the start of the step.
     pub start: T,
+    /// Its value at the end of the step.
     pub end: T,
-    /// The instant where equilibrium is written.
+    /// Its value at the instant where equilibrium is written.
     pub instant: T,
 }
 
