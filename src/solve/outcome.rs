@@ -8,14 +8,9 @@ pub enum Outcome {
     /// The run came to its end.
     Done,
     /// No step could be taken, however short; results are valid up to `time`.
-    Failed {
-        time: f64,
-        failure: Failure,
-    },
+    Failed { time: f64, failure: Failure },
     /// The stop flag was raised.
-    Stopped {
-        time: f64,
-    },
+    Stopped { time: f64 },
     /// The observer could not write.
     Io(std::io::Error),
 }
