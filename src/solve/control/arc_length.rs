@@ -83,7 +83,7 @@ impl ArcLengthController {
     ///
     /// # Errors
     /// Where no equilibrium is found under them.
-    pub fn settle(&mut self, march: &mut March) -> Result<(), Outcome> {
+    pub fn apply_initial_loads(&mut self, march: &mut March) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         if residual::gather(cx, ws, &scale) > cx.model.solution.iteration.tolerance {

@@ -58,7 +58,7 @@ impl<'a> Controller<'a> {
             Controller::EmbeddedError(controller) => through_intervals(controller, march),
             Controller::StabilityLimited(controller) => through_intervals(controller, march),
             Controller::ArcLength(controller) => {
-                controller.settle(march)?;
+                controller.apply_initial_loads(march)?;
                 march.notify_start()?;
                 controller.follow(march)
             }

@@ -1,4 +1,5 @@
-//! The end of an implicit step: from the instant where equilibrium is written to the end, onto the joints, into the state.
+//! The end of an implicit step: from the instant where equilibrium is written to the end of the step, onto the
+//! constraints, into the state.
 
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
@@ -9,7 +10,7 @@ use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints};
 use crate::state::{Configuration, State};
 
-/// Takes the equilibrium that was found: the state moves to `to`, written once.
+/// Accepts the equilibrium that was found: the state moves to the time `to`, written once.
 ///
 /// # Errors
 /// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, [`Failure::ContactNotResolved`] where something would have gone
@@ -40,7 +41,7 @@ pub fn accept(
     Ok(())
 }
 
-/// Evaluates the forces and updates the history of the material where equilibrium is written.
+/// Evaluates the forces and updates the history variables at the instant of equilibrium.
 fn account(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, dt: f64) -> Account {
     let has_history = cx.system.history > 0;
     if cx.wants_forces || has_history {
@@ -57,8 +58,8 @@ fn account(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, dt: f
         }
     }
     if has_history {
-        // Like reactions, plastic strains are taken where equilibrium is written and carried to the end of the step on a straight
-        // line: at the end itself stiff parts are not at rest, and would yield from step to step.
+        // Plastic strains, like reactions, are taken where equilibrium is written and extrapolated linearly to the end
+        // of the step: at the end itself stiff parts are not in equilibrium, and would yield from step to step.
         account.dissipated =
             cx.system.update_history(&now, 1.0 / stage.scheme.instant, &mut ws.history, cx.plan.threads);
     }

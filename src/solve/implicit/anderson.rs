@@ -1,28 +1,28 @@
-//! Anderson's acceleration of an iteration with a matrix that is not the derivative: the correction is mixed with those
-//! before it so that what is left is least. For a linear problem it is GMRES on the preconditioned residual.
-//! D. G. Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
+//! Anderson acceleration of an iteration whose matrix is not the derivative: the correction is combined with earlier
+//! ones so that the remaining residual is least. For a linear problem it is GMRES on the preconditioned residual. D. G.
+//! Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
 
-/// Earlier corrections that are mixed in.
+/// Number of earlier corrections that are combined.
 const DEPTH: usize = 5;
-/// The part of a difference that must be new for it to count.
+/// A difference counts where more than this fraction of it is linearly independent of the newer ones.
 const NEW: f64 = 1e-6;
 
-/// Corrections of a step, and what each did to the next. Allocated once.
+/// The corrections of a step, and the change that each made to the next. It is allocated once.
 pub struct Anderson {
-    /// Per remembered iteration, oldest first: change of the correction, and of the point it leads to.
+    /// For each earlier iteration, oldest first, the change of the correction and the change of the increments.
     differences: Vec<[Vec<f64>; 2]>,
     used: usize,
-    /// The last correction and the change that was made with it.
+    /// The last correction as solved and as applied.
     last: [Vec<f64>; 2],
     seen: bool,
-    /// Orthonormalised differences.
+    /// Orthonormal basis of the differences.
     basis: Vec<Vec<f64>>,
-    /// Squares of what an unknown counts for.
+    /// Squared weights of the unknowns.
     weights: Vec<f64>,
 }
 
 impl Anderson {
-    /// `weights`: what makes the unknowns comparable, a length for rotations.
+    /// Room for the corrections of a step; `weights` make the unknowns comparable, a length for rotations.
     pub fn new(weights: impl Iterator<Item = f64>) -> Self {
         let weights: Vec<f64> = weights.map(|w| w * w).collect();
         let zeros = || vec![0.0; weights.len()];
@@ -36,13 +36,13 @@ impl Anderson {
         }
     }
 
-    /// A new step, or a new matrix.
+    /// Forgets earlier corrections, at a new step or a new matrix.
     pub fn forget(&mut self) {
         self.used = 0;
         self.seen = false;
     }
 
-    /// Replaces a correction by the mixed one.
+    /// Replaces a correction by its combination with earlier ones.
     #[inline(never)]
     pub fn mix(&mut self, correction: &mut [f64]) {
         if self.seen {
@@ -64,8 +64,8 @@ impl Anderson {
         self.seen = true;
     }
 
-    /// x += f − Σ γ_j (Δx_j + Δf_j), with γ the least squares solution of f ≈ Σ γ_j Δf_j: newest first, by Gram and Schmidt, so
-    /// that an old difference counts for what it adds.
+    /// Subtracts Σ γ_j (Δx_j + Δf_j) from f, with γ the least squares solution of f ≈ Σ γ_j Δf_j. Gram-Schmidt
+    /// orthogonalization takes the newest difference first, so that an old one counts for what it adds.
     fn subtract_explained(&mut self, correction: &mut [f64]) {
         let Anderson { differences, basis, used, weights, .. } = self;
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&*weights).map(|((a, b), w)| w * a * b).sum::<f64>();

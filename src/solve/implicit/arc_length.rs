@@ -16,43 +16,45 @@ use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, State};
 use crate::system::{Forces, Loading};
 
-/// What takes the place of a given time.
+/// The condition in place of a given time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Condition {
-    /// The length of the motion of the step.
+    /// The motion of the step has this length.
     Arc(f64),
-    /// The motion of one unknown translation in the step.
+    /// One unknown translation moves by this in the step.
     Motion { node: usize, dof: usize, by: f64 },
 }
 
-/// The equation that is added where the time is unknown, with what it needs beside the machinery of a step. Allocated once.
+/// The equation that is added where the time is unknown, with its data. It is allocated once.
 pub struct ArcLengthConstraint {
-    /// ∂r/∂t, then b, per unknown.
+    /// ∂r/∂t, then b, by unknown.
     rate: Vec<f64>,
     loading: Loading,
     forces: Forces,
-    /// Change of the gaps of joints with the time.
+    /// Derivative of the gaps of joints with respect to the time.
     gaps: Vec<f64>,
-    /// Motion of the last step, per node.
+    /// Motion of the last step, by node.
     last: Vec<Vec6>,
-    /// Prescribed directions move with the time.
+    /// True where prescribed degrees of freedom move with the time.
     driven: bool,
-    /// A rotation counts as a translation over the length of the model: its square.
+    /// Square of the model's length: a rotation counts as a translation over it.
     weight: f64,
 }
 
-/// A motion over that of the step before which is smaller than this does not tell a direction.
+/// A motion smaller than this fraction of the step before does not show a direction.
 const SHORT: f64 = 1e-6;
 
-/// How far a step goes.
+/// The extent of a step.
 pub struct StepMotion {
+    /// Length of the motion of the step.
     pub length: f64,
-    /// The cosine of the angle with the last step; 1 where there is none.
+    /// Cosine of the angle with the last step; 1 where there is none.
     pub cosine: f64,
     short: bool,
 }
 
-/// Products of motions, rotations as rotation vectors of the step: D the motion so far, ahead the way to go.
+/// Scalar products of motions, rotations as rotation vectors of the step: D is the motion so far, ahead the direction
+/// to go on.
 #[derive(Default)]
 struct Products {
     DD: f64,
@@ -65,6 +67,7 @@ struct Products {
 }
 
 impl ArcLengthConstraint {
+    /// Room for the equation.
     pub fn new(cx: &Context, ws: &Workspace) -> ArcLengthConstraint {
         ArcLengthConstraint {
             rate: vec![0.0; cx.plan.dofs.unknowns()],
@@ -81,7 +84,7 @@ impl ArcLengthConstraint {
         }
     }
 
-    /// With a in `r`: puts a + δt b there, and loads and prescribed motion at the new time, which it returns.
+    /// With a in `r`, writes a + δt b there, and the loads and prescribed motion at the new time, which it returns.
     ///
     /// # Errors
     /// [`Failure::NoEquilibriumOnArc`] where the line of corrections misses the arc, [`Failure::NoLoadIncrement`] where nothing changes with the time.
@@ -96,9 +99,9 @@ impl ArcLengthConstraint {
         self.differentiate_residual(cx, ws, state, to);
         ws.matrix.solve_augmented(&self.forces.multipliers, &mut self.rate);
         ws.solves += 1;
-        let idle = self.rate.iter().all(|&b| b == 0.0);
+        let unloaded = self.rate.iter().all(|&b| b == 0.0);
         let dt = match condition {
-            _ if idle => None,
+            _ if unloaded => None,
             Condition::Arc(length) => self.on_arc(cx, ws, length),
             Condition::Motion { node, dof, by } => {
                 let row = cx.plan.dofs.row(node, dof);
@@ -113,13 +116,13 @@ impl ArcLengthConstraint {
                 excite(cx, ws, state.time, to, 1.0);
                 Ok(to)
             }
-            None if idle => Err(Failure::NoLoadIncrement { time: to }),
+            None if unloaded => Err(Failure::NoLoadIncrement { time: to }),
             None => Err(no_equilibrium(cx, ws)),
         }
     }
 
-    /// Writes ∂r/∂t at fixed unknowns, and the change of the gaps: of the loads exactly; where prescribed directions move, by
-    /// differences, whose error only slows the iteration.
+    /// Writes ∂r/∂t at fixed unknowns, and the derivative of the gaps. For loads it is exact; where prescribed degrees
+    /// of freedom move it is a difference quotient, whose error only slows the iteration.
     fn differentiate_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
         if self.driven {
             return self.difference_residual(cx, ws, state, to);
@@ -153,7 +156,7 @@ impl ArcLengthConstraint {
         self.forces.multipliers.gaps.copy_from_slice(&self.gaps);
     }
 
-    /// |D + a + δt b|² = ℓ²; `None`: no point of the line lies on the arc.
+    /// Solves |D + a + δt b|² = ℓ² for δt; `None` where no point of the line lies on the arc.
     fn on_arc(&self, cx: &Context, ws: &Workspace, length: f64) -> Option<f64> {
         let Products { DD, Da, Db, aa, ab, bb, ahead_b } = self.products(cx, ws);
         let (half, rest) = (Db + ab, DD + 2.0 * Da + aa - length * length);
@@ -161,7 +164,7 @@ impl ArcLengthConstraint {
         if discriminant.is_nan() || discriminant < 0.0 {
             return None;
         }
-        // Both roots without cancellation: their product is rest/bb.
+        // Both roots are computed without cancellation: their product is rest/bb.
         let far = -(half + discriminant.sqrt().copysign(half));
         let roots = if far == 0.0 { [0.0, 0.0] } else { [far / bb, rest / far] };
         // The motion ahead is the larger the further δt goes with the sign of ahead·b.
@@ -178,7 +181,7 @@ impl ArcLengthConstraint {
             let theta = angular(&ws.increments[node].q);
             let vector = |x: &[f64]| {
                 let x = rows.gather(x);
-                // As the correction will be added: δΘ = T⁻¹ δθ
+                // The correction is added as δΘ = T⁻¹ δθ.
                 unknown_part(cx, node, &stack(&linear(&x), &inverse_tangent(&theta, &angular(&x))))
             };
             let (a, b) = (vector(&ws.r), vector(&self.rate));
@@ -198,7 +201,7 @@ impl ArcLengthConstraint {
         linear(x).dot(&linear(y)) + self.weight * angular(x).dot(&angular(y))
     }
 
-    /// The motion of the step that was found.
+    /// The extent of the step that was found.
     pub fn motion(&self, cx: &Context, ws: &Workspace) -> StepMotion {
         let (mut along, mut last, mut now) = (0.0, 0.0, 0.0);
         for &node in &cx.independent_nodes {
@@ -212,7 +215,7 @@ impl ArcLengthConstraint {
         StepMotion { length: now.sqrt(), cosine, short }
     }
 
-    /// The next step goes on along the motion that was found, unless that is too short to tell a direction.
+    /// Keeps the motion that was found as the direction of the next step, unless it is too short to show one.
     pub fn keep_motion(&mut self, cx: &Context, ws: &Workspace, motion: &StepMotion) {
         if motion.short {
             return;

@@ -1,4 +1,4 @@
-//! A step in two stages, of which the second looks back to the start of the step (Bathe's scheme).
+//! A step in two stages, of which the second also uses the start of the step (Bathe's scheme).
 
 use super::newton::Newton;
 use crate::integrators::TwoStages;
@@ -11,26 +11,27 @@ use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// The scheme and what its second stage needs to know of the first. Allocated once.
+/// The scheme, with the data of the first stage that its second needs. It is allocated once.
 pub struct Composite<'a> {
     scheme: &'a dyn TwoStages,
     /// The state at the start of the step.
     start: State,
-    /// What the second stage takes in place of velocities and accelerations at its start, by node.
+    /// Velocities and accelerations that the second stage uses at its start, by node.
     start_rates: Vec<[Vec6; 2]>,
 }
 
 impl<'a> Composite<'a> {
+    /// Room for the start of a step of this many nodes.
     pub fn new(scheme: &'a dyn TwoStages, nodes: usize) -> Self {
         Composite { scheme, start: State::default(), start_rates: vec![[Vec6::zeros(); 2]; nodes] }
     }
 
-    /// A run starts from this state.
+    /// Prepares for a run from this state.
     pub fn begin(&mut self, state: &State) {
         self.start.clone_from(state);
     }
 
-    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
     /// As for [`Newton::stage`].
@@ -68,12 +69,13 @@ impl<'a> Composite<'a> {
         Ok(first.then(second))
     }
 
-    /// Writes the motion of the first stage and the velocities at both of its ends as the second stage takes them in.
+    /// Writes the motion of the first stage and the velocities at both of its ends in the form that the second stage
+    /// uses.
     fn look_back(&mut self, cx: &Context, ws: &Workspace, between: &State, dt: f64) {
         let b = self.scheme.backward(dt);
         for &node in &cx.independent_nodes {
             let start = &self.start.nodes[node];
-            // The motion so far, and the velocity at its start in the rotation vector counted from between the stages.
+            // The velocity at the start of the step belongs to the rotation vector counted from between the stages.
             let q0 = ws.increments[node].q;
             let v0 = stack(&start.v, &inverse_tangent(&-angular(&q0), &start.omega));
             let [v, _] = rates_of(&between.nodes[node]);

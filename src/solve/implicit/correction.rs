@@ -1,4 +1,4 @@
-//! What corrects the increments, and how small that is.
+//! The correction of the increments, and its size.
 
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, angular, larger};
@@ -45,9 +45,11 @@ pub fn correct(cx: &Context, ws: &mut Workspace) -> (Size, Size) {
     (correction, motion)
 }
 
-/// The correction relative to the motion of the step, translations and rotations apart, with floors for scenes at rest.
+/// The size of a correction relative to the motion of the step, the larger of translations and rotations, with floors
+/// for scenes at rest.
 pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
-    const STILL: f64 = 1e-6; // of the model's length, or radians: a step that moves less is judged on this
+    // A step that moves less, in radians or parts of the model's length, is judged by this motion.
+    const STILL: f64 = 1e-6;
     if correction.translation.is_nan() {
         return f64::NAN;
     }
@@ -55,10 +57,10 @@ pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
     translation.max(correction.rotation / motion.rotation.max(STILL))
 }
 
-/// True for a correction that only stirs the last digits of the positions. (It must have stopped to contract as well: increments,
-/// and the accelerations that follow from them, have more digits than positions.) The axial stiffness turns these digits into
-/// forces, and bending answers them with corrections that are larger by the slenderness squared: where even a `fresh` matrix does
-/// not help, four digits more are given for that, and rotations follow the positions over the model's length.
+/// True for a correction that changes only the last digits of positions. The iteration must have stopped contracting as
+/// well, for increments and accelerations have more digits than positions. Axial stiffness turns rounding of positions
+/// into forces, and bending answers these with corrections larger by the slenderness squared. Where even a `fresh`
+/// matrix does not help, four more digits are allowed for that, and rotations follow positions over the model's length.
 pub fn is_rounding(cx: &Context, ws: &Workspace, correction: Size, fresh: bool) -> bool {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let (translation, rotation) = if fresh {

@@ -1,31 +1,34 @@
-//! Takes back part of a correction that went too far. Where material begins or ceases to yield the tangent of one side leads
-//! too far on the other, and Newton's method may go to and fro for ever; along a correction the work of the residual tells.
-//! Matthies & Strang, Int. J. Numer. Meth. Eng. 14 (1979), 1613-1626: |s| may shrink by a fifth, or the step shrinks.
+//! Line search: takes back part of a correction that went too far. Where material begins or ceases to yield, the
+//! tangent of one side leads too far on the other, and Newton's method may alternate for ever; the work of the residual
+//! along a correction shows it. Matthies & Strang, Int. J. Numer. Meth. Eng. 14 (1979), 1613-1626: a correction that
+//! leaves more than four fifths of |s| is shortened.
 
 use crate::math::Vec6;
 use crate::state::Increment;
 
-/// Of the work of the residual before the correction: what may be left after it.
+/// Largest fraction of the work of the residual that may be left after a correction.
 const LEFT: f64 = 0.8;
-/// Times a correction is shortened.
+/// Largest number of times that a correction is shortened.
 const TRIES: usize = 5;
 
-/// The last correction of a step. Allocated once.
+/// The last correction of a step. It is allocated once.
 pub struct LineSearch {
-    /// Residual before it, then the correction, per direction. Multipliers do no work as long as joints hold, and are left out.
+    /// Residual before the correction, then the correction, by nodal unknown. Multipliers do no work as long as joints
+    /// are closed, and are left out.
     residual: Vec<f64>,
     correction: Vec<f64>,
-    /// Increments before it, per node.
+    /// Increments before the correction, by node.
     before: Vec<Vec6>,
     multipliers: Vec<f64>,
-    /// Work of the residual before it along it.
+    /// Work of the residual before the correction along it.
     at_start: f64,
     tries: usize,
-    /// Relative residual before it.
+    /// Relative residual before the correction.
     size: f64,
 }
 
 impl LineSearch {
+    /// Room for corrections of this many nodal unknowns, nodes and multipliers.
     pub fn new(directions: usize, nodes: usize, multipliers: usize) -> Self {
         LineSearch {
             residual: vec![0.0; directions],
@@ -38,19 +41,19 @@ impl LineSearch {
         }
     }
 
-    /// There is no correction yet.
+    /// Forgets the correction.
     pub fn forget(&mut self) {
         self.tries = TRIES;
     }
 
-    /// Before a system is solved for `residual`, whose relative size is `size`.
+    /// Keeps the residual for which a system is about to be solved; `size` is its relative size.
     #[inline(never)]
     pub fn keep_residual(&mut self, residual: &[f64], size: f64) {
         self.residual.copy_from_slice(residual);
         self.size = size;
     }
 
-    /// Before `correction` is added to the increments.
+    /// Keeps a correction that is about to be added to the increments.
     #[inline(never)]
     pub fn keep_correction(&mut self, correction: &[f64], increments: &[Increment], multipliers: &[f64]) {
         self.correction.copy_from_slice(correction);
@@ -60,8 +63,7 @@ impl LineSearch {
         self.tries = 0;
     }
 
-    /// With the residual after the correction: shortens it where that pulls back as hard as it pulled forth before. Returns
-    /// whether it did.
+    /// Shortens the correction where the `residual` after it does too much work along it. Returns whether it did.
     #[inline(never)]
     pub fn shorten(
         &mut self,
@@ -70,7 +72,7 @@ impl LineSearch {
         increments: &mut [Increment],
         multipliers: &mut [f64],
     ) -> bool {
-        // A correction that was no step downhill, or one that did its work.
+        // A correction that was no descent, or that reduced the residual, stands.
         if self.tries >= TRIES || self.at_start <= 0.0 || size <= self.size {
             return false;
         }
@@ -78,7 +80,7 @@ impl LineSearch {
         if work.abs() <= LEFT * self.at_start {
             return false;
         }
-        // Where the work vanishes on the line from the start; halfway where it grew.
+        // The secant gives the zero of the work along the line; half the correction is taken where the work grew.
         let zero = self.at_start / (self.at_start - work);
         let factor = if work < 0.0 { zero.clamp(0.1, 0.9) } else { 0.5 };
         for (increment, before) in increments.iter_mut().zip(&self.before) {

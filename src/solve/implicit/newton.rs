@@ -1,4 +1,5 @@
-//! Equilibrium by iteration: residual, matrix where it is due, solve, correct, until the error left is below the tolerance.
+//! The equilibrium iteration: residual, matrix where it is due, solution, correction, until the remaining error is
+//! below the tolerance.
 
 use super::accept::accept;
 use super::anderson::Anderson;
@@ -22,35 +23,35 @@ use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, State};
 use crate::system::assembly::Weights;
 
-/// Newton's method, modified where a matrix is worth keeping, with what it needs beside the workspace.
+/// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace.
 pub struct Newton {
     refresh: Refresh,
-    /// Where the matrix may be far from the derivative because material yields.
+    /// Acceleration where the matrix is not the derivative because material yields.
     anderson: Option<Anderson>,
     line_search: Option<LineSearch>,
-    /// Where a motion in time has joints.
+    /// Projection onto the constraints in a dynamic analysis with joints.
     pub projection: Option<ConstraintProjection>,
-    /// What multiplies the masses in the matrix at hand.
+    /// The factor of the mass in the matrix at hand.
     pub mass_weight: f64,
 }
 
-/// How far the iteration of a step has come.
+/// The progress of the iteration of a step.
 struct Progress {
     report: StepReport,
     convergence: Convergence,
-    /// Iterations after which the step is given up.
+    /// Number of iterations after which the step is given up.
     limit: usize,
-    /// The relative error that is left of the time where that is unknown: loads are curves over it.
+    /// Relative error of the time where it is unknown; loads are curves over it.
     time_error: f64,
 }
 
-/// What a correction comes to.
+/// The verdict on a correction.
 enum Verdict {
     Converged,
     GoOn,
-    /// An old matrix has led astray: the iteration goes back to the prediction.
+    /// An old matrix has misled: the iteration goes back to the prediction.
     Restart,
-    /// The iterations that a step is given are used up.
+    /// The step has used up its iterations.
     Exhausted,
 }
 
@@ -64,7 +65,8 @@ impl Progress {
         }
     }
 
-    /// A correction of the time by δt leaves the loads wrong by its square, whatever the motion.
+    /// Moves the end of the step. A correction δt of the time leaves an error of the loads of order δt², whatever the
+    /// motion.
     fn move_time(&mut self, cx: &Context, to: f64) {
         self.time_error = ((to - self.report.to) / cx.model.analysis.end_time).powi(2);
         self.report.to = to;
@@ -76,7 +78,7 @@ impl Newton {
     /// There is no memory for the projection onto joints.
     pub fn new(cx: &Context) -> Result<Newton, TooLarge> {
         let Context { model, plan, system, length, .. } = *cx;
-        // Load steps are long and few, and there is no mass to steady an old matrix; along a path an old one leads astray.
+        // Load steps are long and few, and no mass steadies an old matrix; along a path an old one misleads.
         let along = model.analysis.step_length.is_arc_length();
         let method = if along { Method::TangentStiffness } else { model.solution.iteration.method };
         let mixes = system.yields() && method != Method::TangentStiffness;
@@ -86,7 +88,7 @@ impl Newton {
             (_, update) => update,
         };
         let weights = plan.dofs.nodal_dofs().iter().map(|&(_, dof)| if dof < 3 { 1.0 } else { length });
-        // In place of multipliers stand gaps.
+        // Gaps stand in place of multipliers.
         let gaps = system
             .joints
             .iter()
@@ -103,7 +105,7 @@ impl Newton {
         })
     }
 
-    /// Takes `state` from its time to `to` in one stage. On failure `state` is untouched.
+    /// Takes `state` from its time to the time `to` in one stage. On failure `state` is untouched.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -124,13 +126,13 @@ impl Newton {
         Ok(report)
     }
 
-    /// Writes the first guess of a step, with nothing known of its corrections.
+    /// Writes the prediction of a step and forgets earlier corrections.
     pub fn predict(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
         self.forget_corrections();
         motion::predict(cx, ws, state, scheme);
     }
 
-    /// Takes the equilibrium that was found.
+    /// Accepts the equilibrium that was found.
     ///
     /// # Errors
     /// As for [`accept`]; `state` is untouched.
@@ -149,13 +151,13 @@ impl Newton {
         accepted
     }
 
-    /// The matrix at hand belongs to a motion that was not taken, or to other loads.
+    /// Discards the matrix at hand, which belongs to a motion that was not taken or to other loads.
     pub fn discard_matrix(&mut self) {
         self.refresh.rejected();
     }
 
-    /// Finds the motion from `state` to its equilibrium at `to`, from the increments at hand; or, under a constraint in place of
-    /// the time, to where its condition holds, from the time `to` on.
+    /// Finds the motion from `state` to its equilibrium at the time `to`, from the increments at hand. Under a
+    /// constraint in place of the time it finds the equilibrium where the condition holds, from the time `to` on.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -219,20 +221,20 @@ impl Newton {
         }
     }
 
-    /// Takes back part of the last correction where it went too far; false where it did not.
+    /// Shortens the last correction where it went too far; returns whether it did.
     fn shorten_correction(&mut self, cx: &Context, ws: &mut Workspace, size: f64) -> bool {
         let Some(line_search) = &mut self.line_search else { return false };
         let residual = &ws.r[..cx.nodal_unknowns()];
         let values = &mut ws.forces.multipliers.values;
         let shortened = line_search.shorten(residual, size, &mut ws.increments, values);
         if shortened && let Some(anderson) = &mut self.anderson {
-            // What was mixed into it no longer tells what it did.
+            // Solves for the correction, which takes the place of the residual in `ws.r`.
             anderson.forget();
         }
         shortened
     }
 
-    /// Forms and factorises the matrix where that is due.
+    /// Forms and factorizes the matrix where that is due.
     ///
     /// # Errors
     /// [`Failure::Singular`] where it cannot be factorised.
@@ -255,7 +257,8 @@ impl Newton {
         Ok(())
     }
 
-    /// Where all that resists has yielded its derivative may be singular; the elastic matrix then leads on.
+    /// Forms and factorizes the matrix. It may be singular where everything that resists has yielded; the elastic
+    /// matrix then leads on.
     fn form_matrix(
         &mut self,
         cx: &Context,
@@ -292,13 +295,13 @@ impl Newton {
 
     /// Adds the correction to the increments. Returns its size and that of the increments.
     fn correct(&mut self, cx: &Context, ws: &mut Workspace) -> (Size, Size) {
-        // A mixed correction may be small by chance; what the residual asks for tells how far there is to go.
+        // A combined correction may be small by chance; the plain one tells how far there is to go.
         let plain = self.line_search.is_some().then(|| self.mix_corrections(cx, ws));
         let (correction, motion) = correct(cx, ws);
         (plain.map_or(correction, |plain| plain.or_not_finite(correction)), motion)
     }
 
-    /// Mixes the correction with those before it, where material yields, and keeps it. Returns its size before that.
+    /// Combines the correction with earlier ones where material yields, and keeps it. Returns its plain size.
     #[inline(never)]
     fn mix_corrections(&mut self, cx: &Context, ws: &mut Workspace) -> Size {
         let plain = size_of_correction(cx, ws);
@@ -338,8 +341,8 @@ impl Newton {
         if report.iterations >= *limit {
             return Ok(Verdict::Exhausted);
         }
-        let astray = judgement.seen && self.refresh.watch(fresh, &judgement) == Advice::Restart;
-        Ok(if astray { Verdict::Restart } else { Verdict::GoOn })
+        let misled = judgement.seen && self.refresh.advise(fresh, &judgement) == Advice::Restart;
+        Ok(if misled { Verdict::Restart } else { Verdict::GoOn })
     }
 
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut Progress) {
@@ -347,7 +350,8 @@ impl Newton {
         progress.convergence.forget();
     }
 
-    /// Before a step is cut: back to its prediction, to go on with a matrix for every iteration; false if that was done.
+    /// Goes back to the prediction before a step is cut, to go on with a fresh matrix in every iteration; returns false
+    /// if that was done already.
     fn insist(
         &mut self,
         cx: &Context,
@@ -373,7 +377,7 @@ impl Newton {
     }
 }
 
-/// Moves the trial motion to the increments at hand and writes its residual; returns how large that is, relative to the forces.
+/// Moves the trial motion to the increments at hand and writes its residual. Returns the relative size of the residual.
 fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
     motion::move_trial(cx, ws, state, stage);
     let ahead = stage.scheme.instant * (to - state.time);
@@ -382,13 +386,15 @@ fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
     residual::gather(cx, ws, &scale)
 }
 
-/// What the matrix of a step depends on besides the motion: a time, the length of the step or what its rates are taken over.
+/// The quantity on which the matrix of a step depends besides the motion: the length of the step, or the time over
+/// which its rates are taken.
 fn matrix_key(scheme: &Coefficients, dt: f64) -> f64 {
     if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
 }
 
-/// Between elastic and plastic one contraction says little of the next, and what is small against positions may be large against
-/// elastic strains: the residual must have come down as well, or nothing but rounding be left.
+/// Judges convergence. Where material yields, one contraction says little of the next, and what is small against
+/// positions may be large against elastic strains: the residual must have decreased as well, or nothing but rounding be
+/// left.
 fn has_converged(
     cx: &Context,
     ws: &Workspace,
@@ -403,7 +409,7 @@ fn has_converged(
 }
 
 fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport) -> Failure {
-    // Forces balance, but not with closed joints: they contradict each other.
+    // Forces balance while the joints are open: the constraints contradict each other.
     if report.residual < 1e-3
         && let Err(violated) = joints::check(cx, ws)
     {

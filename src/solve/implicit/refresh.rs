@@ -1,38 +1,41 @@
-//! When the matrix is formed and factorised anew.
+//! Decides when the matrix is formed and factorized anew.
 
 use super::convergence::Judgement;
 use crate::elements::Moduli;
 use crate::model::{Method, Update};
 
-/// Decides from counts and contraction alone, never from the clock, so that the same deck takes the same path.
+/// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
+/// always takes the same path.
 #[derive(Debug, Clone)]
 pub struct Refresh {
     method: Method,
     update: Update,
-    /// Iterations that a fresh matrix costs.
+    /// Cost of a fresh matrix in iterations.
     cost: f64,
-    /// Step length of the matrix in hand; `None`: there is none, or it has proved useless.
+    /// Step length of the matrix at hand; `None` where there is none, or it has proved useless.
     dt: Option<f64>,
     wanted: bool,
-    /// Iterations of the step for which the matrix was formed, and those spent beyond that number since.
+    /// Iterations of the step for which the matrix was formed, and the iterations beyond that number since.
     baseline: Option<usize>,
     excess: usize,
-    /// Steps still to start with a fresh matrix, and how many to ask for next time an old one misleads.
+    /// Number of steps still to start with a fresh matrix, and the number to ask for when an old one misleads next.
     eager: usize,
-    patience: usize,
-    /// The step in hand gets a fresh matrix in every iteration: anything less has failed.
+    next_eager: usize,
+    /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
     insisting: bool,
 }
 
-/// What to do after a correction.
+/// The advice after a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advice {
+    /// The iteration goes on.
     GoOn,
-    /// An old matrix has led astray: back to the prediction, with a fresh one.
+    /// The old matrix has misled: the iteration goes back to the prediction with a fresh one.
     Restart,
 }
 
 impl Refresh {
+    /// The rule of the deck; a linear scene never needs a new matrix.
     pub fn new(method: Method, update: Update, linear: bool, cost: f64) -> Self {
         let update = if linear { Update::Never } else { update };
         Refresh {
@@ -44,12 +47,12 @@ impl Refresh {
             baseline: None,
             excess: 0,
             eager: 0,
-            patience: 1,
+            next_eager: 1,
             insisting: false,
         }
     }
 
-    /// What the matrix is to be formed with.
+    /// The moduli with which the matrix is formed.
     pub fn moduli(&self) -> Moduli {
         match self.method {
             Method::InitialLoad if !self.insisting => Moduli::Elastic,
@@ -57,9 +60,9 @@ impl Refresh {
         }
     }
 
-    /// Asked before each solve of a step of length `dt`; `iteration` counts from 0.
+    /// True where the matrix is to be formed before the next solution; `iteration` counts from 0.
     pub fn due(&self, iteration: usize, dt: f64) -> bool {
-        // Steps of one length differ by the rounding of their ends.
+        // Steps of equal length differ by the rounding of their ends.
         if self.wanted || self.insisting || self.dt.is_none_or(|of| (of - dt).abs() > 1e-9 * dt) {
             return true;
         }
@@ -71,6 +74,7 @@ impl Refresh {
         }
     }
 
+    /// Notes that a matrix has been formed for this step length.
     pub fn done(&mut self, dt: f64) {
         self.dt = Some(dt);
         self.baseline = None;
@@ -78,26 +82,27 @@ impl Refresh {
         self.wanted = false;
     }
 
-    /// After a correction that was judged against another of the same step. `fresh`: the matrix was formed in this step.
-    pub fn watch(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
+    /// Judges the matrix after a correction that was compared with another of the same step. `fresh`: the matrix was
+    /// formed in this step.
+    pub fn advise(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
         let contraction = judgement.contraction;
-        // An elastic matrix contracts slowly where material yields, and a new one no faster.
+        // An elastic matrix contracts slowly where material yields, and a new one would not be faster.
         let patient = self.update == Update::Never || self.method == Method::InitialLoad;
         if patient && (contraction < 1.0 || fresh) {
             return Advice::GoOn;
         }
         if !fresh && contraction > 0.5 && !self.insisting {
             self.wanted = true;
-            self.eager = self.patience;
-            self.patience = (2 * self.patience).min(64);
+            self.eager = self.next_eager;
+            self.next_eager = (2 * self.next_eager).min(64);
             return Advice::Restart;
         }
         self.wanted = contraction > 0.9 || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
         Advice::GoOn
     }
 
-    /// After an accepted step. A matrix is worth renewing once the iterations it has cost beyond those of a fresh one
-    /// would have paid for it.
+    /// Counts an accepted step. A matrix is worth renewing once the iterations that it has cost beyond those of a fresh
+    /// one would have paid for it.
     pub fn accepted(&mut self, iterations: usize) {
         self.insisting = false;
         let baseline = *self.baseline.get_or_insert(iterations);
@@ -106,18 +111,18 @@ impl Refresh {
         if self.eager > 0 {
             self.eager -= 1;
         } else {
-            self.patience = 1.max(self.patience / 2);
+            self.next_eager = 1.max(self.next_eager / 2);
         }
     }
 
-    /// After a step that was given up: the matrix belongs to a motion that was not taken.
+    /// Discards the matrix after a step that was given up: it belongs to a motion that was not taken.
     pub fn rejected(&mut self) {
         self.dt = None;
         self.insisting = false;
     }
 
-    /// After a step that did not converge: whether it is to be tried with a fresh matrix in every iteration, which it has
-    /// not been so far.
+    /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false where it had that
+    /// already.
     pub fn insist(&mut self) -> bool {
         let more = !self.insisting && matches!(self.update, Update::Auto | Update::Step);
         self.insisting |= more;

@@ -1,4 +1,4 @@
-//! Implicit steps as the rest of the house sees them.
+//! The implicit stepper that controllers use.
 
 use super::composite::Composite;
 use super::newton::Newton;
@@ -11,10 +11,11 @@ use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// Load steps of a static analysis, and time steps of one stage or two.
+/// Takes load steps of a static analysis, and time steps of one stage or two.
 pub struct Implicit<'a> {
+    /// The equilibrium iteration.
     pub newton: Newton,
-    /// For a scheme of two stages.
+    /// The second stage of a scheme that has two.
     composite: Option<Composite<'a>>,
 }
 
@@ -29,7 +30,7 @@ impl<'a> Implicit<'a> {
         Ok(Implicit { newton: Newton::new(cx)?, composite })
     }
 
-    /// A run starts from this state, or goes on from it after a jump of the loads.
+    /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     pub fn restart(&mut self, state: &State) {
         self.newton.discard_matrix();
         if let Some(composite) = &mut self.composite {
@@ -37,7 +38,7 @@ impl<'a> Implicit<'a> {
         }
     }
 
-    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
     /// See [`Failure`].
