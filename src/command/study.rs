@@ -87,7 +87,7 @@ pub struct StudyArgs {
     /// Write into a folder that already holds files; those of an older study, listed in its study.list, are removed
     #[arg(long)]
     overwrite: bool,
-    /// Show errors only
+    /// Show neither progress nor warnings
     #[arg(long)]
     quiet: bool,
 }

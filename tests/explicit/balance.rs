@@ -1,6 +1,7 @@
 //! Momenta and energies are kept, and works balance what is moved and stored.
 
-use super::{CENTRAL, EIGHT, FIVE, balance_of, deck, scene, steps_of_row};
+use super::scenes::{dynamic, steps_of_row};
+use super::{CENTRAL, EIGHT, FIVE, balance_of, deck, scene};
 use crate::support::run_to_the_end;
 use rdsolve::system::energy::Balance;
 
@@ -46,16 +47,7 @@ fn invariants() {
 /// What loads, and ends that are driven, put into a scene is what it has.
 #[test]
 fn works_balance_where_motion_is_given() {
-    let text = r#"
-[analysis]
-kind = "dynamic"
-end_time = 3.0
-time_step = 0.05
-
-[integrator]
-scheme = "runge-kutta"
-
-[points]
+    let text = dynamic("3.0", "0.05", "runge-kutta") + r#"[points]
 hand = [0.0, 0.0, 0.0]
 bob = [1.0, 0.0, 0.0]
 
@@ -88,7 +80,7 @@ frequency = 1.3
 gravity = [0.0, 0.0, -9.81]
 "#;
     for (scheme, bound) in [(EIGHT, 1e-8), (FIVE, 1e-4)] {
-        let model = scene(text, &[scheme]);
+        let model = scene(&text, &[scheme]);
         let (mut worst, mut most) = (0.0f64, 0.0f64);
         run_to_the_end(&model, &mut |frame| {
             let energy = frame.derived.energy.unwrap();
@@ -139,14 +131,8 @@ fn what_swings_is_not_made_from_nothing() {
 
 /// A mass 1 on a spring of 100 whose load goes up or down by a step.
 fn stepped(more: &str) -> String {
-    r#"
-[analysis]
-kind = "dynamic"
-end_time = 4.0
-time_step = 0.18
-[integrator]
-scheme = "central-difference"
-[output]
+    dynamic("4.0", "0.18", "central-difference")
+        + &r#"[output]
 every = 1
 [points]
 b = [0.0, 0.0, 0.0]

@@ -1,6 +1,7 @@
 //! How long steps may be: the limit of stability, steps of automatic length, and what a step costs.
 
-use super::{CENTRAL, EIGHT, FIVE, Probe, deck, place_of, row_of_masses, scene, steps_of_row, two_bodies};
+use super::scenes::{AUTO, dynamic, row_of_masses, steps_of_row};
+use super::{CENTRAL, EIGHT, FIVE, Probe, deck, place_of, scene, two_bodies};
 use crate::support::{Done, error, node, position, reference, run_to_the_end};
 use rdsolve::model::{Cadence, Model};
 use rdsolve::plan::Plan;
@@ -62,16 +63,7 @@ fn steps_beyond_the_limit_are_cut() {
 /// What a scene that stiffens on its way does to steps that were short enough: they are cut, and energy is kept.
 #[test]
 fn steps_follow_a_scene_that_stiffens() {
-    let text = r#"
-[analysis]
-kind = "dynamic"
-end_time = 20.0
-time_step = 0.05
-
-[integrator]
-scheme = "central-difference"
-
-[points]
+    let text = dynamic("20.0", "0.05", "central-difference") + r#"[points]
 ball = [0.0, 0.0, 0.0]
 
 [[masses]]
@@ -97,7 +89,7 @@ direction = [1.0, 0.0, 0.0]
 at = "ball"
 velocity = [2.0, 0.0, 0.0]
 "#;
-    let model = scene(text, &[]);
+    let model = scene(&text, &[]);
     let system = System::new(&model).unwrap();
     let mut totals = Vec::new();
     let done = run_to_the_end(&model, &mut |frame| {
@@ -188,11 +180,9 @@ fn dampers_do_not_hide_what_is_stiff() {
 #[test]
 fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
     let count = 1000;
-    let mut text = String::from(
-        "[analysis]\nkind = \"dynamic\"\nend_time = 4e-5\ntime_step = \"auto\"\n[integrator]\nscheme = \
-         \"central-difference\"\n[materials.steel]\nmodel = \"elastic-plastic\"\nyield_stress = 200e6\n\
-         youngs_modulus = 200e9\ndensity = 7800.0\n[output]\nevery = 1\n[points]\n",
-    );
+    let mut text = dynamic("4e-5", AUTO, "central-difference");
+    text += "[materials.steel]\nmodel = \"elastic-plastic\"\nyield_stress = 200e6\n\
+         youngs_modulus = 200e9\ndensity = 7800.0\n[output]\nevery = 1\n[points]\n";
     (0..=count).for_each(|k| text += &format!("p{k} = [{}, 0.0, 0.0]\n", f64::from(k) / f64::from(count)));
     let points: Vec<String> = (0..=count).map(|k| format!("\"p{k}\"")).collect();
     text += &format!(
@@ -219,16 +209,7 @@ fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
 /// A mass that only a load moves bears any step: it has a fiftieth of the run.
 #[test]
 fn what_nothing_resists_is_followed_all_the_same() {
-    let text = r#"
-[analysis]
-kind = "dynamic"
-end_time = 10.0
-time_step = "auto"
-
-[integrator]
-scheme = "central-difference"
-
-[points]
+    let text = dynamic("10.0", AUTO, "central-difference") + r#"[points]
 p = [0.0, 0.0, 0.0]
 
 [[masses]]
@@ -247,7 +228,7 @@ frequency = 1.0
 [output]
 interval = 10.0
 "#;
-    let model = scene(text, &[]);
+    let model = scene(&text, &[]);
     let done = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[0].x.x]);
     assert_eq!(done.counts.steps, 50);
     // t/2π but for a trapezoidal rule of five steps a period: the mean velocity is ½ Δt cot(π/5). To rounding of 50 steps.

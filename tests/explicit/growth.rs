@@ -1,5 +1,6 @@
 //! Motion that grows by itself fails, and what only looks like it does not: blows, refused steps, loads after a rest.
 
+use super::scenes::{AUTO, dynamic};
 use super::{balance_of, scene};
 use crate::support;
 use crate::support::{node, run_to_the_end};
@@ -10,15 +11,9 @@ use std::sync::atomic::AtomicBool;
 
 /// A mass 1 on a spring of 100 that flies at 2, energy 2, between stops of 1e6: a hundred times as quick.
 fn ball(wall: &str, more: &str) -> String {
+    let head = dynamic("20.0", AUTO, "central-difference");
     format!(
-        r#"
-[analysis]
-kind = "dynamic"
-end_time = 20.0
-time_step = "auto"
-[integrator]
-scheme = "central-difference"
-[output]
+        r#"{head}[output]
 every = 1
 [points]
 ball = [0.0, 0.0, 0.0]
@@ -94,15 +89,9 @@ fn blows_neither_make_energy_nor_keep_steps_short() {
 
 /// A cantilever of eight elements whose tip is thrown.
 fn thrown(mass: &str, speed: f64, more: &str) -> String {
+    let head = dynamic("0.5", AUTO, "central-difference");
     format!(
-        r#"
-[analysis]
-kind = "dynamic"
-end_time = 0.5
-time_step = "auto"
-[integrator]
-scheme = "central-difference"
-[materials.steel]
+        r#"{head}[materials.steel]
 model = "elastic"
 youngs_modulus = 1e6
 poisson_ratio = 0.0
@@ -182,15 +171,9 @@ direction = [0.0, 0.0, -1.0]
 fn a_ball_that_comes_back_has_not_grown() {
     for (step, end) in [("\"auto\"", 0.906), ("\"auto\"", 0.915), ("0.002", 0.903), ("0.002", 0.915)] {
         for outputs in [1.0, 45.0] {
+            let head = dynamic(end, step, "central-difference");
             let text = format!(
-                r#"
-[analysis]
-kind = "dynamic"
-end_time = {end}
-time_step = {step}
-[integrator]
-scheme = "central-difference"
-[environment]
+                r#"{head}[environment]
 gravity = [0.0, 0.0, -10.0]
 [[bodies]]
 name = "ball"

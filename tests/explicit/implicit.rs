@@ -1,5 +1,6 @@
 //! The same answers as implicit schemes.
 
+use super::scenes::dynamic;
 use super::{CENTRAL, EIGHT, WILSON, deck, difference, scene};
 use crate::support::{node, position, run_to_the_end};
 
@@ -89,16 +90,7 @@ fn consistent_masses_as_by_wilson() {
 /// an inertia of its own that is equal about all axes, and with none.
 #[test]
 fn masses_off_a_pivot_as_by_wilson() {
-    let text = r#"
-[analysis]
-kind = "dynamic"
-end_time = 0.5
-time_step = 1e-4
-
-[integrator]
-scheme = "wilson-theta"
-
-[materials.s]
+    let text = dynamic("0.5", "1e-4", "wilson-theta") + r#"[materials.s]
 model = "elastic"
 youngs_modulus = 2e9
 poisson_ratio = 0.3
@@ -152,7 +144,7 @@ gravity = [0.0, 0.0, -9.81]
 [output]
 interval = 0.1
 "#;
-    for text in [text.to_string(), text.replace("inertia = [0.25, 0.25, 0.25]\n", "")] {
+    for text in [text.clone(), text.replace("inertia = [0.25, 0.25, 0.25]\n", "")] {
         let run = |scheme: &str| {
             let model = scene(&text, &[scheme]);
             let b = node(&model, "b");

@@ -1,5 +1,6 @@
 //! Masses that are off their node, held or missing.
 
+use super::scenes::dynamic;
 use super::{CENTRAL, EIGHT, WILSON, balance_of, deck, difference, scene};
 use crate::support::{node, position, run_to_the_end};
 use rdsolve::diagnostic::Diagnostic;
@@ -34,16 +35,7 @@ fn massless_directions_are_named() {
 /// A mass on an arm of a body that does not turn: what holds it bears m s a, here 2 · 1 · 3/(1 + 2).
 #[test]
 fn held_rotations_bear_what_is_off_the_node() {
-    let text = r#"
-[analysis]
-kind = "dynamic"
-end_time = 1.0
-time_step = 0.01
-
-[integrator]
-scheme = "wilson-theta"
-
-[points]
+    let text = dynamic("1.0", "0.01", "wilson-theta") + r#"[points]
 q = [0.0, 0.0, 1.0]
 
 [[bodies]]
@@ -73,7 +65,7 @@ interval = 0.5
 reactions = true
 "#;
     for scheme in [WILSON, CENTRAL, EIGHT] {
-        let model = scene(text, &[scheme]);
+        let model = scene(&text, &[scheme]);
         let moment = model.constraints.restraints.iter().position(|held| held.dof == 4).unwrap();
         let done = run_to_the_end(&model, &mut |frame| vec![frame.reactions[moment]]);
         // Rounding.
@@ -84,16 +76,7 @@ reactions = true
 /// Two bars of a mechanism that are held in their plane, hung by ball joints: rows that pull across it have nothing to move.
 #[test]
 fn joints_that_pull_at_held_directions_only() {
-    let text = r#"
-[analysis]
-kind = "dynamic"
-end_time = 1.0
-time_step = 0.001
-
-[integrator]
-scheme = "wilson-theta"
-
-[points]
+    let text = dynamic("1.0", "0.001", "wilson-theta") + r#"[points]
 q = [3.0, 0.5, 0.0]
 
 [[bodies]]
@@ -135,7 +118,7 @@ gravity = [0.0, -1.0, -9.81]
 interval = 0.1
 "#;
     let run = |sets: &[&str]| {
-        let model = scene(text, sets);
+        let model = scene(&text, sets);
         let at = ["a", "b"].map(|name| node(&model, name));
         run_to_the_end(&model, &mut |frame| at.map(|n| position(&frame.state.nodes[n])).concat()).rows
     };
@@ -157,15 +140,9 @@ fn a_top_turns_about_its_pivot_wherever_its_mass_is_given() {
         ("mass = 1e-9", "[0.234375, 0.46875, 0.234375]", "[[masses]]\nat = \"centre_of_mass\"\nmass = 15.0\n"),
     ]
     .map(|(mass, inertia, more)| {
+        let head = dynamic("2.0", "1e-3", "central-difference");
         let text = format!(
-            r#"
-[analysis]
-kind = "dynamic"
-end_time = 2.0
-time_step = 1e-3
-[integrator]
-scheme = "central-difference"
-[points]
+            r#"{head}[points]
 centre_of_mass = [0.0, 1.0, 0.0]
 [[bodies]]
 name = "top"

@@ -6,6 +6,7 @@ mod growth;
 mod implicit;
 mod masses;
 mod order;
+mod scenes;
 
 use crate::support::{body_omega, error, node, position, read, run_to_the_end, slope};
 use rdsolve::diagnostic::Source;
@@ -84,30 +85,6 @@ fn assert_order(points: &[(f64, f64)], range: std::ops::Range<f64>) {
     let order = slope(points);
     println!("slope {order:.2}");
     assert!(range.contains(&order), "order {order}, expected {range:?}");
-}
-
-/// Masses 2 on springs of 100 in a row, the first on the ground, with a damper there.
-fn row_of_masses(count: usize, damping: f64) -> String {
-    let mut text = "[analysis]\nkind = \"dynamic\"\nend_time = 2.0\ntime_step = \"auto\"\n[integrator]\nscheme = \
-                    \"central-difference\"\n"
-        .to_string();
-    text += "[output]\ninterval = 2.0\n[points]\n";
-    (1..=count).for_each(|k| text += &format!("p{k} = [{k}.0, 0.0, 0.0]\n"));
-    for k in 1..=count {
-        text += &format!("[[masses]]\nat = \"p{k}\"\nmass = 2.0\n");
-        let from = if k == 1 { "ground = [0.0, 0.0, 0.0]".to_string() } else { format!("node = \"p{}\"", k - 1) };
-        let damper = if k == 1 && damping > 0.0 { format!("damping = {damping}\n") } else { String::new() };
-        text += &format!(
-            "[[links]]\nname = \"s{k}\"\nfrom = {{ {from} }}\nto = {{ node = \"p{k}\" }}\nstiffness = 100.0\n\
-             direction = [1.0, 0.0, 0.0]\n{damper}"
-        );
-    }
-    text + "[[initial]]\nat = \"p1\"\nvelocity = [1.0, 0.0, 0.0]\n"
-}
-
-/// The same, every step of it.
-fn steps_of_row(count: usize, damping: f64, sets: &[&str]) -> Model {
-    scene(&row_of_masses(count, damping).replace("interval = 2.0", "every = 1"), sets)
 }
 
 fn balance_of(model: &Model) -> Balance {

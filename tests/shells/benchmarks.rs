@@ -21,12 +21,11 @@ pub fn displacements(model: &Model, at: &[(&str, usize)]) -> Vec<Vec<f64>> {
             (node, dof, model.nodes[node].x[dof])
         })
         .collect();
-    let began = std::time::Instant::now();
     let done = support::run_to_the_end(model, &mut |frame| {
         let u = |node: &Node, dof: usize, x: f64| node.x[dof] - x;
         places.iter().map(|&(node, dof, x)| u(&frame.state.nodes[node], dof, x)).collect()
     });
-    println!("{}: {} unknowns, {:?}, {:.2} s", model.title, done.unknowns, done.counts, began.elapsed().as_secs_f64());
+    println!("{}: {} unknowns, {:?}", model.title, done.unknowns, done.counts);
     done.rows
 }
 

@@ -10,7 +10,6 @@ use rdsolve::elements::{ElementBlock, Force, Moduli};
 use rdsolve::materials::{Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
-use std::time::Instant;
 
 fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
     Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
@@ -310,40 +309,6 @@ fn patches_strain_evenly() {
             let found = 0.5 * u.dot(&(&K * &u)) / (0.24 * 0.12);
             let size = if energy == 0.0 { 1e6 * h } else { energy };
             assert!((found - energy).abs() < 1e-8 * size, "{name} {triangles}: {found} {energy}");
-        }
-    }
-}
-
-/// Microseconds of a force and of a tangent: printed, not judged.
-#[test]
-fn speed() {
-    let mut rng = StdRng::seed_from_u64(5);
-    for triangle in [false, true] {
-        let mesh = Mesh::one(&mut rng, triangle);
-        let elements = vec![mesh.elements[0].clone(); 1000];
-        let mesh = Mesh { elements, ..mesh };
-        let strain = |x: &Vec3| Node::at_rest(1.02 * x);
-        let nodes: Vec<Node> = mesh.x.iter().map(strain).collect();
-        let elastic = mesh.block(&PLATE);
-        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 5 });
-        for (name, block) in [("elastic", elastic), ("layered, all of 5 layers yield", layered)] {
-            let history = vec![0.0; block.history()];
-            let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };
-            let mut F = vec![[0.0; 6]; nodes.len()];
-            let best = |of: &mut dyn FnMut()| {
-                let time = |_| {
-                    let began = Instant::now();
-                    of();
-                    began.elapsed().as_secs_f64() * 1e3
-                };
-                (0..10).map(time).fold(f64::INFINITY, f64::min)
-            };
-            let force = best(&mut || block.subtract_forces(&now, &mut F));
-            let n = 6 * block.nodes(0).len();
-            let mut K = vec![0.0; n * n];
-            let tangent =
-                best(&mut || (0..1000).for_each(|e| block.tangent(e, &now, 0.0, Moduli::Algorithmic, &mut K)));
-            println!("{} nodes, {name}: force {force:.2} µs, tangent {tangent:.2} µs", n / 6);
         }
     }
 }

@@ -139,8 +139,7 @@ impl CriticalStep {
         self.steps += 1;
         self.steps_since_cutback += 1;
         if self.longest.is_none() || self.steps >= STEPS {
-            self.place.copy_from_slice(&state.nodes);
-            self.measure(cx, ws, accelerations, state, dt)?;
+            self.measure_here(cx, ws, accelerations, state, dt)?;
         }
         Ok(())
     }
@@ -161,14 +160,12 @@ impl CriticalStep {
     ) -> Result<f64, Failure> {
         if self.longest.is_none() {
             // What dampers add depends on the step: from the one found without them to that with them.
-            self.place.copy_from_slice(&state.nodes);
-            self.measure(cx, ws, accelerations, state, 0.0)?;
+            self.measure_here(cx, ws, accelerations, state, 0.0)?;
             if cx.system.is_damped() {
                 let first = self.longest.unwrap_or(left).min(left);
                 // The fastest mode without dampers may know nothing of them: what the search began with does.
                 self.mode.iter_mut().zip(&self.hints).for_each(|(mode, first)| *mode += *first);
-                self.place.copy_from_slice(&state.nodes);
-                self.measure(cx, ws, accelerations, state, first)?;
+                self.measure_here(cx, ws, accelerations, state, first)?;
             }
         }
         let most = cx.model.analysis.end_time / FEWEST;
@@ -184,6 +181,19 @@ impl CriticalStep {
         let (rate, acceleration) = (self.max_spin, nodes().map(|node| node.alpha.norm()).fold(0.0, f64::max));
         // ω Δt + ½ α Δt², without a difference of like numbers.
         2.0 * TURN / (rate + (rate * rate + 2.0 * acceleration * TURN).sqrt())
+    }
+
+    /// Measures the limit in the state itself.
+    fn measure_here(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        accelerations: &mut Accelerations,
+        state: &State,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        self.place.copy_from_slice(&state.nodes);
+        self.measure(cx, ws, accelerations, state, dt)
     }
 
     /// Measures the limit where the trial motion has come to, of which nothing is left then.
