@@ -47,7 +47,8 @@ fn invariants() {
 /// What loads, and ends that are driven, put into a scene is what it has.
 #[test]
 fn works_balance_where_motion_is_given() {
-    let text = dynamic("3.0", "0.05", "runge-kutta") + r#"[points]
+    let text = dynamic("3.0", "0.05", "runge-kutta")
+        + r#"[points]
 hand = [0.0, 0.0, 0.0]
 bob = [1.0, 0.0, 0.0]
 
@@ -155,7 +156,7 @@ amplitude = "st"
 [amplitudes.st]
 kind = "step"
 "#
-    .replace("direction", &format!("{more}\ndirection"))
+        .replace("direction", &format!("{more}\ndirection"))
 }
 
 /// Loads that jump change accelerations, and nothing that moves or is stored: no energy is made or taken at 0.9 of the limit, by

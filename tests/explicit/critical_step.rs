@@ -63,7 +63,8 @@ fn steps_beyond_the_limit_are_cut() {
 /// What a scene that stiffens on its way does to steps that were short enough: they are cut, and energy is kept.
 #[test]
 fn steps_follow_a_scene_that_stiffens() {
-    let text = dynamic("20.0", "0.05", "central-difference") + r#"[points]
+    let text = dynamic("20.0", "0.05", "central-difference")
+        + r#"[points]
 ball = [0.0, 0.0, 0.0]
 
 [[masses]]
@@ -209,7 +210,8 @@ fn steps_of_steel_that_yields_are_those_of_elastic_steel() {
 /// A mass that only a load moves bears any step: it has a fiftieth of the run.
 #[test]
 fn what_nothing_resists_is_followed_all_the_same() {
-    let text = dynamic("10.0", AUTO, "central-difference") + r#"[points]
+    let text = dynamic("10.0", AUTO, "central-difference")
+        + r#"[points]
 p = [0.0, 0.0, 0.0]
 
 [[masses]]

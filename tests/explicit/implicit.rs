@@ -90,7 +90,8 @@ fn consistent_masses_as_by_wilson() {
 /// an inertia of its own that is equal about all axes, and with none.
 #[test]
 fn masses_off_a_pivot_as_by_wilson() {
-    let text = dynamic("0.5", "1e-4", "wilson-theta") + r#"[materials.s]
+    let text = dynamic("0.5", "1e-4", "wilson-theta")
+        + r#"[materials.s]
 model = "elastic"
 youngs_modulus = 2e9
 poisson_ratio = 0.3

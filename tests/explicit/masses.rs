@@ -35,7 +35,8 @@ fn massless_directions_are_named() {
 /// A mass on an arm of a body that does not turn: what holds it bears m s a, here 2 · 1 · 3/(1 + 2).
 #[test]
 fn held_rotations_bear_what_is_off_the_node() {
-    let text = dynamic("1.0", "0.01", "wilson-theta") + r#"[points]
+    let text = dynamic("1.0", "0.01", "wilson-theta")
+        + r#"[points]
 q = [0.0, 0.0, 1.0]
 
 [[bodies]]
@@ -76,7 +77,8 @@ reactions = true
 /// Two bars of a mechanism that are held in their plane, hung by ball joints: rows that pull across it have nothing to move.
 #[test]
 fn joints_that_pull_at_held_directions_only() {
-    let text = dynamic("1.0", "0.001", "wilson-theta") + r#"[points]
+    let text = dynamic("1.0", "0.001", "wilson-theta")
+        + r#"[points]
 q = [3.0, 0.5, 0.0]
 
 [[bodies]]
