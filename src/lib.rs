@@ -4,7 +4,7 @@
 //!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
 //!           words     meaning    machine   motion     files
 //!  below them, used by them, knowing nothing of them:
-//!  system │ constraints  elements  integrators │ state  sections  materials  amplitude  linear  mesh │ math  names  diagnostic
+//!  system │ constraints  elements  integrators │ state  sections  solids  materials  amplitude  linear  mesh │ math  names  diagnostic
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
@@ -47,6 +47,7 @@ pub mod output;
 pub mod plan;
 pub mod quantities;
 pub mod sections;
+pub mod solids;
 pub mod solve;
 pub mod state;
 pub mod study;

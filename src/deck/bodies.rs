@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Table, Vector};
+use super::words::kinds::{Given, Kinds, OneOf};
+use super::words::{Maybe, Names, Vector};
+use crate::solids::{SOLIDS, Solid, SolidKind};
 
 /// A rigid body.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -23,7 +25,7 @@ pub struct Body {
     /// products as they stand in the matrix.
     pub inertia: Maybe<Vec<f64>>,
     /// A solid that gives the inertia, and the mass if it has a density; with `inertia` it is only drawn.
-    pub shape: Maybe<Table<BodyShape>>,
+    pub shape: Maybe<OneOf<BodyShape>>,
     /// Velocity of the centre at t = 0, global components. Default: at rest.
     pub velocity: Maybe<Vector>,
     /// Angular velocity at t = 0, global components, radians per unit of time. Default: none.
@@ -34,36 +36,19 @@ pub struct Body {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyShape {
-    /// The solid.
-    #[schemars(required)]
-    pub kind: Maybe<ShapeKind>,
-    /// Full edge lengths along the global axes at t = 0. (box)
-    pub size: Maybe<Vector>,
-    /// Outer radius, above 0. (cylinder, tube, sphere)
-    pub radius: Maybe<f64>,
-    /// Inner radius. Default: 0, solid. (cylinder; tube, which takes it or thickness)
-    pub inner_radius: Maybe<f64>,
-    /// Thickness of the wall. (tube)
-    pub thickness: Maybe<f64>,
-    /// Length along the axis, above 0. (cylinder, tube)
-    pub length: Maybe<f64>,
-    /// Direction of the length, global at t = 0. Any length. (cylinder, tube)
-    pub axis: Maybe<Vector>,
     /// Mass per volume, above 0, instead of the body's mass.
     pub density: Maybe<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ShapeKind {
-    /// A cuboid along the global axes at t = 0.
-    Box,
-    /// A solid or hollow cylinder.
-    Cylinder,
-    /// A solid sphere.
-    Sphere,
-    /// A hollow cylinder.
-    Tube,
+impl Kinds for BodyShape {
+    const CHOOSER: &'static str = "kind";
+    const ABOUT: &'static str = "The solid, on which the other keys depend.";
+    const REQUIRED: bool = true;
+    type Make = fn(&mut Given) -> Option<Solid>;
+
+    fn list() -> &'static [&'static SolidKind] {
+        &SOLIDS
+    }
 }
 
 /// A mass on points.

@@ -1,29 +1,24 @@
 //! `[[bodies]]`: mass, inertia and shape of what is rigid, or the parts that make it up.
 
-use std::f64::consts::PI;
-
-use super::data::{Body, Shape};
+use super::data::Body;
 use super::nodes::Nodes;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::values::{flag, span, vec3, vec3_or_zero};
 use crate::deck::Deck;
 use crate::deck::bodies as words;
-use crate::deck::words::{Names, Table};
+use crate::deck::words::Names;
+use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::{At, Span};
 use crate::math::{Mat3, Vec3};
 use crate::names::{nearest, short};
+use crate::solids::element_faces::ElementFaces;
+use crate::solids::{Solid, SolidShape, drawn_by_inertia};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Round-off in a principal moment, relative to the largest.
 const ROUND_OFF: f64 = 1e-9;
-
-/// Shape, and per unit of mass: inertia; volume.
-struct Solid {
-    shape: Shape,
-    inertia: Mat3,
-    volume: f64,
-}
 
 /// Bodies of the deck, then parts that are a body by themselves.
 #[derive(Default)]
@@ -63,7 +58,7 @@ pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<
             let sound = mass_properties(&owner, body, report);
             let made = &mut bodies.list[index];
             (made.mass, made.inertia, made.shape) =
-                sound.unwrap_or((1.0, Mat3::identity(), Shape::Sphere { radius: 1.0 }));
+                sound.unwrap_or_else(|| (1.0, Mat3::identity(), Arc::new(ElementFaces::default())));
         }
     }
     bodies.add_rigid_parts(deck, nodes);
@@ -75,7 +70,7 @@ impl<'d> Bodies<'d> {
     fn add(&mut self, label: String, center: Vec3, nodes: &mut Nodes) -> usize {
         let node = nodes.add(label.clone(), true, center);
         nodes.connect(node, true);
-        let shape = Shape::Faces { points: Vec::new(), faces: Vec::new() };
+        let shape = Arc::new(ElementFaces::default());
         self.list.push(Body { name: label, node, mass: 0.0, inertia: Mat3::zeros(), shape });
         self.list.len() - 1
     }
@@ -152,7 +147,7 @@ fn mass_properties<'d>(
     owner: &Owner<'d>,
     body: &'d words::Body,
     report: &mut Report<'d>,
-) -> Option<(f64, Mat3, Shape)> {
+) -> Option<(f64, Mat3, Arc<dyn SolidShape>)> {
     let solid = match &body.shape {
         Some(shape) => Some(read_solid(shape, &owner.what, report)?),
         None => None,
@@ -179,7 +174,7 @@ fn mass_properties<'d>(
     };
     if let Some(values) = &body.inertia {
         let inertia = read_inertia(values, report)?;
-        let shape = solid.map_or_else(|| cuboid(mass, &inertia), |solid| solid.shape);
+        let shape = solid.map_or_else(|| drawn_by_inertia(mass, &inertia), |solid| solid.shape);
         return Some((mass, inertia, shape));
     }
     match solid {
@@ -217,105 +212,8 @@ pub(super) fn read_inertia(values: &At<Vec<f64>>, report: &mut Report) -> Option
     Some(inertia)
 }
 
-fn read_solid<'d>(shape: &'d At<Table<words::BodyShape>>, body: &str, report: &mut Report<'d>) -> Option<Solid> {
+fn read_solid<'d>(shape: &'d At<OneOf<words::BodyShape>>, body: &str, report: &mut Report<'d>) -> Option<Solid> {
     let owner = Owner::new(format!("the shape of {body}"), &shape.span);
     let kind = report.require(&owner, "kind", &shape.kind)?.value;
-    let keys = [
-        ("size", span(&shape.size)),
-        ("radius", span(&shape.radius)),
-        ("inner_radius", span(&shape.inner_radius)),
-        ("thickness", span(&shape.thickness)),
-        ("length", span(&shape.length)),
-        ("axis", span(&shape.axis)),
-    ];
-    let (what, taken): (_, &[&str]) = match kind {
-        words::ShapeKind::Box => ("a box", &["size"]),
-        words::ShapeKind::Cylinder => ("a cylinder", &["radius", "inner_radius", "length", "axis"]),
-        words::ShapeKind::Sphere => ("a sphere", &["radius"]),
-        words::ShapeKind::Tube => ("a tube", &["radius", "inner_radius", "thickness", "length", "axis"]),
-    };
-    let unused: Vec<(&str, Option<&Span>)> = keys.into_iter().filter(|(key, _)| !taken.contains(key)).collect();
-    report.reject_unused(what, &unused);
-    match kind {
-        words::ShapeKind::Box => {
-            let size = report.require(&owner, "size", &shape.size)?;
-            let [a, b, c] = size.value.0;
-            if !(a > 0.0 && b > 0.0 && c > 0.0) {
-                return report.error(&size.span, "the edges of a box must be above zero");
-            }
-            let inertia = Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b) / 12.0;
-            let shape = Shape::Box { size: [a, b, c], axes: Mat3::identity() };
-            Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c })
-        }
-        words::ShapeKind::Sphere => {
-            let r = report.require_positive(&owner, "radius", &shape.radius)?;
-            let inertia = Mat3::identity() * (0.4 * r * r);
-            Some(Solid { shape: Shape::Sphere { radius: r }, inertia, volume: 4.0 / 3.0 * PI * r * r * r })
-        }
-        words::ShapeKind::Cylinder | words::ShapeKind::Tube => {
-            let radius = report.require_positive(&owner, "radius", &shape.radius);
-            let length = report.require_positive(&owner, "length", &shape.length);
-            let axis = report.require(&owner, "axis", &shape.axis).and_then(|axis| report.unit("axis", axis));
-            let (radius, length, axis) = (radius?, length?, axis?);
-            let inner_radius = read_inner_radius(&owner, shape, kind, radius, report)?;
-            let squares = radius * radius + inner_radius * inner_radius;
-            let (along, across) = (squares / 2.0, squares / 4.0 + length * length / 12.0);
-            let inertia = Mat3::identity() * across + axis * axis.transpose() * (along - across);
-            let volume = PI * (radius - inner_radius) * (radius + inner_radius) * length;
-            Some(Solid { shape: Shape::Cylinder { radius, inner_radius, length, axis }, inertia, volume })
-        }
-    }
-}
-
-fn read_inner_radius<'d>(
-    owner: &Owner<'d>,
-    shape: &words::BodyShape,
-    kind: words::ShapeKind,
-    radius: f64,
-    report: &mut Report<'d>,
-) -> Option<f64> {
-    let (inner, place) = match (&shape.inner_radius, &shape.thickness) {
-        (Some(_), Some(thickness)) => {
-            return report.error(&thickness.span, "a tube takes `thickness` or `inner_radius`, not both");
-        }
-        (Some(inner), None) => (report.not_negative("inner_radius", &shape.inner_radius, 0.0), &inner.span),
-        (None, Some(thickness)) => (radius - report.positive("thickness", &shape.thickness)?, &thickness.span),
-        (None, None) if kind == words::ShapeKind::Cylinder => return Some(0.0),
-        (None, None) => {
-            return report.error(owner.span, format!("{} needs `thickness` or `inner_radius`", owner.what));
-        }
-    };
-    if inner >= radius || inner < 0.0 {
-        return report.error(place, format!("the wall does not fit into the radius, {radius}"));
-    }
-    Some(inner)
-}
-
-/// The homogeneous cuboid of a mass and inertia: I_i = m/12 (s_j² + s_k²).
-fn cuboid(mass: f64, inertia: &Mat3) -> Shape {
-    let eigen = inertia.symmetric_eigen();
-    let moments = eigen.eigenvalues;
-    let edge = |i: usize| (6.0 * (moments.sum() - 2.0 * moments[i]).max(0.0) / mass).sqrt();
-    let mut axes = eigen.eigenvectors;
-    if axes.determinant() < 0.0 {
-        axes.set_column(2, &-axes.column(2).into_owned());
-    }
-    Shape::Box { size: [edge(0), edge(1), edge(2)], axes }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_cuboid_of_a_box_is_the_box() {
-        let (m, [a, b, c]) = (12.0, [1.0, 2.0, 3.0]);
-        let inertia = Mat3::from_diagonal(&Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b));
-        let Shape::Box { size, axes } = cuboid(m, &inertia) else { panic!("not a box") };
-        let mut edges = size;
-        edges.sort_by(f64::total_cmp);
-        // Square roots of numbers of order one.
-        assert!(edges.iter().zip([a, b, c]).all(|(got, edge)| (got - edge).abs() < 1e-14), "{edges:?}");
-        assert!((axes.determinant() - 1.0).abs() < 1e-14);
-    }
+    report.read(&owner, &format!("a {}", kind.word), &shape.values, kind, kind.make)
 }

@@ -1,6 +1,6 @@
 //! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
 
-use super::data::{Bar, Beam, PartType, Shape as Drawn, Shell};
+use super::data::{Bar, Beam, PartType, Shell};
 use super::nodes::{Nodes, Topology};
 use super::place::Place;
 use super::report::{Owner, Report};
@@ -9,12 +9,10 @@ use super::sections::half_depth;
 use crate::deck::contacts as words;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, MOST_NODES};
-use crate::math::{Vec3, frame_along, quadrature};
+use crate::math::quadrature;
+use crate::solids::Touching;
 use std::collections::{HashMap, HashSet};
-use std::f64::consts::TAU;
 
-/// Number of points around the rim of a cylinder.
-const RIM: usize = 16;
 /// More points between two nodes are a slip of the keyboard.
 const MOST_POINTS: usize = 100;
 
@@ -215,39 +213,18 @@ impl<'d> Finder<'_, 'd> {
     fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
-        let mut corners = Vec::new();
-        match &shape {
-            Drawn::Faces { .. } => {
+        let corners = match shape.touching(between) {
+            Touching::Nodes => {
                 let dependents: HashMap<usize, usize> =
                     self.topology.dependents.iter().map(|r| (r.node, r.master)).collect();
                 let mut nodes: Vec<usize> = dependents.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
                 nodes.sort_unstable();
                 return found.extend(nodes.into_iter().map(|node| Touch::node(node, 0.0)));
             }
-            Drawn::Sphere { radius } => return found.push(Touch::node(node, if is_drawn { *radius } else { 0.0 })),
-            _ if !is_drawn => return found.push(Touch::node(node, 0.0)),
-            Drawn::Box { size, axes } => {
-                // Corners, and as many points as asked for between them, on edges and faces.
-                let n = between + 1;
-                let side = |i: usize, k: usize| size[i] * (k as f64 / n as f64 - 0.5);
-                for k in 0..(n + 1).pow(3) {
-                    let at = [k % (n + 1), k / (n + 1) % (n + 1), k / (n + 1).pow(2)];
-                    if at.iter().any(|&k| k == 0 || k == n) {
-                        corners.push(axes * Vec3::new(side(0, at[0]), side(1, at[1]), side(2, at[2])));
-                    }
-                }
-            }
-            Drawn::Cylinder { radius, length, axis, .. } => {
-                let axes = frame_along(axis);
-                for end in (0..=between + 1).map(|k| length * (k as f64 / (between + 1) as f64 - 0.5)) {
-                    let rim = RIM * (between + 1);
-                    for k in 0..rim {
-                        let (sin, cos) = (TAU * k as f64 / rim as f64).sin_cos();
-                        corners.push(axes * Vec3::new(radius * cos, radius * sin, end));
-                    }
-                }
-            }
-        }
+            Touching::Ball(radius) if is_drawn => return found.push(Touch::node(node, radius)),
+            Touching::Points(corners) if is_drawn => corners,
+            Touching::Ball(_) | Touching::Points(_) => return found.push(Touch::node(node, 0.0)),
+        };
         let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
         for (k, corner) in corners.into_iter().enumerate() {
             let dependent =

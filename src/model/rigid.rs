@@ -5,7 +5,7 @@
 //! has the same inertia in rigid motion; lumped mass comes to it as elements get smaller.
 
 use super::bodies::{Bodies, part_name};
-use super::data::{AnalysisKind, Bar, Beam, Body, MassKind, Part, Rigid, Shape, Shell};
+use super::data::{AnalysisKind, Bar, Beam, Body, MassKind, Part, Rigid, Shell};
 use super::nodes::Nodes;
 use super::parts::Parts;
 use super::place::Place;
@@ -15,7 +15,9 @@ use crate::diagnostic::Span;
 use crate::elements::shell;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
+use crate::solids::element_faces::ElementFaces;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Principal moments below this part of the largest are round-off.
 const ROUND_OFF: f64 = 1e-12;
@@ -134,7 +136,7 @@ impl<'d> Maker<'_, 'd> {
         let elements = cells.len();
         let shape = self.faces(&cells, origin + center);
         let made = &mut self.bodies[body];
-        (made.mass, made.inertia, made.shape) = (sums.mass, inertia, shape);
+        (made.mass, made.inertia, made.shape) = (sums.mass, inertia, Arc::new(shape));
         let parts = parts.iter().map(|&part| part_name(self.deck, part)).collect();
         for node in nodes {
             self.attach(node, master, &owner)?;
@@ -162,7 +164,7 @@ impl<'d> Maker<'_, 'd> {
     }
 
     /// The shape of the elements as they are drawn, about the centre.
-    fn faces(&self, cells: &[Vec<usize>], center: Vec3) -> Shape {
+    fn faces(&self, cells: &[Vec<usize>], center: Vec3) -> ElementFaces {
         let (mut points, mut places) = (Vec::new(), HashMap::new());
         let mut place = |&node: &usize| {
             *places.entry(node).or_insert_with(|| {
@@ -171,7 +173,7 @@ impl<'d> Maker<'_, 'd> {
             })
         };
         let faces = cells.iter().map(|cell| cell.iter().map(&mut place).collect()).collect();
-        Shape::Faces { points, faces }
+        ElementFaces { points, faces }
     }
 
     /// A node goes with a body; one at the end of a rigid offset already goes with the point it hangs on.

@@ -8,10 +8,10 @@
 //! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
 use super::disk::{at, replace};
-use super::shape::Surface;
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::{Drawing, Model, Part, PartKind};
+use crate::solids::outline::OutlineCell;
 use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -97,14 +97,28 @@ impl Grid {
         }
         for body in &model.bodies {
             let (part, first) = (next(), grid.places.len());
-            let surface = Surface::of(&body.shape);
+            let outline = body.shape.outline();
             let place = |arm| Place { node: body.node, arm, axes: Mat3::identity() };
-            grid.places.extend(surface.points.into_iter().map(place));
-            for (kind, points) in surface.cells {
+            grid.places.extend(outline.points.into_iter().map(place));
+            for cell in outline.cells {
+                let (kind, points) = match cell {
+                    OutlineCell::Hexahedron => (Cell::Hexahedron, (0..8).collect()),
+                    OutlineCell::Face(points) => (face(points.len()), points),
+                };
                 grid.cell(kind, part, points.into_iter().map(|point| first + point));
             }
         }
         grid
+    }
+}
+
+/// The cell of a face with so many corners.
+fn face(corners: usize) -> Cell {
+    match corners {
+        2 => Cell::Line,
+        3 => Cell::Triangle,
+        4 => Cell::Quad,
+        _ => Cell::Polygon,
     }
 }
 

@@ -13,7 +13,6 @@ pub mod log;
 pub mod progress;
 pub mod report;
 pub mod result_json;
-mod shape;
 pub mod table;
 mod table_file;
 pub(crate) mod table_reader;

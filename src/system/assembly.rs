@@ -4,6 +4,7 @@
 use super::block_scatter::BlockScatter;
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
+use super::group::Group;
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
 use crate::elements::{ElementBlock, Moduli};
@@ -87,6 +88,92 @@ impl Scatter {
         for &[k, slot] in &self.0[entries.halves..entries.to] {
             values[slot as usize] += 0.5 * local[k as usize];
         }
+    }
+}
+
+/// Finds the destinations of local matrices, one after the other.
+struct Destinations<'a> {
+    dofs: &'a DofMap,
+    solver: &'a Solver,
+    independent_nodes: &'a [Vec<usize>],
+    scatter: Scatter,
+    blocks: BlockScatter,
+    /// The most nodes that a matrix is carried onto.
+    most: usize,
+}
+
+impl<'a> Destinations<'a> {
+    fn new(dofs: &'a DofMap, solver: &'a Solver, independent_nodes: &'a [Vec<usize>]) -> Self {
+        let most = independent_nodes.iter().map(Vec::len).max().unwrap_or(0);
+        Destinations {
+            dofs,
+            solver,
+            independent_nodes,
+            scatter: Scatter(Vec::new()),
+            blocks: BlockScatter::new(),
+            most,
+        }
+    }
+
+    /// That of a matrix over 6×6 blocks of targets, each column-major; `keep` says which entries of a block count.
+    fn projected(&mut self, of: &[usize], keep: &dyn Fn(usize, usize) -> bool) -> Destination {
+        let mut targets: Vec<usize> = Vec::new();
+        for independent in of.iter().flat_map(|&n| &self.independent_nodes[n]) {
+            if !targets.contains(independent) {
+                targets.push(*independent);
+            }
+        }
+        let (m, dofs) = (targets.len(), self.dofs);
+        self.most = self.most.max(m);
+        let entry = |k: usize| {
+            let (block, i, j) = (k / 36, k % 6, k / 6 % 6);
+            let (row, column) = (targets[block / m], targets[block % m]);
+            if keep(i, j) { dofs.row(row, i).zip(dofs.row(column, j)) } else { None }
+        };
+        let entries = self.scatter.push(self.solver, 36 * m * m, entry);
+        Destination { targets, entries, blocks: [0; 2] }
+    }
+
+    /// That of an element with `d` directions a node, row-major.
+    fn local(&mut self, of: &[usize], d: usize) -> Destination {
+        if of.iter().any(|&n| self.independent_nodes[n] != [n]) {
+            return self.projected(of, &|_, _| true);
+        }
+        let dofs = self.dofs;
+        let firsts = || of.iter().map(|&n| dofs.of(n).first_of_six()).collect::<Option<Vec<usize>>>();
+        if let (6, Some(rows)) = (d, firsts()) {
+            let from = self.blocks.len() as u32;
+            if self.blocks.push(self.solver, &rows) {
+                let none = Entries { from: 0, halves: 0, to: 0 };
+                return Destination { targets: Vec::new(), entries: none, blocks: [from, self.blocks.len() as u32] };
+            }
+        }
+        let size = d * of.len();
+        let row = |i: usize| dofs.row(of[i / d], i % d);
+        let entries = self.scatter.push(self.solver, size * size, |k| row(k / size).zip(row(k % size)));
+        Destination { targets: Vec::new(), entries, blocks: [0; 2] }
+    }
+
+    /// Those of the matrices of nodes, which inertia and nodal damping, followers and arms have. Inertia and damping leave
+    /// translations apart from one another and from rotations; arms and followers do not.
+    fn nodal(&mut self, system: &System) -> Vec<(usize, Destination)> {
+        let nodes = self.independent_nodes.len();
+        let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
+        system.inertias.iter().for_each(|i| has_own[i.node] = true);
+        system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
+        system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
+        system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
+        let apart = |i: usize, j: usize| i == j || (i > 2 && j > 2);
+        let with_own = (0..nodes).filter(|&n| has_own[n] || is_full[n]);
+        let destination = |n: usize| {
+            let full = is_full[n] || self.independent_nodes[n] != [n];
+            let mut destination = self.projected(&[n], &|i, j| full || apart(i, j));
+            if self.independent_nodes[n] == [n] {
+                destination.targets.clear();
+            }
+            (n, destination)
+        };
+        with_own.map(destination).collect()
     }
 }
 
@@ -193,83 +280,23 @@ impl Assembly {
     pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
         let nodes = dofs.each().len();
         let independent_nodes = independent_nodes(system, nodes);
-        let mut scatter = Scatter(Vec::new());
-        let mut blocks = BlockScatter::new();
-        let mut most = independent_nodes.iter().map(Vec::len).max().unwrap_or(0);
-        // A matrix over 6×6 blocks of targets, each column-major.
-        let mut projected = |scatter: &mut Scatter, of: &[usize], keep: &dyn Fn(usize, usize) -> bool| {
-            let mut targets: Vec<usize> = Vec::new();
-            for independent in of.iter().flat_map(|&n| &independent_nodes[n]) {
-                if !targets.contains(independent) {
-                    targets.push(*independent);
-                }
-            }
-            let m = targets.len();
-            most = most.max(m);
-            let entry = |k: usize| {
-                let (block, i, j) = (k / 36, k % 6, k / 6 % 6);
-                let (row, column) = (targets[block / m], targets[block % m]);
-                if keep(i, j) { dofs.row(row, i).zip(dofs.row(column, j)) } else { None }
-            };
-            let entries = scatter.push(solver, 36 * m * m, entry);
-            Destination { targets, entries, blocks: [0; 2] }
+        let mut find = Destinations::new(dofs, solver, &independent_nodes);
+        let group = |group: &Group| {
+            let (block, d) = (&group.block, group.block.dofs());
+            (0..block.len()).map(|e| find.local(block.nodes(e), d)).collect()
         };
-        // Of an element with `d` directions a node, row-major.
-        let mut local = |scatter: &mut Scatter, of: &[usize], d: usize| {
-            if of.iter().any(|&n| independent_nodes[n] != [n]) {
-                return projected(scatter, of, &|_, _| true);
-            }
-            let firsts = || of.iter().map(|&n| dofs.of(n).first_of_six()).collect::<Option<Vec<usize>>>();
-            if let (6, Some(rows)) = (d, firsts()) {
-                let from = blocks.len() as u32;
-                if blocks.push(solver, &rows) {
-                    let none = Entries { from: 0, halves: 0, to: 0 };
-                    return Destination { targets: Vec::new(), entries: none, blocks: [from, blocks.len() as u32] };
-                }
-            }
-            let size = d * of.len();
-            let row = |i: usize| dofs.row(of[i / d], i % d);
-            let entries = scatter.push(solver, size * size, |k| row(k / size).zip(row(k % size)));
-            Destination { targets: Vec::new(), entries, blocks: [0; 2] }
-        };
-        let groups: Vec<Vec<Destination>> = system
-            .groups
-            .iter()
-            .map(|group| {
-                let (block, d) = (&group.block, group.block.dofs());
-                (0..block.len()).map(|e| local(&mut scatter, block.nodes(e), d)).collect()
-            })
-            .collect();
+        let groups: Vec<Vec<Destination>> = system.groups.iter().map(group).collect();
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
-        let faces: Vec<Destination> = faces.map(|face| local(&mut scatter, face.nodes(), 3)).collect();
-
-        let first = nodes - system.joints.len();
-        let joints = system.joints.iter().zip(first..);
+        let faces: Vec<Destination> = faces.map(|face| find.local(face.nodes(), 3)).collect();
+        let joints = system.joints.iter().zip(nodes - system.joints.len()..);
         let joints: Vec<Destination> =
-            joints.map(|(joint, own)| local(&mut scatter, &[joint.nodes[0], joint.nodes[1], own], 6)).collect();
+            joints.map(|(joint, own)| find.local(&[joint.nodes[0], joint.nodes[1], own], 6)).collect();
         let diagonals =
             system.joints.iter().map(|joint| Diagonal::new(joint, &independent_nodes, dofs, solver)).collect();
-
-        // Inertia and nodal damping leave translations apart from one another and from rotations; arms and followers do not.
-        let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
-        system.inertias.iter().for_each(|i| has_own[i.node] = true);
-        system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
-        system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
-        system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
-        let apart = |i: usize, j: usize| i == j || (i > 2 && j > 2);
-        let own: Vec<(usize, Destination)> = (0..nodes)
-            .filter(|&n| has_own[n] || is_full[n])
-            .map(|n| {
-                let full = is_full[n] || independent_nodes[n] != [n];
-                let mut destination = projected(&mut scatter, &[n], &|i, j| full || apart(i, j));
-                if independent_nodes[n] == [n] {
-                    destination.targets.clear();
-                }
-                (n, destination)
-            })
-            .collect();
+        let own = find.nodal(system);
         let masses = system.consistent_masses().iter();
-        let masses: Vec<Destination> = masses.map(|m| projected(&mut scatter, &m.nodes, &|_, _| true)).collect();
+        let masses: Vec<Destination> = masses.map(|m| find.projected(&m.nodes, &|_, _| true)).collect();
+        let Destinations { scatter, blocks, most, .. } = find;
         let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
         let local = system.groups.iter().map(|g| size(&*g.block)).max().unwrap_or(0);
         Assembly {

@@ -471,6 +471,15 @@ impl<'t> Given<'t> {
         None
     }
 
+    /// Reports that one of two keys must be there, neither of which is written.
+    pub fn require_either<T>(&mut self, one: &str, other: &str) -> Option<T> {
+        if self.is_unreadable(one) || self.is_unreadable(other) {
+            return None;
+        }
+        let message = format!("{} needs `{one}` or `{other}`", self.what);
+        self.error(one, message)
+    }
+
     /// The number behind a key, which may be left out.
     pub fn number(&self, key: &str) -> Option<f64> {
         self.values.numbers(key).first().copied()

@@ -15,7 +15,7 @@ const STRANGERS: usize = 6;
 const WELL_KNOWN: Known = &[("Bar", 14), ("Beam", 18), ("Contact", 18), ("Link", 16), ("Shell", 21)];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
-const CATALOGUES: [(&str, &[&str]); 5] = [
+const CATALOGUES: [(&str, &[&str]); 6] = [
     ("constraints/joints", &["kind"]),
     ("elements/contact/surfaces", &["kind"]),
     (
@@ -24,6 +24,7 @@ const CATALOGUES: [(&str, &[&str]); 5] = [
     ),
     ("output/tables", &["shell_order"]),
     ("sections", &["dimensions", "fibres", "profile", "section", "section_shape", "wall"]),
+    ("solids", &["element_faces", "hollow", "kind", "outline"]),
 ];
 
 /// Kinds that more than one file besides their own knows.

@@ -6,7 +6,7 @@ use super::source::{files, root};
 const ROWS: [&[&str]; 11] = [
     &["math", "names", "quantities", "diagnostic"],
     &["words"],
-    &["state", "sections", "materials", "amplitude", "linear", "mesh"],
+    &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh"],
     &["elements", "constraints", "integrators"],
     &["deck"],
     &["model", "system"],
@@ -21,7 +21,7 @@ const ROWS: [&[&str]; 11] = [
 const NAMED: [(&str, &str); 3] = [("state", "materials"), ("system", "model"), ("output", "solve")];
 
 /// What has no business with how a scene is written down or computed.
-const KINDS: [&str; 6] = ["elements", "constraints", "integrators", "sections", "materials", "amplitude"];
+const KINDS: [&str; 7] = ["elements", "constraints", "integrators", "sections", "solids", "materials", "amplitude"];
 
 fn row(room: &str) -> usize {
     ROWS.iter()

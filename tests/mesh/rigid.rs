@@ -3,9 +3,10 @@
 use super::{Folder, Plate, positions};
 use crate::support::node;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{Model, Shape};
+use rdsolve::model::Model;
 use rdsolve::output::wanted;
 use rdsolve::plan::Plan;
+use rdsolve::solids::outline::Outline;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::system::System;
 use std::sync::atomic::AtomicBool;
@@ -154,8 +155,8 @@ fn one_word_makes_a_part_rigid() {
     let system = System::new(&rigid).unwrap();
     let text = rdsolve::plan::explain::explain(&Plan::new(&rigid, &system, 1), &rigid, &system).to_string();
     assert!(text.contains("shell `plate` as body `plate`, mass ") && text.contains("its 12 elements"), "{text}");
-    let Shape::Faces { points, faces } = &rigid.bodies[0].shape else { panic!("{:?}", rigid.bodies[0].shape) };
-    assert_eq!((points.len(), faces.len()), (20, 12));
+    let Outline { points, cells } = rigid.bodies[0].shape.outline();
+    assert_eq!((points.len(), cells.len()), (20, 12));
     // Its corners are where the points are.
     let center = rigid.nodes[rigid.bodies[0].node].x;
     assert!(points.iter().any(|p| (center + p - Vec3::new(0.4, 0.3, 0.6)).norm() < 1e-15));

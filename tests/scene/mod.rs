@@ -7,6 +7,10 @@ use rdsolve::elements::link::LinkLaw;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
+use rdsolve::solids::SolidShape;
+use rdsolve::solids::cuboid::Cuboid;
+use rdsolve::solids::hollow::HollowCylinder;
+use rdsolve::solids::sphere::Sphere;
 use rdsolve::solve::{ContactState, Derived, Frame, LinkState, SectionPoint};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
@@ -35,11 +39,11 @@ pub fn model() -> Model {
         elements,
     };
     let axis = Vec3::new(1.0, 1.0, 0.0);
-    let shapes = [
-        Shape::Box { size: [1.0, 0.5, 0.2], axes: Mat3::identity() },
-        Shape::Sphere { radius: 0.5 },
-        Shape::Cylinder { radius: 0.5, inner_radius: 0.0, length: 1.0, axis },
-        Shape::Cylinder { radius: 0.5, inner_radius: 0.4, length: 1.0, axis },
+    let shapes: [Arc<dyn SolidShape>; 4] = [
+        Arc::new(Cuboid { size: [1.0, 0.5, 0.2], axes: Mat3::identity() }),
+        Arc::new(Sphere { radius: 0.5 }),
+        Arc::new(HollowCylinder { radius: 0.5, inner_radius: 0.0, length: 1.0, axis }),
+        Arc::new(HollowCylinder { radius: 0.5, inner_radius: 0.4, length: 1.0, axis }),
     ];
     let body =
         |(i, shape)| Body { name: format!("body {i}"), node: 6 + i, mass: 1.0, inertia: Mat3::identity(), shape };

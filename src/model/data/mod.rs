@@ -20,7 +20,7 @@ pub use constraints::{Constraints, DependentNode, Joint, Motion, Restraint};
 pub use expect::{Expect, ExpectAt, Tolerance, When};
 pub use loading::{BaseAcceleration, Damping, Load, Loading, NodalDamping, Pressure};
 pub use model::{MeshFile, Model, Origin, Rigid};
-pub use node::{Body, DIRECTIONS, Mass, Node, Shape};
+pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Output};
 pub use part::{
     Bar, Beam, BeamElement, Contact, Drawing, Link, LinkKind, Part, PartKind, PartType, Shell, ShellElement,

@@ -1,6 +1,8 @@
 //! Nodes, and what gives them mass: rigid bodies and point masses.
 
 use crate::math::{Mat3, Vec3};
+use crate::solids::SolidShape;
+use std::sync::Arc;
 
 /// Words for the six directions of a node.
 pub const DIRECTIONS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
@@ -29,32 +31,7 @@ pub struct Body {
     /// About the centre, body axes = global axes at t = 0.
     pub inertia: Mat3,
     /// For drawing: what the deck said, or the cuboid of the same inertia.
-    pub shape: Shape,
-}
-
-/// Body-fixed shape around the centre of mass; axes of the body.
-#[derive(Debug, Clone)]
-pub enum Shape {
-    /// Full edge lengths along `axes` (columns: the shape's axes in body components).
-    Box {
-        size: [f64; 3],
-        axes: Mat3,
-    },
-    Sphere {
-        radius: f64,
-    },
-    /// Along `axis`; `inner_radius` 0 for a solid cylinder.
-    Cylinder {
-        radius: f64,
-        inner_radius: f64,
-        length: f64,
-        axis: Vec3,
-    },
-    /// Faces of three or four corners, lines of two, as indices into points about the centre of mass.
-    Faces {
-        points: Vec<Vec3>,
-        faces: Vec<Vec<usize>>,
-    },
+    pub shape: Arc<dyn SolidShape>,
 }
 
 /// A point mass (with optional rotary inertia, global axes at t = 0).

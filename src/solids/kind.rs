@@ -1,0 +1,38 @@
+//! What a solid says of itself.
+
+use super::outline::Outline;
+use crate::math::{Mat3, Vec3};
+use crate::words::kinds::{Given, Kind};
+use std::fmt;
+use std::sync::Arc;
+
+/// A solid that the deck can name, and what its keys give; `None` where a key is wrong.
+pub type SolidKind = Kind<fn(&mut Given) -> Option<Solid>>;
+
+/// A homogeneous solid.
+#[derive(Debug, Clone)]
+pub struct Solid {
+    pub shape: Arc<dyn SolidShape>,
+    /// About the centre, per unit of mass.
+    pub inertia: Mat3,
+    pub volume: f64,
+}
+
+/// What is drawn of a body and where it touches others: points about the centre of mass in body axes.
+pub trait SolidShape: fmt::Debug + Send + Sync {
+    fn outline(&self) -> Outline;
+
+    /// `between`: how many points are asked for between corners or rims.
+    fn touching(&self, between: usize) -> Touching;
+}
+
+/// Where a body touches a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Touching {
+    /// At so much from its centre.
+    Ball(f64),
+    /// At these points.
+    Points(Vec<Vec3>),
+    /// At the nodes of the elements that make it up.
+    Nodes,
+}

@@ -1,0 +1,26 @@
+//! Solids that rigid bodies may be: shape → volume and inertia, how it is drawn, and where it touches.
+//!
+//! A solid lies about its centre of mass, in axes of the body, which are global at t = 0. One more is a file of its own and an
+//! entry of [`SOLIDS`].
+
+pub mod cuboid;
+pub mod cylinder;
+pub mod element_faces;
+pub mod hollow;
+pub mod kind;
+pub mod outline;
+pub mod sphere;
+pub mod tube;
+
+pub use kind::{Solid, SolidKind, SolidShape, Touching};
+
+use crate::math::Mat3;
+use std::sync::Arc;
+
+/// In the order of the reference.
+pub static SOLIDS: [&SolidKind; 4] = [&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND];
+
+/// What a body is drawn as of which the deck gives no shape: the homogeneous cuboid of its mass and inertia.
+pub fn drawn_by_inertia(mass: f64, inertia: &Mat3) -> Arc<dyn SolidShape> {
+    Arc::new(cuboid::Cuboid::of_inertia(mass, inertia))
+}
