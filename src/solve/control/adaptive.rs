@@ -1,4 +1,4 @@
-//! Steps that find their own length, by their error or by what is stable: the loop that all of them share.
+//! Adaptive steps, by error or stability: the loop that all such controllers share.
 
 use super::intervals::{CoverInterval, Interval};
 use crate::solve::context::Context;
@@ -10,19 +10,19 @@ use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// What finds the lengths of steps, and leads a stepper by them.
+/// A controller that finds the length of each step, and leads a stepper by it.
 pub trait StepController {
-    /// A run starts from this state, or goes on from it after a jump of the loads.
+    /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
 
-    /// The length of the next step, where `left` is left to where a step must end.
+    /// The length of the next step; `left` is the time to the next event.
     ///
     /// # Errors
     /// There is none.
     fn propose(&mut self, cx: &Context, ws: &mut Workspace, state: &State, left: f64) -> Result<f64, Failure>;
 
-    /// Takes a step to `to`, of which the proposal was `length`; `None` where nothing was taken but the next proposal will be
-    /// better.
+    /// Takes a step to the time `to`, for which the proposal was `length`. Returns `None` where no step was taken but
+    /// the next proposal will be better.
     ///
     /// # Errors
     /// As for [`crate::solve::time_stepper::TimeStepper::step`], and [`Failure::ErrorTooLarge`]; `state` is untouched.
@@ -35,7 +35,7 @@ pub trait StepController {
         length: f64,
     ) -> Result<Option<StepReport>, Failure>;
 
-    /// A step of `dt` failed otherwise than by its error, which has said how long a step may be.
+    /// Notes that a step of `dt` failed otherwise than by its error, which already limits the next length.
     fn cut_back(&mut self, dt: f64);
 }
 
@@ -44,7 +44,7 @@ impl<C: StepController> CoverInterval for C {
         StepController::restart(self, cx, ws, state);
     }
 
-    /// In steps of equal length, ending at its end, as long as nothing asks for another length.
+    /// Covers the interval in equal steps as long as nothing requires another length.
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         let least = march.cx.model.analysis.least_step;
         let mut cuts = 0;

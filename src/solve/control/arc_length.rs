@@ -1,5 +1,6 @@
-//! The march along a path of equilibria by arc length: the first step is one of load and sets the scale, the others are as
-//! long as their iterations allow. Where a step passes something it must end at, the way there is found between its ends.
+//! Control of the arc length along an equilibrium path: the first step is one of load and sets the scale, the others
+//! are as long as their iterations allow. Where a step passes a target that it must end at, the arc to it is found
+//! between the step's ends.
 
 use super::targets::{Quantity, Targets};
 use crate::integrators::load_steps;
@@ -16,45 +17,46 @@ use crate::solve::residual;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// Iterations a step should take, the first being the prediction: more make it too long for what it costs, fewer too short.
-/// Frames of slender beams take a third fewer iterations in all than with five; with eight roofs leave their path.
+/// Desired number of iterations of a step, the first being the prediction: more make it too long for its cost, fewer
+/// too short. Frames of slender beams take a third fewer iterations in all than with five; with eight roofs leave their
+/// path.
 const DESIRED: f64 = 6.0;
-/// A step grows or shrinks from one to the next by at most this.
+/// Largest ratio of a step to the one before, and of the one before to it.
 const CHANGE: f64 = 2.0;
-/// The cosine of the angle between steps beyond which they grow no more.
+/// Cosine of the angle between steps below which they grow no more.
 const STRAIGHT: f64 = 0.8;
-/// The cosine below which a step may have left the path for another, and is tried at half the length; but so many times only: where
-/// material begins to yield a path has kinks, which no step is too short for.
+/// Cosine below which a step may have left the path for another and is tried at half the length; but only so many
+/// times, for where material begins to yield a path has kinks that no step is too short for.
 const BENT: f64 = 0.2;
 const TRIES: usize = 3;
-/// Iterations beyond which the first step is tried at half the load.
+/// Number of iterations beyond which the first step is tried at half the load.
 const HARD: usize = 12;
-/// More steps are no path that anybody wants, unless the deck asks for them.
+/// Largest number of steps of a path, unless the deck asks for another.
 const MOST_STEPS: usize = 100_000;
-/// Landings tried in a step before it is cut: what it passes may lie in another order than between straight lines.
+/// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.
 const LANDINGS: usize = 8;
 
-/// Leads a static analysis along its path.
+/// Leads a static analysis along its equilibrium path.
 pub struct ArcLengthController {
     newton: Newton,
     constraint: ArcLengthConstraint,
     path: ArcLength,
     targets: Targets,
-    /// The time at which loads or prescribed motion begin to change.
+    /// Time at which loads or prescribed motion begin to change.
     begin: f64,
-    /// The length of the first step, once it is known.
+    /// Length of the first step, once it is known.
     unit: Option<f64>,
-    /// The length of the next step over that of the first, and the least.
+    /// Length of the next step over that of the first, and the least such ratio.
     size: f64,
     least: f64,
-    /// Cutbacks before the step at hand, and those of them because it was bent.
+    /// Cutbacks before the step at hand, and those of them because of a sharp bend.
     cuts: usize,
     bent: usize,
-    /// Where the path ended without coming to its `stop`: the displacement asked for.
+    /// The displacement at the end of a path that did not reach its `stop`.
     pub short_of_stop: Option<f64>,
 }
 
-/// An equilibrium that was found: with the target it lies at, if any.
+/// An equilibrium that was found, with the target that it lies at.
 struct Found {
     report: StepReport,
     landed: Option<usize>,
@@ -62,6 +64,7 @@ struct Found {
 }
 
 impl ArcLengthController {
+    /// A controller of the deck's path.
     pub fn new(cx: &Context, ws: &mut Workspace, newton: Newton, path: &ArcLength) -> ArcLengthController {
         ws.matrix.solver.expect_indefinite();
         ArcLengthController {
@@ -79,7 +82,7 @@ impl ArcLengthController {
         }
     }
 
-    /// Loads that do not begin at zero act at once.
+    /// Finds the equilibrium under loads that do not begin at zero, which act at once.
     ///
     /// # Errors
     /// Where no equilibrium is found under them.
@@ -133,7 +136,7 @@ impl ArcLengthController {
     fn find_or_cut(&mut self, march: &mut March) -> Result<Option<Found>, Outcome> {
         let March { cx, ws, state, .. } = march;
         let (to, condition) = match self.unit {
-            // The first step is one of load, and there is none before.
+            // The first step is one of load: there is no arc before it.
             None => (self.begin + self.size * self.path.first, None),
             Some(unit) => (state.time, Some(Condition::Arc(self.size * unit))),
         };
@@ -142,7 +145,7 @@ impl ArcLengthController {
         let may_cut = 0.5 * self.size >= self.least;
         match found {
             Ok(_) if motion.cosine < BENT && self.bent < TRIES && may_cut => self.bent += 1,
-            // Nothing tells yet whether a step of load has left the path, but how hard it was to find.
+            // A first step has no direction to compare with; only its iterations show whether it was too long.
             Ok((ref report, _)) if self.unit.is_none() && report.iterations > HARD && may_cut => {}
             Ok((report, landed)) => return Ok(Some(Found { report, landed, motion })),
             Err(failure) => {
@@ -158,8 +161,8 @@ impl ArcLengthController {
         Ok(None)
     }
 
-    /// Finds the equilibrium at `to`, or as far as the condition says; cut short at the first target that the step passes, which is
-    /// returned.
+    /// Finds the equilibrium at the time `to`, or where the condition holds. The step ends at the first target that it
+    /// passes, which is returned.
     fn find(
         &mut self,
         cx: &Context,
@@ -205,13 +208,13 @@ impl ArcLengthController {
         self.newton.equilibrate(cx, ws, state, stage, to, constraint)
     }
 
-    /// Takes the equilibrium that was found.
+    /// Accepts the equilibrium that was found.
     fn accept(&mut self, march: &mut March, found: &Found) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let to = found.report.to;
         self.targets.pass(cx, ws, state, to, found.landed);
         self.constraint.keep_motion(cx, ws, &found.motion);
-        // A first step may have been cut short where it passed something, even before loads begin.
+        // A first step may have ended early at a target, even before loads begin.
         let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
         let is_one = self.unit.is_some() || to > self.begin;
         if is_one && *self.unit.get_or_insert(found.motion.length * whole) == 0.0 {
@@ -228,7 +231,7 @@ impl ArcLengthController {
         march.notify(&AcceptedStep { dt, report: &found.report, cuts: self.cuts, due, last: ends, passed })
     }
 
-    /// The size of the step after this one, which was not cut short, by how hard it was to find.
+    /// Chooses the size of the next step by the iterations of this one, unless this ended at a target.
     fn choose_size(&mut self, found: &Found) {
         if found.landed.is_none() {
             let mut change = (DESIRED / found.report.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
@@ -241,7 +244,7 @@ impl ArcLengthController {
     }
 }
 
-/// Goes back to a part of the motion that was found, to begin the search for a point on the way.
+/// Shortens the motion that was found to a fraction, from which the search for a point on the way begins.
 fn shorten(cx: &Context, ws: &mut Workspace, state: &State, part: f64) {
     for &node in &cx.independent_nodes {
         ws.increments[node].q *= part;

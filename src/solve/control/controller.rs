@@ -1,4 +1,4 @@
-//! All ways of finding the length of steps, each with the stepper that it leads.
+//! The controllers of the step length, each with the stepper that it leads.
 
 use super::arc_length::ArcLengthController;
 use super::embedded_error::EmbeddedErrorController;
@@ -15,18 +15,23 @@ use crate::solve::start;
 use crate::solve::time_stepper::TimeStepper;
 use crate::solve::workspace::Workspace;
 
-/// What leads a run from 0 to its end: see [`StepLength`].
+/// The controller of a run, one variant for each way of [`StepLength`].
 pub enum Controller<'a> {
+    /// Steps of given length.
     Fixed(FixedController<'a>),
-    /// By the error of implicit steps, estimated from the motion.
+    /// Steps by the error of implicit steps, estimated from the motion.
     ErrorControlled(Box<ErrorController<'a>>),
-    /// By the error that embedded Runge-Kutta schemes tell.
+    /// Steps by the error estimate of embedded Runge-Kutta schemes.
     EmbeddedError(EmbeddedErrorController),
+    /// Steps by the critical time step of central differences.
     StabilityLimited(StabilityController),
+    /// Steps along an equilibrium path.
     ArcLength(Box<ArcLengthController>),
 }
 
 impl<'a> Controller<'a> {
+    /// The controller that the deck asks for, with its stepper.
+    ///
     /// # Errors
     /// There is no memory for the solver.
     pub fn new(cx: &Context<'a>, ws: &mut Workspace) -> Result<Self, TooLarge> {
@@ -65,7 +70,7 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// Where a path ended that never came to its `stop`: the displacement asked for.
+    /// The displacement at the end of a path that did not reach its `stop`.
     pub fn short_of_stop(&self) -> Option<f64> {
         match self {
             Controller::ArcLength(controller) => controller.short_of_stop,
@@ -74,7 +79,7 @@ impl<'a> Controller<'a> {
     }
 }
 
-/// Covers one interval after the other, and goes on after a jump of the loads from what it makes of the accelerations.
+/// Covers one interval after the other; after a jump of the loads with the accelerations that the jump leaves.
 fn through_intervals(controller: &mut impl CoverInterval, march: &mut March) -> Result<(), Outcome> {
     controller.restart(march.cx, march.ws, march.state);
     march.notify_start()?;

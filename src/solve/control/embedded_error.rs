@@ -1,4 +1,4 @@
-//! Steps of Runge-Kutta schemes by their error, which their embedded schemes tell.
+//! Steps of Runge-Kutta schemes by the error estimate of their embedded schemes.
 
 use super::adaptive::StepController;
 use crate::solve::context::Context;
@@ -9,30 +9,31 @@ use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// The part of a length that would just do.
+/// Safety factor on the length that would just meet the tolerance.
 const SAFETY: f64 = 0.9;
-/// A step is at least so much of the one before it, and at most so many times as long.
+/// Least and largest ratio of a step to the one before.
 const GROWTH: [f64; 2] = [0.2, 5.0];
-/// Motion at the largest velocity for this part of the run counts as displacement: at the start there is none.
+/// The largest velocity times this fraction of the run counts as displacement, for at the start there is none.
 const GLANCE: f64 = 1e-3;
 
 /// Leads a Runge-Kutta scheme by the error of its steps.
 pub struct EmbeddedErrorController {
     stepper: Box<RungeKuttaStepper>,
-    /// The error of the displacements that the whole run is allowed, relative to the largest.
+    /// Error of displacements allowed for the whole run, relative to the largest displacement.
     tolerance: f64,
-    /// The length of the next step.
+    /// Length of the next step.
     next: f64,
-    /// The largest displacement and rotation so far.
+    /// Largest displacement and rotation so far.
     motion: Size,
 }
 
 impl EmbeddedErrorController {
+    /// A controller with this tolerance and first step.
     pub fn new(stepper: Box<RungeKuttaStepper>, tolerance: f64, first: f64) -> EmbeddedErrorController {
         EmbeddedErrorController { stepper, tolerance, next: first, motion: Size::default() }
     }
 
-    /// Notes how long the step after one of `dt` may be, whose trial motion is at hand. Returns the largest motion with it.
+    /// Judges the trial motion of a step of `dt` and chooses the next length. Returns the largest motion including it.
     ///
     /// # Errors
     /// [`Failure::ErrorTooLarge`] where this one was too long.
@@ -53,7 +54,7 @@ impl EmbeddedErrorController {
         let error = self.stepper.error(cx, dt);
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
         let error = part(error.translation, translation).max(part(error.rotation, rotation));
-        // Errors of steps add up: each may take the part of the allowance that its length is of the run.
+        // Errors of steps add up: each may use the share of the tolerance that its length has of the run.
         let ratio = error * end_time / (dt * self.tolerance);
         let [least, most] = GROWTH;
         let factor = (SAFETY * ratio.powf(-1.0 / (self.stepper.error_order() - 1.0))).clamp(least, most);
@@ -70,7 +71,7 @@ impl StepController for EmbeddedErrorController {
     fn restart(&mut self, _: &Context, _: &mut Workspace, _: &mut State) {}
 
     fn propose(&mut self, cx: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
-        // Where a shorter one is asked for, what refuses the least says why.
+        // Where the length is below the least step, the failure of the least step says why.
         Ok(self.next.max(cx.model.analysis.least_step))
     }
 
@@ -85,7 +86,7 @@ impl StepController for EmbeddedErrorController {
         self.stepper.evaluate_stages(cx, ws, state, to)?;
         let motion = self.judge(cx, ws, to - state.time)?;
         let report = self.stepper.accept(cx, ws, state, to)?;
-        // What contacts or joints refuse has not moved: errors are not to be judged by it.
+        // A step refused by contacts or joints has not moved anything, and errors are not relative to it.
         self.motion = motion;
         Ok(Some(report))
     }

@@ -1,12 +1,12 @@
 //! Implicit steps whose length follows an estimate of their error.
 //!
-//! In a step a scheme of second order puts a smooth motion wrong by c Δt³ |q‴|; for Newmark's that is the estimate of
-//! O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Modes that the step does not resolve have large
-//! accelerations and hardly move, so the estimate e is passed through the matrix of the step, (K + w M)⁻¹ w M e, which
-//! leaves what is resolved as it is (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
+//! A scheme of second order makes an error c Δt³ |q‴| in a step of smooth motion; for Newmark's that is the estimate of
+//! O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Modes that the step does not resolve have
+//! large accelerations and hardly move, so the estimate e is passed through the matrix of the step, (K + w M)⁻¹ w M e,
+//! which leaves resolved modes as they are (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
 //!
-//! Errors of steps add up: each step may take the part of the allowance that its length is of the run; what lasts of them decides
-//! (see [`LastingError`]).
+//! Errors of steps add up: each step may use the share of the tolerance that its length has of the run; their lasting
+//! part decides (see [`LastingError`]).
 
 use super::adaptive::StepController;
 use super::error_measure::ErrorMeasure;
@@ -23,53 +23,55 @@ use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// A step that errs by more than so many times what it may, and what steps have erred by lately, is taken back: something has
-/// happened.
+/// A step is taken back where its error exceeds this multiple of its allowance and of recent errors: an event has
+/// occurred.
 const TOO_MUCH: f64 = 4.0;
-/// The part of a length that would just do: for the next step to be no more than that.
+/// Safety factor on the length that would just meet the tolerance.
 const SAFETY: f64 = 0.9;
-/// A new length costs a new matrix: steps grow once they may by as much, by no more than twice.
+/// Steps grow only where they may by this factor, and by no more than two, since a new length costs a new matrix.
 const WORTH: f64 = 1.4;
-/// Errors swing with the motion, and it is their sum that counts, so lengths follow a mean over this part of the run, ...
+/// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run, ...
 const SPAN: f64 = 0.05;
-/// ... in which the last step has this weight at least.
+/// ... in which the last step has at least this weight.
 const WEIGHT: f64 = 0.002;
-/// What remains of the sum of all errors: steady growth to 1 of an oscillation has a root mean square of 1/√6 over a run; a
-/// little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
+/// Fraction of the sum of all errors that remains at the end: steady growth to 1 of an oscillation has a root mean
+/// square of 1/√6 over a run; a little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
 const MEAN: f64 = 0.3;
-/// Steps of a run at least.
+/// Least number of steps of a run.
 const FEWEST: f64 = 50.0;
-/// Lengths, as parts of a run, of the steps that are tried when things begin to move, to see how far they will; the first are short,
-/// for the sake of blows. They have no common measure, lest all of them end where a vibration passes through its middle.
+/// Lengths of the trial steps that measure the motion ahead when motion begins, as fractions of the run; the first are
+/// short, for the sake of impacts. They have no common divisor, lest all of them end where a vibration passes through
+/// zero.
 const TRIALS: [f64; 6] = [1.7e-4, 7.1e-4, 2.9e-3, 0.011, 0.037, 0.053];
-/// An estimate of which two filters leave less is one of motion that the step does not resolve, a period of four steps or less;
-/// unless there is motion beside it of which a third leaves more than their root.
+/// An estimate that two filters reduce below this fraction is that of unresolved motion, with a period of four steps or
+/// less; unless other motion leaves more than the root of it after a third filter.
 const RESOLVED: f64 = 0.3;
-/// Passages that leave nothing of such motion, and most of what has ten steps a period.
+/// Number of filters that remove such motion, and keep most of a mode with ten steps a period.
 const PASSAGES: usize = 8;
-/// Such motion is left to the damping of the scheme while its amplitude is less than so many tolerances: shorter steps would only
-/// draw it out.
+/// Unresolved motion is left to the numerical damping of the scheme while its amplitude is below this multiple of the
+/// tolerance: shorter steps would only prolong it.
 const SLIGHT: f64 = 2.0;
 
-/// Leads an implicit scheme by the error of its steps. Allocated once.
+/// Leads an implicit scheme by the error of its steps. It is allocated once.
 pub struct ErrorController<'a> {
     stepper: Box<Implicit<'a>>,
-    /// The error of the displacements that the whole run is allowed, relative to the largest.
+    /// Error of displacements allowed for the whole run, relative to the largest displacement.
     tolerance: f64,
-    /// c.
+    /// The error constant c of the scheme.
     constant: f64,
-    /// The length of the next step, and the longest there may be.
+    /// Length of the next step, and the longest allowed.
     length: f64,
     longest: f64,
-    /// What a step would err, over what it may, and over its length squared: means over the last steps, of what lasts and of all.
+    /// Error of a step relative to its allowance and to the square of its length: means over the last steps, of the
+    /// lasting errors and of all.
     lasting_intensity: Option<f64>,
     intensity: Option<f64>,
-    /// Largest displacement of a node and turn of a body so far.
+    /// Largest displacement of a node and largest rotation of a body so far.
     motion: Size,
     measure: ErrorMeasure,
-    /// The state at the start of the step, to go back to.
+    /// The state at the start of the step, to which a refused step returns.
     start: State,
-    /// The errors of a step per node, and the same after more passages.
+    /// The errors of a step by node, and the same after more filters.
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
 }
@@ -77,11 +79,12 @@ pub struct ErrorController<'a> {
 /// An estimated error relative to the largest motion.
 struct Estimate {
     error: f64,
-    /// The largest motion with that at the end of the step.
+    /// Largest motion, including that at the end of the step.
     motion: Size,
 }
 
 impl<'a> ErrorController<'a> {
+    /// A controller with this tolerance and first step.
     pub fn new(cx: &Context, stepper: Box<Implicit<'a>>, tolerance: f64, first: f64) -> Self {
         let nodes = cx.model.nodes.len();
         ErrorController {
@@ -100,7 +103,7 @@ impl<'a> ErrorController<'a> {
         }
     }
 
-    /// Decides whether a step of `dt` to `time` stands. The length of the next follows.
+    /// Decides whether a step of `dt` to `time` stands, and chooses the next length.
     fn judge(&mut self, dt: f64, time: f64, end_time: f64, estimate: &Estimate) -> bool {
         let part = dt / end_time;
         let ratio = estimate.error / (self.tolerance * part);
@@ -111,7 +114,7 @@ impl<'a> ErrorController<'a> {
             self.lasting_intensity = Some(all).filter(|all| all.is_finite());
             return false;
         }
-        // Errors so far are the less for what the motion has grown by.
+        // Earlier errors count less by the growth of the motion.
         let (before, after) = (self.measure.whole(self.motion), self.measure.whole(estimate.motion));
         let grown = if before > 0.0 { after / before } else { 1.0 };
         self.motion = estimate.motion;
@@ -130,7 +133,7 @@ impl<'a> ErrorController<'a> {
         true
     }
 
-    /// The length of the step after one of `dt`, where `allowed` is what would just do.
+    /// Chooses the length of the step after one of `dt`, where `allowed` would just meet the tolerance.
     fn choose_length(&mut self, dt: f64, allowed: f64) {
         if allowed < SAFETY * dt {
             self.length = SAFETY * allowed;
@@ -140,8 +143,9 @@ impl<'a> ErrorController<'a> {
         }
     }
 
-    /// Finds how far things move in a few long steps: errors at the start are small against that, whatever they are against the
-    /// motion so far. By the trapezoidal rule, which does not overshoot. The state goes back to the start of the step.
+    /// Measures the motion ahead in a few long steps: errors at the start are small against it, whatever they are
+    /// against the motion so far. The trapezoidal rule is used, which does not overshoot. The state returns to the
+    /// start of the step.
     fn look_ahead(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         state.copy_from(&self.start);
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
@@ -173,14 +177,14 @@ impl<'a> ErrorController<'a> {
             filter(cx, ws, state, mass_weight, errors);
             *error = relative(errors);
         }
-        // What is not resolved comes out of the first passage with about its amplitude.
+        // Unresolved motion leaves the first filter with about its amplitude.
         let [raw, amplitude, mut error] = passed;
         let allowed = self.tolerance * dt / cx.model.analysis.end_time;
         if amplitude < SLIGHT * self.tolerance && error > allowed && error < RESOLVED * raw {
             again.copy_from_slice(errors);
             filter(cx, ws, state, mass_weight, again);
             if relative(again) < RESOLVED.sqrt() * error {
-                // It is left alone; what else there is has to show.
+                // Unresolved motion is left alone; other motion has to show.
                 for _ in 0..PASSAGES {
                     filter(cx, ws, state, mass_weight, again);
                 }
@@ -191,7 +195,7 @@ impl<'a> ErrorController<'a> {
         Estimate { error, motion }
     }
 
-    /// Writes c Δt³ q‴ of the step of length `dt` that led to `state`, per node.
+    /// Writes c Δt³ q‴ of the step of length `dt` that led to `state`, by node.
     fn write_errors(&mut self, cx: &Context, state: &State, dt: f64) {
         let errors = &mut self.errors[0];
         errors.fill(Vec6::zeros());
@@ -199,7 +203,7 @@ impl<'a> ErrorController<'a> {
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
             let (start, end) = (&self.start.nodes[node], &state.nodes[node]);
-            // Of the rotation vector of a step Θ‴ = α̇ − ½ ω×α: a body that spins turns α without changing it.
+            // The rotation vector of a step has Θ‴ = α̇ − ½ ω×α: a spinning body turns α without changing it.
             let across = 0.25 * (start.omega.cross(&start.alpha) + end.omega.cross(&end.alpha));
             let third = state.jerk[node] - stack(&Vec3::zeros(), &across);
             errors[node] = Vec6::from_fn(|i, _| if rows.has(i) { factor * third[i] } else { 0.0 });
@@ -208,7 +212,7 @@ impl<'a> ErrorController<'a> {
     }
 }
 
-/// e ← (K + w M)⁻¹ w M e, per node, with w the weight of the masses in the matrix at hand.
+/// Filters the errors by node, e ← (K + w M)⁻¹ w M e, with w the weight of the mass in the matrix at hand.
 fn filter(cx: &Context, ws: &mut Workspace, state: &State, mass_weight: f64, errors: &mut [Vec6]) {
     cx.system.apply_mass(&state.nodes, errors, &mut ws.forces);
     for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {

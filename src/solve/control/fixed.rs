@@ -12,19 +12,19 @@ use crate::solve::time_stepper::TimeStepper;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// Halvings of a step that are ever tried; the deck's least step may stop earlier.
+/// Largest number of halvings of a step; the deck's least step may stop earlier.
 const DEEPEST: u32 = 40;
-/// The whole of a step, in the smallest of its substeps.
+/// A whole step, in units of the smallest substep.
 const WHOLE: u64 = 1 << DEEPEST;
-/// Substeps in which a step of the deck may be taken, without impacts to resolve and with: beyond that nobody waits for the end.
-/// Without impacts steps in a row that are each cut into more than `MANY` count together.
+/// Largest number of substeps of a step, without contacts and with them. Without contacts, consecutive steps that are
+/// each cut into more than `MANY` substeps count together.
 const MOST_SUBSTEPS: [usize; 2] = [1024, 4096];
 const MANY: usize = 32;
 
 /// Leads any stepper in steps of given length.
 pub struct FixedController<'a> {
     stepper: TimeStepper<'a>,
-    /// Steps in a row that were cut into many substeps, and these.
+    /// Consecutive steps that were cut into many substeps.
     subdivided: SubdividedSteps,
 }
 
@@ -34,29 +34,30 @@ struct SubdividedSteps {
     substeps: usize,
 }
 
-/// A step of the deck on its way. Substeps are halves of halves, so they end where the step ends.
+/// A step of the deck under way. Substeps are halves of halves, so they end where the step ends.
 struct Substeps {
     from: f64,
     to: f64,
-    /// How far the step has come, and the length of the next substep, in parts of [`WHOLE`].
+    /// Time from the start of the step, and the length of the next substep, in parts of [`WHOLE`].
     at: u64,
     length: u64,
-    /// Substeps taken, those of them since one was cut or doubled, and cutbacks before the one at hand.
+    /// Substeps taken, substeps since one was cut or doubled, and cutbacks before the one at hand.
     taken: usize,
     successes: usize,
     cuts: usize,
-    /// Why joints could not be closed in the step as the deck has it: gaps shrink with the step, and say less and less.
+    /// The failure of joints in the step at its full length: gaps shrink with the step and say less and less.
     violated_at_full_length: Option<Failure>,
-    /// Why the last substep was cut.
+    /// The failure that cut the last substep.
     cause: Option<Failure>,
 }
 
 impl<'a> FixedController<'a> {
+    /// A controller that leads this stepper.
     pub fn new(stepper: TimeStepper<'a>) -> Self {
         FixedController { stepper, subdivided: SubdividedSteps::default() }
     }
 
-    /// Takes the k-th step of the interval, in as many substeps as it takes.
+    /// Takes the k-th step of the interval, in as many substeps as it needs.
     fn advance(&mut self, march: &mut March, interval: &Interval, k: usize) -> Result<(), Outcome> {
         let due = k == interval.steps && interval.due;
         let mut step = Substeps::of(march.state.time, interval.time(k));
@@ -106,7 +107,7 @@ impl CoverInterval for FixedController<'_> {
         self.stepper.restart(cx, ws, state);
     }
 
-    /// In its equal steps.
+    /// Covers the interval in its equal steps.
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         for k in 1..=interval.steps {
             self.advance(march, interval, k)?;
@@ -130,7 +131,7 @@ impl Substeps {
         }
     }
 
-    /// Where the next substep ends.
+    /// Time at which the next substep ends.
     fn target(&self) -> f64 {
         match self.at + self.length {
             WHOLE => self.to,
@@ -144,7 +145,7 @@ impl Substeps {
         self.taken += 1;
     }
 
-    /// Shows the substep that was taken; `due`: the end of the step is an output time.
+    /// Shows the substep that was taken; with `due`, the end of the step is an output time.
     fn show(&mut self, march: &mut March, report: &StepReport, dt: f64, due: bool) -> Result<(), Outcome> {
         let ends = self.at == WHOLE;
         let (due, last) = (ends && due, ends && march.is_end(self.to));
@@ -153,7 +154,7 @@ impl Substeps {
         Ok(())
     }
 
-    /// Two substeps were taken and a longer one fits: it is tried.
+    /// Doubles the substep where two were taken and a longer one fits.
     fn grow(&mut self) {
         if self.successes >= 2 && self.length < WHOLE && self.at.is_multiple_of(2 * self.length) {
             self.length *= 2;
@@ -161,13 +162,13 @@ impl Substeps {
         }
     }
 
-    /// After a substep of `dt` that failed.
+    /// Halves the substep after one of `dt` that failed.
     ///
     /// # Errors
     /// The failure, where no shorter substep is left or none would help.
     fn cut_back(&mut self, march: &March, failure: Failure, dt: f64) -> Result<(), Outcome> {
         let analysis = &march.cx.model.analysis;
-        // A structure that nothing restrains is not helped by smaller loads; one that yields may be.
+        // Smaller loads do not help an unrestrained structure; they may help one that yields.
         let unrestrained = analysis.kind == AnalysisKind::Static
             && march.cx.system.history == 0
             && march.state.time == 0.0

@@ -7,9 +7,9 @@ use crate::solve::outcome::Outcome;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// What leads a stepper through time.
+/// A controller that covers the time interval by interval.
 pub trait CoverInterval {
-    /// A run starts from this state, or goes on from it after a jump of the loads.
+    /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
 
     /// Takes the state of a run to the end of an interval.
@@ -19,26 +19,30 @@ pub trait CoverInterval {
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome>;
 }
 
-/// An interval that is covered in equal steps.
+/// An interval of time without events inside. It is covered in equal steps where their length is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
+    /// Time of its beginning.
     pub from: f64,
+    /// Time of its end.
     pub to: f64,
+    /// Number of steps of the given length.
     pub steps: usize,
-    /// Its end is an output time.
+    /// True where its end is an output time.
     pub due: bool,
-    /// A load jumps at its end.
+    /// True where a load jumps at its end.
     pub jump: bool,
 }
 
 impl Interval {
-    /// End of the k-th step, k = 1..=steps; the last lands on `to` exactly.
+    /// The end of the k-th step, k = 1..=steps; the last is `to` exactly.
     pub fn time(&self, k: usize) -> f64 {
         if k == self.steps { self.to } else { self.from + (self.to - self.from) * (k as f64 / self.steps as f64) }
     }
 }
 
-/// Cuts [0, end] at output times, at the times of expectations and where loads jump, each interval into steps no longer than the deck's.
+/// Divides [0, end] at output times, at the times of expectations and where loads jump, each interval into steps no
+/// longer than the deck's.
 pub fn intervals(model: &Model) -> Vec<Interval> {
     let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
@@ -62,7 +66,7 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
         out.extend(model.loading.amplitudes[amplitude].jumps().iter().map(|jump| ending(jump.time, false, true)));
     }
     if model.analysis.step_length.is_automatic() {
-        // Nothing that begins and ends within a step may be missed, and errors are those of smooth motion.
+        // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion.
         let motions =
             model.constraints.restraints.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
@@ -84,7 +88,7 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
     }
     let mut from = 0.0;
     for interval in &mut out {
-        // A rounding error beyond a whole number of steps asks for no extra step.
+        // A rounding error beyond a whole number of steps needs no extra step.
         let steps = (interval.to - from) / dt - 1e-9 * (interval.to / dt).max(1.0);
         interval.steps = steps.ceil().max(1.0) as usize;
         interval.from = from;
@@ -93,7 +97,8 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
     out
 }
 
-/// k times the interval, rounded once where the interval is one over a whole number: 0.009, not 0.009000000000000001.
+/// The k-th multiple of the output interval, rounded once where the interval is one over a whole number: 0.009, not
+/// 0.009000000000000001.
 fn multiple(k: usize, interval: f64) -> f64 {
     let per_unit = (1.0 / interval).round();
     if (per_unit * interval - 1.0).abs() < 4.0 * f64::EPSILON { k as f64 / per_unit } else { k as f64 * interval }

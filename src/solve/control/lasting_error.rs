@@ -1,32 +1,34 @@
-//! What lasts of the errors of steps. A vibration of amplitude A goes out of phase, wrong by φ A with φ = c ω³ Δt² T at the end of a
-//! run of length T, but never by much more than A. Butterworth's filter of third order over the time, with its corner at φ = 1, makes
-//! that φ A/√(1 + φ²): what is long out of phase counts by its amplitude.
+//! The lasting part of the errors of steps. A vibration of amplitude A goes out of phase, with the error φ A, φ = c ω³
+//! Δt² T, at the end of a run of length T, but never by much more than A. Butterworth's filter of third order over the
+//! time, with its corner at φ = 1, makes that φ A/√(1 + φ²): modes long out of phase count by their amplitude.
 
 use crate::math::Vec6;
 
-/// The filtered errors, per node and over c Δt³: a filter of one time constant and one of second order. Allocated once.
+/// The filtered errors by node, over c Δt³: a filter of first order and one of second order in a row. It is allocated
+/// once.
 pub struct LastingError {
     first: Vec<Vec6>,
     value: Vec<Vec6>,
-    /// The rate of the value, times the time constant.
+    /// Rate of the value, times the time constant.
     rate: Vec<Vec6>,
-    /// The time constant of the last step; `None` before the first.
+    /// Time constant of the last step; `None` before the first.
     tau: Option<f64>,
 }
 
 impl LastingError {
+    /// A filter at rest for this number of nodes.
     pub fn new(nodes: usize) -> LastingError {
         let zeros = vec![Vec6::zeros(); nodes];
         LastingError { first: zeros.clone(), value: zeros.clone(), rate: zeros, tau: None }
     }
 
-    /// What lasts, over c Δt³, by node.
+    /// The lasting errors over c Δt³, by node.
     pub fn value(&self) -> &[Vec6] {
         &self.value
     }
 
-    /// Takes in the errors of a step of length `dt`, `per` c Δt³; implicit Euler for
-    /// τ y₁' + y₁ = e and τ² y'' + τ y' + y = y₁.
+    /// Adds the errors of a step of length `dt`, over `per` c Δt³, by implicit Euler for τ y₁' + y₁ = e and τ² y'' + τ
+    /// y' + y = y₁.
     pub fn update(&mut self, errors: &[Vec6], per: f64, dt: f64, tau: f64) {
         let (s, stretched) = (dt / tau, self.tau.map(|before| tau / before));
         self.tau = Some(tau);

@@ -1,4 +1,4 @@
-//! Steps of central differences as long as is stable.
+//! Steps of central differences at a fraction of the critical time step.
 
 use super::adaptive::StepController;
 use crate::solve::context::Context;
@@ -8,19 +8,20 @@ use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// Steps grow back to what is stable little by little, since each change of the step makes or takes energy.
+/// Largest growth from step to step: growth is slow, since each change of the step generates or dissipates energy.
 const GROWTH: f64 = 1.2;
 
 /// Leads central differences by the critical time step.
 pub struct StabilityController {
     stepper: Box<CentralDifferenceStepper>,
-    /// The part of the critical time step that is taken.
+    /// Fraction of the critical time step that is taken.
     fraction: f64,
-    /// The longest step that the last one allows: a little longer than what went well, half of what did not.
+    /// Longest step after the last one: a little longer than a success, half of a failure.
     longest: f64,
 }
 
 impl StabilityController {
+    /// A controller at this fraction of the critical time step.
     pub fn new(stepper: Box<CentralDifferenceStepper>, fraction: f64) -> StabilityController {
         StabilityController { stepper, fraction, longest: f64::INFINITY }
     }
@@ -33,7 +34,7 @@ impl StepController for StabilityController {
 
     fn propose(&mut self, cx: &Context, ws: &mut Workspace, state: &State, left: f64) -> Result<f64, Failure> {
         let stable = self.stepper.propose(cx, ws, state, left, self.fraction)?;
-        // Where a shorter one is asked for, what refuses the least says why.
+        // Where the limit is below the least step, the failure of the least step says why.
         Ok(stable.min(self.longest).max(cx.model.analysis.least_step))
     }
 

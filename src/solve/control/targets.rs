@@ -1,35 +1,38 @@
-//! The times and displacements that a path must pass through at the end of a step.
+//! The times and displacements at which a step along a path must end.
 
 use crate::model::{ArcLength, Model, Passage, When};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// Something a step must end at.
+/// A time or displacement at which a step must end.
 pub struct Target {
+    /// The quantity.
     pub quantity: Quantity,
+    /// Its value.
     pub value: f64,
-    /// Passages to come, of which the last counts.
+    /// Number of passages still to come; the last of them counts.
     passes: usize,
     /// Side of the value on which the path is: −1, 1, or 0 where it has not left it.
     side: f64,
-    /// The path ends there.
+    /// True where the path ends at it.
     pub ends: bool,
-    /// The expectations that are due there, by their place in the model's list.
+    /// Indices, in the model's list, of the expectations due at it.
     pub expects: Vec<usize>,
 }
 
-/// What must come to a value.
+/// The quantity that reaches a value.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Quantity {
     Time,
     Displacement { node: usize, dof: usize },
 }
 
-/// All of them.
+/// All targets of a path.
 pub struct Targets(pub Vec<Target>);
 
 impl Targets {
+    /// The end of the path, its `stop`, and the expectations along it.
     pub fn new(model: &Model, path: &ArcLength) -> Self {
         let mut all = Targets(Vec::new());
         all.add(Quantity::Time, model.analysis.end_time, 1).ends = true;
@@ -49,7 +52,7 @@ impl Targets {
         all
     }
 
-    /// The target of this description, each kept once.
+    /// Adds a target, unless the same one is there already.
     fn add(&mut self, quantity: Quantity, value: f64, passes: usize) -> &mut Target {
         let same = |t: &Target| t.quantity == quantity && t.value == value && t.passes == passes;
         let index = self.0.iter().position(same).unwrap_or_else(|| {
@@ -59,7 +62,7 @@ impl Targets {
         &mut self.0[index]
     }
 
-    /// Notes on which side of the targets the path starts.
+    /// Notes the sides of the targets on which the path starts.
     pub fn start(&mut self, cx: &Context, ws: &Workspace, state: &State) {
         for target in &mut self.0 {
             let (from, _) = target.ends_of_motion(cx, ws, state, state.time);
@@ -67,7 +70,8 @@ impl Targets {
         }
     }
 
-    /// The target that the motion found from `state` passes first, but for one, and at which part of the motion.
+    /// The target that the motion found from `state` passes first, except one, and the fraction of the motion at which
+    /// it does.
     pub fn first_passed(
         &self,
         cx: &Context,
@@ -87,7 +91,7 @@ impl Targets {
         passed.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Counts what the accepted motion passes; `landed` is passed by definition, whatever rounding says.
+    /// Counts the targets that the accepted motion passes. It passes `landed` by definition, whatever rounding says.
     pub fn pass(&mut self, cx: &Context, ws: &Workspace, state: &State, to: f64, landed: Option<usize>) {
         for (i, target) in self.0.iter_mut().enumerate() {
             let (_, end) = target.ends_of_motion(cx, ws, state, to);
@@ -103,7 +107,7 @@ impl Targets {
         }
     }
 
-    /// Whether the target that a step landed on is this one.
+    /// True where a step ended at this target.
     pub fn is_stop(&self, stop: &Passage, landed: Option<usize>) -> bool {
         let quantity = Quantity::Displacement { node: stop.node, dof: stop.dof };
         landed.is_some_and(|i| self.0[i].ends && self.0[i].quantity == quantity)
@@ -111,7 +115,7 @@ impl Targets {
 }
 
 impl Target {
-    /// The quantity at the ends of the motion found from `state` to the time `to`.
+    /// The quantity at both ends of the motion found from `state` to the time `to`.
     pub fn ends_of_motion(&self, cx: &Context, ws: &Workspace, state: &State, to: f64) -> (f64, f64) {
         match self.quantity {
             Quantity::Time => (state.time, to),

@@ -1,6 +1,6 @@
-//! What explicit schemes share: accelerations from the residual with the mass alone. Where every moving node is a rigid body of its
-//! own nothing is factorised but the small system of the joints; masses that belong together are formed and factorised at every
-//! evaluation.
+//! Accelerations from the residual with the mass alone, for all explicit schemes. Where every moving node is a rigid
+//! body of its own, nothing is factorized but the small system of the joints; a coupled mass matrix is formed and
+//! factorized at every evaluation.
 
 use crate::elements::Moduli;
 use crate::integrators::Coefficients;
@@ -17,17 +17,17 @@ use crate::system::assembly::Weights;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::{Masses, Motion};
 
-/// The masses of a scene and the accelerations that forces cause on them. Allocated once.
+/// The masses of a scene and the accelerations that forces cause. It is allocated once.
 pub struct Accelerations {
-    /// Where each moving node is a rigid body of its own.
+    /// The block-diagonal masses, where each moving node is a rigid body of its own.
     pub masses: Option<Masses>,
-    /// Where there are such masses and joints.
-    pub ties: Option<ConstraintSchur>,
-    /// Accelerations beyond those of the trial motion, by node.
+    /// The constraint equations of joints between such bodies.
+    pub schur: Option<ConstraintSchur>,
+    /// The difference between the accelerations found and those of the trial motion, by node.
     pub missing: Vec<Vec6>,
-    /// Where masses belong together: motions that the mass is applied to, by node.
+    /// Small motions by node that a coupled mass matrix is applied to.
     pub operand: Vec<Vec6>,
-    /// Where masses belong together and there are joints.
+    /// Projection onto the constraints with a coupled mass matrix.
     projection: Option<ConstraintProjection>,
 }
 
@@ -36,10 +36,10 @@ impl Accelerations {
     /// There is no memory for the projection onto joints.
     pub fn new(cx: &Context) -> Result<Accelerations, TooLarge> {
         let nodes = cx.model.nodes.len();
-        let (masses, ties) = match cx.plan.masses(cx.system) {
+        let (masses, schur) = match cx.plan.masses(cx.system) {
             Some(masses) if cx.system.joints.is_empty() => (Some(masses), None),
             Some(masses) => match ConstraintSchur::new(cx.system, &masses, cx.plan.has_redundant_constraints()) {
-                Some(ties) => (Some(masses), Some(ties)),
+                Some(schur) => (Some(masses), Some(schur)),
                 None => (None, None),
             },
             None => (None, None),
@@ -47,23 +47,25 @@ impl Accelerations {
         let coupled = masses.is_none();
         Ok(Accelerations {
             masses,
-            ties,
+            schur,
             missing: vec![Vec6::zeros(); nodes],
             operand: vec![Vec6::zeros(); if coupled { nodes } else { 0 }],
             projection: if coupled { ConstraintProjection::for_motion(cx)? } else { None },
         })
     }
 
-    /// Masses of several nodes belong together.
+    /// True where the mass matrix couples several nodes.
     pub fn are_coupled(&self) -> bool {
         self.masses.is_none()
     }
 
+    /// The projection onto the constraints with a coupled mass matrix.
     pub fn projection(&mut self) -> Option<&mut ConstraintProjection> {
         self.projection.as_mut()
     }
 
-    /// Puts the trial motion onto the joints with the matrix of masses and joints, where there are such joints.
+    /// Projects the trial motion onto the constraints with the matrix of masses and joints, where the masses are
+    /// coupled.
     ///
     /// # Errors
     /// [`Failure::ConstraintsViolated`] where they cannot be closed from there.
@@ -78,37 +80,38 @@ impl Accelerations {
         self.projection.as_mut().map_or(Ok(()), |projection| projection.project(cx, ws, state, scheme, dt))
     }
 
-    /// From the forces on the trial motion at hand, which includes some accelerations: writes what is missing of them. With
-    /// `joints`, the accelerations that these allow, and what they carry; without, the part that does not open them.
+    /// Solves for the accelerations with the forces on the trial motion at hand, which includes some accelerations, and
+    /// writes the difference. With `joints`, these are the accelerations that the joints allow, and their multipliers;
+    /// without, the part that does not open them.
     ///
     /// # Errors
     /// [`Failure::Singular`] or [`Failure::ConstraintsViolated`] where masses or joints leave no answer.
     pub fn solve(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
         ws.solves += 1;
-        let Accelerations { masses: Some(masses), ties, missing, .. } = self else {
+        let Accelerations { masses: Some(masses), schur, missing, .. } = self else {
             return self.solve_coupled(cx, ws, state, joints);
         };
         masses.accelerate(&ws.trial, &ws.forces.on_nodes, missing);
-        if let Some(ties) = ties {
+        if let Some(schur) = schur {
             if joints {
-                cx.system.gaps(&ws.trial, 2, &mut ties.x);
+                cx.system.gaps(&ws.trial, 2, &mut schur.x);
             } else {
-                ties.x.fill(0.0);
+                schur.x.fill(0.0);
             }
-            if !ties.form(cx.system, masses, &ws.trial) {
+            if !schur.form(cx.system, masses, &ws.trial) {
                 return Err(constraints_violated(cx, ws));
             }
-            ties.add_rates(missing);
-            ties.solve();
-            ties.subtract_response(missing);
+            schur.add_rates(missing);
+            schur.solve();
+            schur.subtract_response(missing);
             if joints {
-                ws.forces.multipliers.values.copy_from_slice(&ties.x);
+                ws.forces.multipliers.values.copy_from_slice(&schur.x);
             }
         }
         Ok(())
     }
 
-    /// The same with the matrix of masses and joints.
+    /// Solves with the coupled matrix of masses and joints.
     fn solve_coupled(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
         factor_mass(cx, ws, state)?;
         for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
@@ -117,13 +120,13 @@ impl Accelerations {
         for &node in &cx.independent_nodes {
             self.missing[node] = Vec6::zeros();
         }
-        // Equations that share what they carry leave a part of it to be found: once more is enough.
+        // Redundant equations leave a fraction of the gaps: a second solution is enough.
         for _ in 0..if cx.system.joints.is_empty() { 1 } else { 2 } {
             self.add_solution(cx, ws, joints);
         }
-        // Where a node has some directions of its own, the others go with its master.
+        // Degrees of freedom of a partly dependent node move with its master.
         self.visit_dependent_directions(cx, ws, |missing, now| *missing = now);
-        // The trial motion is left as it was given.
+        // The trial motion is restored.
         for &node in &cx.independent_nodes {
             ws.trial[node].a -= linear(&self.missing[node]);
             ws.trial[node].alpha -= angular(&self.missing[node]);
@@ -133,7 +136,8 @@ impl Accelerations {
         Ok(())
     }
 
-    /// Solves for what the forces in `r` and the joints ask for, and adds it to the trial motion and to what is missing.
+    /// Solves with the forces in `r` and the gaps of the joints, and adds the solution to the trial motion and to the
+    /// difference.
     fn add_solution(&mut self, cx: &Context, ws: &mut Workspace, joints: bool) {
         let multipliers = &mut ws.forces.multipliers;
         if joints {
@@ -156,7 +160,8 @@ impl Accelerations {
         update_dependent_accelerations(cx, ws);
     }
 
-    /// Goes through the directions that depend on a master: what is missing there, beside the acceleration of the trial motion.
+    /// Visits the dependent degrees of freedom of partly dependent nodes: the difference there, and the acceleration of
+    /// the trial motion.
     fn visit_dependent_directions(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
         for dependent in &cx.system.rigid_links {
             let (missing, node) = (&mut self.missing[dependent.node], &ws.trial[dependent.node]);
@@ -165,9 +170,9 @@ impl Accelerations {
         }
     }
 
-    /// Writes the forces on prescribed directions once the accelerations at hand are taken: what is left of the residual.
+    /// Writes the residual on prescribed degrees of freedom at the accelerations found, whose negative is the reaction.
     pub fn update_reactions(&self, cx: &Context, ws: &mut Workspace, state: &State, ahead: f64) {
-        if let (Some(masses), None) = (&self.masses, &self.ties) {
+        if let (Some(masses), None) = (&self.masses, &self.schur) {
             for block in &masses.blocks {
                 let (node, F) = (&ws.trial[block.node], &mut ws.forces.on_nodes[block.node]);
                 block.subtract_inertia(node, &self.missing[block.node], F);
@@ -183,14 +188,14 @@ impl Accelerations {
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 
-    /// True when what was found is made of numbers.
+    /// True where the accelerations and positions found are numbers.
     pub fn are_finite(&self, cx: &Context, ws: &Workspace) -> bool {
         let sum = |&node: &usize| self.missing[node].sum() + ws.trial[node].x.sum();
         cx.independent_nodes.iter().map(sum).sum::<f64>().is_finite()
     }
 }
 
-/// Forms and factorises the matrix of masses and joints in the trial motion.
+/// Forms and factorizes the matrix of masses and joints in the trial motion.
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
     let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
     let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
@@ -219,11 +224,11 @@ fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
     }
 }
 
-/// The increment at the end of a step that leads to these velocities and accelerations.
+/// Writes the rates of the increment at the end of a step that give these velocities and accelerations.
 pub fn set_rates(increment: &mut Increment, motion: &Motion) {
     let theta = angular(&increment.q);
     let d = inverse_tangent(&theta, &motion.omega);
-    // What Ṫ Θ̇ makes of it.
+    // The part Ṫ Θ̇ of the acceleration is that of the rotation vector itself.
     let (_, own) = rates(&theta, &d, &Vec3::zeros());
     increment.d = stack(&motion.v, &d);
     increment.dd = stack(&motion.a, &inverse_tangent(&theta, &(motion.alpha - own)));

@@ -1,4 +1,4 @@
-//! A step by central differences.
+//! A step by central differences (velocity Verlet).
 
 use super::accelerations::{Accelerations, set_rates};
 use super::critical_step::CriticalStep;
@@ -18,15 +18,17 @@ use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, Node, State, Work};
 use crate::system::masses::{CORRECTIONS, Motion};
 
-/// Central differences, with what they need beside the workspace. Allocated once.
+/// Central differences, with what they need besides the workspace. It is allocated once.
 pub struct CentralDifferenceStepper {
     accelerations: Accelerations,
     critical: CriticalStep,
-    /// Steps find their own length: what a failure advises depends on it.
+    /// True where steps find their own length; the advice of a failure depends on it.
     automatic: bool,
 }
 
 impl CentralDifferenceStepper {
+    /// A stepper for central differences.
+    ///
     /// # Errors
     /// There is no memory for the projection onto joints.
     pub fn new(cx: &Context) -> Result<Self, TooLarge> {
@@ -37,15 +39,16 @@ impl CentralDifferenceStepper {
         })
     }
 
-    /// A run starts from this state, or goes on from it after a jump of the loads: the energies at steps are offset from here.
+    /// Prepares for a run from this state, or for going on from it after a jump of the loads: the offset of energies
+    /// starts here.
     pub fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         state.work.accelerations = aMa_of_nodes(cx, ws, &mut self.accelerations, &state.nodes);
         state.work.step = 0.0;
-        // What accelerations were before tells nothing of a mode.
+        // Earlier accelerations say nothing of a growing mode.
         state.jerk.fill(Vec6::zeros());
     }
 
-    /// The critical time step of the state and how fast bodies turn, as the longest step that either allows; see
+    /// The step limited by the critical time step of the state and by the rotation of bodies; see
     /// [`CriticalStep::propose`].
     ///
     /// # Errors
@@ -61,7 +64,7 @@ impl CentralDifferenceStepper {
         self.critical.propose(cx, ws, &mut self.accelerations, state, left, fraction)
     }
 
-    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -96,7 +99,7 @@ impl CentralDifferenceStepper {
         let (mut aMa, suspicious) = self.suspect(cx, ws, state, dt);
         if suspicious {
             self.look_closer(cx, ws, state, dt)?;
-            // It only looked so, and looking closer has left nothing of what was found.
+            // The scene has not stiffened after all; measuring has overwritten what was found.
             evaluations += self.find_accelerations(cx, ws, state, to, &scheme)?;
             aMa = aMa_of_trial(cx, ws, &mut self.accelerations);
         }
@@ -125,8 +128,8 @@ impl CentralDifferenceStepper {
         }
     }
 
-    /// Finds the trial motion at the end of the step, with predicted velocities, and what is missing of its accelerations; returns
-    /// how many residuals that took.
+    /// Finds the trial motion at the end of the step, with predicted velocities, and the difference of its
+    /// accelerations. Returns the number of residuals evaluated.
     fn find_accelerations(
         &mut self,
         cx: &Context,
@@ -138,13 +141,13 @@ impl CentralDifferenceStepper {
         let dt = to - state.time;
         excite(cx, ws, state.time, to, 1.0);
         predict(cx, ws, state, scheme);
-        if self.accelerations.ties.is_some() {
+        if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);
         }
         move_trial(cx, ws, state, &Stage::from(scheme));
         let mut evaluations = 0;
-        // Where masses belong together: gyroscopic moments of bodies would feed the motion if they met the predicted velocities
-        // alone.
+        // Gyroscopic moments of bodies at predicted velocities would feed energy into the motion where masses are
+        // coupled.
         let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
         loop {
             let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
@@ -165,7 +168,8 @@ impl CentralDifferenceStepper {
         if self.accelerations.are_finite(cx, ws) { Ok(evaluations) } else { Err(residual::not_finite(cx, ws)) }
     }
 
-    /// aᵀMa of the accelerations found, and whether they or the motion tell that the scene has become stiffer than is known.
+    /// The product aᵀMa of the accelerations found, and whether these or the motion suggest that the scene has
+    /// stiffened.
     fn suspect(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> (f64, bool) {
         let accelerations = &mut self.accelerations;
         let stiffened = resistance(cx, ws, accelerations, state, dt) > self.critical.known();
@@ -174,7 +178,7 @@ impl CentralDifferenceStepper {
         (aMa, suspicious)
     }
 
-    /// Measures the critical step in the trial motion, from what accelerations have changed by.
+    /// Measures the critical time step in the trial motion, from the change of the accelerations.
     ///
     /// # Errors
     /// [`Failure::Unstable`] where the step is too long for it.
@@ -186,12 +190,12 @@ impl CentralDifferenceStepper {
         self.check_stability(dt)
     }
 
-    /// Writes the rates at the end of the step: those of bodies that turn freely by their angular momentum, which follows from all
-    /// that acts on them.
+    /// Writes the velocities and accelerations at the end of the step; those of freely turning bodies from their
+    /// angular momentum.
     fn set_end_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) {
-        let Accelerations { masses, ties, missing, .. } = &self.accelerations;
-        if let Some(ties) = ties {
-            ties.subtract_forces(&mut ws.forces.on_nodes);
+        let Accelerations { masses, schur, missing, .. } = &self.accelerations;
+        if let Some(schur) = schur {
+            schur.subtract_forces(&mut ws.forces.on_nodes);
         }
         for &node in &cx.independent_nodes {
             let (start, now) = (&state.nodes[node], &ws.trial[node]);
@@ -203,7 +207,7 @@ impl CentralDifferenceStepper {
         }
     }
 
-    /// Evaluates the forces and updates the history of the material in the trial motion.
+    /// Evaluates the forces and updates the history variables in the trial motion.
     fn account(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Account {
         let mut account = Account { damping_power: Some(0.0), ..Account::default() };
         if cx.wants_forces {
@@ -221,8 +225,8 @@ impl CentralDifferenceStepper {
     }
 }
 
-/// Central differences keep energies that are ⅛ Δt² aᵀMa less than those at steps, each with the step before it: what a change of
-/// the step makes or takes does not count as an offset.
+/// Updates the offset of the energy. Central differences conserve energies that are ⅛ Δt² aᵀMa less than those at
+/// steps, each with the step before it: what a change of the step generates or dissipates is no offset.
 fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
     let Work { verlet_energy_offset, accelerations: before, step, .. } = work;
     let last = if *step > 0.0 { *step } else { dt };
@@ -230,7 +234,8 @@ fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
     (*before, *step) = (aMa, dt);
 }
 
-/// Rates at the end of a step by the mean of the accelerations, with what is missing of them in the trial motion.
+/// The rates at the end of a step by the mean of the accelerations; `missing` is the difference of those of the trial
+/// motion.
 fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> Motion {
     let (a, alpha) = (now.a + linear(missing), now.alpha + angular(missing));
     let old = stack(&start.a, &start.alpha);

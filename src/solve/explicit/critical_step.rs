@@ -1,6 +1,6 @@
-//! The critical time step of central differences: the fastest mode of a scene as it lies, by power iteration on M⁻¹ times
-//! differences of residuals. No matrix is formed. It comes to the limit from above, by a few per cent at most; the stepper looks at
-//! the motion itself besides.
+//! The critical time step of central differences: the fastest mode of a scene at its current configuration, by power
+//! iteration on M⁻¹ times differences of residuals. No matrix is formed. The estimate approaches the limit from above,
+//! by a few per cent at most; the stepper checks the motion itself besides.
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
@@ -15,56 +15,57 @@ use crate::solve::motion::{excite, update_dependent_nodes};
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Increment, Node, State};
 
-/// Iterations at the start, and when the limit is looked at again: a residual each, two where there is damping.
+/// Number of power iterations at the start, and when the limit is measured again: one residual each, two with damping.
 const AT_FIRST: usize = 60;
 const AGAIN: usize = 3;
-/// Steps between two looks: they cost a hundredth of the whole.
+/// Number of steps between two measurements: they cost a hundredth of the whole.
 const STEPS: usize = 400;
-/// Change from one iteration to the next that ends them.
+/// Relative change from one iteration to the next that ends them.
 const SETTLED: f64 = 1e-4;
-/// Steps of a run at least, where little or nothing resists: loads are still to be seen.
+/// Least number of steps of a run, where little or nothing resists: loads must still be resolved.
 const FEWEST: f64 = 50.0;
-/// Radians by which a body turns in a step at most: nothing stiff limits tops and mechanisms, and an error of θ²/24 of the angle, as
-/// central differences have in a swing, is 6.5e-4 in a turn.
+/// Largest rotation of a body in a step, in radians: no stiffness limits tops and mechanisms. The error θ²/24 of the
+/// angle that central differences have in an oscillation is 6.5e-4 in a full turn.
 const TURN: f64 = 0.05;
-/// A limit that is longer by so much is another mode's.
+/// A limit longer by this factor is that of another mode.
 const LONGER: f64 = 1.05;
-/// A limit that is shorter by so much has been cut.
+/// A limit shorter by this factor counts as a cutback.
 const SHORTER: f64 = 0.95;
-/// The motion by which residuals are told apart, over the model's length. Over the length of an element it is a strain, and that must
-/// not make steel yield: at a thousand elements this is one of 2e-6. Positions in two parts leave seven digits of it.
+/// The displacement by which residuals are differenced, over the model's length. Over the length of an element it is a
+/// strain, which must not make steel yield: with a thousand elements it is 2e-6. Positions in two parts leave seven
+/// digits of it.
 const SMALL: f64 = 1e-9;
 
-/// The critical time step as it is known. Allocated once.
+/// The critical time step as it is known. It is allocated once.
 pub struct CriticalStep {
-    /// The longest stable step, when last looked at.
+    /// The longest stable step at the last measurement.
     pub longest: Option<f64>,
     /// The fastest mode so far, by node.
     mode: Vec<Vec6>,
     next: Vec<Vec6>,
-    /// Motion in which it may be looked for, by node.
+    /// Motions by node from which the search starts, where the scene has stiffened.
     pub hints: Vec<Vec6>,
-    /// The motion where it is looked at, by node.
+    /// The configuration in which it is measured, by node.
     place: Vec<Node>,
-    /// Forces there, by node.
+    /// Forces in this configuration, by node.
     base: Vec<[f64; 6]>,
-    /// Steps taken since the last look.
+    /// Steps since the last measurement.
     steps: usize,
-    /// Steps since the limit was last cut, and those after which it may rise again: twice as many from cut to cut, since each change
-    /// of the step makes or takes energy.
+    /// Steps since the last cutback of the limit, and the number after which it may rise again: it doubles from cutback
+    /// to cutback, since each change of the step generates or dissipates energy.
     steps_since_cutback: usize,
     holdoff: usize,
-    /// Something may be struck; and the largest aᵀMa since the last look.
+    /// True where the scene may stiffen suddenly, as by contact; and the largest aᵀMa since the last measurement.
     stiffens: bool,
     max_aMa: f64,
-    /// The largest |ω| of all bodies so far.
+    /// Largest |ω| of all bodies so far.
     max_spin: f64,
-    /// The fastest mode has been looked for, with dampers if there are any.
+    /// True once the fastest mode has been searched for, with dampers if there are any.
     met: bool,
 }
 
 impl CriticalStep {
-    /// With a mode of all frequencies to begin with: the same in every run.
+    /// A search that begins with a mode of all frequencies, the same in every run.
     pub fn new(model: &Model, plan: &Plan) -> Self {
         let nodes = model.nodes.len();
         let zeros = vec![Vec6::zeros(); nodes];
@@ -97,28 +98,29 @@ impl CriticalStep {
         }
     }
 
-    /// Accelerations have doubled at once, aᵀMa: something may have been struck, though the motion of the whole hides it.
+    /// True where aᵀMa has quadrupled at once, that is accelerations have doubled: an impact may have begun that the
+    /// gross motion hides.
     pub fn is_struck(&self, aMa: f64) -> bool {
         self.stiffens && aMa > 4.0 * self.max_aMa
     }
 
-    /// A step with these accelerations, aᵀMa, was taken.
+    /// Counts a step taken with these accelerations.
     pub fn took(&mut self, aMa: f64) {
         self.max_aMa = self.max_aMa.max(aMa);
     }
 
-    /// What counts steps.
+    /// The counters of steps.
     pub fn counts(&self) -> [usize; 2] {
         [self.steps, self.steps_since_cutback]
     }
 
-    /// A step was refused, and was none, but for the look that it may have taken.
+    /// Restores the counters after a refused step, except for a measurement within it.
     pub fn refused(&mut self, [steps, since_cutback]: [usize; 2]) {
         self.steps = self.steps.min(steps);
         self.steps_since_cutback = self.steps_since_cutback.min(since_cutback);
     }
 
-    /// ω² that the fastest mode is known to have at most: power iteration comes to it from below.
+    /// Upper bound of ω² of the fastest mode; power iteration approaches it from below.
     pub fn known(&self) -> f64 {
         const BELOW: f64 = 1.1;
         BELOW * self.longest.map_or(0.0, |longest| (2.0 / longest).powi(2))
@@ -144,8 +146,8 @@ impl CriticalStep {
         Ok(())
     }
 
-    /// The length of the next step: a safe `fraction` of the longest that is stable, no body turning by more than [`TURN`], and no
-    /// longer than a fiftieth of the run. `left` is left to where a step must end.
+    /// The length of the next step: a safe `fraction` of the longest stable one, no body turning by more than [`TURN`],
+    /// and no longer than a fiftieth of the run. `left` is the time to the next event.
     ///
     /// # Errors
     /// As for [`Accelerations::solve`].
@@ -159,11 +161,12 @@ impl CriticalStep {
         fraction: f64,
     ) -> Result<f64, Failure> {
         if self.longest.is_none() {
-            // What dampers add depends on the step: from the one found without them to that with them.
+            // The effect of dampers depends on the step: the limit with them starts from the one found without.
             self.measure_here(cx, ws, accelerations, state, 0.0)?;
             if cx.system.is_damped() {
                 let first = self.longest.unwrap_or(left).min(left);
-                // The fastest mode without dampers may know nothing of them: what the search began with does.
+                // The fastest mode without dampers may not contain that of the dampers; the mode that the search began
+                // with does.
                 self.mode.iter_mut().zip(&self.hints).for_each(|(mode, first)| *mode += *first);
                 self.measure_here(cx, ws, accelerations, state, first)?;
             }
@@ -173,13 +176,13 @@ impl CriticalStep {
         Ok((fraction * self.longest.unwrap_or(left)).min(most).min(turning))
     }
 
-    /// The step in which no body turns by more than [`TURN`]: as fast as the fastest has ever been, since each change of the step
-    /// makes or takes energy, and with the accelerations there are.
+    /// The step in which no body turns by more than [`TURN`], at the largest angular velocity of the run, since each
+    /// change of the step generates or dissipates energy, and at the present angular accelerations.
     fn turning_step(&mut self, model: &Model, state: &State) -> f64 {
         let nodes = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.max_spin = nodes().map(|node| node.omega.norm()).fold(self.max_spin, f64::max);
         let (rate, acceleration) = (self.max_spin, nodes().map(|node| node.alpha.norm()).fold(0.0, f64::max));
-        // ω Δt + ½ α Δt², without a difference of like numbers.
+        // The root of ω Δt + ½ α Δt² = TURN without cancellation.
         2.0 * TURN / (rate + (rate * rate + 2.0 * acceleration * TURN).sqrt())
     }
 
@@ -196,7 +199,7 @@ impl CriticalStep {
         self.measure(cx, ws, accelerations, state, dt)
     }
 
-    /// Measures the limit where the trial motion has come to, of which nothing is left then.
+    /// Measures the limit in the trial motion, which is lost.
     ///
     /// # Errors
     /// As for [`Accelerations::solve`].
@@ -209,10 +212,10 @@ impl CriticalStep {
         dt: f64,
     ) -> Result<(), Failure> {
         self.place.copy_from_slice(&ws.trial);
-        // What has just met more resistance tells where that is.
+        // The motion that has just met more resistance shows where it is.
         let [of_mode, of_hints] = [&self.mode, &self.hints].map(|motion| largest(cx, motion));
         if of_mode > 0.0 && of_hints > 0.0 && of_hints.is_finite() {
-            // One must not undo the other.
+            // The two must not cancel.
             let (mode, hints) = (&mut self.mode, &self.hints);
             let dot: f64 = mode.iter().zip(hints).map(|(mode, hint)| mode.dot(hint)).sum();
             let sign = if dot < 0.0 { -1.0 } else { 1.0 };
@@ -221,7 +224,7 @@ impl CriticalStep {
         self.measure(cx, ws, accelerations, state, dt)
     }
 
-    /// Measures the limit anew at the place noted, for steps of about `dt`, without dampers where that is zero.
+    /// Measures the limit in the configuration kept, for steps of about `dt`, without dampers where `dt` is zero.
     fn measure(
         &mut self,
         cx: &Context,
@@ -235,12 +238,12 @@ impl CriticalStep {
         self.evaluate(cx, ws, state, [0.0; 2], dt);
         self.base.copy_from_slice(&ws.forces.on_nodes);
         let before = self.longest;
-        // What yields now is as stiff as ever when it turns back.
+        // Yielding material is as stiff as ever when it unloads.
         let rises = !cx.system.yields() && self.steps_since_cutback >= self.holdoff;
         let iterations = if self.met { AGAIN } else { AT_FIRST };
         let mut longest = self.power_iteration(cx, ws, accelerations, state, dt, (iterations, f64::INFINITY))?;
         if rises && before.is_some_and(|before| longest > LONGER * before) {
-            // What was stiff has let go, and its mode knows little of the others.
+            // The stiff part has let go, and its mode contains little of the others.
             self.add_all_frequencies(cx.plan);
             longest = self.power_iteration(cx, ws, accelerations, state, dt, (AT_FIRST, longest))?;
         }
@@ -257,7 +260,7 @@ impl CriticalStep {
         Ok(())
     }
 
-    /// The longest step by the modes that power iteration comes to, if that is shorter than `longest`.
+    /// The longest stable step by power iteration, where it is shorter than `longest`.
     fn power_iteration(
         &mut self,
         cx: &Context,
@@ -278,7 +281,7 @@ impl CriticalStep {
             self.evaluate(cx, ws, state, [small, 0.0], dt);
             self.solve_difference(cx, ws, accelerations, state, small)?;
             let [own, cross, square] = self.mass_products(cx, ws, accelerations);
-            // |ψ|/|φ| is never below ψ·φ/φ·φ, and both come from below.
+            // The ratio |ψ|/|φ| is never below ψ·φ/φ·φ, and both approach the eigenvalue from below.
             let stiffness = (square / own).sqrt().max(cross / own);
             self.next.copy_from_slice(&accelerations.missing);
             let mut damping = 0.0;
@@ -304,7 +307,7 @@ impl CriticalStep {
         Ok(longest)
     }
 
-    /// With the residual of velocities along the mode at hand: its part of the next mode, and of the limit.
+    /// Adds the residual of velocities along the mode at hand to the next mode and to the limit.
     fn add_damping(
         &mut self,
         cx: &Context,
@@ -321,7 +324,7 @@ impl CriticalStep {
         Ok((cross / own).max(0.0))
     }
 
-    /// Writes the residual where the place is moved along the mode, or its velocities are.
+    /// Writes the residual where the configuration is moved along the mode, or its velocities are.
     fn evaluate(&self, cx: &Context, ws: &mut Workspace, state: &State, [of_place, of_rate]: [f64; 2], dt: f64) {
         for &node in &cx.independent_nodes {
             let (start, mode) = (&self.place[node], &self.mode[node]);

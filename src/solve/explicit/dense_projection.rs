@@ -1,4 +1,5 @@
-//! Joints between bodies of their own at the end of an explicit step, by a small dense system: positions, then velocities.
+//! Projection onto the constraints between rigid bodies at the end of an explicit step, by a small dense system:
+//! positions, then velocities.
 
 use super::accelerations::Accelerations;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
@@ -24,34 +25,34 @@ pub fn project_onto_constraints(
     state: &State,
     dt: f64,
 ) -> Result<(), Failure> {
-    let Accelerations { masses: Some(masses), ties: Some(ties), missing: change, .. } = accelerations else {
+    let Accelerations { masses: Some(masses), schur: Some(schur), missing: change, .. } = accelerations else {
         return Ok(());
     };
-    project_positions(cx, ws, masses, ties, change, state)?;
-    project_velocities(cx, ws, masses, ties, change, state, dt)
+    project_positions(cx, ws, masses, schur, change, state)?;
+    project_velocities(cx, ws, masses, schur, change, state, dt)
 }
 
 fn project_positions(
     cx: &Context,
     ws: &mut Workspace,
     masses: &Masses,
-    ties: &mut ConstraintSchur,
+    schur: &mut ConstraintSchur,
     change: &mut [Vec6],
     state: &State,
 ) -> Result<(), Failure> {
     let mut last = f64::INFINITY;
     for round in 0.. {
-        cx.system.gaps(&ws.trial, 0, &mut ties.x);
-        let gap = cx.system.largest_gap(&ties.x, ws.reach);
+        cx.system.gaps(&ws.trial, 0, &mut schur.x);
+        let gap = cx.system.largest_gap(&schur.x, ws.reach);
         if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
             break;
         }
-        if round == MOST_CORRECTIONS || !ties.form(cx.system, masses, &ws.trial) || gap.is_nan() {
+        if round == MOST_CORRECTIONS || !schur.form(cx.system, masses, &ws.trial) || gap.is_nan() {
             cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
             return Err(constraints_violated(cx, ws));
         }
         last = gap;
-        least_change(ties, masses, change);
+        least_change(schur, masses, change);
         for block in &masses.blocks {
             let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
             let node = &mut ws.trial[block.node];
@@ -71,23 +72,23 @@ fn project_velocities(
     cx: &Context,
     ws: &mut Workspace,
     masses: &Masses,
-    ties: &mut ConstraintSchur,
+    schur: &mut ConstraintSchur,
     change: &mut [Vec6],
     state: &State,
     dt: f64,
 ) -> Result<(), Failure> {
     let mut last = f64::INFINITY;
     loop {
-        cx.system.gaps(&ws.trial, 1, &mut ties.x);
-        let gap = cx.system.largest_gap(&ties.x, ws.reach);
+        cx.system.gaps(&ws.trial, 1, &mut schur.x);
+        let gap = cx.system.largest_gap(&schur.x, ws.reach);
         if gap * dt <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
             return Ok(());
         }
-        if last == f64::INFINITY && !ties.form(cx.system, masses, &ws.trial) {
+        if last == f64::INFINITY && !schur.form(cx.system, masses, &ws.trial) {
             return Err(constraints_violated(cx, ws));
         }
         last = gap;
-        least_change(ties, masses, change);
+        least_change(schur, masses, change);
         for block in &masses.blocks {
             let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
             let node = &mut ws.trial[block.node];
@@ -100,8 +101,8 @@ fn project_velocities(
 }
 
 /// Writes the least change of motion that closes the gaps at hand, by node.
-fn least_change(ties: &mut ConstraintSchur, masses: &Masses, change: &mut [Vec6]) {
-    ties.solve();
+fn least_change(schur: &mut ConstraintSchur, masses: &Masses, change: &mut [Vec6]) {
+    schur.solve();
     masses.blocks.iter().for_each(|block| change[block.node] = Vec6::zeros());
-    ties.subtract_response(change);
+    schur.subtract_response(change);
 }

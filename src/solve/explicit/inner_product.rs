@@ -1,4 +1,4 @@
-//! Products of motions in the norm of the masses, as explicit schemes need them to judge their steps.
+//! Products of motions in the norm of the masses, by which explicit schemes judge their steps.
 
 use super::accelerations::Accelerations;
 use crate::math::{Vec6, stack};
@@ -8,8 +8,8 @@ use crate::state::Node;
 use crate::system::Forces;
 use crate::system::masses::MassBlock;
 
-/// Writes M times small motions of the independent nodes, where masses belong together, in unknown directions alone, into the forces
-/// on nodes, of which nothing is left.
+/// Writes M times small motions of the independent nodes into the forces on nodes, for unknown degrees of freedom of a
+/// coupled mass matrix; the forces at hand are lost.
 pub fn apply_mass(
     cx: &Context,
     nodes: &[Node],
@@ -23,13 +23,13 @@ pub fn apply_mass(
     cx.system.apply_mass(nodes, operand, forces);
 }
 
-/// A motion times what [`apply_mass`] left last.
+/// The product of a motion with the result of the last [`apply_mass`].
 pub fn times_applied(cx: &Context, forces: &Forces, motion: impl Fn(usize) -> Vec6) -> f64 {
     let times = |&node: &usize| cx.plan.dofs.of(node).mask(&motion(node)).dot(&Vec6::from(forces.on_nodes[node]));
     cx.independent_nodes.iter().map(times).sum()
 }
 
-/// aᵀ M a of the accelerations of the trial motion with what is missing there, in unknown directions.
+/// The product aᵀ M a of the accelerations found for the trial motion, over the unknowns.
 pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> f64 {
     let Accelerations { masses, operand, missing, .. } = accelerations;
     let trial = &ws.trial;
@@ -42,7 +42,7 @@ pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
     masses.blocks.iter().map(product).sum()
 }
 
-/// aᵀ M a of the accelerations of nodes as they lie, in unknown directions.
+/// The product aᵀ M a of the accelerations of nodes, over the unknowns.
 pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, nodes: &[Node]) -> f64 {
     let a = |node: usize| stack(&nodes[node].a, &nodes[node].alpha);
     let Some(masses) = &accelerations.masses else {

@@ -1,4 +1,4 @@
-//! Explicit steps: accelerations follow from the forces with the mass alone, no stiffness matrix is formed.
+//! Explicit steps: accelerations follow from the forces with the mass alone; no stiffness matrix is formed.
 
 mod accelerations;
 mod central_difference;

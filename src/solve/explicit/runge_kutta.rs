@@ -1,4 +1,4 @@
-//! A step by an explicit Runge-Kutta scheme: its stages, and the error that its weights tell of.
+//! A step by an explicit Runge-Kutta scheme: its stages and its error estimate.
 
 use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
@@ -19,23 +19,23 @@ use crate::state::{Configuration, Increment, Node, State};
 use crate::system::Side;
 use crate::system::masses::Motion;
 
-/// The square of the longest rotation vector: T⁻¹ is singular at a whole turn.
+/// Square of the longest rotation vector of a step: T⁻¹ is singular at a full turn.
 const FARTHEST: f64 = 9.0;
 
-/// A Runge-Kutta scheme, with what it needs beside the workspace. Allocated once.
+/// A Runge-Kutta scheme, with what it needs besides the workspace. It is allocated once.
 pub struct RungeKuttaStepper {
     tableau: &'static Tableau,
     accelerations: Accelerations,
-    /// Rates of (q, v), by stage, of each independent node.
+    /// Rates of (q, v) of each independent node, by stage.
     stages: Vec<[Vec6; 2]>,
-    /// Loads change with time.
+    /// True where loads change with time.
     varying: bool,
-    /// Prescribed directions are moved.
+    /// True where prescribed degrees of freedom move.
     driven: bool,
     work: WorkQuadrature,
 }
 
-/// A stage of a step: its number, what it takes of the rates before it, and how far into the step it lies.
+/// A stage of a step: its number, its weights of earlier rates, and its time within the step.
 #[derive(Clone, Copy)]
 struct At {
     stage: usize,
@@ -44,6 +44,8 @@ struct At {
 }
 
 impl RungeKuttaStepper {
+    /// A stepper for this scheme.
+    ///
     /// # Errors
     /// There is no memory for the projection onto joints.
     pub fn new(cx: &Context, tableau: &'static Tableau) -> Result<Self, TooLarge> {
@@ -62,12 +64,12 @@ impl RungeKuttaStepper {
         })
     }
 
-    /// The order of the estimate of the error in the time step, by which steps find their length.
+    /// The order of the error estimate in the time step, by which steps find their length.
     pub fn error_order(&self) -> f64 {
         self.tableau.error_order
     }
 
-    /// Takes `state` from its time to `to`. On failure `state` is untouched.
+    /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -82,7 +84,7 @@ impl RungeKuttaStepper {
         self.accept(cx, ws, state, to)
     }
 
-    /// Evaluates all stages: the trial motion is then that of the end of the step, before it is accepted.
+    /// Evaluates all stages; the trial motion is then that of the end of the step, not yet accepted.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -121,7 +123,7 @@ impl RungeKuttaStepper {
         if self.accelerations.are_finite(cx, ws) { Ok(()) } else { Err(residual::not_finite(cx, ws)) }
     }
 
-    /// Takes the motion that [`RungeKuttaStepper::evaluate_stages`] has found. On failure `state` is untouched.
+    /// Accepts the motion that [`RungeKuttaStepper::evaluate_stages`] has found. On failure `state` is untouched.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -164,7 +166,7 @@ impl RungeKuttaStepper {
         Ok(StepReport { iterations: end, ..StepReport::begin(to) })
     }
 
-    /// The largest errors of translations and rotations of a step of `dt` whose stages have been evaluated.
+    /// The largest estimated errors of translations and rotations of a step of `dt` whose stages have been evaluated.
     pub fn error(&self, cx: &Context, dt: f64) -> Size {
         let (tableau, nodes) = (self.tableau, cx.independent_nodes.len());
         let mut largest = [Size::default(); 2];
@@ -190,7 +192,7 @@ impl RungeKuttaStepper {
         }
     }
 
-    /// Writes the trial motion of a stage from the rates of those before it, and its loads.
+    /// Writes the trial motion of a stage from the rates of earlier stages, and its loads.
     fn move_to(&mut self, cx: &Context, ws: &mut Workspace, state: &State, at: At, to: f64) -> Result<(), Failure> {
         let (dt, nodes) = (to - state.time, cx.independent_nodes.len());
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
@@ -227,7 +229,7 @@ impl RungeKuttaStepper {
         Ok(())
     }
 
-    /// Writes the accelerations of the trial motion, as rates of a stage.
+    /// Evaluates a stage: writes the accelerations of the trial motion as its rates.
     fn evaluate(
         &mut self,
         cx: &Context,
@@ -236,7 +238,7 @@ impl RungeKuttaStepper {
         stage: usize,
         ahead: f64,
     ) -> Result<(), Failure> {
-        if self.accelerations.ties.is_some() {
+        if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);
         }
         let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
@@ -251,9 +253,9 @@ impl RungeKuttaStepper {
     }
 }
 
-/// Prescribes the motion of driven directions at a time within the step.
+/// Writes the prescribed motion at a time within the step.
 fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
-    // What is given at the end is at hand.
+    // The prescribed motion at the end of the step is at hand.
     if c < 1.0 {
         cx.excitation.prescribed(time, &mut ws.prescribed.instant);
     } else {
@@ -262,7 +264,7 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     for (i, held) in cx.model.constraints.restraints.iter().enumerate().filter(|(_, held)| held.motion.is_some()) {
         let (from, now) = (&ws.prescribed.start[i], &ws.prescribed.instant[i]);
         let increment = &mut ws.increments[held.node];
-        // A rotation that goes with others which are free is that of its rate alone.
+        // A prescribed rotation beside free ones is integrated from its rate alone.
         let alone = held.dof < 3 || (3..6).all(|dof| !cx.plan.is_unknown(held.node, dof));
         if alone {
             increment.q[held.dof] = now.u - from.u;
@@ -272,7 +274,7 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     }
 }
 
-/// Moves a node to the increment of a stage, whose rates are v and ω as they are; ω becomes the rate of the rotation vector. Returns
+/// Moves a node to the increment of a stage whose rates are v and ω; ω becomes the rate of the rotation vector. Returns
 /// the square of the angle.
 #[inline]
 fn advance(trial: &mut Node, start: &Node, increment: &mut Increment) -> f64 {

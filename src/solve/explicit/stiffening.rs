@@ -1,5 +1,5 @@
-//! What the motion itself tells of the stability of central differences: whether the scene has stiffened in a step, and whether a
-//! mode grows.
+//! Checks of the stability of central differences by the motion itself: whether the scene has stiffened in a step, and
+//! whether a mode grows.
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
@@ -8,16 +8,17 @@ use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::{Node, State};
 
-/// The change of a node's acceleration over the step, with what is missing of it in the trial motion.
+/// The change of a node's acceleration over the step; `missing` is the difference of those of the trial motion.
 pub fn change(missing: &[Vec6], trial: &[Node], state: &State, node: usize) -> Vec6 {
     let (start, now) = (&state.nodes[node], &trial[node]);
     stack(&(now.a - start.a), &(now.alpha - start.alpha)) + missing[node]
 }
 
-/// ω² of the mode as which the scene has resisted over the step, −Δaᵀ M q/qᵀ M q: of its modes a mean. More than that of the fastest
-/// there was tells that it has stiffened, as where something is struck. Zero where the step is short for it anyway.
+/// The Rayleigh quotient −Δaᵀ M q/qᵀ M q of the step's motion, a mean of ω² over its modes. More than ω² of the fastest
+/// known mode shows that the scene has stiffened, as in an impact. It is zero where the step is short enough in any
+/// case.
 pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> f64 {
-    // Below this part of the limit, by approximate inertias, nothing is looked at closer.
+    // Below this fraction of the limit, by approximate inertias, the quotient is not computed.
     const QUICK: f64 = 0.05;
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let (trial, increments) = (&ws.trial, &ws.increments);
@@ -48,10 +49,10 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     force / size
 }
 
-/// A quick look at whether a mode grows: without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is (ω Δt)², of all modes a mean,
-/// which the motion of the whole does not hide; what dies out is no matter.
+/// A quick check whether a mode grows. Without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is a mean of (ω Δt)²
+/// over the modes, in which the gross motion does not hide the fast ones; decaying modes do no harm.
 pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> bool {
-    // A little beyond what a mode at the limit shows.
+    // The value is a little above that of a mode at the limit.
     const LIMIT: f64 = 4.1;
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let trial = &ws.trial;

@@ -1,4 +1,4 @@
-//! The work of loads and dampers over a step: a quadrature with the weights of a Runge-Kutta scheme.
+//! The work of loads and dampers over a step, by quadrature with the weights of a Runge-Kutta scheme.
 
 use crate::integrators::tableau::Weights;
 use crate::solve::context::Context;
@@ -14,7 +14,7 @@ pub struct WorkQuadrature {
 }
 
 impl WorkQuadrature {
-    /// Begins with the share of the start of the step.
+    /// Begins with the contribution of the start of the step.
     pub fn begin(&mut self, cx: &Context, ws: &mut Workspace, state: &State, weight: f64) {
         *self = WorkQuadrature::default();
         cx.system.external(&state.nodes, &ws.loads.start, &mut ws.forces);
@@ -25,7 +25,7 @@ impl WorkQuadrature {
         }
     }
 
-    /// Adds the share of a stage that has been evaluated; nothing is left of the forces.
+    /// Adds the contribution of an evaluated stage; the forces at hand are lost.
     pub fn add(&mut self, cx: &Context, ws: &mut Workspace, state: &State, weight: f64, ahead: f64) {
         if cx.system.is_damped() {
             let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
@@ -35,20 +35,21 @@ impl WorkQuadrature {
         self.external += weight * external_power(&ws.forces, &ws.trial);
     }
 
-    /// Adds the share of the reactions at hand on directions that are driven.
+    /// Adds the contribution of the reactions at hand on prescribed degrees of freedom.
     pub fn add_reactions(&mut self, cx: &Context, ws: &Workspace, weight: f64) {
         let held = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
         let power = held.map(|(held, given)| -ws.forces.on_nodes[held.node][held.dof] * given.v).sum::<f64>();
         self.external += weight * power;
     }
 
+    /// Adds the work of the step to that of the run.
     pub fn add_to(&self, work: &mut Work) {
         work.external += self.external;
         work.damping += self.damping;
     }
 }
 
-/// The power of the forces at hand on nodes that move so.
+/// Power of the forces at hand at the velocities of the nodes.
 fn external_power(forces: &Forces, nodes: &[Node]) -> f64 {
     let power = |(F, node): (&[f64; 6], &Node)| -> f64 {
         F.iter().zip(node.v.iter().chain(&node.omega)).map(|(f, v)| f * v).sum()

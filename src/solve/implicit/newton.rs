@@ -228,7 +228,7 @@ impl Newton {
         let values = &mut ws.forces.multipliers.values;
         let shortened = line_search.shorten(residual, size, &mut ws.increments, values);
         if shortened && let Some(anderson) = &mut self.anderson {
-            // Solves for the correction, which takes the place of the residual in `ws.r`.
+            // The correction that was combined is no longer the one that was applied.
             anderson.forget();
         }
         shortened
@@ -284,7 +284,7 @@ impl Newton {
         }
     }
 
-    /// The correction that the residual asks for, in its place.
+    /// Solves for the correction, which takes the place of the residual in `ws.r`.
     fn solve(&mut self, cx: &Context, ws: &mut Workspace, residual: f64) {
         if let Some(line_search) = &mut self.line_search {
             line_search.keep_residual(&ws.r[..cx.nodal_unknowns()], residual);
