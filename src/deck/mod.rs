@@ -54,7 +54,7 @@ pub struct Deck {
     pub iteration: Maybe<Table<analysis::Iteration>>,
     /// Materials by name.
     #[serde(default)]
-    pub materials: Named<Table<materials::Material>>,
+    pub materials: Named<OneOf<materials::Material>>,
     /// Cross sections of beams by name.
     #[serde(default)]
     pub sections: Named<OneOf<sections::Section>>,

@@ -8,6 +8,7 @@ mod constants;
 mod dissipation;
 pub mod hardening;
 mod law;
+pub mod models;
 pub mod overstress;
 mod return_mapping;
 pub mod stress_state;

@@ -1,5 +1,47 @@
 //! Perzyna's viscosity: how fast plastic strain grows when the stress lies above the hardened yield stress.
 
+use crate::words::kinds::{Form, Given, Key, Kind};
+
+/// A law of the overstress that the deck can name, and what its keys give; `None` where one is wrong.
+pub type OverstressKind = Kind<fn(&mut Given) -> Option<Overstress>>;
+
+pub static OVERSTRESSES: [&OverstressKind; 3] = [&POWER, &LINEAR, &EXPONENTIAL];
+
+static POWER: OverstressKind = OverstressKind {
+    word: "power",
+    aliases: &[],
+    guesses: &["cowper-symonds"],
+    about: "phi(x) = x^exponent; with rate = D and exponent = q the law of Cowper and Symonds.",
+    keys: &[Key {
+        name: "exponent",
+        form: Form::Number,
+        about: "Exponent of the power law, 1 to 100: Cowper-Symonds' q.",
+    }],
+    make: |given| match *given.require("exponent")? {
+        // Cowper-Symonds exponents lie between 1 and 10; far beyond, the overstress is a step.
+        [exponent] if (1.0..=100.0).contains(&exponent) => Some(Overstress::Power { exponent }),
+        _ => given.error("exponent", "`exponent` must lie between 1 and 100"),
+    },
+};
+
+static LINEAR: OverstressKind = OverstressKind {
+    word: "linear",
+    aliases: &[],
+    guesses: &[],
+    about: "phi(x) = x.",
+    keys: &[],
+    make: |_| Some(Overstress::Linear),
+};
+
+static EXPONENTIAL: OverstressKind = OverstressKind {
+    word: "exponential",
+    aliases: &[],
+    guesses: &[],
+    about: "phi(x) = exp(x) - 1.",
+    keys: &[],
+    make: |_| Some(Overstress::Exponential),
+};
+
 /// ε̄̇ᵖ = γ φ(v) (17), v = ρ/i − 1 the relative overstress over the hardened yield stress i.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Viscosity {

@@ -6,16 +6,15 @@ use super::values::span;
 use crate::deck::Deck;
 use crate::deck::environment::Environment;
 use crate::deck::materials as words;
-use crate::deck::words::{Maybe, Named, Table};
+use crate::deck::words::kinds::OneOf;
+use crate::deck::words::{Maybe, Named};
 use crate::diagnostic::At;
-use crate::materials::{Hardening, MaterialLaw, Overstress, Viscosity};
-
-/// Cowper-Symonds exponents lie between 1 and 10; far beyond this the overstress is a step.
-const MOST_EXPONENT: f64 = 100.0;
+use crate::materials::models::MaterialKind;
+use crate::materials::{MaterialLaw, Viscosity};
 
 /// The materials of a deck, with what parts ask of them.
 pub(super) struct Materials<'d> {
-    table: &'d Named<Table<words::Material>>,
+    table: &'d Named<OneOf<words::Material>>,
     /// By material: how it yields; `None` for an elastic one and one with errors.
     laws: Vec<Option<MaterialLaw>>,
     /// Deformable parts must have a mass: in dynamics, and where gravity pulls or the ground accelerates.
@@ -26,7 +25,7 @@ pub(super) struct Materials<'d> {
 pub(super) fn materials<'d>(deck: &'d Deck, kind: AnalysisKind, report: &mut Report<'d>) -> Materials<'d> {
     let laws = deck.materials.0.iter().map(|(name, material)| {
         let owner = Owner::new(format!("material `{}`", name.value), &material.span);
-        let model = report.require(&owner, "model", &material.model);
+        let model = report.require(&owner, "model", &material.kind);
         report.require_positive(&owner, "youngs_modulus", &material.youngs_modulus);
         report.positive("density", &material.density);
         if let Some(ratio) = &material.poisson_ratio
@@ -34,7 +33,7 @@ pub(super) fn materials<'d>(deck: &'d Deck, kind: AnalysisKind, report: &mut Rep
         {
             report.error::<()>(&ratio.span, "`poisson_ratio` must lie above -1 and not above 0.5");
         }
-        model.and_then(|model| law_of(&owner, material, model.value, report))
+        model.and_then(|kind| law_of(&owner, material, kind.value, report))
     });
     let laws = laws.collect();
     let pulls = |environment: &Environment| environment.gravity.is_some() || !environment.base_acceleration.is_empty();
@@ -44,7 +43,7 @@ pub(super) fn materials<'d>(deck: &'d Deck, kind: AnalysisKind, report: &mut Rep
 
 impl<'d> Materials<'d> {
     /// The table of a material, with its index.
-    pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<(usize, &'d At<Table<words::Material>>)> {
+    pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<(usize, &'d At<OneOf<words::Material>>)> {
         report.find("material", self.table, name)
     }
 
@@ -53,9 +52,9 @@ impl<'d> Materials<'d> {
         let Some(name) = name else { return Some(None) };
         let index = self.table.position(name)?;
         let (_, material) = &self.table.0[index];
-        match material.model.as_ref()?.value {
-            words::Model::Elastic => Some(None),
-            words::Model::ElasticPlastic | words::Model::ElasticViscoplastic => self.laws[index].clone().map(Some),
+        match material.kind.as_ref()?.make.law {
+            None => Some(None),
+            Some(_) => self.laws[index].clone().map(Some),
         }
     }
 
@@ -68,7 +67,7 @@ impl<'d> Materials<'d> {
     pub fn density(
         &self,
         name: &At<String>,
-        material: &At<Table<words::Material>>,
+        material: &At<OneOf<words::Material>>,
         mass: MassKind,
         part: &str,
         report: &mut Report<'d>,
@@ -85,92 +84,36 @@ impl<'d> Materials<'d> {
     }
 }
 
-/// Hardening, kinematic share and viscosity; `None` for an elastic material, or one with errors.
+/// How a material yields; `None` for an elastic material, or one with errors.
 fn law_of<'d>(
     owner: &Owner<'d>,
-    material: &'d words::Material,
-    model: words::Model,
+    material: &'d OneOf<words::Material>,
+    kind: &'static MaterialKind,
     report: &mut Report<'d>,
 ) -> Option<MaterialLaw> {
-    let yields = [
-        ("yield_stress", span(&material.yield_stress)),
-        ("hardening_modulus", span(&material.hardening_modulus)),
-        ("hardening", span(&material.hardening)),
-        ("kinematic_share", span(&material.kinematic_share)),
-    ];
-    let viscosity = [("viscosity", span(&material.viscosity))];
-    match model {
-        words::Model::Elastic => {
-            report.reject_unused("an elastic material", &yields);
-            report.reject_unused("an elastic material", &viscosity);
-            return None;
-        }
-        words::Model::ElasticPlastic => {
-            report.reject_unused("an elastic-plastic material: it is rate independent", &viscosity)
-        }
-        words::Model::ElasticViscoplastic => {}
-    }
-    let hardening = hardening(owner, material, report);
-    let share = report.not_negative("kinematic_share", &material.kinematic_share, 0.0);
-    if let Some(at) = &material.kinematic_share
-        && at.value > 1.0
-    {
-        report.error::<()>(&at.span, "`kinematic_share` must lie between 0 and 1");
-    }
-    let viscosity = match model {
-        words::Model::ElasticViscoplastic => {
-            let table = report.require(owner, "viscosity", &material.viscosity)?;
-            Some(self::viscosity(table, report)?)
-        }
-        _ => None,
+    let model = &kind.make;
+    let viscosity = if model.is_viscous {
+        report.require(owner, "viscosity", &material.viscosity).map(|table| viscosity(table, report))
+    } else {
+        report.reject_unused(model.noun, &[("viscosity", span(&material.viscosity))]);
+        Some(None)
     };
+    let modulus = material.youngs_modulus.as_ref().map(|modulus| modulus.value);
     let ratio = material.poisson_ratio.as_ref().map_or(0.0, |ratio| ratio.value);
-    Some(MaterialLaw::new(material.youngs_modulus.as_ref()?.value, ratio, hardening?, share, viscosity))
+    // Where constants are missing or wrong, the keys are still checked.
+    let law = report.read(owner, model.noun, &material.values, kind, |given| {
+        (model.law?)(given, [modulus.unwrap_or(1.0), ratio], viscosity.flatten())
+    });
+    let is_complete = modulus.is_some() && viscosity.is_some_and(|viscosity| viscosity.is_some() || !model.is_viscous);
+    law.filter(|_| is_complete)
 }
 
-fn hardening<'d>(owner: &Owner<'d>, material: &'d words::Material, report: &mut Report<'d>) -> Option<Hardening> {
-    let Some(table) = &material.hardening else {
-        if report.is_spoiled(owner.span, "hardening") {
-            return None;
-        }
-        if material.yield_stress.is_none() && !report.is_spoiled(owner.span, "yield_stress") {
-            report.error::<()>(owner.span, format!("{} needs `yield_stress`, or a table of `hardening`", owner.what));
-        }
-        let yield_stress = report.positive("yield_stress", &material.yield_stress);
-        let modulus = report.not_negative("hardening_modulus", &material.hardening_modulus, 0.0);
-        return Some(Hardening::Linear { yield_stress: yield_stress?, modulus });
-    };
-    let unused =
-        [("yield_stress", span(&material.yield_stress)), ("hardening_modulus", span(&material.hardening_modulus))];
-    report.reject_unused("a material with a table of `hardening`, which begins with the yield stress", &unused);
-    match Hardening::table(table.value.iter().map(|point| point.value.0).collect()) {
-        Ok(hardening) => Some(hardening),
-        Err(reason) => report.error(&table.span, format!("{}: {reason}", owner.what)),
-    }
-}
-
-fn viscosity<'d>(viscosity: &'d At<Table<words::Viscosity>>, report: &mut Report<'d>) -> Option<Viscosity> {
-    let owner = Owner::new("`viscosity`", &viscosity.span);
-    let law = report.require(&owner, "law", &viscosity.law);
-    let rate = report.require_positive(&owner, "rate", &viscosity.rate);
-    let exponent = [("exponent", span(&viscosity.exponent))];
-    let overstress = match law?.value {
-        words::Overstress::Power => {
-            let exponent = report.require(&owner, "exponent", &viscosity.exponent)?;
-            if !(1.0..=MOST_EXPONENT).contains(&exponent.value) {
-                let message = format!("`exponent` must lie between 1 and {MOST_EXPONENT}");
-                return report.error(&exponent.span, message);
-            }
-            Overstress::Power { exponent: exponent.value }
-        }
-        words::Overstress::Linear => {
-            report.reject_unused("a linear law", &exponent);
-            Overstress::Linear
-        }
-        words::Overstress::Exponential => {
-            report.reject_unused("an exponential law", &exponent);
-            Overstress::Exponential
-        }
-    };
-    Some(Viscosity { fluidity: rate?, overstress })
+fn viscosity<'d>(table: &'d At<OneOf<words::Viscosity>>, report: &mut Report<'d>) -> Option<Viscosity> {
+    let owner = Owner::new("`viscosity`", &table.span);
+    let kind = report.require(&owner, "law", &table.kind);
+    let rate = report.require_positive(&owner, "rate", &table.rate);
+    let kind = kind?.value;
+    let what = format!("the law \"{}\"", kind.word);
+    let overstress = report.read(&owner, &what, &table.values, kind, kind.make);
+    Some(Viscosity { fluidity: rate?, overstress: overstress? })
 }

@@ -46,6 +46,8 @@ pub enum Form {
     Counts,
     /// A list of vectors.
     Vectors,
+    /// A list of pairs.
+    Pairs,
 }
 
 /// One of the kinds that a table of the deck may be.
@@ -186,6 +188,10 @@ impl Form {
                 let At { value, span } = map.next_value::<At<OneOrMany<u64>>>()?;
                 (value.values.iter().map(|count| whole(&count.value)).collect(), span)
             }
+            Form::Pairs => {
+                let At { value, span } = map.next_value::<At<Vec<At<Numbers<2>>>>>()?;
+                (value.iter().flat_map(|pair| pair.0).collect(), span)
+            }
             Form::Vectors => {
                 let At { value, span } = map.next_value::<At<Vec<Vector>>>()?;
                 (value.iter().flat_map(|vector| vector.0).collect(), span)
@@ -206,6 +212,7 @@ impl Form {
             Form::Vector => list("number", Some(3)),
             Form::Numbers => list("number", None),
             Form::Counts => list("integer", None),
+            Form::Pairs => json!({ "type": "array", "items": list("number", Some(2)) }),
             Form::Vectors => json!({ "type": "array", "items": list("number", Some(3)) }),
         }
     }
@@ -421,6 +428,11 @@ pub struct Given<'t> {
 impl<'t> Given<'t> {
     pub fn new(what: &'t str, span: &'t Span, values: &'t Values, unreadable: Vec<&'t str>) -> Self {
         Given { what, span, values, unreadable, problems: Vec::new() }
+    }
+
+    /// The table, for messages: "section `square`".
+    pub fn what(&self) -> &'t str {
+        self.what
     }
 
     /// All values of the table.

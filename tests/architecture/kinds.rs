@@ -15,13 +15,14 @@ const STRANGERS: usize = 6;
 const WELL_KNOWN: Known = &[("Bar", 14), ("Beam", 18), ("Contact", 18), ("Link", 16), ("Shell", 21)];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
-const CATALOGUES: [(&str, &[&str]); 6] = [
+const CATALOGUES: [(&str, &[&str]); 7] = [
     ("constraints/joints", &["kind"]),
     ("elements/contact/surfaces", &["kind"]),
     (
         "integrators",
         &["alpha_family", "coefficients", "load_steps", "scheme", "spectrum", "stability_limit", "tableau"],
     ),
+    ("materials/models", &["kind"]),
     ("output/tables", &["shell_order"]),
     ("sections", &["dimensions", "fibres", "profile", "section", "section_shape", "wall"]),
     ("solids", &["element_faces", "hollow", "kind", "outline"]),

@@ -1,0 +1,12 @@
+//! Linear elasticity.
+
+use super::kind::{MaterialKind, MaterialModel};
+
+pub static KIND: MaterialKind = MaterialKind {
+    word: "elastic",
+    aliases: &[],
+    guesses: &["linear", "linear-elastic"],
+    about: "Linear elasticity.",
+    keys: &[],
+    make: MaterialModel { noun: "an elastic material", law: None, is_viscous: false },
+};

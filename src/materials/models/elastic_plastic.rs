@@ -1,0 +1,12 @@
+//! J2 plasticity, rate independent.
+
+use super::kind::{MaterialKind, MaterialModel, PLASTICITY, plasticity};
+
+pub static KIND: MaterialKind = MaterialKind {
+    word: "elastic-plastic",
+    aliases: &[],
+    guesses: &["plastic", "von-mises", "j2", "bilinear"],
+    about: "J2 (von Mises) plasticity with isotropic and kinematic hardening, rate independent.",
+    keys: &PLASTICITY,
+    make: MaterialModel { noun: "an elastic-plastic material", law: Some(plasticity), is_viscous: false },
+};

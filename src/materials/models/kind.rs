@@ -1,0 +1,81 @@
+//! What a model of material says of itself, and what several models share.
+
+use crate::materials::hardening::Hardening;
+use crate::materials::law::MaterialLaw;
+use crate::materials::overstress::Viscosity;
+use crate::words::kinds::{Form, Given, Key, Kind};
+
+/// A model of material that the deck can name.
+pub type MaterialKind = Kind<MaterialModel>;
+
+/// What a model does with its keys.
+#[derive(Debug)]
+pub struct MaterialModel {
+    /// As messages call a material of this model: "an elastic material".
+    pub noun: &'static str,
+    /// How it yields; `None`: it does not.
+    pub law: Option<MakeLaw>,
+    /// The overstress depends on the rate of plastic strain, as the table `viscosity` says.
+    pub is_viscous: bool,
+}
+
+/// The law of a material with E, ν and the viscosity it needs; `None` where a key is wrong.
+pub type MakeLaw = fn(&mut Given, [f64; 2], Option<Viscosity>) -> Option<MaterialLaw>;
+
+/// The keys of J2 plasticity.
+pub const PLASTICITY: [Key; 4] = [
+    Key { name: "yield_stress", form: Form::Number, about: "Initial yield stress in tension, above 0." },
+    Key {
+        name: "hardening_modulus",
+        form: Form::Number,
+        about: "Slope of the yield stress over the plastic strain, 0 or more. Default: 0, perfectly plastic.",
+    },
+    Key {
+        name: "hardening",
+        form: Form::Pairs,
+        about: "[[plastic strain, yield stress], ...], straight lines from plastic strain 0 on, constant after the last, \
+                instead of `yield_stress` and `hardening_modulus`.",
+    },
+    Key {
+        name: "kinematic_share",
+        form: Form::Number,
+        about: "Mixed-hardening ratio: the part of the hardening that is kinematic, 0 (isotropic) to 1. Default: 0.",
+    },
+];
+
+/// J2 plasticity of the keys [`PLASTICITY`].
+pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscosity>) -> Option<MaterialLaw> {
+    let hardening = hardening(given);
+    let share = given.not_negative("kinematic_share", 0.0);
+    if share > 1.0 {
+        given.error::<()>("kinematic_share", "`kinematic_share` must lie between 0 and 1");
+    }
+    Some(MaterialLaw::new(E, nu, hardening?, share, viscosity))
+}
+
+fn hardening(given: &mut Given) -> Option<Hardening> {
+    if given.is_unreadable("hardening") {
+        return None;
+    }
+    if !given.has("hardening") {
+        if !given.has("yield_stress") && !given.is_unreadable("yield_stress") {
+            let message = format!("{} needs `yield_stress`, or a table of `hardening`", given.what());
+            given.error::<()>("yield_stress", message);
+        }
+        let yield_stress = given.positive("yield_stress");
+        let modulus = given.not_negative("hardening_modulus", 0.0);
+        return Some(Hardening::Linear { yield_stress: yield_stress?, modulus });
+    }
+    for key in ["yield_stress", "hardening_modulus"].into_iter().filter(|key| given.has(key)).collect::<Vec<_>>() {
+        let whose = "a material with a table of `hardening`, which begins with the yield stress";
+        given.error::<()>(key, format!("`{key}` does not apply to {whose}"));
+    }
+    let points = given.numbers("hardening").chunks_exact(2).map(|point| [point[0], point[1]]);
+    match Hardening::table(points.collect()) {
+        Ok(hardening) => Some(hardening),
+        Err(reason) => {
+            let message = format!("{}: {reason}", given.what());
+            given.error("hardening", message)
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The models of material that the deck can name. One more is a file of its own and an entry of [`MATERIALS`].
+
+pub mod elastic;
+pub mod elastic_plastic;
+pub mod elastic_viscoplastic;
+pub mod kind;
+
+pub use kind::{MaterialKind, MaterialModel};
+
+/// In the order of the reference.
+pub static MATERIALS: [&MaterialKind; 3] = [&elastic::KIND, &elastic_plastic::KIND, &elastic_viscoplastic::KIND];
