@@ -6,8 +6,8 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, MaterialLaw, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    self, ArcLength, Bar, Beam, Cadence, ExpectAt, History, Link, LinkKind, MassKind, Method, Model, Passage, Shell,
-    StepLength, Tolerance, When,
+    self, ArcLength, Bar, Beam, Cadence, ExpectAt, History, Link, LinkKind, MassKind, Method, Model, PartIndex,
+    PartKind, Passage, Shell, StepLength, Tolerance, When,
 };
 use rdsolve::sections::Fibre;
 
@@ -238,7 +238,7 @@ fn the_rest_is_taken_as_written() {
     assert_eq!((expect.at, expect.when), (ExpectAt::Node(node(&model, "c")), When::Time(0.3)));
     assert_eq!(expect.tolerance, Tolerance::Relative(0.02));
     assert_eq!(expect.label, "ux of c at t = 0.3");
-    assert_eq!(model.expects[1].at, ExpectAt::Link(0));
+    assert_eq!(model.expects[1].at, ExpectAt::Part(PartIndex { kind: PartKind::Link, index: 0 }));
     // Elements count through the beams: three of the frame, two of the leg, one of the arm, and these.
     assert_eq!(model.expects[2].at, ExpectAt::Elements(6, 8));
     assert_eq!(model.expects[3].tolerance, Tolerance::Absolute(1e-3));

@@ -2,7 +2,7 @@
 
 use crate::scene;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use rdsolve::model::{Expect, ExpectAt, Model, Tolerance, When};
+use rdsolve::model::{Expect, ExpectAt, Model, PartIndex, PartKind, Tolerance, When};
 use rdsolve::output::Files;
 use rdsolve::output::expect::{Expectations, quantities};
 use rdsolve::solve::Observer;
@@ -343,6 +343,7 @@ fn expect(at: ExpectAt, quantity: &str, when: When, value: f64, tolerance: Toler
 #[test]
 fn expectations_are_judged() {
     let mut model = scene::model();
+    let link = PartIndex { kind: PartKind::Link, index: 0 };
     let (node, relative, absolute) = (ExpectAt::Node(2), Tolerance::Relative, Tolerance::Absolute);
     // ux = sin 3t peaks at t = 0.5 among the steps; a due frame has an even step.
     let peak = 1.5f64.sin();
@@ -352,7 +353,7 @@ fn expectations_are_judged() {
         expect(node, "uy", When::Abs, 2.0f64.cos() - 1.0, relative(1e-12)),
         expect(node, "qw", When::Time(0.2), 0.5f64.cos(), relative(1e-12)),
         expect(ExpectAt::Energy, "kinetic", When::Max, 1.0, relative(1e-12)),
-        expect(ExpectAt::Link(0), "elongation", When::Min, -0.9, relative(1e-12)),
+        expect(ExpectAt::Part(link), "elongation", When::Min, -0.9, relative(1e-12)),
         expect(node, "uz", When::Time(0.0), 0.0, relative(0.1)),
         expect(node, "ux", When::Max, 1.0, relative(1e-3)),
         expect(node, "ux", When::Time(0.35), 1.0, relative(1.0)),
@@ -367,5 +368,5 @@ fn expectations_are_judged() {
     assert!((verdicts[7].error.unwrap() - (1.0 - peak)).abs() < 1e-15, "relative error of an expected 1");
     assert_eq!(verdicts[8].reason.as_deref(), Some("the run has no step at time 0.35"));
     assert_eq!(verdicts[9].reason.as_deref(), Some("there is no quantity `kinetic` here"));
-    assert!(quantities(node).contains(&"qz") && quantities(ExpectAt::Link(0)).contains(&"rate"));
+    assert!(quantities(node).contains(&"qz") && quantities(ExpectAt::Part(link)).contains(&"rate"));
 }

@@ -1,9 +1,11 @@
-//! `[[beams]]` and `[[bars]]`: parts along paths of points, or along the segments of a mesh.
+//! `[[beams]]`: parts that bend, along paths of points or along the segments of a mesh.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::parts::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Vector};
+use crate::diagnostic::At;
 use crate::elements::beam::IntegrationRule;
 
 /// A shear-flexible beam along straight segments between points, or along those of a group of the mesh.
@@ -47,46 +49,33 @@ pub struct Beam {
     pub offset_end: Maybe<Vector>,
 }
 
-/// A bar or cable: no bending.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Bar {
-    /// Name, for messages, results and other tables.
-    #[schemars(required)]
-    pub name: Maybe<String>,
-    /// Names of points, two or more, joined by straight segments.
-    #[schemars(required)]
-    pub path: Maybe<Names>,
-    /// Elements per segment, 1 or more, or a list with one number for each segment. Default: 1.
-    pub elements: Maybe<OneOrMany<u64>>,
-    /// Name of a material, with `area`.
-    pub material: Maybe<String>,
-    /// Cross-sectional area, above 0, with `material`.
-    pub area: Maybe<f64>,
-    /// E A, a force above 0, instead of `material` and `area`.
-    pub axial_stiffness: Maybe<f64>,
-    /// Mass per length, 0 or more, with `axial_stiffness`.
-    pub mass_per_length: Maybe<f64>,
-    /// The bar is slack when shortened, as a cable. Default: false.
-    pub tension_only: Maybe<bool>,
-    /// Length of the whole path without force, above 0: shorter than it lies, it pulls from the start; longer,
-    /// it hangs. Default: its length at t = 0.
-    pub free_length: Maybe<f64>,
-    /// Mass matrix. Default: "lumped".
-    pub mass: Maybe<MassKind>,
-}
+impl PartTable for Beam {
+    fn name(&self) -> Option<&At<String>> {
+        self.name.as_ref()
+    }
 
-/// Where the mass of a part goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum MassKind {
-    /// At the nodes, by the element's Lobatto rule: a diagonal (lumped) mass matrix.
-    #[default]
-    Lumped,
-    /// Translations by the element's shape functions, with off-diagonal terms; rotary inertia at the nodes.
-    Consistent,
-    /// Lumped, but without the mass at nodes that are rigidly attached to a body.
-    FreeNodes,
-    /// The part has no mass.
-    None,
+    fn group(&self) -> Option<&At<String>> {
+        self.group.as_ref()
+    }
+
+    fn members(&self) -> Vec<&At<String>> {
+        names(&self.path)
+    }
+
+    /// The nodes of a path have names of their own, or stand between two that have.
+    fn is_node_list(&self) -> bool {
+        self.group.is_some()
+    }
+
+    fn material(&self) -> Option<&At<String>> {
+        self.material.as_ref()
+    }
+
+    fn elements(&self) -> Option<&At<OneOrMany<u64>>> {
+        self.elements.as_ref()
+    }
+
+    fn rigid(&self) -> Option<bool> {
+        Some(self.rigid.as_ref().is_some_and(|at| at.value))
+    }
 }

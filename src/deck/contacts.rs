@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::parts::{PartTable, names};
 use super::words::kinds::{Kinds, OneOf};
 use super::words::{Maybe, Names};
+use crate::diagnostic::At;
 use crate::elements::contact::SurfaceShape;
 use crate::elements::contact::surfaces::SURFACES;
 use crate::elements::contact::surfaces::kind::{MakeSurface, SurfaceKind};
@@ -40,6 +42,16 @@ pub struct Contact {
     /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
     /// boxes and rims of cylinders, at most 100. Default: 0.
     pub points: Maybe<u64>,
+}
+
+impl PartTable for Contact {
+    fn name(&self) -> Option<&At<String>> {
+        self.name.as_ref()
+    }
+
+    fn members(&self) -> Vec<&At<String>> {
+        names(&self.with)
+    }
 }
 
 /// A surface on a body or on the ground, global coordinates at t = 0.

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::parts::PartTable;
 use super::words::{Maybe, Numbers, Table, Vector};
 use crate::diagnostic::At;
 
@@ -43,6 +44,16 @@ pub struct Link {
     pub bushing_damping: Maybe<Numbers<6>>,
     /// Axes of the bushing, global at t = 0: its x, and a vector in its x-y plane. Default: global axes.
     pub axes: Maybe<Vec<Vector>>,
+}
+
+impl PartTable for Link {
+    fn name(&self) -> Option<&At<String>> {
+        self.name.as_ref()
+    }
+
+    fn members(&self) -> Vec<&At<String>> {
+        [&self.from, &self.to].into_iter().flatten().filter_map(|end| end.node.as_ref()).collect()
+    }
 }
 
 /// `{ node = "name" }`, `{ body = "name", point = [x, y, z] }` or `{ ground = [x, y, z] }`.

@@ -7,6 +7,7 @@ pub mod aliases;
 pub mod amplitudes;
 pub mod analysis;
 pub mod attachments;
+pub mod bars;
 pub mod beams;
 pub mod bodies;
 pub mod contacts;
@@ -20,6 +21,7 @@ pub mod loads;
 pub mod materials;
 pub mod mesh;
 pub mod output;
+pub mod parts;
 pub mod read;
 pub mod sections;
 pub mod set;
@@ -71,7 +73,7 @@ pub struct Deck {
     pub beams: Vec<At<Table<beams::Beam>>>,
     /// Bars and cables: axial force alone.
     #[serde(default)]
-    pub bars: Vec<At<Table<beams::Bar>>>,
+    pub bars: Vec<At<Table<bars::Bar>>>,
     /// Shells: patches of triangles or quadrilaterals.
     #[serde(default)]
     pub shells: Vec<At<Table<shells::Shell>>>,

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::beams::MassKind;
+use super::parts::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
+use crate::diagnostic::At;
 
 /// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1`
 /// to `name.edge4` for those of an edge: edge1
@@ -41,6 +42,45 @@ pub struct Shell {
     pub mass: Maybe<MassKind>,
     /// The shell is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
+}
+
+impl PartTable for Shell {
+    fn name(&self) -> Option<&At<String>> {
+        self.name.as_ref()
+    }
+
+    fn group(&self) -> Option<&At<String>> {
+        self.group.as_ref()
+    }
+
+    fn members(&self) -> Vec<&At<String>> {
+        names(&self.corners)
+    }
+
+    fn is_node_list(&self) -> bool {
+        true
+    }
+
+    /// A group has no corners. Wrong numbers of corners are reported where the shell is read.
+    fn named_edges(&self) -> usize {
+        match &self.corners {
+            _ if self.group.is_some() => 0,
+            Some(corners) if corners.values.len() == 3 => 3,
+            _ => 4,
+        }
+    }
+
+    fn material(&self) -> Option<&At<String>> {
+        self.material.as_ref()
+    }
+
+    fn elements(&self) -> Option<&At<OneOrMany<u64>>> {
+        self.elements.as_ref()
+    }
+
+    fn rigid(&self) -> Option<bool> {
+        Some(self.rigid.as_ref().is_some_and(|at| at.value))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

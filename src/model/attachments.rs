@@ -1,6 +1,6 @@
 //! `[[attachments]]`: points and bodies that move with a body, nodes that move with a beam.
 
-use super::data::{Joint, Part};
+use super::data::Joint;
 use super::joints::equations;
 use super::nearest_nodes::Line;
 use super::nodes::Nodes;
@@ -9,7 +9,7 @@ use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spot::Spot;
 use crate::deck::attachments::{Attachment, AttachmentMethod};
-use crate::deck::beams::Beam;
+use crate::deck::parts::PartIndex;
 use crate::diagnostic::{At, Diagnostic};
 use crate::math::Vec3;
 use crate::names::short;
@@ -40,7 +40,7 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
         let method = attachment.method.as_ref().map(|method| method.value);
         let mut link = Attacher { dofs, method, scene, nodes: &mut *nodes, joints: &mut joints, report: &mut *report };
         match target {
-            Some(Target::Beam(name, beam)) => link.attach_to_beam(name, beam, &spots),
+            Some(Target::Part(name, beam)) => link.attach_to_beam(name, beam, &spots),
             Some(Target::Body(body)) => link.attach_to_body(body, &spots),
             None => {}
         }
@@ -52,8 +52,8 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
 /// What nodes are attached to.
 enum Target<'d> {
     Body(usize),
-    /// A beam by its index, with the name that the attachment gives it.
-    Beam(&'d At<String>, usize),
+    /// A beam, with the name that the attachment gives it.
+    Part(&'d At<String>, PartIndex),
 }
 
 fn target<'d>(
@@ -69,16 +69,15 @@ fn target<'d>(
         let name = report.require(owner, "body", &attachment.body)?;
         return scene.names.body(name, report).map(Target::Body);
     };
-    let beams = &scene.deck.beams;
-    let is = |beam: &Beam| beam.name.as_ref().or(beam.group.as_ref()).is_some_and(|own| own.value == name.value);
+    let takes = |part: &PartIndex| part.kind.takes_attachments();
     match scene.names.place(name) {
-        Some(Place::Beam(beam)) => Some(Target::Beam(name, beam)),
+        Some(Place::Part(part)) if takes(&part) => Some(Target::Part(name, part)),
         // The word that makes a beam rigid is enough: what is attached to it then goes with its body.
-        Some(Place::Body(body)) if beams.iter().any(|beam| is(beam)) => Some(Target::Body(body)),
+        Some(Place::Body(body)) if scene.names.rigid_part(body).as_ref().is_some_and(takes) => Some(Target::Body(body)),
         Some(place) => report.error(&name.span, format!("`{}` is {}, not a beam", name.value, place.kind())),
         None => {
-            let names = beams.iter().filter_map(|beam| beam.name.as_ref().or(beam.group.as_ref()));
-            report.unknown("beam", name, names.map(|name| name.as_str()))
+            let names = scene.deck.parts().filter(|part| takes(&part.at)).filter_map(|part| part.name());
+            report.unknown("beam", name, names.map(|name| name.as_str()).collect::<Vec<_>>().into_iter())
         }
     }
 }
@@ -136,8 +135,9 @@ impl<'d> Attacher<'_, 'd> {
     }
 
     /// Attaches each node to the nearest node of a beam; the beam's own stay.
-    fn attach_to_beam(&mut self, name: &At<String>, beam: usize, spots: &[Spot<'d>]) {
-        let own: HashSet<usize> = self.scene.parts.beams[beam].nodes.iter().copied().collect();
+    fn attach_to_beam(&mut self, name: &At<String>, beam: PartIndex, spots: &[Spot<'d>]) {
+        let own: HashSet<usize> =
+            self.scene.parts.entry(beam).into_iter().flat_map(|entry| &entry.nodes).copied().collect();
         let line = Line::new(&own, self.nodes);
         let lengths = self.element_vectors(beam);
         let (mut far, mut farthest, mut between) = (0, 0.0f64, Vec::new());
@@ -172,14 +172,12 @@ impl<'d> Attacher<'_, 'd> {
     }
 
     /// Maps each node of a beam to the vector from end to end of an element there.
-    fn element_vectors(&self, beam: usize) -> HashMap<usize, Vec3> {
-        let parts = &self.scene.parts;
+    fn element_vectors(&self, beam: PartIndex) -> HashMap<usize, Vec3> {
         let mut vectors = HashMap::new();
-        for part in parts.of(&parts.beams[beam]) {
-            let Part::Beam(part) = part else { continue };
-            for e in &part.elements {
-                let vector = self.nodes.x(e.nodes[part.order]) - self.nodes.x(e.nodes[0]);
-                vectors.extend(e.nodes[..=part.order].iter().map(|&node| (node, vector)));
+        for part in self.scene.parts.of(beam) {
+            for nodes in (0..part.elements()).map(|element| part.nodes(element)) {
+                let vector = self.nodes.x(nodes[nodes.len() - 1]) - self.nodes.x(nodes[0]);
+                vectors.extend(nodes.iter().map(|&node| (node, vector)));
             }
         }
         vectors

@@ -1,29 +1,27 @@
 //! `[[bars]]`: paths → nodes and elements that resist stretching alone.
 
-use super::data::{Bar, MassKind, Part};
+use super::data::{Bar, MassKind, Part, PartIndex, PartKind};
 use super::part_context::PartContext;
-use super::parts::PartEntry;
 use super::paths::{counts, path, segments};
 use super::report::Owner;
 use super::values::{chosen, flag, span};
-use crate::deck::beams as words;
+use crate::deck::bars as words;
 
 pub(super) fn bars(cx: &mut PartContext) {
     for (index, bar) in cx.deck.bars.iter().enumerate() {
         let name = bar.name.as_ref().map_or_else(|| format!("bars.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("bar `{name}`"), &bar.span);
         cx.report.require(&owner, "name", &bar.name);
-        cx.parts.bars.push(PartEntry::default());
-        let made = read_bar(index, name, &owner, bar, cx);
-        let first = cx.parts.list.len();
-        cx.parts.list.extend(made.map(Part::Bar));
-        cx.parts.bars[index].range = first..cx.parts.list.len();
+        let at = PartIndex { kind: PartKind::Bar, index };
+        cx.parts.begin(at);
+        let made = read_bar(at, name, &owner, bar, cx);
+        cx.parts.add(at, made.map(Part::from));
     }
 }
 
 /// Reads one bar as far as it can, so that all errors of the bar are found; `None` means there were some.
 fn read_bar<'d>(
-    index: usize,
+    at: PartIndex,
     name: String,
     owner: &Owner<'d>,
     bar: &'d words::Bar,
@@ -54,7 +52,7 @@ fn read_bar<'d>(
         nodes.push(path[segment + 1]);
     }
     let elements = nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    cx.parts.bars[index].nodes = nodes;
+    cx.parts.entry_mut(at).nodes = nodes;
     let tension_only = flag(&bar.tension_only, false);
     let yielding = cx.materials.yielding_of(&bar.material)?;
     Some(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, free, yielding, elements })

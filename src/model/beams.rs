@@ -1,11 +1,12 @@
 //! `[[beams]]`: paths or groups of the mesh → nodes and elements.
 
-use super::data::{Beam, BeamElement, Part};
+use super::data::{Beam, BeamElement, Part, PartIndex, PartKind};
 use super::part_context::PartContext;
-use super::parts::PartEntry;
 use super::paths::{counts, path, segments};
 use super::report::Owner;
+use super::sections;
 use super::values::{chosen, flag, span, vec3};
+use crate::deck::Deck;
 use crate::deck::beams as words;
 use crate::deck::words::Vector;
 use crate::diagnostic::At;
@@ -25,17 +26,23 @@ pub(super) fn beams(cx: &mut PartContext) {
         if beam.group.is_none() {
             cx.report.require(&owner, "name", &beam.name);
         }
-        cx.parts.beams.push(PartEntry::default());
-        let made = read_beam(index, name, &owner, beam, cx);
-        let first = cx.parts.list.len();
-        cx.parts.list.extend(made.map(Part::Beam));
-        cx.parts.beams[index].range = first..cx.parts.list.len();
+        let at = PartIndex { kind: PartKind::Beam, index };
+        cx.parts.begin(at);
+        cx.parts.entry_mut(at).contact_radius = half_depth(cx.deck, beam);
+        let made = read_beam(at, name, &owner, beam, cx);
+        cx.parts.add(at, made.map(Part::from));
     }
+}
+
+/// Half the smaller side of a beam's section, or 0 where the section does not say it.
+fn half_depth(deck: &Deck, beam: &words::Beam) -> f64 {
+    let index = beam.section.as_ref().and_then(|name| deck.sections.position(name));
+    index.map_or(0.0, |index| sections::half_depth(&deck.sections.0[index].1))
 }
 
 /// Reads one beam as far as it can, so that all errors of the beam are found; `None` means there were some.
 fn read_beam<'d>(
-    index: usize,
+    at: PartIndex,
     name: String,
     owner: &Owner<'d>,
     beam: &'d words::Beam,
@@ -51,7 +58,7 @@ fn read_beam<'d>(
     let section = cx.sections.beam_section(owner, beam, mass, cx.report);
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
     let orientation = cx.report.require(owner, "orientation", &beam.orientation);
-    let line = Line { index, name: &name, owner, beam, order: order.min(4), orientation };
+    let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
     let elements = match &beam.group {
         Some(group) => line.along_group(group, cx),
         None if cx.report.is_spoiled(owner.span, "group") => None,
@@ -67,8 +74,7 @@ fn read_beam<'d>(
 
 /// A beam whose nodes and elements are to be made.
 struct Line<'b, 'd> {
-    /// Index of the table in the deck.
-    index: usize,
+    at: PartIndex,
     name: &'b str,
     owner: &'b Owner<'d>,
     beam: &'d words::Beam,
@@ -117,7 +123,7 @@ impl<'d> Line<'_, 'd> {
             }
             made.push(BeamElement { nodes: ids, frame, section: 0 });
         }
-        cx.parts.beams[self.index].nodes = nodes;
+        cx.parts.entry_mut(self.at).nodes = nodes;
         if parallel > 0 {
             let place = self.orientation.map_or(self.owner.span, |at| &at.span);
             let message = format!("`orientation` is parallel to {parallel} segments of group `{}`", group.value);
@@ -154,7 +160,7 @@ impl<'d> Line<'_, 'd> {
                 made.push(BeamElement { nodes: ids, frame: frames[segment], section: 0 });
             }
         }
-        cx.parts.beams[self.index].nodes = nodes;
+        cx.parts.entry_mut(self.at).nodes = nodes;
         Some(made)
     }
 

@@ -2,11 +2,11 @@
 
 use super::data::Body;
 use super::nodes::Nodes;
-use super::place::Place;
 use super::report::{Owner, Report};
-use super::values::{flag, span, vec3, vec3_or_zero};
+use super::values::{span, vec3, vec3_or_zero};
 use crate::deck::Deck;
 use crate::deck::bodies as words;
+use crate::deck::parts::PartIndex;
 use crate::deck::words::Names;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::{At, Span};
@@ -25,9 +25,9 @@ const ROUND_OFF: f64 = 1e-9;
 pub(super) struct Bodies<'d> {
     pub list: Vec<Body>,
     /// The body that a part with `rigid = true` makes up by itself.
-    pub body_of: HashMap<Place, usize>,
+    pub body_of: HashMap<PartIndex, usize>,
     /// Bodies whose mass comes from parts: the body, its parts, and where the deck says so.
-    pub of_parts: Vec<(usize, Vec<Place>, &'d Span)>,
+    pub of_parts: Vec<(usize, Vec<PartIndex>, &'d Span)>,
 }
 
 /// Makes a body and a node for each `[[bodies]]`, also for those with errors since others refer to them, then for each part with
@@ -77,10 +77,10 @@ impl<'d> Bodies<'d> {
 
     /// Notes which parts make up a body of the deck.
     fn take_parts(&mut self, index: usize, deck: &'d Deck, list: &'d At<Names>, report: &mut Report<'d>) {
-        let parts: Vec<Place> = list.values.iter().filter_map(|name| find_part(deck, name, report)).collect();
+        let parts: Vec<PartIndex> = list.values.iter().filter_map(|name| find_part(deck, name, report)).collect();
         for (k, part) in parts.iter().enumerate() {
             if parts[..k].contains(part) || self.of_parts.iter().any(|(_, others, _)| others.contains(part)) {
-                let what = part_name(deck, *part);
+                let what = title(deck, *part);
                 report.error::<()>(&list.span, format!("{what} is listed in two bodies, or twice in one"));
             }
         }
@@ -92,55 +92,35 @@ impl<'d> Bodies<'d> {
 
     /// A body for each part with `rigid = true`; its mass is known when the part is.
     fn add_rigid_parts(&mut self, deck: &'d Deck, nodes: &mut Nodes) {
-        let beams = deck.beams.iter().enumerate().filter(|(_, beam)| flag(&beam.rigid, false));
-        let beams = beams.map(|(i, beam)| (Place::Beam(i), format!("beams.{i}"), &beam.name, &beam.group, &beam.span));
-        let shells = deck.shells.iter().enumerate().filter(|(_, shell)| flag(&shell.rigid, false));
-        let shells =
-            shells.map(|(i, shell)| (Place::Shell(i), format!("shells.{i}"), &shell.name, &shell.group, &shell.span));
-        for (part, unnamed, name, group, span) in beams.chain(shells) {
-            let label = name.as_ref().or(group.as_ref()).map_or(unnamed, |name| name.value.clone());
-            let body = self.add(label, Vec3::zeros(), nodes);
-            self.body_of.insert(part, body);
-            self.of_parts.push((body, vec![part], span));
+        for part in deck.parts().filter(|part| part.is_rigid()) {
+            let body = self.add(part.label(), Vec3::zeros(), nodes);
+            self.body_of.insert(part.at, body);
+            self.of_parts.push((body, vec![part.at], part.span));
         }
     }
 }
 
 /// A part by name, before names have places.
-fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<Place> {
-    let is = |word: Option<&At<String>>| word.is_some_and(|word| word.value == name.value);
-    let rigid_by_itself = |report: &mut Report| {
-        let message = format!("`{}` has `rigid = true`, so it is a body of its own", name.value);
-        report.error_with(&name.span, message, "remove its `rigid`, or attach it to this body with `[[attachments]]`")
-    };
-    if let Some(i) = deck.beams.iter().position(|beam| is(beam.name.as_ref().or(beam.group.as_ref()))) {
-        return if flag(&deck.beams[i].rigid, false) { rigid_by_itself(report) } else { Some(Place::Beam(i)) };
+fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<PartIndex> {
+    let parts = || deck.parts().filter(|part| part.at.kind.is_deformable());
+    if let Some(part) = parts().find(|part| part.is_named(name)) {
+        if part.is_rigid() {
+            let message = format!("`{}` has `rigid = true`, so it is a body of its own", name.value);
+            let hint = "remove its `rigid`, or attach it to this body with `[[attachments]]`";
+            return report.error_with(&name.span, message, hint);
+        }
+        return Some(part.at);
     }
-    if let Some(i) = deck.bars.iter().position(|bar| is(bar.name.as_ref())) {
-        return Some(Place::Bar(i));
-    }
-    if let Some(i) = deck.shells.iter().position(|shell| is(shell.name.as_ref().or(shell.group.as_ref()))) {
-        return if flag(&deck.shells[i].rigid, false) { rigid_by_itself(report) } else { Some(Place::Shell(i)) };
-    }
-    let beams = deck.beams.iter().filter_map(|beam| beam.name.as_ref().or(beam.group.as_ref()));
-    let bars = deck.bars.iter().filter_map(|bar| bar.name.as_ref());
-    let shells = deck.shells.iter().filter_map(|shell| shell.name.as_ref().or(shell.group.as_ref()));
     let message = format!("no shell, beam or bar is named `{}`", name.value);
-    match nearest(name, beams.chain(bars).chain(shells).map(|name| name.as_str())) {
+    match nearest(name, parts().filter_map(|part| part.name()).map(|name| name.as_str())) {
         Some(near) => report.error_with(&name.span, message, format!("did you mean `{near}`?")),
         None => report.error(&name.span, message),
     }
 }
 
 /// "shell `roof`".
-pub(super) fn part_name(deck: &Deck, part: Place) -> String {
-    let name = match part {
-        Place::Beam(i) => deck.beams[i].name.as_ref().or(deck.beams[i].group.as_ref()),
-        Place::Bar(i) => deck.bars[i].name.as_ref(),
-        Place::Shell(i) => deck.shells[i].name.as_ref().or(deck.shells[i].group.as_ref()),
-        _ => None,
-    };
-    format!("{} `{}`", part.noun(), name.map_or("", |name| name.as_str()))
+pub(super) fn title(deck: &Deck, part: PartIndex) -> String {
+    deck.part(part).map_or_else(String::new, |part| part.title())
 }
 
 fn mass_properties<'d>(

@@ -119,7 +119,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
         output,
         study,
     };
-    model.parts.extend(links.into_iter().map(Part::Link).chain(contacts.into_iter().map(Part::Contact)));
+    model.parts.extend(links.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
     finish(&mut model, all_nodes);
     model
 }

@@ -1,15 +1,14 @@
 //! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
 
-use super::data::{Bar, Beam, PartType, Shell};
+use super::data::NodeWeights;
 use super::nodes::{Nodes, Topology};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use super::sections::half_depth;
 use crate::deck::contacts as words;
+use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, MOST_NODES};
-use crate::math::quadrature;
 use crate::solids::Touching;
 use std::collections::{HashMap, HashSet};
 
@@ -18,7 +17,7 @@ const MOST_POINTS: usize = 100;
 
 /// A point that may touch, as found.
 struct Touch {
-    nodes: Vec<(usize, f64)>,
+    nodes: NodeWeights,
     radius: f64,
 }
 
@@ -98,7 +97,7 @@ impl<'d> Finder<'_, 'd> {
     fn names_part(&self, name: &str) -> bool {
         let place = self.scene.names.place(name);
         let leaves = place.into_iter().flat_map(|place| self.scene.names.leaves(place));
-        let is_part = |place| matches!(place, Place::Body(_) | Place::Beam(_) | Place::Bar(_) | Place::Shell(_));
+        let is_part = |place: Place| matches!(place, Place::Body(_) | Place::Part(_)) && place.has_nodes();
         leaves.into_iter().any(is_part)
     }
 
@@ -111,7 +110,7 @@ impl<'d> Finder<'_, 'd> {
         carrier: Option<usize>,
     ) -> Option<Vec<Touch>> {
         let place = self.scene.names.find(at, self.report)?;
-        if matches!(place, Place::Link(_) | Place::Contact(_)) {
+        if matches!(place, Place::Part(_)) && !place.has_nodes() {
             let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
             return self.report.error(&at.span, message);
         }
@@ -151,62 +150,22 @@ impl<'d> Finder<'_, 'd> {
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         match place {
             Place::Body(body) => self.touches_of_body(body, name, between, at, found),
-            Place::Beam(beam) => {
-                let radius = self.half_depth(beam);
+            Place::Part(part) => {
+                let radius = self.contact_radius(part);
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
-                for part in self.scene.parts.of(&self.scene.parts.beams[beam]).iter().filter_map(Beam::of) {
-                    let (ends, _) = quadrature::lobatto(part.order + 1);
-                    for element in &part.elements {
-                        let nodes = &element.nodes[..=part.order];
-                        for xi in inside(ends, between) {
-                            let weights = lagrange(ends, xi);
-                            let nodes = nodes.iter().copied().zip(weights).collect();
-                            found.push(Touch { nodes, radius });
-                        }
-                    }
-                }
+                let between = self.scene.parts.of(part).iter().flat_map(|part| part.places_between(between));
+                found.extend(between.map(|nodes| Touch { nodes, radius }));
             }
-            Place::Bar(bar) => {
-                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0)));
-                for part in self.scene.parts.of(&self.scene.parts.bars[bar]).iter().filter_map(Bar::of) {
-                    for [a, b] in &part.elements {
-                        found.extend((1..=between).map(|k| {
-                            let s = k as f64 / (between + 1) as f64;
-                            Touch { nodes: vec![(*a, 1.0 - s), (*b, s)], radius: 0.0 }
-                        }));
-                    }
-                }
-            }
-            Place::Shell(shell) => {
-                let radius = 0.5 * self.thickness(shell);
-                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
-                for part in self.scene.parts.of(&self.scene.parts.shells[shell]).iter().filter_map(Shell::of) {
-                    let mut edges = HashSet::new();
-                    for element in &part.elements {
-                        within(&element.nodes[..part.corners], between, radius, &mut edges, found);
-                    }
-                }
-            }
-            Place::Edge(shell, _) => {
-                let radius = 0.5 * self.thickness(shell);
+            Place::Edge(part, _) => {
+                let radius = self.contact_radius(part);
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
             }
             _ => found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0))),
         }
     }
 
-    /// Thickness of a shell of the deck; 0 where it has errors.
-    fn thickness(&self, shell: usize) -> f64 {
-        let mut parts = self.scene.parts.of(&self.scene.parts.shells[shell]).iter().filter_map(Shell::of);
-        parts.next().map_or(0.0, |part| part.plate.thickness)
-    }
-
-    /// Half the smaller side of a beam's section, or 0 where the section does not say it.
-    fn half_depth(&self, beam: usize) -> f64 {
-        let name = self.scene.deck.beams[beam].section.as_ref();
-        let section =
-            name.and_then(|name| Some(&self.scene.deck.sections.0[self.scene.deck.sections.position(name)?].1));
-        section.map_or(0.0, half_depth)
+    fn contact_radius(&self, part: PartIndex) -> f64 {
+        self.scene.parts.entry(part).map_or(0.0, |entry| entry.contact_radius)
     }
 
     /// Finds points of a body's shape, as nodes that are rigidly attached to the body.
@@ -230,43 +189,6 @@ impl<'d> Finder<'_, 'd> {
             let dependent =
                 self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
             found.push(Touch::node(dependent, 0.0));
-        }
-    }
-}
-
-/// Places between each two neighbours, `between` of them, equally spaced.
-fn inside(nodes: &[f64], between: usize) -> Vec<f64> {
-    let pairs = nodes.windows(2);
-    pairs
-        .flat_map(|pair| (1..=between).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / (between + 1) as f64))
-        .collect()
-}
-
-/// The polynomials of nodes at ξ.
-fn lagrange(nodes: &[f64], xi: f64) -> Vec<f64> {
-    let others = |a: usize| (0..nodes.len()).filter(move |&b| b != a);
-    (0..nodes.len()).map(|a| others(a).map(|b| (xi - nodes[b]) / (nodes[a] - nodes[b])).product()).collect()
-}
-
-/// A lattice within an element and on those of its edges that are not in `edges` yet.
-fn within(nodes: &[usize], between: usize, radius: f64, edges: &mut HashSet<[usize; 2]>, found: &mut Vec<Touch>) {
-    let (count, parts) = (nodes.len(), between + 1);
-    let at = |k: usize| k as f64 / parts as f64;
-    for i in 0..count {
-        let pair = [nodes[i], nodes[(i + 1) % count]];
-        if edges.insert([pair[0].min(pair[1]), pair[0].max(pair[1])]) {
-            found.extend((1..parts).map(|k| Touch { nodes: vec![(pair[0], 1.0 - at(k)), (pair[1], at(k))], radius }));
-        }
-    }
-    for i in 1..parts {
-        for j in 1..parts {
-            let (s, t) = (at(i), at(j));
-            let weights = match count {
-                3 if i + j < parts => vec![1.0 - s - t, s, t],
-                3 => continue,
-                _ => vec![(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t],
-            };
-            found.push(Touch { nodes: nodes.iter().copied().zip(weights).collect(), radius });
         }
     }
 }

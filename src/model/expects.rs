@@ -1,6 +1,6 @@
 //! `[[expect]]`: values that a run must reach.
 
-use super::data::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When};
+use super::data::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When, quantities_of};
 use super::nodes::Topology;
 use super::passages::passage;
 use super::place::Place;
@@ -8,9 +8,10 @@ use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
 use crate::deck::expect as words;
+use crate::deck::parts::PartIndex;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;
-use crate::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, VON_MISES};
+use crate::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION};
 use std::ops::Range;
 
 /// What expected values refer to.
@@ -85,24 +86,10 @@ impl<'d> Expects<'_, 'd> {
                 let columns = [&quantities::MOTION.concat()[..], &QUATERNION].concat();
                 Some((ExpectAt::Node(self.scene.names.body_node(body)), columns))
             }
-            Some(Place::Link(link)) => Some((ExpectAt::Link(link), quantities::LINK.to_vec())),
             Some(Place::Joint(joint)) => Some((ExpectAt::Joint(joint), quantities::JOINT.to_vec())),
-            Some(Place::Contact(contact)) => {
-                Some((ExpectAt::Contact(contact), [&quantities::CONTACT[..], &[quantities::CONTACT_FORCE]].concat()))
-            }
-            Some(place @ (Place::Beam(_) | Place::Bar(_))) => self.expect_strain(place, name),
-            // A shell without parts has errors, which have been reported.
-            Some(Place::Shell(shell)) if !self.scene.parts.shells[shell].range.is_empty() => {
-                let Range { start, end } = self.scene.parts.shells[shell].range;
-                if self.scene.parts.list[start..end].iter().all(|part| part.elements() == 0) {
-                    let message = format!("`{}` is rigid, so it has no stress and no plastic strain", name.value);
-                    return self.report.error(&name.span, message);
-                }
-                let yields = self.scene.parts.list[start].yields();
-                let columns = if yields { vec![VON_MISES, PLASTIC_STRAIN] } else { vec![VON_MISES] };
-                Some((ExpectAt::Shells(start, end), columns))
-            }
-            Some(Place::Shell(_)) => None,
+            Some(Place::Part(part)) if part.kind.is_surface() => self.expect_stress(part, name),
+            Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
+            Some(Place::Part(part)) => Some((ExpectAt::Part(part), quantities_of(part.kind))),
             Some(place) => {
                 let message = format!("`{}` is {}, which has no values of its own", name.value, place.kind());
                 self.report.error_with(
@@ -120,17 +107,27 @@ impl<'d> Expects<'_, 'd> {
         }
     }
 
-    /// A part that yields; counted as [`ExpectAt::Elements`] counts.
-    fn expect_strain(&mut self, place: Place, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
+    /// A surface; one with errors, which have been reported, has no parts.
+    fn expect_stress(&mut self, at: PartIndex, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
+        let Range { start, end } = self.scene.parts.entry(at)?.range;
+        let first = self.scene.parts.of(at).first()?;
+        if self.scene.parts.of(at).iter().all(|part| part.elements() == 0) {
+            let message = format!("`{}` is rigid, so it has no stress and no plastic strain", name.value);
+            return self.report.error(&name.span, message);
+        }
+        let mut columns = quantities_of(at.kind);
+        columns.retain(|column| first.yields() || *column != PLASTIC_STRAIN);
+        Some((ExpectAt::Shells(start, end), columns))
+    }
+
+    /// A line that yields; counted as [`ExpectAt::Elements`] counts.
+    fn expect_strain(&mut self, at: PartIndex, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
         // A part with errors, which have been reported, would put the count off.
-        if self.scene.parts.beams.iter().chain(&self.scene.parts.bars).any(|entry| entry.range.is_empty()) {
+        let mut lines = self.scene.parts.entries().filter(|(part, _)| !part.kind.is_surface());
+        if lines.any(|(_, entry)| entry.range.is_empty()) {
             return None;
         }
-        let Range { start, end } = match place {
-            Place::Bar(bar) => self.scene.parts.bars[bar].range.clone(),
-            Place::Beam(beam) => self.scene.parts.beams[beam].range.clone(),
-            _ => return None,
-        };
+        let Range { start, end } = self.scene.parts.entry(at)?.range;
         let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
         let (from, count) = (elements(&self.scene.parts.list[..start]), elements(&self.scene.parts.list[start..end]));
         if count == 0 {
@@ -140,7 +137,7 @@ impl<'d> Expects<'_, 'd> {
             let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
             return self.report.error(&name.span, message);
         }
-        Some((ExpectAt::Elements(from, from + count), vec![PLASTIC_STRAIN]))
+        Some((ExpectAt::Elements(from, from + count), quantities_of(at.kind)))
     }
 
     /// The name of the column that a word stands for.

@@ -1,6 +1,6 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
-use super::data::{DependentNode, PartType, Shell};
+use super::data::DependentNode;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -143,9 +143,9 @@ impl<'d> Motions<'_, 'd> {
     /// The unit normal of shells at each node, zero where there is no shell, which is an error at a node of the list.
     fn normals(&mut self, spots: &[Spot<'d>]) -> Vec<Vec3> {
         let mut normals = vec![Vec3::zeros(); self.topology.list.len()];
-        for shell in self.scene.parts.list.iter().filter_map(Shell::of) {
-            for element in &shell.elements {
-                for (&node, normal) in element.nodes[..shell.corners].iter().zip(&element.normals) {
+        for part in &self.scene.parts.list {
+            for element in 0..part.elements() {
+                for (&node, normal) in part.nodes(element).iter().zip(part.normals(element)) {
                     normals[node] += normal;
                 }
             }

@@ -1,5 +1,5 @@
-//! Which names a deck has, of what kind they are and where they are declared: points, bodies, sets, beams, bars, shells and
-//! their edges, links, joints, contacts and groups of the mesh share one space of names.
+//! Which names a deck has, of what kind they are and where they are declared: points, bodies, sets, joints, parts and their
+//! edges, and groups of the mesh share one space of names.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,6 +9,7 @@ use super::parts::Parts;
 use super::place::Place;
 use super::report::Report;
 use crate::deck::Deck;
+use crate::deck::parts::{DeckPart, PartIndex};
 use crate::diagnostic::{At, Diagnostic, Span};
 
 /// Names with a meaning of their own in lists of nodes and in `[[expect]]`.
@@ -22,7 +23,7 @@ pub(super) struct Names<'d> {
     /// The node of each body.
     body_nodes: Vec<usize>,
     /// The body that a part with `rigid = true` makes up by itself.
-    body_of: HashMap<Place, usize>,
+    body_of: HashMap<PartIndex, usize>,
 }
 
 impl<'d> Names<'d> {
@@ -36,19 +37,14 @@ impl<'d> Names<'d> {
         }
         names.add_all(deck.bodies.iter().map(|body| body.name.as_ref()), Place::Body, report);
         names.add_all(deck.sets.0.iter().map(|(name, _)| Some(name)), Place::Set, report);
-        names.add_all(deck.beams.iter().map(|beam| beam.name.as_ref().or(beam.group.as_ref())), Place::Beam, report);
-        names.add_all(deck.bars.iter().map(|bar| bar.name.as_ref()), Place::Bar, report);
-        let shells = deck.shells.iter().map(|shell| shell.name.as_ref().or(shell.group.as_ref()));
-        names.add_all(shells, Place::Shell, report);
-        names.add_all(deck.links.iter().map(|link| link.name.as_ref()), Place::Link, report);
         names.add_all(deck.joints.iter().map(|joint| joint.name.as_ref()), Place::Joint, report);
-        names.add_all(deck.contacts.iter().map(|contact| contact.name.as_ref()), Place::Contact, report);
+        deck.parts().for_each(|part| names.add_part(&part, report));
         names.add_groups(report);
         names.check_sets(report);
         names
     }
 
-    /// Declares the names of a family of tables, of which some may have none. A part that is a body by itself stands for that.
+    /// Declares the names of a family of tables, of which some may have none.
     fn add_all(
         &mut self,
         family: impl Iterator<Item = Option<&'d At<String>>>,
@@ -56,9 +52,16 @@ impl<'d> Names<'d> {
         report: &mut Report<'d>,
     ) {
         for (index, name) in family.enumerate() {
-            let Some(name) = name else { continue };
-            let place = place(index);
-            let place = self.body_of.get(&place).map_or(place, |&body| Place::Body(body));
+            if let Some(name) = name {
+                self.add(name, place(index), report);
+            }
+        }
+    }
+
+    /// Declares the name of a part, if it has one; of a part that is a body by itself it stands for that.
+    fn add_part(&mut self, part: &DeckPart<'d>, report: &mut Report<'d>) {
+        if let Some(name) = part.name() {
+            let place = self.body_of.get(&part.at).map_or(Place::Part(part.at), |&body| Place::Body(body));
             self.add(name, place, report);
         }
     }
@@ -83,9 +86,7 @@ impl<'d> Names<'d> {
         let deck = self.deck;
         let Some(input) = self.mesh.input else { return };
         let Some(file) = deck.mesh.as_ref().and_then(|mesh| mesh.file.as_ref()) else { return };
-        let beams = deck.beams.iter().filter_map(|beam| beam.group.as_ref());
-        let shells = deck.shells.iter().filter_map(|shell| shell.group.as_ref());
-        let parts: HashSet<&str> = beams.chain(shells).map(|group| group.as_str()).collect();
+        let parts: HashSet<&str> = deck.parts().filter_map(|part| part.table.group()).map(|at| at.as_str()).collect();
         for (index, group) in input.mesh.groups.iter().enumerate() {
             let name = group.name.as_str();
             if RESERVED.contains(&name) {
@@ -164,22 +165,19 @@ impl<'d> Names<'d> {
 
     /// The edge that `shell.edge2` stands for.
     fn edge(&self, name: &str) -> Option<Place> {
-        let (shell, edge) = name.rsplit_once(".edge")?;
-        let shells = &self.deck.shells;
-        let index = match self.declared(shell)? {
-            Place::Shell(index) => index,
-            // It is a rigid one.
-            Place::Body(_) => shells.iter().position(|s| s.name.as_ref().is_some_and(|n| n.value == shell))?,
+        let (surface, edge) = name.rsplit_once(".edge")?;
+        let part = match self.declared(surface)? {
+            Place::Part(part) => part,
+            Place::Body(body) => self.rigid_part(body)?,
             _ => return None,
         };
-        // A group has no corners.
-        if shells[index].group.is_some() {
-            return None;
-        }
-        // Wrong corners are reported where the shell is read.
-        let three = shells[index].corners.as_ref().is_some_and(|corners| corners.values.len() == 3);
-        let corners = if three { 3 } else { 4 };
-        (1..=corners).find(|k| edge == k.to_string()).map(|k| Place::Edge(index, k - 1))
+        let edges = self.deck.part(part)?.table.named_edges();
+        (1..=edges).find(|k| edge == k.to_string()).map(|k| Place::Edge(part, k - 1))
+    }
+
+    /// The part that is this body by itself.
+    pub fn rigid_part(&self, body: usize) -> Option<PartIndex> {
+        self.body_of.iter().find(|(_, of)| **of == body).map(|(part, _)| *part)
     }
 
     /// What a name stands for. A set or group of one node stands for that node.
@@ -195,8 +193,8 @@ impl<'d> Names<'d> {
 
     /// What a name stands for; a name that stands for nothing is an error.
     pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
-        let has_nodes = |place| !matches!(place, Place::Link(_) | Place::Joint(_) | Place::Contact(_));
-        self.place(name).or_else(|| self.unknown("point, body, set or part", name, self.known(has_nodes), report))
+        self.place(name)
+            .or_else(|| self.unknown("point, body, set or part", name, self.known(Place::has_nodes), report))
     }
 
     /// [`Names::find`] in a list of points, bodies and sets.
@@ -215,8 +213,9 @@ impl<'d> Names<'d> {
     /// Whether a place is no list of nodes.
     pub fn is_part(&self, place: Place) -> bool {
         match place {
-            Place::Beam(beam) => self.deck.beams[beam].group.is_none(),
-            place => matches!(place, Place::Bar(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_)),
+            Place::Part(part) => !self.deck.part(part).is_some_and(|part| part.table.is_node_list()),
+            Place::Joint(_) => true,
+            _ => false,
         }
     }
 
@@ -257,20 +256,20 @@ impl<'d> Names<'d> {
         self.body_nodes[body]
     }
 
-    /// The shell that a name stands for, a rigid one and one made of the group of this name too; by its index in the deck.
-    pub fn shell_of(&self, place: Place) -> Option<usize> {
-        match place {
-            Place::Shell(shell) => Some(shell),
-            Place::Body(body) => self.body_of.iter().find_map(|(part, of)| match part {
-                Place::Shell(shell) if *of == body => Some(*shell),
-                _ => None,
-            }),
+    /// The surface that a name stands for, a rigid one and one made of the group of this name too.
+    pub fn surface_of(&self, place: Place) -> Option<PartIndex> {
+        let part = match place {
+            Place::Part(part) => Some(part),
+            Place::Body(body) => self.rigid_part(body),
             Place::Group(index) => {
                 let name = self.mesh.input?.mesh.groups[index].name.as_str();
-                self.deck.shells.iter().position(|shell| shell.group.as_ref().is_some_and(|group| group.value == name))
+                let is_made_of_it = |part: &DeckPart| part.table.group().is_some_and(|group| group.value == name);
+                let mut surfaces = self.deck.parts().filter(|part| part.at.kind.is_surface());
+                surfaces.find(is_made_of_it).map(|part| part.at)
             }
             _ => None,
-        }
+        };
+        part.filter(|part| part.kind.is_surface())
     }
 
     /// A place without its sets, in the order of the deck.
@@ -296,15 +295,13 @@ impl<'d> Names<'d> {
             match place {
                 Place::Point(node) => nodes.push(node),
                 Place::Body(body) => nodes.push(self.body_nodes[body]),
-                Place::Beam(_) | Place::Bar(_) | Place::Shell(_) => {
-                    nodes.extend(parts.entry(place).into_iter().flat_map(|entry| &entry.nodes));
-                }
-                Place::Edge(shell, edge) => {
-                    let edges = parts.shells.get(shell).and_then(|entry| entry.edges.get(edge));
+                Place::Part(part) => nodes.extend(parts.entry(part).into_iter().flat_map(|entry| &entry.nodes)),
+                Place::Edge(part, edge) => {
+                    let edges = parts.entry(part).and_then(|entry| entry.edges.get(edge));
                     nodes.extend(edges.into_iter().flatten());
                 }
                 Place::Group(group) => nodes.extend(self.mesh.group_nodes(group)),
-                Place::Set(_) | Place::Link(_) | Place::Joint(_) | Place::Contact(_) => {}
+                Place::Set(_) | Place::Joint(_) => {}
             }
         }
         nodes
@@ -313,29 +310,21 @@ impl<'d> Names<'d> {
     /// Groups of the mesh that lists of the deck name.
     pub fn groups_in_lists(&self) -> impl Iterator<Item = usize> {
         let deck = self.deck;
-        let ends = |ends: [&'d Option<_>; 2]| ends.into_iter().flatten().filter_map(node_of_end);
-        let points = deck.links.iter().flat_map(move |link| ends([&link.from, &link.to]));
-        let points = points.chain(deck.joints.iter().flat_map(move |joint| ends([&joint.from, &joint.to])));
-        let lists = deck.beams.iter().map(|beam| &beam.path);
-        let lists = lists.chain(deck.bars.iter().map(|bar| &bar.path));
-        let lists = lists.chain(deck.shells.iter().map(|shell| &shell.corners));
-        let lists = lists.chain(deck.masses.iter().map(|mass| &mass.at));
+        let points = deck.joints.iter().flat_map(|joint| [&joint.from, &joint.to]).flatten();
+        let points = points.filter_map(|end| end.node.as_ref());
+        let lists = deck.masses.iter().map(|mass| &mass.at);
         let lists = lists.chain(deck.attachments.iter().map(|attachment| &attachment.nodes));
         let lists = lists.chain(deck.supports.iter().map(|support| &support.at));
-        let lists = lists.chain(deck.contacts.iter().map(|contact| &contact.with));
         let lists = lists.chain(deck.loads.iter().map(|load| &load.at));
         let lists = lists.chain(deck.initial.iter().map(|initial| &initial.at));
         let lists = lists.chain(deck.damping.iter().flat_map(|damping| &damping.nodal).map(|damper| &damper.at));
         let lists = lists.chain(deck.output.iter().map(|output| &output.nodes)).flatten().map(|at| &at.value);
         let lists = lists.chain(deck.sets.0.iter().map(|(_, members)| &members.value));
         let names = lists.flat_map(|names| &names.values).chain(points);
+        let names = names.chain(deck.parts().flat_map(|part| part.table.members()));
         names.filter_map(|name| match self.place(name) {
             Some(Place::Group(group)) => Some(group),
             _ => None,
         })
     }
-}
-
-fn node_of_end(end: &At<crate::deck::words::Table<crate::deck::links::End>>) -> Option<&At<String>> {
-    end.node.as_ref()
 }

@@ -8,18 +8,11 @@ use crate::diagnostic::Span;
 
 /// Tells nodes where the deck names them: itself, the attachment that makes it depend on another, or its part.
 pub(super) fn place_nodes(names: &Names, parts: &Parts, topology: &mut Topology) {
-    let deck = names.deck;
-    let beams =
-        deck.beams.iter().map(|part| part.name.as_ref().or(part.group.as_ref()).map_or(&part.span, |at| &at.span));
-    let bars = deck.bars.iter().map(|part| part.name.as_ref().map_or(&part.span, |at| &at.span));
-    let shells =
-        deck.shells.iter().map(|part| part.name.as_ref().or(part.group.as_ref()).map_or(&part.span, |at| &at.span));
-    let of_parts = beams.zip(&parts.beams).chain(bars.zip(&parts.bars)).chain(shells.zip(&parts.shells));
     let place = |span: &Span| Some([span.start, span.end]);
-    for (span, entry) in of_parts {
-        for &node in &entry.nodes {
+    for part in names.deck.parts() {
+        for &node in parts.entry(part.at).into_iter().flat_map(|entry| &entry.nodes) {
             let node = &mut topology.list[node];
-            node.place = node.place.or(place(span));
+            node.place = node.place.or(place(part.place()));
         }
     }
     for index in 0..topology.dependents.len() {

@@ -1,10 +1,11 @@
 //! The deformable parts of a scene in the making, and where each table of the deck has left its nodes and elements.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::data::Part;
-use super::place::Place;
 use super::report::Report;
+use crate::deck::parts::PartIndex;
 use crate::diagnostic::Span;
 use crate::sections::Stiffness;
 
@@ -20,8 +21,10 @@ pub(super) struct PartEntry {
     pub edges: Vec<Vec<usize>>,
     /// Its parts in the list, none where it has errors.
     pub range: Range<usize>,
-    /// Faces that left the model because the shell is rigid.
-    pub rigid_faces: Option<Vec<Vec<usize>>>,
+    /// Half of its thickness, or how far else from its nodes it is touched.
+    pub contact_radius: f64,
+    /// Nodes of its elements where these have left the model because the part is rigid.
+    pub rigid_elements: Option<Vec<Vec<usize>>>,
 }
 
 #[derive(Default)]
@@ -29,56 +32,69 @@ pub(super) struct Parts {
     pub list: Vec<Part>,
     /// Section stiffnesses and inertias, shared by the beams that name them.
     pub stiffnesses: Vec<Stiffness>,
-    // One entry for each table of the deck.
-    pub beams: Vec<PartEntry>,
-    pub bars: Vec<PartEntry>,
-    pub shells: Vec<PartEntry>,
+    /// One for each table of a deformable part that has been begun.
+    entries: BTreeMap<PartIndex, PartEntry>,
     /// Elements that paths and patches have asked for so far.
-    elements: usize,
+    asked: usize,
 }
 
 impl Parts {
-    /// The entry of a beam, bar or shell.
-    pub fn entry(&self, place: Place) -> Option<&PartEntry> {
-        match place {
-            Place::Beam(beam) => self.beams.get(beam),
-            Place::Bar(bar) => self.bars.get(bar),
-            Place::Shell(shell) => self.shells.get(shell),
-            _ => None,
-        }
+    /// Begins a part: it has an entry, also where it has errors.
+    pub fn begin(&mut self, at: PartIndex) {
+        self.entries.insert(at, PartEntry::default());
     }
 
-    /// The parts that a table of the deck has become.
-    pub fn of(&self, entry: &PartEntry) -> &[Part] {
-        &self.list[entry.range.clone()]
+    /// Lists what a part that has been begun has become.
+    pub fn add(&mut self, at: PartIndex, made: impl IntoIterator<Item = Part>) {
+        let first = self.list.len();
+        self.list.extend(made);
+        self.entry_mut(at).range = first..self.list.len();
     }
 
-    /// Nodes of the faces of a shell, also of a rigid one.
-    pub fn faces(&self, shell: usize) -> Vec<Vec<usize>> {
-        let entry = &self.shells[shell];
+    /// The entry of a deformable part; `None` where it has not been begun.
+    pub fn entry(&self, at: PartIndex) -> Option<&PartEntry> {
+        self.entries.get(&at)
+    }
+
+    pub fn entry_mut(&mut self, at: PartIndex) -> &mut PartEntry {
+        self.entries.entry(at).or_default()
+    }
+
+    /// All entries with what they belong to, in the order of the parts of the deck.
+    pub fn entries(&self) -> impl Iterator<Item = (PartIndex, &PartEntry)> {
+        self.entries.iter().map(|(at, entry)| (*at, entry))
+    }
+
+    /// The parts that a table of the deck has become; none where it has errors.
+    pub fn of(&self, at: PartIndex) -> &[Part] {
+        self.entry(at).map_or(&[], |entry| &self.list[entry.range.clone()])
+    }
+
+    /// Nodes of the elements of a part, also of a rigid one.
+    pub fn elements(&self, at: PartIndex) -> Vec<Vec<usize>> {
         let deformable = || {
-            let parts = self.of(entry).iter();
+            let parts = self.of(at).iter();
             parts.flat_map(|part| (0..part.elements()).map(|element| part.nodes(element).to_vec())).collect()
         };
-        entry.rigid_faces.clone().unwrap_or_else(deformable)
+        self.entry(at).and_then(|entry| entry.rigid_elements.clone()).unwrap_or_else(deformable)
     }
 
     /// Whether a node belongs to a deformable part.
     pub fn has_node(&self, node: usize) -> bool {
-        self.beams.iter().chain(&self.bars).chain(&self.shells).any(|entry| entry.nodes.contains(&node))
+        self.entries.values().any(|entry| entry.nodes.contains(&node))
     }
 
     /// Counts elements that paths and patches are to be cut into, before they take memory. Together more than
     /// [`MOST_ELEMENTS`] are an error.
     pub fn ask_for(&mut self, elements: usize, place: &Span, report: &mut Report) -> Option<()> {
-        let before = self.elements;
-        self.elements = before.saturating_add(elements);
-        if self.elements <= MOST_ELEMENTS {
+        let before = self.asked;
+        self.asked = before.saturating_add(elements);
+        if self.asked <= MOST_ELEMENTS {
             return Some(());
         }
         // This is said once: all that comes after is too many as well.
         if before <= MOST_ELEMENTS {
-            let message = format!("with this the deck has {} elements", self.elements);
+            let message = format!("with this the deck has {} elements", self.asked);
             let hint = format!("at most {MOST_ELEMENTS} are allowed in all beams, bars and shells together");
             report.error_with::<()>(place, message, hint);
         }

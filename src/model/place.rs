@@ -1,5 +1,7 @@
 //! What a name of the deck can stand for.
 
+use crate::deck::parts::PartIndex;
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Place {
     /// A point by its node.
@@ -7,14 +9,10 @@ pub(super) enum Place {
     // The others stand by their index in the deck, which is their index in a sound model.
     Body(usize),
     Set(usize),
-    Beam(usize),
-    Bar(usize),
-    Shell(usize),
-    /// An edge of a shell, counted from 0.
-    Edge(usize, usize),
-    Link(usize),
     Joint(usize),
-    Contact(usize),
+    Part(PartIndex),
+    /// An edge of a surface, counted from 0.
+    Edge(PartIndex, usize),
     /// A group of the mesh.
     Group(usize),
 }
@@ -31,14 +29,19 @@ impl Place {
             Place::Point(_) => "point",
             Place::Body(_) => "body",
             Place::Set(_) => "set",
-            Place::Beam(_) => "beam",
-            Place::Bar(_) => "bar",
-            Place::Shell(_) => "shell",
-            Place::Edge(..) => "edge of a shell",
-            Place::Link(_) => "link",
             Place::Joint(_) => "joint",
-            Place::Contact(_) => "contact",
+            Place::Part(part) => part.kind.word(),
+            Place::Edge(..) => "edge of a shell",
             Place::Group(_) => "group of the mesh",
+        }
+    }
+
+    /// False for what only joins or touches nodes that stand elsewhere.
+    pub fn has_nodes(self) -> bool {
+        match self {
+            Place::Part(part) => part.kind.is_deformable(),
+            Place::Joint(_) => false,
+            Place::Point(_) | Place::Body(_) | Place::Set(_) | Place::Edge(..) | Place::Group(_) => true,
         }
     }
 }

@@ -94,8 +94,7 @@ impl<'d> Scene<'d> {
             Place::Set(set) => &self.deck.sets.0[set].1.values,
             _ => return,
         };
-        let has_none =
-            |leaf: &Place| matches!(leaf, Place::Link(_) | Place::Joint(_) | Place::Contact(_) | Place::Group(_));
+        let has_none = |leaf: &Place| matches!(leaf, Place::Group(_)) || !leaf.has_nodes();
         if members.is_empty() {
             report.error::<()>(&name.span, format!("the set `{}` is empty", name.value));
         } else if report.connections_known() && self.names.leaves(place).iter().all(has_none) {

@@ -1,9 +1,8 @@
 //! `[[shells]]`: patches or groups of the mesh → nodes, normals and elements.
 
-use super::data::{MassKind, Part, Shell, ShellElement};
+use super::data::{MassKind, Part, PartIndex, PartKind, Shell, ShellElement};
 use super::nodes::Nodes;
 use super::part_context::PartContext;
-use super::parts::PartEntry;
 use super::patch::{Edges, Patch};
 use super::report::Owner;
 use super::surface_map::Map;
@@ -29,18 +28,17 @@ pub(super) fn shells(cx: &mut PartContext) {
         if shell.group.is_none() {
             cx.report.require(&owner, "name", &shell.name);
         }
-        cx.parts.shells.push(PartEntry::default());
-        let made = read_shell(index, name, &owner, shell, &mut edges, cx);
-        let first = cx.parts.list.len();
-        cx.parts.list.extend(made.unwrap_or_default().into_iter().map(Part::Shell));
-        cx.parts.shells[index].range = first..cx.parts.list.len();
+        let at = PartIndex { kind: PartKind::Shell, index };
+        cx.parts.begin(at);
+        let made = read_shell(at, name, &owner, shell, &mut edges, cx);
+        cx.parts.add(at, made.unwrap_or_default().into_iter().map(Part::from));
     }
 }
 
 /// Reads one shell as far as it can, so that all errors of the shell are found; `None` means there were some. A shell of triangles and
 /// quadrilaterals becomes two.
 fn read_shell<'d>(
-    index: usize,
+    at: PartIndex,
     name: String,
     owner: &Owner<'d>,
     shell: &'d words::Shell,
@@ -49,6 +47,7 @@ fn read_shell<'d>(
 ) -> Option<Vec<Shell>> {
     let mass = chosen(&shell.mass);
     let part = plate(owner, shell, mass, cx).map(|(plate, density, yielding, axis)| {
+        cx.parts.entry_mut(at).contact_radius = 0.5 * plate.thickness;
         let (elements, numbers) = (Vec::new(), Vec::new());
         Shell { name: name.clone(), plate, density, mass, yielding, axis, corners: 0, elements, numbers }
     });
@@ -60,7 +59,7 @@ fn read_shell<'d>(
             ("surface", span(&shell.surface)),
         ];
         cx.report.reject_unused("a shell made of a group of the mesh", &unused);
-        return of_group(index, owner, group, part, cx);
+        return of_group(at, owner, group, part, cx);
     }
     if cx.report.is_spoiled(owner.span, "group") {
         return None;
@@ -75,7 +74,7 @@ fn read_shell<'d>(
         Some(at) => at.value == words::ElementKind::Triangle,
         None => corners.len() == 3,
     };
-    let map = Map::read(owner, shell, &corners, cx.nodes, cx.report)?;
+    let map = Map::read(owner, &shell.surface, &corners, cx.nodes, cx.report)?;
     let counts = counts?;
     if corners.len() == 3 && counts[0] != counts[1] {
         let place = span(&shell.elements).unwrap_or(owner.span);
@@ -84,13 +83,13 @@ fn read_shell<'d>(
     }
     let part = part?;
     let patch = Patch { name: &name, owner, map, corners, counts, made: 0 };
-    let elements = of_patch(index, patch, triangles, edges, cx)?;
+    let elements = of_patch(at, patch, triangles, edges, cx)?;
     Some(vec![Shell { corners: if triangles { 3 } else { 4 }, elements, ..part }])
 }
 
 /// The elements of a patch; its nodes are noted in its entry.
 fn of_patch<'d>(
-    index: usize,
+    at: PartIndex,
     mut patch: Patch<'_, 'd>,
     triangles: bool,
     edges: &mut Edges,
@@ -98,7 +97,7 @@ fn of_patch<'d>(
 ) -> Option<Vec<ShellElement>> {
     let mut grid = patch.grid(cx.report)?;
     let sound = patch.make_nodes(&mut grid, edges, cx.nodes, cx.report);
-    let entry = &mut cx.parts.shells[index];
+    let entry = cx.parts.entry_mut(at);
     entry.edges = std::mem::take(&mut grid.edges);
     sound?;
     entry.nodes = grid.nodes.iter().copied().flatten().collect();
@@ -114,7 +113,7 @@ fn of_patch<'d>(
 
 /// The faces of a group, quadrilaterals and triangles apart, in copies of a shell without elements.
 fn of_group<'d>(
-    index: usize,
+    at: PartIndex,
     owner: &Owner<'d>,
     name: &'d At<String>,
     shell: Option<Shell>,
@@ -125,7 +124,7 @@ fn of_group<'d>(
     let (own, local) = cx.groups.own_nodes(&faces)?;
     for &node in &own {
         cx.nodes.connect(first + node as usize, true);
-        cx.parts.shells[index].nodes.push(first + node as usize);
+        cx.parts.entry_mut(at).nodes.push(first + node as usize);
     }
     let shell = shell?;
     let mesh = &cx.groups.mesh.input?.mesh;

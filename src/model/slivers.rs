@@ -1,6 +1,6 @@
 //! Badly shaped shell elements. They pass the patch test, so they are accepted, but they lose precision.
 
-use super::data::{PartType, Shell};
+use super::data::Drawing;
 use super::nodes::Nodes;
 use super::parts::Parts;
 use super::report::Report;
@@ -37,20 +37,20 @@ impl Worst {
 
 /// Warns once for each shell of the deck and each way in which its elements are badly shaped.
 pub(super) fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Report) {
-    for (shell, entry) in deck.shells.iter().zip(&parts.shells) {
+    for surface in deck.parts().filter(|part| part.at.kind.is_surface()) {
         let (mut long, mut flat) = (Worst::default(), Worst::default());
-        let made = parts.of(entry).iter().filter_map(Shell::of);
-        for (part, element) in made.flat_map(|part| part.elements.iter().map(move |e| (part, e))) {
-            let n = part.corners;
-            let x: [Vec3; 4] = std::array::from_fn(|k| nodes.x(element.nodes[k % n]));
+        for (part, element) in parts.of(surface.at).iter().flat_map(|part| (0..part.elements()).map(move |e| (part, e)))
+        {
+            let Some(Drawing::Face { corners }) = part.drawing(element) else { continue };
+            let n = corners.len();
+            let x: [Vec3; 4] = std::array::from_fn(|k| nodes.x(corners[k % n]));
             let centre = x[..n].iter().sum::<Vec3>() / n as f64;
             long.meet(length_to_height(&x, n), LONG, centre);
             if n == 4 {
                 flat.meet(widest(&x), FLAT, centre);
             }
         }
-        let name = shell.name.as_ref().or(shell.group.as_ref());
-        let name = name.map_or_else(|| "a shell".to_owned(), |name| format!("shell `{}`", name.value));
+        let name = surface.name().map_or_else(|| "a shell".to_owned(), |_| surface.title());
         if long.count > 0 {
             let message = format!("{} of {name}: up to {:.0} times as long as high", slivers(long.count), long.value);
             let hint = format!(
@@ -58,12 +58,12 @@ pub(super) fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &
                 long.place(),
                 2.0 * long.value.log10()
             );
-            report.warn(&shell.span, message, hint);
+            report.warn(surface.span, message, hint);
         }
         if flat.count > 0 {
             let message = format!("{name} has a quadrilateral with a corner of {} degrees", degrees(flat.value));
             let hint = format!("{}; it acts like a triangle", flat.place());
-            report.warn(&shell.span, message, hint);
+            report.warn(surface.span, message, hint);
         }
     }
 }

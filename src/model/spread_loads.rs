@@ -8,6 +8,7 @@ use super::scene::Scene;
 use super::spot::Spot;
 use super::values::{span, vec3_or_zero};
 use crate::deck::loads as words;
+use crate::deck::parts::PartIndex;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 use crate::elements::pressure::Face;
@@ -52,7 +53,7 @@ pub(super) fn spread_load<'d>(
     let mut seen = HashSet::new();
     for name in &names.values {
         let Some(place) = scene.names.find(name, report) else { continue };
-        if seen.insert(scene.names.shell_of(place).map_or(place, Place::Shell)) {
+        if seen.insert(scene.names.surface_of(place).map_or(place, Place::Part)) {
             spread.over(place, name, report);
         }
     }
@@ -79,8 +80,9 @@ struct Spread<'a, 'd> {
 impl<'d> Spread<'_, 'd> {
     fn over(&mut self, place: Place, name: &'d At<String>, report: &mut Report<'d>) {
         match (place, self.line) {
-            (Place::Edge(shell, edge), Some(line)) => {
-                let nodes = self.scene.parts.shells[shell].edges.get(edge).map_or(&[][..], |nodes| nodes);
+            (Place::Edge(surface, edge), Some(line)) => {
+                let entry = self.scene.parts.entry(surface);
+                let nodes = entry.and_then(|entry| entry.edges.get(edge)).map_or(&[][..], |nodes| nodes);
                 nodes.windows(2).for_each(|pair| self.along([pair[0], pair[1]], line));
             }
             (Place::Group(_) | Place::Set(_), Some(line)) => {
@@ -90,13 +92,13 @@ impl<'d> Spread<'_, 'd> {
                     }
                 }
             }
-            _ => match self.scene.names.shell_of(place) {
-                Some(shell) if self.line.is_none() => self.over_shell(shell),
+            _ => match self.scene.names.surface_of(place) {
+                Some(surface) if self.line.is_none() => self.over_surface(surface),
                 _ => {
                     let what = if self.line.is_some() { "edges of shells" } else { "shells" };
                     let message = format!("this load acts on {what}, and `{}` is {}", name.value, place.kind());
                     match place {
-                        Place::Beam(_) | Place::Bar(_) => {
+                        Place::Part(part) if part.kind.is_deformable() && !part.kind.is_surface() => {
                             let hint = "beams and bars take forces at points along them; gravity acts by itself";
                             report.error_with::<()>(&name.span, message, hint);
                         }
@@ -121,8 +123,8 @@ impl<'d> Spread<'_, 'd> {
         pair.iter().for_each(|&node| *self.forces.entry(node).or_default() += half * line);
     }
 
-    fn over_shell(&mut self, shell: usize) {
-        for nodes in self.scene.parts.faces(shell) {
+    fn over_surface(&mut self, surface: PartIndex) {
+        for nodes in self.scene.parts.elements(surface) {
             if self.follows {
                 self.faces.extend(Face::of(&nodes));
                 continue;
@@ -155,8 +157,8 @@ fn line_of(
     // Each edge between two of them, with the number of its faces; in order of first appearance.
     let (mut edges, mut places): (Vec<([usize; 2], usize)>, _) = (Vec::new(), HashMap::new());
     let mut whole = false;
-    for shell in 0..scene.deck.shells.len() {
-        for face in scene.parts.faces(shell) {
+    for surface in scene.deck.parts().filter(|part| part.at.kind.is_surface()) {
+        for face in scene.parts.elements(surface.at) {
             whole |= face.iter().all(|node| set.contains(node));
             for (k, &a) in face.iter().enumerate() {
                 let b = face[(k + 1) % face.len()];

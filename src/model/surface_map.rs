@@ -4,7 +4,7 @@ use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::values::vec3_or_zero;
 use crate::deck::shells as words;
-use crate::deck::words::Table;
+use crate::deck::words::{Maybe, Table};
 use crate::diagnostic::{At, Span};
 use crate::math::{Mat3, Vec3};
 use crate::names::{joined, short};
@@ -109,14 +109,14 @@ impl Map {
     /// The map of a patch of the deck, whose corners are three or four nodes.
     pub fn read<'d>(
         owner: &Owner<'d>,
-        shell: &'d words::Shell,
+        surface: &'d Maybe<Table<words::PatchSurface>>,
         corners: &[usize],
         nodes: &Nodes,
         report: &mut Report<'d>,
     ) -> Option<Map> {
         let (mut kind, mut center, mut axis) = (Coordinates::Straight, Vec3::zeros(), Vec3::z());
         let mut place = owner.span;
-        if let Some(surface) = &shell.surface {
+        if let Some(surface) = surface {
             (kind, axis) = read_surface(surface, report)?;
             center = vec3_or_zero(&surface.center);
             place = &surface.span;

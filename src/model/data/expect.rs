@@ -1,6 +1,7 @@
 //! Values that a run must reach.
 
 use super::passage::Passage;
+use crate::deck::parts::PartIndex;
 
 /// A value that the run must reach.
 #[derive(Debug, Clone)]
@@ -23,12 +24,10 @@ pub enum ExpectAt {
     Node(usize),
     /// Columns of energy.csv.
     Energy,
-    /// Columns of links.csv, by place among the links.
-    Link(usize),
+    /// Columns of the table of links or of contacts, and the magnitude of the force of a contact.
+    Part(PartIndex),
     /// Force and moment on the first end of a joint.
     Joint(usize),
-    /// Columns of contacts.csv, and the size of the force, by place among the contacts.
-    Contact(usize),
     /// Largest values over the shells from one place in [`Model::parts`] to before another: of von Mises stress and plastic strain.
     Shells(usize, usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.

@@ -1,30 +1,42 @@
 //! The model as plain data: what every later stage reads, and what building it writes.
 
 mod analysis;
+mod bar;
+mod beam;
 mod constraints;
+mod contact;
 mod expect;
+mod integrals;
+mod link;
 mod loading;
 mod model;
 mod node;
 mod output;
 mod part;
+mod part_answers;
 mod passage;
+mod shell;
 mod step_length;
 mod study;
 
 pub use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
-pub use crate::deck::beams::MassKind;
+pub use crate::deck::parts::{MassKind, PartIndex, PartKind};
 pub use crate::deck::supports::History;
 pub use analysis::{Analysis, Iteration, Solution};
+pub use bar::Bar;
+pub use beam::{Beam, BeamElement};
 pub use constraints::{Constraints, DependentNode, Joint, Motion, Restraint};
+pub use contact::Contact;
 pub use expect::{Expect, ExpectAt, Tolerance, When};
+pub use integrals::MassIntegrals;
+pub use link::{Link, LinkKind};
 pub use loading::{BaseAcceleration, Damping, Load, Loading, NodalDamping, Pressure};
 pub use model::{MeshFile, Model, Origin, Rigid};
 pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Output};
-pub use part::{
-    Bar, Beam, BeamElement, Contact, Drawing, Link, LinkKind, Part, PartKind, PartType, Shell, ShellElement,
-};
+pub use part::{Part, PartType, quantities_of};
+pub use part_answers::{Drawing, NodeWeights};
 pub use passage::Passage;
+pub use shell::{Shell, ShellElement};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, FIRST_STEP, StepLength};
 pub use study::{Choice, Quantity, Study};

@@ -6,9 +6,10 @@ use super::expect::Expect;
 use super::loading::{Damping, Loading};
 use super::node::{Body, Mass, Node};
 use super::output::Output;
-use super::part::{Part, PartKind, PartType};
+use super::part::{Part, PartType};
 use super::step_length::{SAFE, SAFE_WHERE_STRUCK};
 use super::study::Study;
+use crate::deck::parts::PartKind;
 use crate::sections::Stiffness;
 
 /// A scene, checked and ready to be planned.

@@ -21,14 +21,14 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Contact(_) => names(&[&CONTACT, &[CONTACT_FORCE]]),
+        ExpectAt::Part(part) if part.kind == PartKind::Contact => names(&[&CONTACT, &[CONTACT_FORCE]]),
         _ => Vec::new(),
     }
 }
 
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Contact(i) = at else { return None };
-    let contact = frame.derived.contacts.get(i)?;
+    let ExpectAt::Part(part) = at else { return None };
+    let contact = frame.derived.contacts.get(part.index)?;
     values(contact).get(index).copied()
 }
 

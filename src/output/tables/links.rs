@@ -20,14 +20,14 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Link(_) => names(&[&LINK]),
+        ExpectAt::Part(part) if part.kind == PartKind::Link => names(&[&LINK]),
         _ => Vec::new(),
     }
 }
 
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Link(i) = at else { return None };
-    let link = frame.derived.links.get(i)?;
+    let ExpectAt::Part(part) = at else { return None };
+    let link = frame.derived.links.get(part.index)?;
     values(link).get(index).copied()
 }
 

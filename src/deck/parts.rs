@@ -1,0 +1,202 @@
+//! The parts of a deck in one view: beams, bars, shells, links and contacts, whatever table they come from. What other rooms ask
+//! of a part before it is read is answered by its table, in the file of its kind.
+
+use super::Deck;
+use super::words::{Names, OneOrMany, Table};
+use crate::diagnostic::{At, Span};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The kinds of parts, in the order in which they are read, numbered, assembled and written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PartKind {
+    Beam,
+    Bar,
+    Shell,
+    Link,
+    Contact,
+}
+
+/// A part by its kind and the index of its table among those of that kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PartIndex {
+    pub kind: PartKind,
+    pub index: usize,
+}
+
+/// The table of a part. What a kind of part does not have is what is answered by default.
+pub trait PartTable {
+    fn name(&self) -> Option<&At<String>>;
+
+    /// The group of the mesh that the part is made of.
+    fn group(&self) -> Option<&At<String>> {
+        None
+    }
+
+    /// Names of what the part is made of, joins or touches.
+    fn members(&self) -> Vec<&At<String>>;
+
+    /// Whether the name of the part stands for its nodes where a list of points, bodies and sets is wanted: its inner nodes have
+    /// no names of their own.
+    fn is_node_list(&self) -> bool {
+        false
+    }
+
+    /// How many edges have names of their own, such as `roof.edge1`.
+    fn named_edges(&self) -> usize {
+        0
+    }
+
+    fn material(&self) -> Option<&At<String>> {
+        None
+    }
+
+    /// How many elements the part is cut into; `None` where that is not for the deck to say.
+    fn elements(&self) -> Option<&At<OneOrMany<u64>>> {
+        None
+    }
+
+    /// The key `rigid`; `None` for a part that cannot be a body by itself.
+    fn rigid(&self) -> Option<bool> {
+        None
+    }
+}
+
+/// A part of a deck, whatever its kind.
+#[derive(Clone, Copy)]
+pub struct DeckPart<'d> {
+    pub at: PartIndex,
+    pub span: &'d Span,
+    pub table: &'d dyn PartTable,
+}
+
+impl<'d> DeckPart<'d> {
+    /// Its own name or else that of its group, by which the rest of the deck knows it.
+    pub fn name(&self) -> Option<&'d At<String>> {
+        self.table.name().or(self.table.group())
+    }
+
+    pub fn is_named(&self, name: &str) -> bool {
+        self.name().is_some_and(|own| own.value == name)
+    }
+
+    /// Its name, or `beams.0` for a part without one.
+    pub fn label(&self) -> String {
+        self.name().map_or_else(|| format!("{}.{}", self.at.kind.table(), self.at.index), |name| name.value.clone())
+    }
+
+    /// "shell `roof`".
+    pub fn title(&self) -> String {
+        format!("{} `{}`", self.at.kind.word(), self.name().map_or("", |name| name.as_str()))
+    }
+
+    /// True where the part is a body by itself.
+    pub fn is_rigid(&self) -> bool {
+        self.table.rigid() == Some(true)
+    }
+
+    /// Where the deck names it, or its table.
+    pub fn place(&self) -> &'d Span {
+        self.name().map_or(self.span, |name| &name.span)
+    }
+}
+
+impl PartKind {
+    /// In their order.
+    pub const ALL: [PartKind; 5] = [PartKind::Beam, PartKind::Bar, PartKind::Shell, PartKind::Link, PartKind::Contact];
+
+    /// The word for one part, in files and messages.
+    pub fn word(self) -> &'static str {
+        match self {
+            PartKind::Beam => "beam",
+            PartKind::Bar => "bar",
+            PartKind::Shell => "shell",
+            PartKind::Link => "link",
+            PartKind::Contact => "contact",
+        }
+    }
+
+    /// The tables of the deck.
+    pub fn table(self) -> &'static str {
+        match self {
+            PartKind::Beam => "beams",
+            PartKind::Bar => "bars",
+            PartKind::Shell => "shells",
+            PartKind::Link => "links",
+            PartKind::Contact => "contacts",
+        }
+    }
+
+    /// The words for one and for several of what is counted of parts: their elements of material, or the parts themselves.
+    pub fn counted_as(self) -> [&'static str; 2] {
+        match self {
+            PartKind::Beam => ["beam element", "beam elements"],
+            PartKind::Bar => ["bar element", "bar elements"],
+            PartKind::Shell => ["shell element", "shell elements"],
+            PartKind::Link => ["link", "links"],
+            PartKind::Contact => ["contact", "contacts"],
+        }
+    }
+
+    /// True for parts with nodes and elements of material, which have mass, strain energy and may yield.
+    pub fn is_deformable(self) -> bool {
+        match self {
+            PartKind::Beam | PartKind::Bar | PartKind::Shell => true,
+            PartKind::Link | PartKind::Contact => false,
+        }
+    }
+
+    /// True for parts whose elements are faces: they take loads per area, and per length along edges.
+    pub fn is_surface(self) -> bool {
+        self == PartKind::Shell
+    }
+
+    /// True for parts to whose nodes others can be attached.
+    pub fn takes_attachments(self) -> bool {
+        self == PartKind::Beam
+    }
+}
+
+impl Deck {
+    /// All parts, kind by kind in the order of [`PartKind::ALL`].
+    pub fn parts(&self) -> impl Iterator<Item = DeckPart<'_>> {
+        let of_kind = move |kind| (0..).map_while(move |index| self.part(PartIndex { kind, index }));
+        PartKind::ALL.into_iter().flat_map(of_kind)
+    }
+
+    /// A part by its index; `None` beyond the last of its kind.
+    pub fn part(&self, at: PartIndex) -> Option<DeckPart<'_>> {
+        match at.kind {
+            PartKind::Beam => view(at, &self.beams),
+            PartKind::Bar => view(at, &self.bars),
+            PartKind::Shell => view(at, &self.shells),
+            PartKind::Link => view(at, &self.links),
+            PartKind::Contact => view(at, &self.contacts),
+        }
+    }
+}
+
+fn view<T: PartTable>(at: PartIndex, tables: &[At<Table<T>>]) -> Option<DeckPart<'_>> {
+    let table = tables.get(at.index)?;
+    Some(DeckPart { at, span: &table.span, table: &*table.value })
+}
+
+/// The names of a list, none where it is missing.
+pub(super) fn names(list: &Option<At<Names>>) -> Vec<&At<String>> {
+    list.iter().flat_map(|list| &list.value.values).collect()
+}
+
+/// Where the mass of a part goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassKind {
+    /// At the nodes, by the element's Lobatto rule: a diagonal (lumped) mass matrix.
+    #[default]
+    Lumped,
+    /// Translations by the element's shape functions, with off-diagonal terms; rotary inertia at the nodes.
+    Consistent,
+    /// Lumped, but without the mass at nodes that are rigidly attached to a body.
+    FreeNodes,
+    /// The part has no mass.
+    None,
+}

@@ -1,0 +1,85 @@
+//! Bars and cables: lines of elements that resist stretching alone.
+
+use super::integrals::{MassIntegrals, along};
+use super::node::Node;
+use super::part_answers::{Drawing, NodeWeights, PartAnswers};
+use crate::deck::parts::MassKind;
+use crate::materials::MaterialLaw;
+use crate::math::{Mat3, Vec3};
+use crate::quantities::{Column, PLASTIC_STRAIN};
+use crate::sections::Stiffness;
+
+/// A line of nodes, each two of them joined by an element that resists stretching alone.
+#[derive(Debug, Clone)]
+pub struct Bar {
+    pub name: String,
+    /// E A, force per unit strain.
+    pub axial_stiffness: f64,
+    pub mass_per_length: f64,
+    pub mass: MassKind,
+    pub tension_only: bool,
+    /// Length without force over that at t = 0.
+    pub free: f64,
+    /// `None`: the material is elastic.
+    pub yielding: Option<MaterialLaw>,
+    pub elements: Vec<[usize; 2]>,
+}
+
+impl PartAnswers for Bar {
+    const QUANTITIES: &'static [&'static [Column]] = &[&[PLASTIC_STRAIN]];
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn elements(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, element: usize) -> &[usize] {
+        &self.elements[element]
+    }
+
+    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+        self.elements.iter_mut().flatten().for_each(visit);
+    }
+
+    fn yields(&self) -> bool {
+        self.yielding.is_some()
+    }
+
+    fn mass_kind(&self) -> Option<MassKind> {
+        Some(self.mass)
+    }
+
+    fn element_mass(&self, element: usize, nodes: &[Node], _: &[Stiffness]) -> f64 {
+        let [start, end] = self.elements[element].map(|node| nodes[node].x);
+        self.mass_per_length * (start - end).norm()
+    }
+
+    fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
+        Some(Drawing::Curve { nodes: self.nodes(element), axes: Mat3::identity() })
+    }
+
+    fn places_between(&self, count: usize) -> Vec<NodeWeights> {
+        let mut places = Vec::new();
+        for &[a, b] in &self.elements {
+            places.extend((1..=count).map(|k| {
+                let s = k as f64 / (count + 1) as f64;
+                vec![(a, 1.0 - s), (b, s)]
+            }));
+        }
+        places
+    }
+
+    fn take_out(&mut self, _: &[Stiffness], x: &dyn Fn(usize) -> Vec3, sums: &mut MassIntegrals) -> Vec<Vec<usize>> {
+        let mut taken = Vec::new();
+        for ends in std::mem::take(&mut self.elements) {
+            let x = ends.map(x);
+            let density = if self.mass == MassKind::None { 0.0 } else { self.mass_per_length };
+            sums.add(density, &x, |a, b| (x[1] - x[0]).norm() * along(a, b));
+            taken.push(ends.to_vec());
+        }
+        taken
+    }
+}

@@ -1,0 +1,123 @@
+//! Beams: lines of elements that stretch, shear, bend and twist.
+
+use super::integrals::{MassIntegrals, along};
+use super::node::Node;
+use super::part_answers::{Drawing, NodeWeights, PartAnswers};
+use crate::deck::parts::MassKind;
+use crate::elements::beam::FibreModel;
+use crate::math::{Mat3, Vec3, quadrature};
+use crate::quantities::{Column, PLASTIC_STRAIN};
+use crate::sections::Stiffness;
+
+/// A line of nodes, cut into elements with one or more inner nodes.
+#[derive(Debug, Clone)]
+pub struct Beam {
+    pub name: String,
+    /// Degree of the interpolation: an element has `order + 1` nodes.
+    pub order: usize,
+    pub mass: MassKind,
+    /// Keep the rotary inertia of the section.
+    pub rotary_inertia: bool,
+    /// `None`: the material is elastic.
+    pub yielding: Option<FibreModel>,
+    pub elements: Vec<BeamElement>,
+}
+
+#[derive(Debug, Clone)]
+pub struct BeamElement {
+    /// From one end to the other; the first `order + 1` are used. Inner nodes lie at the Lobatto points of a straight line.
+    pub nodes: [usize; 5],
+    /// Columns: section axes x (along the beam), y, z in global components at t = 0.
+    pub frame: Mat3,
+    /// Index into [`super::Model::stiffnesses`].
+    pub section: usize,
+}
+
+impl PartAnswers for Beam {
+    const QUANTITIES: &'static [&'static [Column]] = &[&[PLASTIC_STRAIN]];
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn elements(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, element: usize) -> &[usize] {
+        &self.elements[element].nodes[..=self.order]
+    }
+
+    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+        let order = self.order;
+        self.elements.iter_mut().flat_map(|e| &mut e.nodes[..=order]).for_each(visit);
+    }
+
+    fn yields(&self) -> bool {
+        self.yielding.is_some()
+    }
+
+    fn mass_kind(&self) -> Option<MassKind> {
+        Some(self.mass)
+    }
+
+    fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {
+        let [start, end] = self.elements[element].ends(self.order).map(|node| nodes[node].x);
+        stiffnesses[self.elements[element].section].mass_per_length * (start - end).norm()
+    }
+
+    fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
+        Some(Drawing::Curve { nodes: self.nodes(element), axes: self.elements[element].frame })
+    }
+
+    fn places_between(&self, count: usize) -> Vec<NodeWeights> {
+        let (at_nodes, _) = quadrature::lobatto(self.order + 1);
+        let between: Vec<f64> = at_nodes
+            .windows(2)
+            .flat_map(|pair| (1..=count).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / (count + 1) as f64))
+            .collect();
+        let mut places = Vec::new();
+        for element in &self.elements {
+            let nodes = &element.nodes[..=self.order];
+            places.extend(
+                between.iter().map(|&xi| nodes.iter().copied().zip(lagrange(at_nodes, xi)).collect::<NodeWeights>()),
+            );
+        }
+        places
+    }
+
+    /// The mass lies on the axis, with the rotary inertia of the section.
+    fn take_out(
+        &mut self,
+        stiffnesses: &[Stiffness],
+        x: &dyn Fn(usize) -> Vec3,
+        sums: &mut MassIntegrals,
+    ) -> Vec<Vec<usize>> {
+        let mut taken = Vec::new();
+        for e in std::mem::take(&mut self.elements) {
+            let ends = e.ends(self.order);
+            let x = ends.map(x);
+            let (length, section) = ((x[1] - x[0]).norm(), &stiffnesses[e.section]);
+            let density = if self.mass == MassKind::None { 0.0 } else { section.mass_per_length };
+            sums.add(density, &x, |a, b| length * along(a, b));
+            if self.rotary_inertia && self.mass != MassKind::None {
+                sums.rotary += length * e.frame * section.inertia_per_length * e.frame.transpose();
+            }
+            taken.push(ends.to_vec());
+        }
+        taken
+    }
+}
+
+impl BeamElement {
+    /// First and last node of an element of this order.
+    pub fn ends(&self, order: usize) -> [usize; 2] {
+        [self.nodes[0], self.nodes[order]]
+    }
+}
+
+/// The polynomials of nodes at ξ.
+fn lagrange(nodes: &[f64], xi: f64) -> Vec<f64> {
+    let others = |a: usize| (0..nodes.len()).filter(move |&b| b != a);
+    (0..nodes.len()).map(|a| others(a).map(|b| (xi - nodes[b]) / (nodes[a] - nodes[b])).product()).collect()
+}

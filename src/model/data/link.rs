@@ -1,0 +1,63 @@
+//! Springs, dampers, gaps and bushings between two nodes.
+
+use super::part_answers::{Drawing, PartAnswers};
+use crate::elements::link::LinkLaw;
+use crate::math::{Mat3, Vec3};
+use crate::quantities::{Column, LINK};
+
+/// A spring, damper or bushing between two nodes.
+#[derive(Debug, Clone)]
+pub struct Link {
+    pub name: String,
+    /// Nodes at `from` and `to`: dependent nodes of a node or body, the node itself, or a restrained node for the ground.
+    pub ends: [usize; 2],
+    pub kind: LinkKind,
+}
+
+#[derive(Debug, Clone)]
+pub enum LinkKind {
+    /// Force along the line of the ends, or along a fixed global unit vector.
+    Line {
+        law: LinkLaw,
+        damping: f64,
+        direction: Option<Vec3>,
+        /// Length (along the line) at which the law's elongation is zero; along `direction`: the initial projection
+        /// counts as zero elongation unless a free length is given.
+        free_length: f64,
+    },
+    /// Six components in the frame of the first end; `axes` (columns, global at t = 0).
+    Bushing { stiffness: [f64; 6], damping: [f64; 6], axes: Mat3 },
+}
+
+impl PartAnswers for Link {
+    const QUANTITIES: &'static [&'static [Column]] = &[&LINK];
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn elements(&self) -> usize {
+        1
+    }
+
+    fn nodes(&self, _: usize) -> &[usize] {
+        &self.ends
+    }
+
+    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+        self.ends.iter_mut().for_each(visit);
+    }
+
+    fn may_stiffen(&self) -> bool {
+        matches!(&self.kind, LinkKind::Line { law, .. } if !matches!(law, LinkLaw::Linear { .. }))
+    }
+
+    fn may_release(&self) -> bool {
+        let releases = |law: &LinkLaw| matches!(law, LinkLaw::Table { .. }) || law.force(0.0).0 != 0.0;
+        matches!(&self.kind, LinkKind::Line { law, .. } if releases(law))
+    }
+
+    fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
+        Some(Drawing::Curve { nodes: self.nodes(element), axes: Mat3::identity() })
+    }
+}

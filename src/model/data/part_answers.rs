@@ -1,0 +1,74 @@
+//! What every kind of part answers, each in the file of its kind. What a kind does not have is what is answered by default.
+
+use super::integrals::MassIntegrals;
+use super::node::Node;
+use crate::deck::parts::MassKind;
+use crate::math::{Mat3, Vec3};
+use crate::quantities::Column;
+use crate::sections::Stiffness;
+
+/// How an element is drawn.
+pub enum Drawing<'p> {
+    /// A curve from the first node to the last; `axes` (columns, global at t = 0) are the section's.
+    Curve { nodes: &'p [usize], axes: Mat3 },
+    /// A face of three or four corners.
+    Face { corners: &'p [usize] },
+}
+
+/// A place on an element: its nodes, each with its weight.
+pub type NodeWeights = Vec<(usize, f64)>;
+
+/// The questions to a part. [`super::Part`] hands each of them to its kind, and says what they mean.
+pub trait PartAnswers {
+    /// What `[[expect]]` may ask of such a part; plastic strain, where its material yields.
+    const QUANTITIES: &'static [&'static [Column]];
+
+    fn name(&self) -> &str;
+
+    fn elements(&self) -> usize;
+
+    fn nodes(&self, element: usize) -> &[usize];
+
+    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize));
+
+    fn yields(&self) -> bool {
+        false
+    }
+
+    fn may_stiffen(&self) -> bool {
+        false
+    }
+
+    fn may_release(&self) -> bool {
+        false
+    }
+
+    fn mass_kind(&self) -> Option<MassKind> {
+        None
+    }
+
+    fn element_mass(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> f64 {
+        0.0
+    }
+
+    fn drawing(&self, _element: usize) -> Option<Drawing<'_>> {
+        None
+    }
+
+    fn normals(&self, _element: usize) -> &[Vec3] {
+        &[]
+    }
+
+    fn places_between(&self, _count: usize) -> Vec<NodeWeights> {
+        Vec::new()
+    }
+
+    fn take_out(
+        &mut self,
+        _stiffnesses: &[Stiffness],
+        _x: &dyn Fn(usize) -> Vec3,
+        _sums: &mut MassIntegrals,
+    ) -> Vec<Vec<usize>> {
+        Vec::new()
+    }
+}
