@@ -1,4 +1,4 @@
-//! What assembly asks of a group of like elements.
+//! The interface of a group of like elements to assembly.
 
 use super::results::{IntegrationPoint, ShellResultants};
 use crate::materials::Dissipation;

@@ -10,6 +10,7 @@ use crate::state::{Configuration, Node};
 /// One bushing between two nodes.
 #[derive(Debug, Clone)]
 pub struct Bushing {
+    /// The two nodes.
     pub nodes: [usize; 2],
     /// A: the axes as columns, global components at t = 0.
     pub axes: Mat3,

@@ -81,7 +81,9 @@ struct LinkForce {
 /// One link between two nodes.
 #[derive(Debug, Clone)]
 pub struct Link {
+    /// The two nodes.
     pub nodes: [usize; 2],
+    /// The force as a function of the elongation.
     pub law: LinkLaw,
     /// Force per rate of elongation.
     pub damping: f64,

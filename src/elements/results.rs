@@ -1,4 +1,4 @@
-//! What elements hand over to be shown.
+//! The results of elements for output.
 
 use crate::math::Mat3;
 

@@ -7,10 +7,15 @@ use crate::math::rotation::RotationUpdate;
 /// The parameters of one member of the family.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlphaFamily {
+    /// Weight α_m of the acceleration at the start.
     pub alpha_m: f64,
+    /// Weight α_f of the forces at the start.
     pub alpha_f: f64,
+    /// Newmark's γ.
     pub gamma: f64,
+    /// Newmark's β.
     pub beta: f64,
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 
@@ -25,7 +30,7 @@ impl AlphaFamily {
         AlphaFamily::newmark(0.5, 0.25, rotation)
     }
 
-    /// Of (q, v, a, q̈ at the start).
+    /// Coefficients of (q, v, a, q̈ at the start).
     pub fn coefficients(&self, dt: f64) -> Coefficients {
         let AlphaFamily { alpha_m, alpha_f, gamma, beta, rotation } = *self;
         let (m, f) = ((1.0 - alpha_m) / (1.0 - alpha_f), 1.0 - alpha_f);

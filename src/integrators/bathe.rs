@@ -12,6 +12,7 @@ use crate::math::rotation::RotationUpdate;
 use crate::names::short;
 use crate::words::kinds::{Form, Key};
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "bathe",
     aliases: &["tr-bdf2"],
@@ -33,10 +34,12 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
+/// Bathe's composite scheme.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bathe {
     /// γ: the part of the step that the trapezoidal rule covers.
     pub split: f64,
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 

@@ -15,6 +15,7 @@ use super::coefficients::Coefficients;
 use super::scheme::{Make, Scheme, SchemeKind, Stepping};
 use crate::math::rotation::RotationUpdate;
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "central-difference",
     aliases: &[],
@@ -25,8 +26,10 @@ pub static KIND: SchemeKind = SchemeKind {
     make: Make { scheme: |_, rotation| Arc::new(CentralDifference { rotation }), rotation_update: true },
 };
 
+/// Central differences.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CentralDifference {
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 

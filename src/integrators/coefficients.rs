@@ -11,14 +11,15 @@ use crate::state::Increment;
 pub struct Coefficients {
     /// Equilibrium is written at t + `instant` Δt; loads and prescribed motions are taken on a straight line to there.
     pub instant: f64,
-    /// q̇ there from (q, v, a).
+    /// Weights of (q, v, a) in q̇ there.
     pub rate: [f64; 3],
-    /// q̈ there from (q, v, a, q̈ at the start of the step, where that is not a).
+    /// Weights of (q, v, a, q̈ at the start of the step, where that is not a) in q̈ there.
     pub acceleration: [f64; 4],
-    /// First guess of q from (v, a, ȧ).
+    /// Weights of (v, a, ȧ) in the predicted q.
     pub prediction: [f64; 3],
-    /// (q, q̇, q̈) at t + Δt from (q, v, a, q̈ at the instant).
+    /// Weights of (q, v, a, q̈ at the instant) in (q, q̇, q̈) at t + Δt.
     pub end: [[f64; 4]; 3],
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 
@@ -35,11 +36,12 @@ impl Coefficients {
         }
     }
 
-    /// ∂q̇/∂q and ∂q̈/∂q: what multiplies C and M in the matrix of the step.
+    /// ∂q̇/∂q and ∂q̈/∂q, the factors of C and M in the matrix of the step.
     pub fn weights(&self) -> (f64, f64) {
         (self.rate[0], self.acceleration[0])
     }
 
+    /// The predicted q from (v, a, ȧ).
     #[inline]
     pub fn predict(&self, v: &Vec6, a: &Vec6, jerk: &Vec6) -> Vec6 {
         let [c1, c2, c3] = self.prediction;

@@ -14,6 +14,7 @@ use crate::math::rotation::RotationUpdate;
 use crate::names::short;
 use crate::words::kinds::{Form, Key};
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "generalized-alpha",
     aliases: &[],
@@ -34,8 +35,10 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
+/// The generalized-α scheme.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GeneralizedAlpha {
+    /// Its parameters.
     pub family: AlphaFamily,
 }
 

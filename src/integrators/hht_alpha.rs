@@ -9,6 +9,7 @@ use super::scheme::{Make, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Key};
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "hht-alpha",
     aliases: &["hht"],
@@ -28,10 +29,12 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
-/// Second order and unconditionally stable for α from −1/3 to 0.
+/// HHT-α, of second order and unconditionally stable for α from −1/3 to 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HhtAlpha {
+    /// α, from −1/3 to 0.
     pub alpha: f64,
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 

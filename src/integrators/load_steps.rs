@@ -3,6 +3,7 @@
 use super::coefficients::Coefficients;
 use crate::math::rotation::RotationUpdate;
 
+/// The coefficients of a load step: equilibrium at its end, no rates.
 pub fn coefficients() -> Coefficients {
     Coefficients {
         instant: 1.0,

@@ -10,6 +10,7 @@ use super::scheme::{Make, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Given, Key};
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "newmark",
     aliases: &[],
@@ -60,10 +61,14 @@ fn check(given: &mut Given, gamma: f64, beta: f64) {
     }
 }
 
+/// Newmark's scheme.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Newmark {
+    /// γ ≥ ½; ½ gives second order without damping.
     pub gamma: f64,
+    /// β; unconditionally stable for 2β ≥ γ.
     pub beta: f64,
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 

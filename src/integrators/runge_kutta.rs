@@ -14,6 +14,7 @@ use super::tableau::Tableau;
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Key};
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "runge-kutta",
     aliases: &[],
@@ -37,8 +38,10 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
+/// An explicit Runge-Kutta scheme of Dormand and Prince.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RungeKutta {
+    /// Its coefficients.
     pub tableau: &'static Tableau,
 }
 

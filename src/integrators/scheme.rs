@@ -1,4 +1,4 @@
-//! What a time integration scheme says of itself.
+//! The description of a time integration scheme.
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,13 +10,13 @@ use crate::words::kinds::{Given, Kind};
 
 /// A scheme with its parameters.
 pub trait Scheme: fmt::Debug + Send + Sync {
-    /// As the deck writes it.
+    /// The deck's word for it.
     fn word(&self) -> &'static str;
 
     /// The scheme with its parameters, in words.
     fn in_words(&self) -> String;
 
-    /// What the reader of its results must know; `None`: nothing.
+    /// A note that the reader of its results must know; `None` where there is nothing to say.
     fn note(&self) -> Option<&'static str> {
         None
     }
@@ -26,16 +26,17 @@ pub trait Scheme: fmt::Debug + Send + Sync {
         2
     }
 
-    /// How it takes a step.
+    /// The kind of step that it takes.
     fn stepping(&self) -> Stepping<'_> {
         Stepping::OneStage
     }
 
-    /// For a step of length Δt; of a composite scheme the first stage, of Runge-Kutta schemes the prediction of the motion.
+    /// The coefficients for a step of length Δt: the first stage of a composite scheme, the prediction of Runge-Kutta
+    /// schemes.
     fn coefficients(&self, dt: f64) -> Coefficients;
 
-    /// Where the scheme's formulas run on an algorithmic acceleration a instead of the q̈ of equilibrium: the weights of (a, q̈ at
-    /// the start, q̈ at the end of the step) in a at the end of the step.
+    /// For schemes whose formulas use an algorithmic acceleration a in place of the q̈ of equilibrium, the weights of
+    /// (a, q̈ at the start, q̈ at the end of the step) in a at the end of the step.
     fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
         None
     }
@@ -46,7 +47,7 @@ pub trait Scheme: fmt::Debug + Send + Sync {
     }
 }
 
-/// How a scheme takes a step.
+/// The kind of step that a scheme takes.
 #[derive(Clone, Copy)]
 pub enum Stepping<'a> {
     /// Implicit: equilibrium is solved for once, by the scheme's coefficients.
@@ -73,11 +74,15 @@ pub trait TwoStages {
     fn second(&self, dt: f64) -> Coefficients;
 }
 
-/// Derivative at the end of the second stage from values at the start of the step, between the stages, and at the end.
+/// Weights of the derivative at the end of the second stage: of the values at the start of the step, between the
+/// stages, and at the end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backward {
+    /// Weight of the value at the start of the step.
     pub start: f64,
+    /// Weight of the value between the stages.
     pub between: f64,
+    /// Weight of the value at the end.
     pub end: f64,
 }
 
@@ -87,7 +92,8 @@ pub type SchemeKind = Kind<Make>;
 /// Makes a scheme of its keys. Where a key is wrong the scheme has its default, and the error is collected.
 #[derive(Debug)]
 pub struct Make {
+    /// Makes the scheme from its keys and the rotation update.
     pub scheme: fn(&mut Given, RotationUpdate) -> Arc<dyn Scheme>,
-    /// The scheme leaves open how rotations follow from their increments.
+    /// True where the deck may choose how rotations follow from their increments.
     pub rotation_update: bool,
 }

@@ -4,10 +4,10 @@ use super::coefficients::Coefficients;
 use super::scheme::{Scheme, Stepping};
 use nalgebra::{Complex, Matrix4};
 
-/// What a scheme does to motion at one ratio of step to period.
+/// The numerical properties of a scheme at one ratio of step to period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spectrum {
-    /// By how much the period comes out too long, relative.
+    /// Relative elongation of the period.
     pub elongation: f64,
     /// Damping ratio.
     pub damping: f64,
@@ -21,7 +21,8 @@ pub fn spectrum(scheme: &dyn Scheme, turn: f64) -> Spectrum {
     Spectrum { elongation: turn / phase - 1.0, damping: log / phase.hypot(log) }
 }
 
-/// c, for a scheme of second order: in a step of a smooth motion a displacement goes wrong by c Δt³ |q‴|.
+/// The error constant c of a scheme of second order: a step of smooth motion makes an error c Δt³ |q‴| of a
+/// displacement.
 pub fn error_constant(scheme: &dyn Scheme) -> f64 {
     const TURN: f64 = 0.1; // small, and far above the rounding of eigenvalues
     (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(3)

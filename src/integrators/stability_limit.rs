@@ -1,7 +1,7 @@
 //! The limit of stability of central differences in a mode with stiffness κ = φᵀKφ/φᵀMφ and damping γ = φᵀCφ/φᵀMφ, where forces that
 //! depend on velocities meet the predicted ones: ¼ κ Δt² + γ Δt ≤ 1.
 
-/// How much of its limit a step Δt takes: above 1 the mode grows.
+/// The ratio of a step Δt to its stability limit: above 1 the mode grows.
 pub fn load_of_limit(dt: f64, stiffness: f64, damping: f64) -> f64 {
     dt * (0.25 * dt * stiffness + damping)
 }

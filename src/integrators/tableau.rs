@@ -7,12 +7,13 @@ pub type Weights = &'static [(usize, f64)];
 /// one begins with.
 #[derive(Debug, PartialEq)]
 pub struct Tableau {
+    /// Order of the scheme.
     pub order: usize,
-    /// When the stages after the first are, as parts of the step.
+    /// Times of the stages after the first, as fractions of the step.
     pub c: &'static [f64],
-    /// What their motion is made of.
+    /// Weights of earlier rates in the motion of each stage.
     pub a: &'static [Weights],
-    /// What the end of the step is made of.
+    /// Weights of the rates of all stages at the end of the step.
     pub b: Weights,
     /// Differences to the embedded schemes; where there are two, e₁²/√(e₁² + e₂²/100) is the error.
     pub errors: &'static [Weights],

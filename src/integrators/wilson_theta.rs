@@ -13,6 +13,7 @@ use crate::words::kinds::{Form, Key};
 /// Below this the scheme is only conditionally stable.
 const STABLE_THETA: f64 = 1.366;
 
+/// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
     word: "wilson-theta",
     aliases: &["wilson"],
@@ -39,10 +40,12 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
+/// The Wilson-θ scheme.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WilsonTheta {
     /// Equilibrium is written at t + θΔt.
     pub theta: f64,
+    /// The update of rotations.
     pub rotation: RotationUpdate,
 }
 

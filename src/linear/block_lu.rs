@@ -39,7 +39,7 @@ impl<const B: usize> BlockLu<B> {
         for k in 0..n {
             let below = elimination.below(k);
             for (t, &i) in below.iter().enumerate() {
-                // By fill, all groups that couple with k couple with i, so the search always finds one.
+                // Fill couples all groups that couple with k, so the search always finds one.
                 let row = elimination.below(i as usize);
                 places.extend(below[t + 1..].iter().map(|j| row.partition_point(|other| other < j) as u32));
             }

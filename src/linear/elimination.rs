@@ -47,6 +47,7 @@ impl Elimination {
         natural.or(degree).expect("without a limit there is a pattern")
     }
 
+    /// Number of groups.
     pub fn groups(&self) -> usize {
         self.order.len()
     }
@@ -142,7 +143,7 @@ impl Elimination {
 /// The end of a list of siblings.
 const NONE: usize = usize::MAX;
 
-/// The same order, with each multiplier right after the last group that it couples with.
+/// The order with each multiplier moved right after the last group that it couples with.
 fn after_neighbours(graph: &Graph, order: Vec<usize>) -> Vec<usize> {
     if graph.multipliers == 0 {
         return order;

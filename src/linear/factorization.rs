@@ -1,4 +1,4 @@
-//! Which factorisation suits a structure.
+//! The choice of the factorization that suits a structure.
 
 use super::elimination::Elimination;
 use super::graph::Graph;

@@ -18,6 +18,7 @@ pub(super) struct Graph {
 }
 
 impl Graph {
+    /// The graph of a structure.
     pub fn new(structure: &Structure) -> Self {
         let sizes = structure.sizes.clone();
         let mut first = vec![0; sizes.len() + 1];
@@ -46,10 +47,12 @@ impl Graph {
         Graph { sizes, first, group, multipliers: structure.multipliers, start, neighbours }
     }
 
+    /// Number of groups.
     pub fn groups(&self) -> usize {
         self.sizes.len()
     }
 
+    /// Number of unknowns.
     pub fn unknowns(&self) -> usize {
         self.group.len()
     }

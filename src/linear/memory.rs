@@ -1,4 +1,4 @@
-//! Whether the memory holds a factor, asked before it is taken: a system that promises more memory than it has ends the
+//! Checks that the memory holds a factor before it is taken: a system that promises more memory than it has ends the
 //! programs that come to use it, without a message.
 
 use std::fmt;

@@ -1,4 +1,4 @@
-//! When a pivot is too small to divide by.
+//! The criterion by which a pivot is too small to divide by.
 
 use std::fmt;
 

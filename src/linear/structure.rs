@@ -1,14 +1,14 @@
 //! The structure of a matrix as the model gives it.
 
-/// Which unknowns couple. Unknowns come in groups (nodes); external row numbers are group-major and compact: the rows
-/// of group 0, those of group 1, and so on.
+/// The couplings of unknowns. Unknowns come in groups (nodes); external row numbers are group-major and compact: the
+/// rows of group 0, those of group 1, and so on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
     /// Unknowns per group, at most 6.
     pub sizes: Vec<usize>,
     /// Groups that couple pairwise, for instance the nodes of an element.
     pub connectivity: Vec<Vec<usize>>,
-    /// So many groups at the end hold Lagrange multipliers, whose diagonal is next to zero: each is eliminated after all
-    /// groups that it couples with. The matrix is then indefinite.
+    /// Number of groups at the end that hold Lagrange multipliers, whose diagonal is next to zero: each is eliminated
+    /// after all groups that it couples with. The matrix is then indefinite.
     pub multipliers: usize,
 }

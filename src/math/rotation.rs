@@ -220,14 +220,13 @@ fn inverse_coefficient(t2: f64) -> f64 {
     }
 }
 
-/// The matrix T⁻¹(Θ), and of its transpose applied to a fixed moment the derivative with respect to Θ:
-/// ∂(T⁻ᵀ m)/∂Θ. T⁻ᵀ = I + ½ Θ~ + c Θ~Θ~.
+/// The matrix T⁻¹(Θ) = I − ½ Θ~ + c Θ~Θ~.
 pub fn inverse_tangent_matrix(theta: &Vec3) -> Mat3 {
     let s = super::skew(theta);
     Mat3::identity() - 0.5 * s + inverse_coefficient(theta.norm_squared()) * s * s
 }
 
-/// ∂(T⁻ᵀ(Θ) m)/∂Θ for fixed m.
+/// The derivative ∂(T⁻ᵀ(Θ) m)/∂Θ for fixed m.
 pub fn inverse_tangent_transpose_derivative(theta: &Vec3, m: &Vec3) -> Mat3 {
     let t2 = theta.norm_squared();
     let c = inverse_coefficient(t2);

@@ -15,7 +15,7 @@ pub struct Wanted(u16);
 impl Wanted {
     /// No quantity.
     pub const NOTHING: Wanted = Wanted(0);
-    /// Something is written at every step.
+    /// An output at every step.
     pub const EVERY_STEP: Wanted = Wanted(1);
     /// Energies and momenta.
     pub const ENERGY: Wanted = Wanted(1 << 1);

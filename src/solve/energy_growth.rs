@@ -13,6 +13,7 @@ use crate::system::energy::{Balance, Energy};
 /// between.
 #[derive(Default)]
 pub struct EnergyGrowth {
+    /// The largest departures from the balance so far.
     pub balance: Balance,
     /// True where energy had grown at the last check.
     growing: bool,

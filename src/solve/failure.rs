@@ -1,4 +1,4 @@
-//! Why a step could not be taken, in names.
+//! The failures of steps, with the names of what failed.
 
 use crate::model::{DIRECTIONS, Model};
 use crate::plan::Plan;
@@ -8,27 +8,28 @@ use std::fmt;
 /// A step that was given up.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Failure {
-    /// The matrix has a vanishing pivot in this direction.
+    /// The matrix has a vanishing pivot at this degree of freedom.
     Singular { label: String, direction: &'static str },
-    /// Iterations did not contract.
+    /// The iteration did not converge.
     NotConverged { iterations: usize, largest: Vec<NamedResidual> },
     /// Joints could not be closed at the end of a step.
     ConstraintsViolated { largest: Vec<NamedResidual> },
-    /// A step of the deck, or some in a row, need too many substeps; why the last was cut back.
+    /// One step of the deck, or several in a row, needed too many substeps; `cause` is the failure of the last cutback.
     TooManySubsteps { steps: usize, substeps: usize, dt: f64, cause: Box<Failure> },
     /// No equilibrium lies on the arc of a step.
     NoEquilibriumOnArc { largest: Vec<NamedResidual> },
-    /// Nothing moves with the time that could lead on along a path.
+    /// No load or prescribed motion changes with the time, so nothing leads on along the path.
     NoLoadIncrement { time: f64 },
-    /// A path came to no end in the steps it was given.
+    /// A path did not end within the steps that it was given.
     TooManySteps { steps: usize },
-    /// A step would go through a surface, or into an impact that it does not resolve.
+    /// A step would take a point through a surface, or into an impact that it does not resolve.
     ContactNotResolved { name: String },
-    /// A step of central differences is longer than the critical time step; whether steps find their own length.
+    /// A step of central differences is longer than the critical time step; `automatic` where steps find their own
+    /// length.
     Unstable { dt: f64, longest: f64, automatic: bool },
-    /// Central differences have made so many times the energy that there was.
+    /// Central differences have generated this multiple of the available energy.
     EnergyGrowth { ratio: f64 },
-    /// A step turns something too far.
+    /// A step rotates something too far.
     RotationTooLarge { dt: f64 },
     /// The error of a step is larger than what is allowed.
     ErrorTooLarge { dt: f64 },
@@ -36,11 +37,14 @@ pub enum Failure {
     NotFinite { largest: Vec<NamedResidual> },
 }
 
-/// An unbalanced force.
+/// A residual force, or a gap, with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedResidual {
+    /// Name of the node or joint.
     pub label: String,
+    /// Name of the degree of freedom or constraint.
     pub direction: &'static str,
+    /// Its residual or gap.
     pub residual: f64,
 }
 
@@ -51,7 +55,7 @@ impl Failure {
     }
 }
 
-/// Names an unknown: its node and direction, or its joint and what that constrains.
+/// The name of an unknown: its node and degree of freedom, or its joint and constraint.
 fn name(model: &Model, plan: &Plan, system: &System, row: usize) -> (String, &'static str) {
     match plan.dofs.nodal_dofs().get(row) {
         Some(&(node, dof)) => (model.nodes[node].label.clone(), DIRECTIONS[dof]),
@@ -110,7 +114,7 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
-    /// What happened and what helps, without the list of the largest residuals or gaps.
+    /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
     fn message(&self) -> String {
         match self {
             Failure::Singular { label, direction } => format!(

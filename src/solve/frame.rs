@@ -16,6 +16,7 @@ pub struct Frame<'a> {
     pub dt: f64,
     /// Iterations of the step.
     pub iterations: usize,
+    /// Factorizations of the matrix in the step.
     pub refactorizations: usize,
     /// Relative residual at the last evaluation.
     pub residual: f64,

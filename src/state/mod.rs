@@ -207,9 +207,10 @@ pub struct Work {
     /// Offset between the energy at a step and the energy that velocity Verlet conserves: the change of ⅛ Δt² aᵀMa
     /// since the start. Jumps of loads change accelerations and do no work.
     pub verlet_energy_offset: f64,
-    /// The product aᵀMa at the end of the last step, and the length of that step; both are zero at the start, after a
-    /// jump, and with other schemes than central differences.
+    /// The product aᵀMa at the end of the last step; zero at the start, after a jump, and with other schemes than
+    /// central differences.
     pub accelerations: f64,
+    /// Length of the last step; zero likewise.
     pub step: f64,
 }
 

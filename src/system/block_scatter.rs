@@ -14,10 +14,12 @@ struct Pair {
 }
 
 impl BlockScatter {
+    /// No blocks.
     pub fn new() -> Self {
         BlockScatter(Vec::new())
     }
 
+    /// Number of blocks.
     pub fn len(&self) -> usize {
         self.0.len()
     }

@@ -14,9 +14,10 @@ pub struct ContactState {
     pub touching: usize,
     /// Smallest gap of all points; negative where they penetrate.
     pub gap: f64,
-    /// Force on the surface, and its moment about the centre of the body that carries it, or about the reference point
-    /// of a ground surface; global components.
+    /// Force on the surface, global components.
     pub f: Vec3,
+    /// Its moment about the centre of the body that carries the surface, or about the reference point of a ground
+    /// surface.
     pub m: Vec3,
 }
 

@@ -53,8 +53,9 @@ impl Energy {
 /// The largest departures from the balance of energy over a run.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Balance {
-    /// Largest algorithmic dissipation and largest energy growth so far.
+    /// Largest algorithmic dissipation so far.
     pub dissipated: f64,
+    /// Largest energy growth so far.
     pub generated: f64,
     /// Largest energy of any form so far.
     pub peak: f64,

@@ -9,8 +9,11 @@ use crate::state::Node;
 /// Mass and inertia tensor of a node; `J0` has components in axes fixed to the node that were global at t = 0.
 #[derive(Debug, Clone)]
 pub struct Inertia {
+    /// The node.
     pub node: usize,
+    /// Mass.
     pub mass: f64,
+    /// Inertia tensor J₀ about the node.
     pub J0: Mat3,
     /// True where J₀ ≠ 0.
     pub rotary: bool,
@@ -119,6 +122,7 @@ impl Lumped {
 /// The consistent mass matrix of an element for translations; it is the same for each direction.
 #[derive(Debug, Clone)]
 pub struct ConsistentMass {
+    /// The nodes of the element.
     pub nodes: Vec<usize>,
     /// Entries, row-major over the nodes of the element.
     pub m: Vec<f64>,

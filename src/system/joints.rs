@@ -135,6 +135,7 @@ impl System {
 pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
 
 impl Diagonal {
+    /// The slots of a joint's diagonal.
     pub fn new(joint: &Joint, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
         let slot = |node: usize, dof: usize| {
             let row = dofs.row(node, dof)?;

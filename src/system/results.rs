@@ -16,8 +16,9 @@ pub struct LinkState {
     pub rate: f64,
     /// Axial force, positive in tension.
     pub force: f64,
-    /// Force and moment that the link exerts on its first end (the second end pulls on it), global components.
+    /// Force that the link exerts on its first end, global components; the second end pulls on it.
     pub f: Vec3,
+    /// Moment that the link exerts on its first end, global components.
     pub m: Vec3,
 }
 

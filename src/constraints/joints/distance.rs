@@ -3,6 +3,7 @@
 use super::kind::{JointKind, Make, no_axis};
 use crate::constraints::joint::ConstraintEquation;
 
+/// The joint's word, keys and equations.
 pub static KIND: JointKind = JointKind {
     word: "distance",
     aliases: &[],

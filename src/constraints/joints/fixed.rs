@@ -3,6 +3,7 @@
 use super::kind::{JointKind, Make, meeting, no_axis};
 use crate::constraints::joint::rotations;
 
+/// The joint's word, keys and equations.
 pub static KIND: JointKind = JointKind {
     word: "fixed",
     aliases: &["weld"],

@@ -3,6 +3,7 @@
 use super::kind::{AXIS, JointKind, Make, meeting, one_axis};
 use crate::constraints::joint::rotations;
 
+/// The joint's word, keys and equations.
 pub static KIND: JointKind = JointKind {
     word: "revolute",
     aliases: &["hinge"],

@@ -2,6 +2,7 @@
 
 use super::kind::{JointKind, Make, meeting, no_axis};
 
+/// The joint's word, keys and equations.
 pub static KIND: JointKind = JointKind {
     word: "spherical",
     aliases: &["ball"],

@@ -5,6 +5,7 @@ use crate::constraints::joint::rotations;
 use crate::math::Mat3;
 use crate::words::kinds::{Form, Given, Key};
 
+/// The joint's word, keys and equations.
 pub static KIND: JointKind = JointKind {
     word: "universal",
     aliases: &["cardan"],

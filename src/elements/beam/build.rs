@@ -1,4 +1,4 @@
-//! Beams as the model describes them, and what the undeformed geometry makes of them once.
+//! Beams as the model describes them, and what is computed once from the undeformed geometry.
 
 use super::fibres::{FibreProfile, FibreSection};
 use super::kinematics::{Beam, Beams};
@@ -34,11 +34,13 @@ impl<const N: usize> Beams<N> {
 /// A section of fibres whose material yields.
 #[derive(Debug, Clone)]
 pub struct FibreModel {
+    /// The law of the fibres.
     pub law: MaterialLaw,
     /// The fibres of the section, in section axes.
     pub fibres: Vec<Fibre>,
     /// Shear stress enters the yield condition; otherwise shear and torsion stay elastic.
     pub shear: bool,
+    /// The rule by which an element is integrated along its length.
     pub rule: IntegrationRule,
     /// The number of integration points of an element, at least its order.
     pub points: usize,

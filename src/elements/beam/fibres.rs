@@ -113,11 +113,11 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
 /// The sum of the stiffnesses of fibres, in section axes.
 #[derive(Default)]
 struct FibreSum {
-    /// By (Γ₁, κ₂, κ₃).
+    /// Stiffness with respect to (Γ₁, κ₂, κ₃).
     axial: Mat3,
-    /// By (Γ₂, Γ₃, κ₁).
+    /// Stiffness with respect to (Γ₂, Γ₃, κ₁).
     shear: Mat3,
-    /// Rows (Γ₁, κ₂, κ₃), columns (Γ₂, Γ₃, κ₁).
+    /// Coupling stiffness with rows (Γ₁, κ₂, κ₃) and columns (Γ₂, Γ₃, κ₁).
     mixed: Mat3,
 }
 

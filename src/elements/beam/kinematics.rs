@@ -17,6 +17,7 @@ pub struct Beams<const N: usize, S = BeamStiffness> {
 /// One element.
 #[derive(Debug, Clone)]
 pub(super) struct Beam<const N: usize, S> {
+    /// Nodes from one end to the other.
     pub nodes: [usize; N],
     /// dx/dξ: half the length.
     pub jacobian: f64,
@@ -24,20 +25,25 @@ pub(super) struct Beam<const N: usize, S> {
     pub start: [Vec3; N],
     /// Unit tangent of the undeformed axis.
     pub tangent: Vec3,
+    /// The sections at its integration points.
     pub section: S,
 }
 
 /// Motion and strains of a Gauss point.
 pub(super) struct GaussPoint {
-    /// The interpolated quaternion, whose length is not one, and p′.
+    /// The interpolated quaternion p, whose length is not one.
     pub p: Quat,
+    /// Its derivative p′ along the axis.
     pub dp: Quat,
     /// r′.
     pub dr: Vec3,
+    /// Rotation of the section from the undeformed state.
     pub R: Mat3,
     /// 1/|p|².
     pub inv: f64,
+    /// Force strains Γ, in the undeformed section axes.
     pub gamma: Vec3,
+    /// Curvatures κ, in the undeformed section axes.
     pub kappa: Vec3,
 }
 
@@ -131,15 +137,21 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 
 /// ż of a Gauss point.
 pub(super) struct Rate {
+    /// Rate of p.
     pub p: Quat,
+    /// Rate of p′.
     pub dp: Quat,
+    /// Rate of r′.
     pub dr: Vec3,
 }
 
 /// Rows of the strain matrix B = ∂ε/∂z; ∂Γ/∂r′ = Rᵀ and ∂Γ/∂p′ = ∂κ/∂r′ = 0 are not stored.
 pub(super) struct StrainMatrix {
+    /// ∂Γ/∂p, by rows.
     pub gamma_p: [Quat; 3],
+    /// ∂κ/∂p, by rows.
     pub kappa_p: [Quat; 3],
+    /// ∂κ/∂p′, by rows.
     pub kappa_dp: [Quat; 3],
 }
 

@@ -1,4 +1,5 @@
-//! What a beam asks of its sections; a section that stays elastic. Those that yield stand in [`super::fibres`].
+//! The sections of a beam: the interface, and a section that stays elastic. Those that yield stand in
+//! [`super::fibres`].
 
 use crate::elements::block::Moduli;
 use crate::materials::Dissipation;
@@ -24,7 +25,7 @@ pub trait BeamSection: Send + Sync {
         moduli: Moduli,
         tangent: &'a mut BeamStiffness,
     ) -> (Vec3, Vec3, &'a BeamStiffness);
-    /// BeamStiffness energy per length.
+    /// Elastic energy per length.
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64;
     /// Writes the history variables of point `g` at `part` of the way to `now` into its range of `new`, the history of the group,
     /// and returns the dissipation per length.
@@ -74,7 +75,7 @@ impl BeamStiffness {
         BeamStiffness { N: *N, M: *M, NM: *NM, coupled: *NM != Mat3::zeros() }.rotated(frame)
     }
 
-    /// The same stiffness by other axes: the columns of `frame` are the present axes in the components of the new ones.
+    /// The stiffness by other axes: the columns of `frame` are the present axes in the components of the new ones.
     #[inline]
     pub fn rotated(&self, frame: &Mat3) -> Self {
         let turn = |C: &Mat3| frame * C * frame.transpose();

@@ -1,4 +1,4 @@
-//! Where a beam is integrated, and its shape functions there.
+//! The integration points of a beam, and its shape functions there.
 
 use crate::math::quadrature;
 use schemars::JsonSchema;

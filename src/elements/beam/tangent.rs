@@ -210,7 +210,7 @@ fn add_rate_terms<const N: usize>(
 #[inline(always)]
 fn project<const N: usize, const ALL: bool>(pairs: &[[Pair; N]; N], q: &[Quat; N], K: &mut [f64]) {
     let E = q.map(|q| rotation_columns(&q));
-    // The same with δθ along the row, the last place unused.
+    // The coefficients are stored with δθ along the row; the last place is unused.
     let columns = E.map(|e| std::array::from_fn::<[f64; 4], 4, _>(|k| [e[0][k], e[1][k], e[2][k], 0.0]));
     for a in 0..N {
         for b in if ALL { 0 } else { a }..N {

@@ -1,4 +1,4 @@
-//! What acts on a point that touches: the normal force and the friction force.
+//! The forces on a point in contact: normal and friction force.
 
 use super::friction::{FrictionForce, friction_force};
 use super::history::{self, PointHistory};
@@ -8,13 +8,15 @@ use super::restitution::{NormalForce, normal_force};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
-/// What acts on a point, in the frame of the surface.
+/// The forces on a point, in the frame of the surface.
 pub(super) struct ContactForce {
+    /// The normal force with its derivatives.
     pub normal: NormalForce,
     /// `None`: there is no friction, or the point was not looked at in the last state.
     pub friction: Option<FrictionForce>,
-    /// Force and moment on the point.
+    /// Force on the point.
     pub F: Vec3,
+    /// Moment on the point.
     pub M: Vec3,
 }
 
@@ -63,7 +65,7 @@ pub(super) fn contact_force(
     }
 }
 
-/// How point `e` lies and what acts on it; `None` where it does not touch or is known to be far.
+/// The kinematics of point `e` and the forces on it; `None` where it is not in contact or known to be far.
 #[inline]
 pub(super) fn touch(contacts: &Contacts, e: usize, now: &Configuration) -> Option<(ContactKinematics, ContactForce)> {
     let old = history::of(contacts, e, now.history);
@@ -71,7 +73,7 @@ pub(super) fn touch(contacts: &Contacts, e: usize, now: &Configuration) -> Optio
         return None;
     }
     let at = contacts.kinematics(&contacts.points[e], now.nodes);
-    // At a gap of zero there is no force yet, but stiffness.
+    // At zero gap there is no force yet, but stiffness.
     if at.gap > 0.0 {
         return None;
     }

@@ -12,17 +12,19 @@ use crate::math::{Mat3, Vec3, skew};
 /// Tangential force at an instant, in the frame of the surface.
 #[derive(Debug, Clone, Copy)]
 pub struct FrictionForce {
-    /// On the surface, along the slip.
+    /// Friction force on the surface, along the slip.
     pub T: Vec3,
-    /// How far the anchor is dragged along.
+    /// Displacement of the anchor by slip.
     pub slip: Vec3,
-    /// ∂T/∂p at fixed N, ∂T/∂N, ∂T/∂φ.
+    /// ∂T/∂p at fixed N.
     pub by_p: Mat3,
+    /// ∂T/∂N.
     pub by_N: Vec3,
+    /// ∂T/∂φ.
     pub by_phi: Mat3,
 }
 
-/// The stretch s = P e, e = p − a − r φ×n, and its way to the force. `N`: the normal force.
+/// The friction force by the stretch s = P e, e = p − a − r φ×n, of the spring; `N` is the normal force.
 #[inline]
 pub fn friction_force(
     stiffness: f64,

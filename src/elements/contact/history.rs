@@ -1,6 +1,6 @@
-//! What a point remembers of the last accepted state: a typed view of its numbers in [`crate::state::State::history`]. All
-//! points of a block have the same count of them: those of the normal force, then those of friction where there is any, then
-//! the rotations of the point's nodes where friction turns them.
+//! The history variables of a point: a typed view of its numbers in [`crate::state::State::history`]. All points of a
+//! block have the same count of them: those of the normal force, then those of friction where there is any, then the
+//! rotations of the point's nodes where friction turns them.
 
 use super::kinematics::Contacts;
 use super::point::ContactPoint;
@@ -27,18 +27,19 @@ const ROTATIONS: usize = 11;
 pub(super) struct PointHistory<'a>(&'a [f64]);
 
 impl<'a> PointHistory<'a> {
-    /// The point need not be looked at before this time after the last state.
+    /// Time after the last state before which the point cannot reach the surface and is not looked at.
     #[inline]
     pub fn safe_time(self) -> f64 {
         self.0[SAFE_TIME]
     }
 
-    /// False where the last state did not look at the point: all but the safe time then means nothing.
+    /// False where the last state did not look at the point: then only the safe time means anything.
     #[inline]
     pub fn is_known(self) -> bool {
         self.0[IS_KNOWN] > 0.0
     }
 
+    /// Gap, negative inside.
     #[inline]
     pub fn gap(self) -> f64 {
         self.0[GAP]
@@ -50,13 +51,13 @@ impl<'a> PointHistory<'a> {
         self.0[RATE]
     }
 
-    /// Approach speed at which the impact began; 0 again some time after the point has lifted off.
+    /// Approach speed at which the impact began; 0 again some time after separation.
     #[inline]
     pub fn impact_speed(self) -> f64 {
         self.0[IMPACT_SPEED]
     }
 
-    /// Time since the point landed or lifted off.
+    /// Time since the point came into contact or separated.
     #[inline]
     pub fn age(self) -> f64 {
         self.0[AGE]
@@ -74,7 +75,7 @@ impl<'a> PointHistory<'a> {
         self.0[FRICTION_FORCE]
     }
 
-    /// Where the spring of friction is held, in the frame of the surface. With friction alone.
+    /// Position of the anchor of the friction spring, in the frame of the surface; with friction alone.
     #[inline]
     pub fn anchor(self) -> Vec3 {
         Vec3::from_column_slice(&self.0[ANCHOR..ROTATIONS])
@@ -92,15 +93,17 @@ impl<'a> PointHistory<'a> {
 pub(super) struct PointHistoryMut<'a>(&'a mut [f64]);
 
 impl<'a> PointHistoryMut<'a> {
+    /// A view of a point's range of the history.
     pub fn new(numbers: &'a mut [f64]) -> Self {
         PointHistoryMut(numbers)
     }
 
+    /// The same numbers to be read.
     pub fn read(&self) -> PointHistory<'_> {
         PointHistory(self.0)
     }
 
-    /// Forgets all but that the point is far for a while.
+    /// Forgets everything except that the point is far for a while.
     pub fn set_far(&mut self, safe_time: f64) {
         self.0.fill(0.0);
         self.0[SAFE_TIME] = safe_time;
@@ -114,29 +117,34 @@ impl<'a> PointHistoryMut<'a> {
         self.0[SAFE_TIME] = safe_time;
     }
 
+    /// Sets the impact speed and the age.
     pub fn set_impact(&mut self, (impact_speed, age): (f64, f64)) {
         self.0[IMPACT_SPEED] = impact_speed;
         self.0[AGE] = age;
     }
 
+    /// Sets the power of the damping of the impact.
     pub fn set_damping_power(&mut self, power: f64) {
         self.0[DAMPING_POWER] = power;
     }
 
+    /// Sets |T|.
     pub fn set_friction_force(&mut self, force: f64) {
         self.0[FRICTION_FORCE] = force;
     }
 
+    /// Sets the anchor, in the frame of the surface.
     pub fn set_anchor(&mut self, anchor: &Vec3) {
         self.0[ANCHOR..ROTATIONS].copy_from_slice(anchor.as_slice());
     }
 
+    /// Sets the rotation of the k-th node relative to the surface.
     pub fn set_rotation(&mut self, k: usize, q: &Quaternion<f64>) {
         self.0[ROTATIONS + 4 * k..ROTATIONS + 4 * k + 4].copy_from_slice(&[q.w, q.i, q.j, q.k]);
     }
 }
 
-/// Numbers that a point remembers.
+/// Number of history variables of a point.
 pub(super) fn width(contacts: &Contacts) -> usize {
     match (contacts.law.friction > 0.0, contacts.rolls) {
         (false, _) => FRICTION_FORCE,

@@ -1,4 +1,4 @@
-//! Points against a surface, and how one of them lies and moves against it.
+//! The position and motion of points relative to a surface.
 
 use super::law::ContactLaw;
 use super::point::{ContactPoint, MOST_NODES};
@@ -33,6 +33,7 @@ pub(super) struct ContactKinematics {
     pub w: Vec3,
     /// The point in the frame of the carrier.
     pub p: Vec3,
+    /// The closest point of the surface.
     pub closest: ClosestPoint,
     /// Distance of the ball around the point from the surface, negative inside.
     pub gap: f64,

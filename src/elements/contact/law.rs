@@ -2,22 +2,23 @@
 
 use super::restitution::Loss;
 
-/// What acts where a point touches.
+/// The parameters of a contact law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLaw {
-    /// Force per depth, normal and tangential.
+    /// Penalty stiffness, normal and tangential: force per depth.
     pub stiffness: f64,
-    /// What an impact loses.
+    /// Energy loss in impacts.
     pub loss: Loss,
     /// Coulomb's coefficient.
     pub friction: f64,
-    /// Approach speed from which a landing is an impact, whose motion the steps resolve.
+    /// Approach speed from which a landing counts as an impact that the steps resolve.
     pub floor: f64,
-    /// Longest time ahead at which equilibrium may be written in an impact, and how long an impact may last.
+    /// Longest time ahead at which equilibrium may be written in an impact.
     pub resolution: f64,
+    /// Longest time that an impact may last.
     pub duration: f64,
-    /// Points nearer than this are looked at in every iteration.
+    /// Distance below which points are looked at in every iteration.
     pub near: f64,
-    /// The analysis has velocities, so that a point that is far stays far for a while.
+    /// True where the analysis has velocities, so that a far point stays far for a while.
     pub dynamic: bool,
 }

@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 use crate::state::Node;
 
-/// Nodes that a touching point may lie between.
+/// Largest number of nodes that a point may lie between.
 pub const MOST_NODES: usize = 5;
 
 /// A point that may touch: a weighted sum of nodes.
@@ -13,6 +13,7 @@ pub struct ContactPoint {
     pub nodes: [usize; MOST_NODES],
     /// Share of each node in the point's position; their sum is 1.
     pub weights: [f64; MOST_NODES],
+    /// Number of nodes that carry the point.
     pub count: usize,
     /// Radius of the ball around the point that touches.
     pub radius: f64,
@@ -31,7 +32,7 @@ impl ContactPoint {
         self.nodes.iter().copied().zip(self.weights).take(self.count)
     }
 
-    /// Where the point lies as seen from a node, global components.
+    /// The position of the point relative to a node, global components.
     pub(super) fn relative_position(&self, carrier: &Node, nodes: &[Node]) -> Vec3 {
         self.parts().map(|(node, w)| w * nodes[node].relative_position(carrier)).sum()
     }

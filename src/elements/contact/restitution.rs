@@ -4,10 +4,10 @@
 //! has the integral ∫ w/(1 + d w) dw = 0 from v₀ to −e v₀, whatever m and k are, so D = d v₀ follows from the coefficient of
 //! restitution e alone: D (1 + e) = ln((1 + D)/(1 − e D)). The force begins and ends at zero and never pulls.
 
-/// Least coefficient of restitution: below it D grows as 1/e, and steps would have to resolve a blow ever shorter.
+/// Least coefficient of restitution: below it D grows as 1/e, and steps would have to resolve ever shorter impacts.
 pub const LEAST: f64 = 0.01;
 
-/// What is lost in an impact.
+/// The energy loss in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Loss {
     None,
@@ -16,13 +16,14 @@ pub enum Loss {
         number: f64,
         floor: f64,
     },
-    /// Force per velocity.
+    /// Viscous damping, force per velocity.
     Damping(f64),
 }
 
 /// A normal force and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NormalForce {
+    /// Normal force.
     pub force: f64,
     /// ∂f/∂δ.
     pub by_depth: f64,
@@ -52,7 +53,7 @@ pub fn number(e: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// At depth δ > 0 and rate δ̇, after an approach at `speed`.
+/// The normal force at depth δ > 0 and rate δ̇, after an approach at `speed`.
 #[inline]
 pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f64) -> NormalForce {
     let spring = stiffness * depth;
@@ -61,13 +62,13 @@ pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f
         Loss::Restitution { number, floor } => {
             let speed = speed.max(floor);
             let d = if speed > 0.0 { number / speed } else { 0.0 };
-            // At the fastest yet d falls as the rate rises, and their product stays.
+            // At the largest approach speed d falls as the rate rises, and their product stays.
             let by_rate = if rate < speed { spring * d } else { 0.0 };
             NormalForce { force: spring * (1.0 + d * rate), by_depth: stiffness * (1.0 + d * rate), by_rate }
         }
         Loss::Damping(c) => NormalForce { force: spring + c * rate, by_depth: stiffness, by_rate: c },
     };
-    // At depth 0 there is no force yet, but stiffness.
+    // At zero depth there is no force yet, but stiffness.
     if force.force > 0.0 || force.force == 0.0 && force.by_depth > 0.0 { force } else { NormalForce::default() }
 }
 

@@ -1,4 +1,4 @@
-//! What is shown of a contact: the resultant of its points and its least gap.
+//! The results of a contact for output: the resultant of its points and its least gap.
 
 use super::force::touch;
 use super::kinematics::Contacts;
@@ -10,10 +10,11 @@ use crate::state::{Configuration, Node};
 /// The resultant of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resultant {
-    /// Points that touch.
+    /// Number of points in contact.
     pub touching: usize,
-    /// On the surface, and its moment about the node that carries it.
+    /// Force on the surface, global components.
     pub f: Vec3,
+    /// Its moment about the node that carries the surface.
     pub m: Vec3,
 }
 
@@ -23,7 +24,7 @@ impl Default for Resultant {
     }
 }
 
-/// What the points at hand do to the surface.
+/// The resultant of the forces of all points on the surface.
 pub fn resultant(contacts: &Contacts, now: &Configuration) -> Resultant {
     let mut sum = Resultant::default();
     for (at, acting) in (0..contacts.points.len()).filter_map(|e| touch(contacts, e, now)) {

@@ -1,4 +1,4 @@
-//! How long steps may be: none takes a point through the surface, and an impact is resolved.
+//! Limits on the step length: no step takes a point through the surface, and impacts are resolved.
 
 use super::history::{self, PointHistory};
 use super::kinematics::Contacts;
@@ -50,7 +50,8 @@ fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration,
         return true;
     }
     let normal = |p: &Vec3| contacts.surface.closest_point(p).n;
-    // Nothing lies nearer than the distance: along the way by it, from either end, until the surface is reached.
+    // Nothing is nearer than the distance, so the search advances along the path by it, from either end, until the
+    // surface is reached.
     let reached = |at: &dyn Fn(f64) -> Vec3| {
         let mut t = 0.0;
         while t < 1.0 {
@@ -64,7 +65,7 @@ fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration,
     };
     let Some(t0) = (if first > 0.0 { reached(&|t| p0 + t * way) } else { Some(0.0) }) else { return false };
     let entry = normal(&(p0 + t0 * way));
-    // By the other side; or by another side from far inside, and not just round an edge.
+    // The point left by the other side; or by another side from far inside, and not just round an edge.
     let strayed = |n: &Vec3, depth: f64, length: f64| {
         let along = entry.dot(n);
         along < -0.5 && depth < 0.0 || along < 0.5 && depth < first.min(0.0) - 0.02 * length
@@ -76,7 +77,7 @@ fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration,
             first > 0.0 && (!old().is_known() || old().rate() > fast || -depth > fast * 2.0 * contacts.law.resolution);
         return strayed(&normal(&p1), depth, length) || landing && now.dt > contacts.law.resolution;
     }
-    // In at one place and out at another; a shallow pass along one side is left alone.
+    // The point went in at one place and out at another; a shallow pass along one side is left alone.
     let Some(t1) = reached(&|t| p1 - t * way).map(|t| 1.0 - t) else { return false };
     let (depth, chord) = (gap(&(p0 + 0.5 * (t0 + t1) * way)), (t1 - t0) * length);
     first > 0.0 && depth < -0.02 * chord || strayed(&normal(&(p0 + t1 * way)), depth, chord)

@@ -7,10 +7,11 @@ use crate::math::{Mat3, Vec3};
 /// A surface in the frame of the node that carries it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// From the node to the shape's own origin.
+    /// Vector from the node to the shape's origin, in the frame of the node.
     pub center: Vec3,
     /// Columns: the shape's axes. A plane is normal to the third, a cylinder and a capsule lie along it.
     pub axes: Mat3,
+    /// The shape.
     pub shape: SurfaceShape,
 }
 

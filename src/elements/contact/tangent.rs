@@ -8,16 +8,16 @@ use crate::math::rotation::inverse_tangent_matrix;
 use crate::math::{Mat3, Vec3, skew};
 use crate::state::Configuration;
 
-/// Derivatives of force and moment on a point by a motion, global components.
+/// Derivatives of force and moment on a point with respect to a motion, global components.
 type Derivative = (Mat3, Mat3);
 
 /// Derivatives of force and moment on a point.
 struct Derivatives {
-    /// By the position of the point.
+    /// Derivative with respect to the position of the point.
     by_x: Derivative,
-    /// By the rotation of the carrier, with the point at rest.
+    /// Derivative with respect to the rotation of the carrier, with the point at rest.
     by_turn: Derivative,
-    /// By φ, the rotation of the point relative to the surface.
+    /// Derivative with respect to φ, the rotation of the point relative to the surface.
     by_phi: Derivative,
 }
 

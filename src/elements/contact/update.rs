@@ -22,7 +22,7 @@ pub(super) fn update_point(
     let dt = part * now.dt;
     let (d, w) = contacts.relative(point, now.nodes);
     let speed = w.norm();
-    // How soon the point could come to the surface at twice its speed.
+    // The time in which the point could reach the surface at twice its speed.
     let safe = |gap: f64| if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 };
     let far = safe(d.norm() - contacts.reach() - point.radius);
     if far > 4.0 * now.dt && now.dt > 0.0 && old.impact_speed() == 0.0 {
@@ -91,7 +91,7 @@ fn update_friction(
     let friction = acting.and_then(|acting| acting.friction.as_ref());
     let (p, n) = (&at.p, &at.closest.n);
     let (pull, held) = (old.friction_force(), old.anchor());
-    // What slides at t = 0 has been sliding: its spring is stretched.
+    // A point that slides at t = 0 has been sliding: its spring is stretched.
     let starts = !old.is_known() && now.dt <= 0.0 && force != 0.0;
     let begun = if starts { sliding_direction(contacts, point, at, now) } else { Vec3::zeros() };
     let stretch = law.friction * force;

@@ -1,4 +1,4 @@
-//! Shells as the model describes them, and what the undeformed geometry makes of them once.
+//! Shells as the model describes them, and what is computed once from the undeformed geometry.
 
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::kinematics::{NodalVectors, Shell, Shells, Strains, sum};
@@ -20,6 +20,7 @@ const SHEAR_FACTOR: f64 = 5.0 / 6.0;
 /// Thickness and elastic constants of a group of elements.
 #[derive(Debug, Clone, Copy)]
 pub struct Plate {
+    /// Thickness h.
     pub thickness: f64,
     /// Young's modulus.
     pub E: f64,

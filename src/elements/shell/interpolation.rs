@@ -72,7 +72,7 @@ impl Interpolation<3, 2> for Triangle {
     const AREA: f64 = 0.5;
     const FLEXIBILITY: f64 = 0.1;
     const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
-    /// Half the sum of e eᵀ/24 over the edges e, which no corner is preferred by.
+    /// The value is half the sum of e eᵀ/24 over the edges e, which prefers no corner.
     const ARC: [[f64; 2]; 2] = [[1.0 / 24.0, -1.0 / 48.0], [-1.0 / 48.0, 1.0 / 24.0]];
 
     fn slopes(_: [f64; 2]) -> [[f64; 2]; 2] {

@@ -10,12 +10,13 @@ use std::marker::PhantomData;
 
 /// One element: N nodes, V vectors of the slopes of the surface, M stress modes.
 pub(super) struct Shell<const N: usize, const V: usize, const M: usize, S> {
+    /// Nodes, counter-clockwise about the normal.
     pub nodes: [usize; N],
     /// Directors at t = 0.
     pub D: [Vec3; N],
-    /// In-plane axes at t = 0.
+    /// Axes in the plane of the element at t = 0.
     pub T: [Vec3; 2],
-    /// In-plane strains are ½ v·Q v and v·Q w, v the slopes of x and w those of d.
+    /// Coefficients of the in-plane strains ½ v·Q v and v·Q w, with v the slopes of x and w those of d.
     pub Q: [[[f64; V]; V]; M],
     /// Strains at t = 0.
     pub start: Strains<N, M>,
@@ -25,6 +26,7 @@ pub(super) struct Shell<const N: usize, const V: usize, const M: usize, S> {
     pub slopes: [[[f64; V]; 2]; N],
     /// Stiffness of the drilling strains at integration points.
     pub drilling: [[f64; N]; N],
+    /// The sections at its integration points.
     pub section: S,
 }
 
@@ -260,6 +262,7 @@ impl<const N: usize> StrainHessian<N> {
 
 /// The stress of bending with bending measured by angles.
 pub(super) struct Bending<const V: usize> {
+    /// The lengthened slopes of the directors.
     pub arc: Arc<V>,
     /// The stress as coefficients of pairs of slopes.
     pub Q: [[f64; V]; V],

@@ -14,6 +14,7 @@ use std::sync::Arc;
 /// The layers of a shell whose material yields.
 #[derive(Debug, Clone)]
 pub struct LayerModel {
+    /// The law of the layers.
     pub law: MaterialLaw,
     /// The number of Gauss points through the thickness, at most [`super::MOST_LAYERS`].
     pub layers: usize,

@@ -4,6 +4,7 @@ use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, across, along, rou
 use crate::math::{Mat3, Vec3, frame_along};
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub const KIND: SurfaceKind<Capsule> = SurfaceKind {
     word: "capsule",
     aliases: &[],
@@ -32,6 +33,7 @@ fn read(given: &mut Given, _: Option<Vec3>) -> Option<Placed<Capsule>> {
 /// All that is nearer than the radius to a line along the third axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capsule {
+    /// Radius about the line.
     pub radius: f64,
     /// Half the length of the line.
     pub half: f64,

@@ -4,6 +4,7 @@ use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, along, cen
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub const KIND: SurfaceKind<Cuboid> = SurfaceKind {
     word: "box",
     aliases: &[],
@@ -27,6 +28,7 @@ fn read(given: &mut Given, body: Option<Vec3>) -> Option<Placed<Cuboid>> {
     Some(Placed { center: center?, axes, shape: Cuboid { half: size.map(|edge| 0.5 * edge).into() } })
 }
 
+/// A box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cuboid {
     /// Half the edges.

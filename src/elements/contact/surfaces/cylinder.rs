@@ -4,6 +4,7 @@ use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, across, al
 use crate::math::{Mat3, Vec3, frame_along};
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub const KIND: SurfaceKind<Cylinder> = SurfaceKind {
     word: "cylinder",
     aliases: &[],
@@ -28,6 +29,7 @@ fn read(given: &mut Given, body: Option<Vec3>) -> Option<Placed<Cylinder>> {
 /// Along the third axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
+    /// Radius.
     pub radius: f64,
     /// Half its length.
     pub half: f64,

@@ -33,7 +33,7 @@ macro_rules! surfaces {
         })),+];
 
         impl SurfaceShape {
-            /// As the deck writes it.
+            /// The deck's word for it.
             pub fn word(&self) -> &'static str {
                 match self {
                     $(SurfaceShape::$Shape(_) => $file::KIND.word),+

@@ -4,6 +4,7 @@ use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, across};
 use crate::math::{Mat3, Vec3, frame_along};
 use crate::words::kinds::{Form, Key};
 
+/// The shape's word, keys and maker.
 pub const KIND: SurfaceKind<Plane> = SurfaceKind {
     word: "plane",
     aliases: &[],

@@ -4,6 +4,7 @@ use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, center, ro
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Key};
 
+/// The shape's word, keys and maker.
 pub const KIND: SurfaceKind<Sphere> = SurfaceKind {
     word: "sphere",
     aliases: &[],
@@ -16,8 +17,10 @@ pub const KIND: SurfaceKind<Sphere> = SurfaceKind {
     },
 };
 
+/// A sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
+    /// Radius.
     pub radius: f64,
 }
 
