@@ -1,5 +1,6 @@
-//! From the matrices of elements and masses to the matrix of the system, through slots computed once. What belongs to a
-//! node that rides on another is carried over here, DᵀKD (58): the one place where elements meet bodies.
+//! Assembly of the matrices of elements, nodes and joints into the matrix of the system, through slots computed once.
+//! Matrices at dependent nodes are projected onto independent nodes here, DᵀKD (58): the one place where elements meet
+//! rigid bodies.
 
 use super::block_scatter::BlockScatter;
 use super::dofs::DofMap;
@@ -14,53 +15,54 @@ use crate::model::PartKind;
 use crate::state::{Configuration, Node};
 use rayon::prelude::*;
 
-/// Elements whose matrices are filled side by side before they are added, one after the other, in deck order.
+/// Number of elements whose matrices are formed side by side before they are added, one after the other, in deck order.
 const CHUNK: usize = 256;
 
-/// Where every matrix goes. All but `scratch` is constant over a run.
+/// The destination of every matrix. All but `scratch` is constant over a run.
 pub struct Assembly {
-    /// Per group, per element.
+    /// Destinations of the elements, by group.
     groups: Vec<Vec<Destination>>,
-    /// Nodes that have a matrix of their own: inertia, nodal damping, follower loads, arms of dependent nodes.
+    /// Destinations of the matrices of nodes: inertia, nodal damping, follower loads, arms of dependent nodes.
     nodes: Vec<(usize, Destination)>,
     masses: Vec<Destination>,
-    /// Of the faces under pressures that follow, in their order.
+    /// Destinations of the faces under follower pressure, in their order.
     faces: Vec<Destination>,
     joints: Vec<Destination>,
     diagonals: Vec<Diagonal>,
     scatter: Scatter,
     blocks: BlockScatter,
-    /// Per node: the nodes it ends up on by riding, or itself.
+    /// For each node the independent nodes that it moves with: itself, or its masters in the end.
     independent_nodes: Vec<Vec<usize>>,
     threads: bool,
-    /// C(r) stands on the left (37); it is in the residual always.
+    /// True where the gyroscopic matrix C(r) (37) is part of the tangent; it is in the residual always.
     gyroscopic: bool,
     scratch: Scratch,
 }
 
-/// What becomes of a local matrix.
+/// The destination of a local matrix.
 struct Destination {
-    /// Nodes onto which it is carried first; empty where no node rides and it goes in as it is.
+    /// The independent nodes that it is projected onto first; empty where no node is dependent.
     targets: Vec<usize>,
     entries: Entries,
-    /// In place of entries, where the matrix goes in by blocks: a range of [`BlockScatter`].
+    /// A range of [`BlockScatter`] in place of entries, where the matrix is scattered by blocks.
     blocks: [u32; 2],
 }
 
-/// Entries of a local matrix that reach the system's: ranges of [`Scatter`].
+/// The entries of a local matrix that reach the system's: ranges of [`Scatter`].
 #[derive(Clone, Copy)]
 struct Entries {
     from: usize,
-    /// From here on, entries that meet their transposes in one slot of a symmetric matrix: each adds half.
+    /// Start of the entries that meet their transposes in one slot of a symmetric matrix: each adds half.
     halves: usize,
     to: usize,
 }
 
-/// (position in the local matrix, slot in the system's).
+/// Pairs of a position in the local matrix and a slot of the system's.
 struct Scatter(Vec<[u32; 2]>);
 
 impl Scatter {
-    /// `entry(k)` gives the row and the column of the local matrix's k-th number, where both are unknowns.
+    /// Adds the slots of a local matrix; `entry(k)` gives the row and the column of its k-th number, where both are
+    /// unknowns.
     fn push(&mut self, solver: &Solver, length: usize, entry: impl Fn(usize) -> Option<(usize, usize)>) -> Entries {
         let from = self.0.len();
         let mut add = |half: bool| {
@@ -98,7 +100,7 @@ struct Destinations<'a> {
     independent_nodes: &'a [Vec<usize>],
     scatter: Scatter,
     blocks: BlockScatter,
-    /// The most nodes that a matrix is carried onto.
+    /// Largest number of nodes that a matrix is projected onto.
     most: usize,
 }
 
@@ -115,7 +117,8 @@ impl<'a> Destinations<'a> {
         }
     }
 
-    /// That of a matrix over 6×6 blocks of targets, each column-major; `keep` says which entries of a block count.
+    /// The destination of a matrix over 6×6 blocks of independent nodes, each column-major; `keep` says which entries
+    /// of a block count.
     fn projected(&mut self, of: &[usize], keep: &dyn Fn(usize, usize) -> bool) -> Destination {
         let mut targets: Vec<usize> = Vec::new();
         for independent in of.iter().flat_map(|&n| &self.independent_nodes[n]) {
@@ -134,7 +137,7 @@ impl<'a> Destinations<'a> {
         Destination { targets, entries, blocks: [0; 2] }
     }
 
-    /// That of an element with `d` directions a node, row-major.
+    /// The destination of an element's matrix with `d` degrees of freedom a node, row-major.
     fn local(&mut self, of: &[usize], d: usize) -> Destination {
         if of.iter().any(|&n| self.independent_nodes[n] != [n]) {
             return self.projected(of, &|_, _| true);
@@ -154,8 +157,8 @@ impl<'a> Destinations<'a> {
         Destination { targets: Vec::new(), entries, blocks: [0; 2] }
     }
 
-    /// Those of the matrices of nodes, which inertia and nodal damping, followers and arms have. Inertia and damping leave
-    /// translations apart from one another and from rotations; arms and followers do not.
+    /// The destinations of the matrices of nodes, which inertia, nodal damping, follower loads and arms have. Inertia
+    /// and damping couple neither translations with one another nor with rotations; arms and followers do.
     fn nodal(&mut self, system: &System) -> Vec<(usize, Destination)> {
         let nodes = self.independent_nodes.len();
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
@@ -177,29 +180,32 @@ impl<'a> Destinations<'a> {
     }
 }
 
-/// Written by every tangent.
+/// Buffers that every tangent writes.
 struct Scratch {
-    /// Element matrices of a chunk.
+    /// Matrices of the elements of a chunk.
     local: Vec<f64>,
     own: Vec<Mat6>,
-    /// Per node: for each root, how its motion moves the node.
+    /// For each node and each of its independent nodes, the matrix by which the motion of that moves the node.
     projections: Vec<Vec<Mat6>>,
-    /// 6×6 blocks, each column-major.
+    /// A projected matrix as 6×6 blocks, each column-major.
     projected: Vec<[f64; 36]>,
 }
 
-/// What a tangent is formed of.
+/// The weights of the terms of a tangent.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights {
-    /// K counts (not for the mass matrix alone).
+    /// True where K is formed; false for the mass matrix alone.
     pub stiffness: bool,
-    /// ∂q̇/∂q, ∂q̈/∂q.
+    /// Factor ∂q̇/∂q of the damping.
     pub rate: f64,
+    /// Factor ∂q̈/∂q of the mass.
     pub acceleration: f64,
+    /// Moduli of the materials in K.
     pub moduli: Moduli,
 }
 
-/// Which nodes a node's motion depends on: itself, or the independent nodes it rides on (and itself for directions of its own).
+/// The independent nodes that each node moves with: itself, or those at the end of its chain of masters (and itself for
+/// degrees of freedom of its own).
 pub fn independent_nodes(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let mut independent_nodes: Vec<Vec<usize>> = (0..nodes).map(|n| vec![n]).collect();
     for dependent in &system.rigid_links {
@@ -212,14 +218,15 @@ pub fn independent_nodes(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     independent_nodes
 }
 
-/// Per node: for each of its independent nodes, how the motion of that moves the node.
+/// The projection matrices: for each node and each of its independent nodes, the matrix by which the motion of that
+/// moves the node.
 pub fn projections(system: &System, nodes: &[Node], independent_nodes: &[Vec<usize>]) -> Vec<Vec<Mat6>> {
     let mut projections: Vec<_> = independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect();
     update_projections(system, nodes, independent_nodes, &mut projections);
     projections
 }
 
-/// How each dependent node moves with its independent nodes, by the chain of arms.
+/// Updates the projection matrices of dependent nodes along the chains of arms.
 fn update_projections(
     system: &System,
     nodes: &[Node],
@@ -239,14 +246,14 @@ fn update_projections(
     }
 }
 
-/// Nodes that are coupled with one another, one list per element or nodal matrix; dependent nodes replaced by their independent nodes. `nodes`
-/// counts the joints too: their multipliers are nodes after all others.
+/// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by
+/// their independent nodes. `nodes` counts the joints too: their multipliers are nodes after all others.
 pub fn connectivity(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     coupled(system, nodes, &independent_nodes(system, nodes))
 }
 
-/// As [`connectivity`], but with multipliers in place of elimination: every dependent node moves by itself, held to its master by one more
-/// node, which stands after all others.
+/// The connectivity with multipliers in place of elimination: every dependent node moves by itself, tied to its master
+/// by one more node, which stands after all others.
 pub fn connectivity_with_multipliers(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
     let mut connectivity = coupled(system, nodes, &alone);
@@ -270,13 +277,14 @@ fn coupled(system: &System, nodes: usize, independent_nodes: &[Vec<usize>]) -> V
     system.consistent_masses().iter().for_each(|m| add(&m.nodes));
     system.pressures.iter().flat_map(|load| &load.faces).for_each(|face| add(face.nodes()));
     (0..nodes).filter(|&n| independent_nodes[n] != [n]).for_each(|n| add(&[n]));
-    // The multipliers of a joint are one more of its nodes.
+    // The multipliers of a joint stand for one more of its nodes.
     let joints = system.joints.iter().zip(nodes - system.joints.len()..);
     joints.for_each(|(joint, own)| add(&[joint.nodes[0], joint.nodes[1], own]));
     connectivity
 }
 
 impl Assembly {
+    /// Finds the destinations of all matrices.
     pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
         let nodes = dofs.each().len();
         let independent_nodes = independent_nodes(system, nodes);
@@ -320,8 +328,8 @@ impl Assembly {
         }
     }
 
-    /// Forms the matrix of the step in `solver`: K + rate·C + acceleration·M at the motion of `nodes`, where `forces` is
-    /// the residual. A symmetric solver receives the symmetric part.
+    /// Forms the matrix of the step in `solver`, K + rate·C + acceleration·M at the configuration `now`, where `forces`
+    /// is the residual. A symmetric solver receives the symmetric part.
     pub fn tangent(
         &mut self,
         system: &System,
@@ -406,7 +414,7 @@ impl Assembly {
         }
     }
 
-    /// Last, for they weigh what the others have added.
+    /// Adds the joints last, for their penalty factors rest on the matrix of all the others.
     fn add_joints(
         &mut self,
         system: &System,
@@ -427,7 +435,7 @@ impl Assembly {
         joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights.stiffness, values, add);
     }
 
-    /// The matrices of nodes by themselves.
+    /// Forms the matrices of nodes: inertia, nodal damping, follower loads, arms.
     fn form_nodes(&mut self, system: &System, nodes: &[Node], loading: &Loading, forces: &Forces, weights: Weights) {
         let own = &mut self.scratch.own;
         for (node, _) in &self.nodes {
@@ -502,7 +510,7 @@ impl Assembly {
     }
 }
 
-/// Adds an element's matrix, row-major with 3 or 6 directions a node.
+/// Adds an element's matrix, row-major with 3 or 6 degrees of freedom a node.
 fn add_local(
     K: &[f64],
     nodes: &[usize],
@@ -528,7 +536,8 @@ fn add_local(
     scatter.add(projected.as_flattened(), destination.entries, values);
 }
 
-/// K̂ = 𝒯ᵀ K 𝒯 over the targets, with `pair(a, b)` the element's 6×6 block of its nodes a and b.
+/// Projects K̂ = 𝒯ᵀ K 𝒯 onto the independent nodes `targets`, with `pair(a, b)` the element's 6×6 block of its nodes a
+/// and b.
 fn project(
     nodes: &[usize],
     targets: &[usize],

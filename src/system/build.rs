@@ -1,4 +1,4 @@
-//! From the model's parts to blocks of like elements and to masses at nodes.
+//! Builds blocks of like elements and the masses of nodes from the model's parts.
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia, Lumped};
@@ -17,7 +17,8 @@ use crate::model::{self, MassKind, Model, Part};
 use crate::sections::{self, Stiffness};
 use std::ops::Range;
 
-/// Inertia of bodies, point masses and elements, at their nodes or spread over them.
+/// Lumped and consistent masses of bodies, point masses and deformable parts; `x` are the initial positions of all
+/// nodes.
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
     let mut tied = vec![false; x.len()];
     for body in &model.bodies {
@@ -42,17 +43,17 @@ pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) 
     (masses.lumped.finish(), masses.consistent)
 }
 
-/// Masses of a scene while they are gathered.
+/// The masses of a scene while they are summed.
 struct Masses<'s> {
     x: &'s [Vec3],
-    /// By node: it depends on a body.
+    /// True for each node that depends on a body.
     tied: Vec<bool>,
     lumped: Lumped,
     consistent: Vec<ConsistentMass>,
 }
 
 impl Masses<'_> {
-    /// True where a deformable part leaves mass at a node of its own.
+    /// True where a deformable part has mass at a node of its own.
     fn lies(&self, kind: MassKind, node: usize) -> bool {
         match kind {
             MassKind::Lumped => true,
@@ -61,7 +62,7 @@ impl Masses<'_> {
         }
     }
 
-    /// True where a deformable part leaves rotary inertia at a node of its own.
+    /// True where a deformable part has rotary inertia at a node of its own.
     fn turns(&self, kind: MassKind, node: usize) -> bool {
         kind == MassKind::Consistent || self.lies(kind, node)
     }
@@ -106,7 +107,8 @@ impl Masses<'_> {
             let corners: Vec<Vec3> = nodes.iter().map(|&n| self.x[n]).collect();
             for (&node, area) in nodes.iter().zip(shell::shares(&corners)) {
                 let mass = if self.lies(shell.mass, node) { shell.density * h * area } else { 0.0 };
-                // The same about the normal, where a director has none: no direction is left without inertia.
+                // The inertia about the normal is the same, where a director has none, so that no direction is without
+                // inertia.
                 let rotary = if self.turns(shell.mass, node) { shell.density * h.powi(3) / 12.0 * area } else { 0.0 };
                 self.lumped.add(node, mass, &(rotary * Mat3::identity()));
             }
@@ -117,8 +119,8 @@ impl Masses<'_> {
     }
 }
 
-/// Blocks of like elements in the order of the parts; links share one block for lines and one for bushings. `plane`: the normal
-/// of a plane motion.
+/// The blocks of like elements in the order of the parts; links share one block for lines and one for bushings. `plane`
+/// is the normal of a plane motion.
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, Vec<Watched>) {
     let beta = model.damping.stiffness_factor;
     let mut groups = Vec::new();
@@ -138,7 +140,7 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, V
             Part::Shell(shell) => {
                 pieces(part.elements()).for_each(|piece| add(shells(shell, piece.clone(), x, beta), place, piece.start))
             }
-            // The first stands for all links.
+            // The first link stands for all.
             Part::Link(_) if watched.is_empty() => {
                 let blocks;
                 (blocks, watched) = links(model, x);
@@ -158,7 +160,7 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> (Vec<Group>, V
     (groups, watched)
 }
 
-/// Ranges of elements for a group each, as even as can be.
+/// Divides elements into ranges for a group each, as equal as possible.
 fn pieces(elements: usize) -> impl Iterator<Item = Range<usize>> {
     let count = elements.div_ceil(MOST_IN_GROUP);
     (0..count).map(move |k| k * elements / count..(k + 1) * elements / count)
@@ -205,7 +207,7 @@ fn beams_of<const N: usize>(
     }
 }
 
-/// Whether a plane motion bends all elements of a part along local z (or y); `None` if it does neither.
+/// Whether a plane motion bends all elements of a part along local z (true) or y (false); `None` if it does neither.
 pub fn in_plane(part: &model::Beam, plane: Option<usize>) -> Option<bool> {
     let normal = plane?;
     let across = |axis: usize| part.elements.iter().all(|e| e.frame[(normal, axis)].abs() > 1.0 - 1e-12);
@@ -236,7 +238,8 @@ fn shells(part: &model::Shell, piece: Range<usize>, x: &[Vec3], beta: f64) -> Bo
     }
 }
 
-/// Blocks of points that hang on as many nodes, with the number of the first point among those; none for a clearance monitor.
+/// The blocks of points with equally many nodes, with the number of the first point among those; none for a clearance
+/// monitor.
 fn contacts(contact: &model::Contact) -> Vec<(Box<dyn ElementBlock>, usize)> {
     let Some(law) = contact.law else { return Vec::new() };
     let mut blocks: Vec<(Box<dyn ElementBlock>, usize)> = Vec::new();
@@ -278,7 +281,7 @@ fn links(model: &Model, x: &[Vec3]) -> ([Box<dyn ElementBlock>; 2], Vec<Watched>
     ([Box::new(Links(lines)), Box::new(Bushings(bushings))], watched)
 }
 
-/// Joints with the rows that say anything where all moves in a plane.
+/// The joints with the constraint equations that a plane motion needs.
 pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
     let joint = |joint: &model::Joint| {
         let d = x[joint.ends[0]] - x[joint.ends[1]];

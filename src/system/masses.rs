@@ -76,12 +76,12 @@ impl Masses {
         }
         // The sums are mass, its first moment, and the inertia tensor about the node.
         let mut sums = vec![(0.0, Vec3::zeros(), Mat3::zeros()); dofs.nodes()];
-        let mut rides = vec![None; dofs.nodes()];
-        system.rigid_links.iter().for_each(|dependent| rides[dependent.node] = Some(dependent));
+        let mut link_of = vec![None; dofs.nodes()];
+        system.rigid_links.iter().for_each(|dependent| link_of[dependent.node] = Some(dependent));
         let point = |mass: f64, s: &Vec3| -mass * skew(s) * skew(s);
         for inertia in &system.inertias {
             let (mut node, mut arm, mut J0) = (inertia.node, Vec3::zeros(), inertia.J0);
-            while let Some(dependent) = rides[node] {
+            while let Some(dependent) = link_of[node] {
                 if !dependent.rigid {
                     // A spherical joint hands on the mass and leaves the inertia.
                     if dependent.dofs != [true, true, true, false, false, false] || node != inertia.node {

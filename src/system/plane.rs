@@ -1,4 +1,4 @@
-//! Scenes that move in a plane.
+//! Recognizes scenes that move in a plane.
 
 use super::inertia::Inertia;
 use crate::constraints::rigid_link::RigidLink;
@@ -6,16 +6,16 @@ use crate::math::{Mat3, Vec3, skew};
 use crate::model::{Joint, Link, LinkKind, Loading, Model, Node, Part};
 use crate::sections::Stiffness;
 
-/// The global axis normal to the plane of a scene in which nothing can move out of it, where the deck does not ask to keep
-/// what is out of it.
+/// The global axis normal to the plane of a scene in which nothing can move out of it, unless the deck keeps
+/// out-of-plane motion.
 pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
     if model.analysis.plane { (0..3).rev().find(|&n| is_plane(model, inertias, rigid_links, n)) } else { None }
 }
 
-/// What rounding leaves of a zero, relative to the entries beside it.
+/// A number counts as zero below this fraction of the entries beside it.
 const SMALL: f64 = 1e-12;
 
-/// A plane through the nodes, normal to a global axis.
+/// A plane normal to a global axis, through the first node.
 struct Plane {
     normal: usize,
     /// Largest distance of a node from the first.
@@ -33,7 +33,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], norm
         && plane.holds_constraints(model)
         && inertias.iter().all(|i| plane.keeps_apart(&i.J0))
         && model.parts.iter().all(|part| plane.holds_part(part, &model.stiffnesses))
-        // Arms lie in the plane with the nodes; skew(arm) pairs rightly by itself.
+        // Arms lie in the plane with the nodes, so only their skew matrices need a check.
         && rigid_links.iter().all(|a| plane.pairs_rightly(&skew(&a.S0)) || a.S0 == Vec3::zeros())
 }
 
@@ -41,7 +41,7 @@ impl Plane {
     /// True for a vector in the plane. It is judged by its largest entry: the norm of large numbers overflows, and nothing
     /// exceeds infinity.
     fn holds(&self, v: &Vec3) -> bool {
-        // Not the opposite comparison: entries that are not finite do not lie outside.
+        // The comparison is not reversed, so that entries that are not finite do not count as outside.
         let outside = v[self.normal].abs() > SMALL * v.amax();
         !outside
     }
@@ -51,13 +51,14 @@ impl Plane {
         !(0..3).any(|i| i != self.normal && v[i].abs() > SMALL * v.amax())
     }
 
-    /// True for a symmetric tensor that keeps the normal and the plane apart.
+    /// True for a symmetric tensor that does not couple the normal with the plane.
     fn keeps_apart(&self, J: &Mat3) -> bool {
         let n = self.normal;
         !(0..3).any(|i| i != n && J[(n, i)].abs().max(J[(i, n)].abs()) > SMALL * J.amax())
     }
 
-    /// False for a matrix that pairs a vector in the plane with a rotation along it, or the normal with a rotation about it.
+    /// False for a matrix that couples a vector in the plane with a rotation about an axis in the plane, or the normal
+    /// with a rotation about it.
     fn pairs_rightly(&self, K: &Mat3) -> bool {
         let n = self.normal;
         !(0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > SMALL * K.amax()))
@@ -97,11 +98,11 @@ impl Plane {
         }
     }
 
-    /// True where bending and stretching in the plane make a section neither bend nor twist out of it.
+    /// True for a section that bending and stretching in the plane neither bend nor twist out of it.
     fn holds_section(&self, frame: &Mat3, C: &Stiffness) -> bool {
         let turn = |K: &Mat3| frame * K * frame.transpose();
-        // What pairs forces with curvatures may be nothing but rounding, that of a shear centre at the centroid: it is small
-        // beside what both do by themselves, the geometric mean of forces and moments.
+        // The coupling of forces and curvatures may be nothing but rounding, that of a shear centre at the centroid: it
+        // is small beside the geometric mean of the stiffnesses of forces and moments.
         let rest = turn(&C.NM);
         let paired = rest.amax() > SMALL * C.N.amax().sqrt() * C.M.amax().sqrt();
         self.keeps_apart(&turn(&C.N)) && self.keeps_apart(&turn(&C.M)) && (!paired || self.pairs_rightly(&rest))
