@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::parts::{MassKind, PartTable, names};
+use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany};
 use crate::diagnostic::At;
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::parts::{PartTable, names};
+use super::part_table::{PartTable, names};
 use super::words::kinds::{Kinds, OneOf};
 use super::words::{Maybe, Names};
 use crate::diagnostic::At;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::parts::PartTable;
+use super::part_table::PartTable;
 use super::words::{Maybe, Numbers, Table, Vector};
 use crate::diagnostic::At;
 

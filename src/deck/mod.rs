@@ -21,6 +21,7 @@ pub mod loads;
 pub mod materials;
 pub mod mesh;
 pub mod output;
+pub mod part_table;
 pub mod parts;
 pub mod read;
 pub mod sections;

@@ -3,7 +3,7 @@
 use super::integrals::{MassIntegrals, along};
 use super::node::Node;
 use super::part_answers::{Drawing, NodeWeights, PartAnswers};
-use crate::deck::parts::MassKind;
+use crate::deck::part_table::MassKind;
 use crate::materials::MaterialLaw;
 use crate::math::{Mat3, Vec3};
 use crate::quantities::{Column, PLASTIC_STRAIN};

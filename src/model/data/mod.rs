@@ -20,7 +20,8 @@ mod step_length;
 mod study;
 
 pub use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
-pub use crate::deck::parts::{MassKind, PartIndex, PartKind};
+pub use crate::deck::part_table::MassKind;
+pub use crate::deck::parts::{PartIndex, PartKind};
 pub use crate::deck::supports::History;
 pub use analysis::{Analysis, Iteration, Solution};
 pub use bar::Bar;

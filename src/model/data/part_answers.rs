@@ -2,7 +2,7 @@
 
 use super::integrals::MassIntegrals;
 use super::node::Node;
-use crate::deck::parts::MassKind;
+use crate::deck::part_table::MassKind;
 use crate::math::{Mat3, Vec3};
 use crate::quantities::Column;
 use crate::sections::Stiffness;

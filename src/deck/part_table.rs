@@ -1,0 +1,64 @@
+//! What the table of any part answers, each in the file of its kind, and what the tables of deformable parts have in common.
+
+use super::words::{Names, OneOrMany};
+use crate::diagnostic::At;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The table of a part. What a kind of part does not have is what is answered by default.
+pub trait PartTable {
+    fn name(&self) -> Option<&At<String>>;
+
+    /// The group of the mesh that the part is made of.
+    fn group(&self) -> Option<&At<String>> {
+        None
+    }
+
+    /// Names of what the part is made of, joins or touches.
+    fn members(&self) -> Vec<&At<String>>;
+
+    /// Whether the name of the part stands for its nodes where a list of points, bodies and sets is wanted: its inner nodes have
+    /// no names of their own.
+    fn is_node_list(&self) -> bool {
+        false
+    }
+
+    /// How many edges have names of their own, such as `roof.edge1`.
+    fn named_edges(&self) -> usize {
+        0
+    }
+
+    fn material(&self) -> Option<&At<String>> {
+        None
+    }
+
+    /// How many elements the part is cut into; `None` where that is not for the deck to say.
+    fn elements(&self) -> Option<&At<OneOrMany<u64>>> {
+        None
+    }
+
+    /// The key `rigid`; `None` for a part that cannot be a body by itself.
+    fn rigid(&self) -> Option<bool> {
+        None
+    }
+}
+
+/// The names of a list, none where it is missing.
+pub(super) fn names(list: &Option<At<Names>>) -> Vec<&At<String>> {
+    list.iter().flat_map(|list| &list.value.values).collect()
+}
+
+/// Where the mass of a part goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassKind {
+    /// At the nodes, by the element's Lobatto rule: a diagonal (lumped) mass matrix.
+    #[default]
+    Lumped,
+    /// Translations by the element's shape functions, with off-diagonal terms; rotary inertia at the nodes.
+    Consistent,
+    /// Lumped, but without the mass at nodes that are rigidly attached to a body.
+    FreeNodes,
+    /// The part has no mass.
+    None,
+}
