@@ -10,7 +10,7 @@ use rdsolve::model::{self, Model, Update};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};
 use rdsolve::state::State;
-use rdsolve::system::assembly::Weights;
+use rdsolve::system::assembly::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
@@ -115,7 +115,7 @@ fn measure(name: &str, mut model: Model) {
     let mut forces = Forces::new(&system, model.nodes.len());
     let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
-    let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
+    let weights = TangentWeights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.configuration(), &loading, f)));
     let tangent = least(

@@ -16,9 +16,9 @@ fn held_in_plane(mut model: Model) -> Model {
     model.analysis.plane = false;
     for node in 0..model.nodes.len() {
         for dof in ACROSS {
-            let rides =
+            let depends =
                 model.constraints.dependents.iter().any(|dependent| dependent.node == node && dependent.dofs[dof]);
-            if !rides && !model.constraints.restraints.iter().any(|held| held.node == node && held.dof == dof) {
+            if !depends && !model.constraints.restraints.iter().any(|held| held.node == node && held.dof == dof) {
                 model.constraints.restraints.push(Restraint { node, dof, motion: None });
             }
         }

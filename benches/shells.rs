@@ -9,7 +9,7 @@ use rdsolve::elements::Moduli;
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Node};
-use rdsolve::system::assembly::Weights;
+use rdsolve::system::assembly::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::hint::black_box;
 use std::process::Command;
@@ -129,7 +129,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);
     let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
-    let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
+    let weights = TangentWeights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&now, &loading, f)));
     let both = &mut (&mut assembly, &mut solver);

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{Deref, DerefMut};
 
-use super::data::{DependentNode, Motion, Node, Restraint};
+use super::data::{DependentNode, PrescribedMotion, Node, Restraint};
 use super::report::Report;
 use super::spot::Spot;
 use crate::diagnostic::Span;
@@ -55,7 +55,7 @@ impl Nodes {
     }
 
     /// Gives the motion of a node in a direction, or none for rest. It must not be given yet.
-    pub fn restrain(&mut self, node: usize, dof: usize, motion: Option<Motion>) {
+    pub fn restrain(&mut self, node: usize, dof: usize, motion: Option<PrescribedMotion>) {
         self.restraints.insert((node, dof), Restraint { node, dof, motion });
     }
 

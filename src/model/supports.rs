@@ -1,6 +1,6 @@
 //! `[[supports]]`: directions whose motion is given.
 
-use super::data::{AnalysisKind, DIRECTIONS, History, Joint, Motion};
+use super::data::{AnalysisKind, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
@@ -27,7 +27,7 @@ pub(super) fn supports<'d>(
 }
 
 /// A direction that a support gives: with its motion, `None` for rest, and where the deck says so.
-type Given<'d> = (usize, Option<Motion>, &'d Span);
+type Given<'d> = (usize, Option<PrescribedMotion>, &'d Span);
 
 struct Supports<'a, 'd> {
     scene: &'a Scene<'d>,
@@ -109,7 +109,7 @@ impl<'d> Supports<'_, 'd> {
             }
             let scale = motion.scale.as_ref().map_or(1.0, |scale| scale.value);
             let Some((amplitude, _)) = amplitude else { continue };
-            read.push((dof, Some(Motion { amplitude, scale, history }), &motion.span));
+            read.push((dof, Some(PrescribedMotion { amplitude, scale, history }), &motion.span));
         }
         read
     }

@@ -63,7 +63,7 @@ impl Plan {
     fn with_multipliers(&self, system: &System) -> Structure {
         let mut sizes = self.sizes_with(DofStatus::Dependent);
         let nodes = sizes.len();
-        sizes.extend(system.rigid_links.iter().map(|dependent| dependent.dofs.iter().filter(|&&rides| rides).count()));
+        sizes.extend(system.rigid_links.iter().map(|dependent| dependent.dofs.iter().filter(|&&taken| taken).count()));
         grouped(&sizes, connectivity_with_multipliers(system, nodes), system.joints.len() + system.rigid_links.len())
     }
 }

@@ -18,7 +18,7 @@ use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, angular};
 use crate::plan::Plan;
 use crate::state::{Configuration, Node, State};
-use crate::system::assembly::Weights;
+use crate::system::assembly::TangentWeights;
 use crate::system::{Forces, Loading, System};
 
 /// Mass given to a degree of freedom without one, relative to the largest: so it is the one that gives way.
@@ -101,7 +101,7 @@ impl ConstraintProjection {
     /// Factorizes masses and joints at the given configuration; false where the matrix is singular and the joints
     /// cannot be closed.
     fn factor(&mut self, nodes: &[Node]) -> bool {
-        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+        let weights = TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
         let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly }, forces, loading, .. } = self;
         assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
         let values = solver.values();

@@ -9,7 +9,7 @@ use crate::elements::Moduli;
 use crate::math::{Vec3, Vec6, rotation, stack};
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
-use crate::system::assembly::Weights;
+use crate::system::assembly::TangentWeights;
 
 /// Finds the state at t = 0. Returns it with the largest change of initial velocities that the joints required,
 /// relative to the largest velocity.
@@ -235,7 +235,7 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<
     // end. It shows as a vanishing pivot.
     let mut oblique: Vec<usize> = Vec::new();
     loop {
-        let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+        let weights = TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
         let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
         matrix.assembly.tangent(cx.system, now, loads, &mut ws.forces, weights, &mut matrix.solver);
         let mut massless = oblique.clone();

@@ -193,7 +193,7 @@ struct Scratch {
 
 /// The weights of the terms of a tangent.
 #[derive(Debug, Clone, Copy)]
-pub struct Weights {
+pub struct TangentWeights {
     /// True where K is formed; false for the mass matrix alone.
     pub stiffness: bool,
     /// Factor ∂q̇/∂q of the damping.
@@ -336,7 +336,7 @@ impl Assembly {
         now: &Configuration,
         loading: &Loading,
         forces: &mut Forces,
-        weights: Weights,
+        weights: TangentWeights,
         solver: &mut Solver,
     ) {
         let nodes = now.nodes;
@@ -357,7 +357,7 @@ impl Assembly {
         &mut self,
         system: &System,
         now: &Configuration,
-        Weights { rate, moduli, .. }: Weights,
+        TangentWeights { rate, moduli, .. }: TangentWeights,
         values: &mut [f64],
     ) {
         for (group, destinations) in system.groups.iter().zip(&self.groups) {
@@ -420,7 +420,7 @@ impl Assembly {
         system: &System,
         nodes: &[Node],
         forces: &mut Forces,
-        weights: Weights,
+        weights: TangentWeights,
         values: &mut [f64],
     ) {
         let Scratch { projections, projected, .. } = &mut self.scratch;
@@ -436,7 +436,7 @@ impl Assembly {
     }
 
     /// Forms the matrices of nodes: inertia, nodal damping, follower loads, arms.
-    fn form_nodes(&mut self, system: &System, nodes: &[Node], loading: &Loading, forces: &Forces, weights: Weights) {
+    fn form_nodes(&mut self, system: &System, nodes: &[Node], loading: &Loading, forces: &Forces, weights: TangentWeights) {
         let own = &mut self.scratch.own;
         for (node, _) in &self.nodes {
             own[*node] = Mat6::zeros();
@@ -488,7 +488,7 @@ impl Assembly {
         }
     }
 
-    fn add_masses(&mut self, system: &System, weights: Weights, values: &mut [f64]) {
+    fn add_masses(&mut self, system: &System, weights: TangentWeights, values: &mut [f64]) {
         let w = weights.acceleration + system.mass_damping * weights.rate;
         for (mass, destination) in system.consistent_masses().iter().zip(&self.masses) {
             let n = mass.nodes.len();

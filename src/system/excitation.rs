@@ -4,7 +4,7 @@
 use super::loads::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
-use crate::model::{AnalysisKind, History, Model, Motion, Restraint};
+use crate::model::{AnalysisKind, History, Model, PrescribedMotion, Restraint};
 
 /// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -138,7 +138,7 @@ impl<'a> Excitation<'a> {
     pub fn begin(&self) -> f64 {
         let model = self.model;
         let rest = |amplitude: Option<usize>| amplitude.map_or(0.0, |i| model.loading.amplitudes[i].rest());
-        let moves = |motion: &Motion| match motion.history {
+        let moves = |motion: &PrescribedMotion| match motion.history {
             History::Displacement => rest(Some(motion.amplitude)),
             // A constant velocity changes the position all the same.
             History::Velocity | History::Acceleration => 0.0,
@@ -189,7 +189,7 @@ impl<'a> Excitation<'a> {
     }
 }
 
-fn prescribed_motion(motion: &Motion, amplitude: &Amplitude, t: f64) -> Prescribed {
+fn prescribed_motion(motion: &PrescribedMotion, amplitude: &Amplitude, t: f64) -> Prescribed {
     let (u, v, a) = match motion.history {
         History::Displacement => (amplitude.value(t), amplitude.rate(t), amplitude.second_rate(t)),
         History::Velocity => (amplitude.integral(t), amplitude.value(t), amplitude.rate(t)),

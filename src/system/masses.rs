@@ -56,7 +56,7 @@ enum BlockKind {
 
 /// Velocities and accelerations of a node, global components.
 #[derive(Debug, Clone, Copy)]
-pub struct Motion {
+pub struct NodeRates {
     /// Velocity.
     pub v: Vec3,
     /// Angular velocity.
@@ -241,12 +241,12 @@ impl MassBlock {
     /// own inertia changes. Where degrees of freedom are restrained, the gyroscopic terms of the predicted angular
     /// velocities are corrected: they would feed energy into the motion.
     #[inline]
-    pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> Motion {
+    pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> NodeRates {
         let h = 0.5 * dt;
         if self.kind != BlockKind::RigidBody {
             let mean = |push: Vec6| {
                 let (a, alpha) = (now.a + linear(&push), now.alpha + angular(&push));
-                Motion { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
+                NodeRates { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
             };
             let mut end = mean(self.accelerate(now, F));
             for _ in 0..if self.kind == BlockKind::Restrained { CORRECTIONS } else { 0 } {
@@ -276,7 +276,7 @@ impl MassBlock {
         let a0 = start.a + centripetal(start, &s0);
         let a1 = now.a + centripetal(now, &s) + f / self.mass;
         let v = start.v + start.omega.cross(&s0) + h * (a0 + a1) - omega.cross(&s);
-        let mut end = Motion { v, omega, a: a1, alpha };
+        let mut end = NodeRates { v, omega, a: a1, alpha };
         end.a -= alpha.cross(&s) + omega.cross(&omega.cross(&s));
         // Translations may be restrained where the node is the centre of mass.
         for i in (0..3).filter(|&i| !self.free[i]) {

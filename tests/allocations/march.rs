@@ -7,7 +7,7 @@ use rand::rngs::StdRng;
 use rdsolve::diagnostic::Source;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    AnalysisKind, BaseAcceleration, Cadence, History, Iteration, MassKind, Method, Model, Motion, NodalDamping,
+    AnalysisKind, BaseAcceleration, Cadence, History, Iteration, MassKind, Method, Model, PrescribedMotion, NodalDamping,
     Restraint, StepLength, Update,
 };
 use rdsolve::plan::Plan;
@@ -36,7 +36,7 @@ fn lively(rng: &mut StdRng) -> Model {
     m.loading.base_accelerations.push(BaseAcceleration { direction: Vec3::x(), amplitude: pulse });
     let foot = m.constraints.restraints[0].clone();
     m.constraints.restraints[0] =
-        Restraint { motion: Some(Motion { amplitude: pulse, scale: 0.1, history: History::Displacement }), ..foot };
+        Restraint { motion: Some(PrescribedMotion { amplitude: pulse, scale: 0.1, history: History::Displacement }), ..foot };
     m.damping.mass_factor = 0.1;
     m.damping.stiffness_factor = 0.001;
     m.damping.nodal.push(NodalDamping { node: 2, translation: 0.2, rotation: 0.1 });
@@ -153,7 +153,7 @@ fn shells_neither() {
     let first = shell(&mut m, [o, 2.0 * x, y], [3, 2], 4, MassKind::Consistent);
     shell(&mut m, [3.0 * x, 5.0 * x, 3.0 * x + y], [2, 2], 3, MassKind::Lumped);
     let block = body(&mut m, Vec3::new(2.5, 0.5, 0.0), 1.0, Mat3::identity());
-    [3, 7, 11].into_iter().for_each(|k| ride(&mut m, first[k], block, ALL));
+    [3, 7, 11].into_iter().for_each(|k| attach(&mut m, first[k], block, ALL));
     m.nodes[block].omega = Vec3::new(0.0, 1.0, 0.5);
     [0, 4, 8].into_iter().for_each(|k| fix(&mut m, first[k], 0..6));
     let pulse = sine_squared(&mut m, 4.0);

@@ -21,11 +21,11 @@ fn flyer(riding: bool, time_step: f64) -> Model {
     let kind = if riding { MassKind::Consistent } else { MassKind::None };
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::z(), kind);
     beam(&mut m, [p[1], p[2]], 1, 2, Vec3::z(), kind);
-    ride(&mut m, p[0], a, ALL);
-    ride(&mut m, p[2], b, ALL);
+    attach(&mut m, p[0], a, ALL);
+    attach(&mut m, p[2], b, ALL);
     let (c, d) = (node(&mut m, Vec3::new(0.2, -0.5, 0.8)), node(&mut m, Vec3::new(3.3, 0.2, 1.0)));
-    ride(&mut m, c, a, ALL);
-    ride(&mut m, d, b, ALL);
+    attach(&mut m, c, a, ALL);
+    attach(&mut m, d, b, ALL);
     spring(&mut m, [c, d], 20.0, 0.5);
     mass(&mut m, p[1], 0.5, inertia(&mut rng, 0.1));
     if riding {

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, History, MassKind, Model, Motion, NodalDamping, Restraint};
+use rdsolve::model::{AnalysisKind, History, MassKind, Model, PrescribedMotion, NodalDamping, Restraint};
 
 /// A crane of a slanted column, a jib and a heavy block on a spring, one foot pushed about. Its beams are soft enough for
 /// the steps to follow every motion that takes part.
@@ -17,14 +17,14 @@ fn crane(time_step: f64, damped: bool) -> Model {
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::x(), MassKind::Lumped);
     beam(&mut m, [p[1], p[2]], 1, 3, Vec3::z(), MassKind::Consistent);
     let block = body(&mut m, Vec3::new(2.0, 0.2, 2.4), 10.0, inertia(&mut rng, 2.0));
-    ride(&mut m, p[2], block, ALL);
+    attach(&mut m, p[2], block, ALL);
     let hook = node(&mut m, Vec3::new(2.2, 0.3, 2.0));
-    ride(&mut m, hook, block, ALL);
+    attach(&mut m, hook, block, ALL);
     let load = node(&mut m, Vec3::new(2.3, 0.3, 1.2));
     mass(&mut m, load, 2.0, Mat3::zeros());
     spring(&mut m, [hook, load], 60.0, if damped { 1.0 } else { 0.0 });
     let pulse = sine_squared(&mut m, 2.0);
-    let motion = Motion { amplitude: pulse, scale: 0.2, history: History::Displacement };
+    let motion = PrescribedMotion { amplitude: pulse, scale: 0.2, history: History::Displacement };
     m.constraints.restraints.push(Restraint { node: p[0], dof: 0, motion: Some(motion) });
     fix(&mut m, p[0], 1..6);
     push(&mut m, block, Vec3::new(0.0, 8.0, 0.0), Vec3::new(0.0, 0.0, 3.0), true, Some(pulse));

@@ -43,13 +43,13 @@ fn a_mass_is_a_body_on_its_node_or_a_point_mass_with_inertia() {
     let (mut dependent, other) = arm(0.01);
     let x = dependent.nodes[other].x;
     let block = body(&mut dependent, x, m0, J);
-    ride(&mut dependent, other, block, ALL);
+    attach(&mut dependent, other, block, ALL);
     let e = off((&point, tip), (&dependent, other));
     assert!(e < SAME, "a body that carries the node: {e:e}");
     // The other way round: the body's node rides on the tip.
     let (mut carried, tip2) = arm(0.01);
     let block = body(&mut carried, x, m0, J);
-    ride(&mut carried, block, tip2, ALL);
+    attach(&mut carried, block, tip2, ALL);
     let e = off((&point, tip), (&carried, tip2));
     assert!(e < SAME, "a body on the node: {e:e}");
 }
@@ -65,16 +65,16 @@ fn more_nodes_on_a_body_change_nothing() {
         let block = body(&mut m, x + Vec3::new(0.4, 0.2, -0.1), 3.0, J);
         for k in 0..extra {
             let p = node(&mut m, x + Vec3::new(0.0, 0.3, 0.1) * (k + 1) as f64);
-            ride(&mut m, p, block, ALL);
+            attach(&mut m, p, block, ALL);
         }
         let master = if chain {
             let between = node(&mut m, x + Vec3::new(-0.5, 1.0, 2.0));
-            ride(&mut m, between, block, ALL);
+            attach(&mut m, between, block, ALL);
             between
         } else {
             block
         };
-        ride(&mut m, tip, master, ALL);
+        attach(&mut m, tip, master, ALL);
         (m, tip)
     };
     let (one, tip) = with(0, false);
@@ -100,13 +100,13 @@ fn masses_on_arms_are_the_body_they_make() {
             let first = body(&mut two, x, m1, J1);
             let second = node(&mut two, x + S);
             mass(&mut two, second, m2, J2);
-            ride(&mut two, second, first, ALL);
-            ride(&mut two, tip, first, ALL);
+            attach(&mut two, second, first, ALL);
+            attach(&mut two, tip, first, ALL);
             let (mut one, tip1) = arm(dt);
             let reduced = m1 * m2 / (m1 + m2);
             let parallel = (Mat3::identity() * S.norm_squared() - S * S.transpose()) * reduced;
             let both = body(&mut one, x + S * (m2 / (m1 + m2)), m1 + m2, J1 + J2 + parallel);
-            ride(&mut one, tip1, both, ALL);
+            attach(&mut one, tip1, both, ALL);
             off((&two, tip), (&one, tip1))
         })
         .collect();
@@ -126,7 +126,7 @@ fn a_plane_scene_is_the_same_in_space() {
         beam(&mut m, [p[1], p[2]], 2, 1, Vec3::y(), MassKind::Lumped);
         fix(&mut m, p[0], 0..6);
         let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
-        ride(&mut m, p[2], block, ALL);
+        attach(&mut m, p[2], block, ALL);
         m.nodes[block].omega = Vec3::y() * 2.0;
         m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
         m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);
@@ -153,7 +153,7 @@ fn a_plane_scene_that_yields_is_the_same_in_space_and_in_any_plane() {
         soften(&mut m, 10.0);
         fix(&mut m, p[0], 0..6);
         let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
-        ride(&mut m, p[2], block, ALL);
+        attach(&mut m, p[2], block, ALL);
         m.nodes[block].omega = Vec3::y() * 2.0;
         m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
         m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3, rotation};
-use rdsolve::model::{AnalysisKind, BaseAcceleration, History, MassKind, Model, Motion, Restraint};
+use rdsolve::model::{AnalysisKind, BaseAcceleration, History, MassKind, Model, PrescribedMotion, Restraint};
 
 /// A bent beam with a body at its end, its foot held in all directions.
 fn mast(time_step: f64) -> (Model, usize) {
@@ -16,14 +16,14 @@ fn mast(time_step: f64) -> (Model, usize) {
     beam(&mut m, [p[0], p[1]], 1, 3, Vec3::x(), MassKind::Lumped);
     beam(&mut m, [p[1], p[2]], 1, 2, Vec3::z(), MassKind::Consistent);
     let block = body(&mut m, Vec3::new(1.4, 0.4, 1.9), 4.0, inertia(&mut rng, 1.0));
-    ride(&mut m, p[2], block, ALL);
+    attach(&mut m, p[2], block, ALL);
     fix(&mut m, p[0], 0..6);
     (m, p[0])
 }
 
 fn drive(m: &mut Model, node: usize, dof: usize, amplitude: Amplitude, scale: f64, history: History) {
     m.loading.amplitudes.push(amplitude);
-    let motion = Some(Motion { amplitude: m.loading.amplitudes.len() - 1, scale, history });
+    let motion = Some(PrescribedMotion { amplitude: m.loading.amplitudes.len() - 1, scale, history });
     m.constraints.restraints.retain(|h| (h.node, h.dof) != (node, dof));
     m.constraints.restraints.push(Restraint { node, dof, motion });
 }
@@ -102,7 +102,7 @@ fn a_driven_hub_carries_its_arm() {
             let centre = Vec3::new(1.0, 2.0, 3.0);
             let hub = body(&mut m, centre, 1.0, Mat3::identity() * J);
             let far = node(&mut m, centre + arm);
-            ride(&mut m, far, hub, ALL);
+            attach(&mut m, far, hub, ALL);
             mass(&mut m, far, m0, Mat3::zeros());
             fix(&mut m, hub, 0..6);
             let [(amplitude, scale, history), ..] = histories(omega);
@@ -157,7 +157,7 @@ fn riders_start_turned_with_their_masters() {
     drive(&mut m, hub, 4, Amplitude::Constant, 0.5, History::Displacement);
     for dofs in [ALL, [true, true, true, true, true, false]] {
         let p = body(&mut m, Vec3::x(), 1.0, Mat3::identity());
-        ride(&mut m, p, hub, dofs);
+        attach(&mut m, p, hub, dofs);
     }
     for state in run(&m).states {
         for node in &state.nodes {

@@ -4,7 +4,7 @@ use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Vec3, rotation};
-use rdsolve::model::{AnalysisKind, History, MassKind, Model, Motion, NodalDamping};
+use rdsolve::model::{AnalysisKind, History, MassKind, Model, PrescribedMotion, NodalDamping};
 use rdsolve::sections::Stiffness;
 
 /// 150 steps in which the ends move by a third of the structure and turn by a radian.
@@ -22,7 +22,7 @@ fn lively(rng: &mut StdRng) -> Model {
     m.damping.nodal.push(NodalDamping { node: hub, translation: 0.2, rotation: 0.1 });
     // One support shakes along x.
     let held = m.constraints.restraints.iter_mut().find(|h| h.dof == 0).expect("the scene is held");
-    held.motion = Some(Motion { amplitude: pulse, scale: 0.2, history: History::Displacement });
+    held.motion = Some(PrescribedMotion { amplitude: pulse, scale: 0.2, history: History::Displacement });
     m
 }
 

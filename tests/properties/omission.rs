@@ -5,11 +5,11 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, History, Model, Motion, Restraint};
+use rdsolve::model::{AnalysisKind, History, Model, PrescribedMotion, Restraint};
 
 fn drive(m: &mut Model, node: usize, dof: usize, amplitude: Amplitude, scale: f64) {
     m.loading.amplitudes.push(amplitude);
-    let motion = Motion { amplitude: m.loading.amplitudes.len() - 1, scale, history: History::Displacement };
+    let motion = PrescribedMotion { amplitude: m.loading.amplitudes.len() - 1, scale, history: History::Displacement };
     m.constraints.restraints.push(Restraint { node, dof, motion: Some(motion) });
 }
 
@@ -28,7 +28,7 @@ fn a_load_on_a_bare_rider_moves_the_body() {
                 let master = tip;
                 let x = m.nodes[master].x + arm;
                 tip = node(&mut m, x);
-                ride(&mut m, tip, master, ALL);
+                attach(&mut m, tip, master, ALL);
             }
             let force = Vec3::new(0.0, 3.0, 0.0);
             if direct {
@@ -74,7 +74,7 @@ fn a_body_on_a_hinge_turns_by_inertia() {
     let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.005);
     let first = body(&mut m, Vec3::zeros(), 1.0, Mat3::identity() * 2.0);
     let second = body(&mut m, Vec3::z() * 0.1, 1.0, Mat3::from_diagonal(&Vec3::new(1.0, 3.0, 3.0)));
-    ride(&mut m, second, first, [true, true, true, true, true, false]);
+    attach(&mut m, second, first, [true, true, true, true, true, false]);
     push(&mut m, first, Vec3::zeros(), Vec3::new(2.0, 1.0, 0.0), false, None);
     let record = run(&m);
     assert!(record.last().nodes[second].omega.z.abs() > 0.01);

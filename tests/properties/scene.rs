@@ -107,7 +107,7 @@ pub fn mass(m: &mut Model, node: usize, mass: f64, inertia: Mat3) {
     m.masses.push(Mass { node, mass, inertia });
 }
 
-pub fn ride(m: &mut Model, node: usize, master: usize, dofs: [bool; 6]) {
+pub fn attach(m: &mut Model, node: usize, master: usize, dofs: [bool; 6]) {
     m.constraints.dependents.push(DependentNode { node, master, dofs, place: None });
 }
 
@@ -240,18 +240,18 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
     fix(&mut m, p[0], 0..6);
     let centre = (m.nodes[p[4]].x + m.nodes[p[5]].x) * 0.5;
     let hub = body(&mut m, centre, 2.0, inertia(rng, 0.4));
-    ride(&mut m, p[4], hub, ALL);
-    ride(&mut m, p[5], hub, TRANSLATIONS);
+    attach(&mut m, p[4], hub, ALL);
+    attach(&mut m, p[5], hub, TRANSLATIONS);
     // On the ball joint hangs a beam with a free end, and on that end sits an arm.
     let out = node(&mut m, centre + Vec3::new(-1.0, 1.0, 2.5) + vector(rng, 0.2));
     beam(&mut m, [p[5], out], 1, 3, Vec3::new(0.0, 1.0, 0.1), MassKind::Lumped);
     let offset = node(&mut m, centre + Vec3::new(-1.3, 1.4, 2.8));
-    ride(&mut m, offset, out, ALL);
+    attach(&mut m, offset, out, ALL);
     // A dependent node on a dependent node.
     let far = node(&mut m, centre + Vec3::new(0.7, 0.4, -0.6));
     let farther = node(&mut m, centre + Vec3::new(1.2, 0.1, -1.1));
-    ride(&mut m, far, hub, ALL);
-    ride(&mut m, farther, far, ALL);
+    attach(&mut m, far, hub, ALL);
+    attach(&mut m, farther, far, ALL);
     let ground = node(&mut m, Vec3::new(2.0, 2.0, -2.0));
     fix(&mut m, ground, 0..6);
     bar(&mut m, [offset, farther], 50.0, 0.2, MassKind::Consistent);
@@ -348,7 +348,7 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
             t.constraints.restraints.push(Restraint {
                 node: h.node,
                 dof,
-                motion: Some(Motion { scale, ..motion.clone() }),
+                motion: Some(PrescribedMotion { scale, ..motion.clone() }),
             });
         }
     }

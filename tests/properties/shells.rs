@@ -15,7 +15,7 @@ fn flier(time_step: f64, mass: MassKind) -> Model {
     let flap = shell(&mut m, [-1.3 * x, -0.3 * x, -1.3 * x + y], [2, 2], 3, mass);
     let block = body(&mut m, Vec3::new(0.0, 0.5, 0.1), 2.0, inertia(&mut StdRng::seed_from_u64(91), 0.3));
     for n in [sheet[0], sheet[4], sheet[8], flap[2], flap[5], flap[8]] {
-        ride(&mut m, n, block, ALL);
+        attach(&mut m, n, block, ALL);
     }
     for n in &mut m.nodes {
         let omega = Vec3::new(0.3, 1.0, -0.5);

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, History, Model, Motion, Restraint, Update};
+use rdsolve::model::{AnalysisKind, History, Model, PrescribedMotion, Restraint, Update};
 
 /// A body far from the origin with an arm on it and an arm on the arm, massive at its end.
 fn wheel(time_step: f64, end_time: f64) -> (Model, [usize; 3]) {
@@ -15,8 +15,8 @@ fn wheel(time_step: f64, end_time: f64) -> (Model, [usize; 3]) {
     let hub = body(&mut m, Vec3::new(3.0, -2.0, 1.0), 2.0, inertia(&mut rng, 1.0));
     let near = node(&mut m, Vec3::new(3.7, -2.4, 1.3));
     let far = node(&mut m, Vec3::new(4.0, -1.1, 0.6));
-    ride(&mut m, near, hub, ALL);
-    ride(&mut m, far, near, ALL);
+    attach(&mut m, near, hub, ALL);
+    attach(&mut m, far, near, ALL);
     mass(&mut m, far, 0.2, inertia(&mut rng, 0.02));
     (m, [hub, near, far])
 }
@@ -55,7 +55,7 @@ fn whole_turns_lead_back() {
     let turns = 1e4;
     let (mut m, wheel) = wheel(1e-3, 100.0);
     m.loading.amplitudes.push(Amplitude::Ramp { start: 0.0, end: 100.0 });
-    let motion = Motion { amplitude: 0, scale: std::f64::consts::TAU * turns, history: History::Displacement };
+    let motion = PrescribedMotion { amplitude: 0, scale: std::f64::consts::TAU * turns, history: History::Displacement };
     fix(&mut m, wheel[0], 0..5);
     m.constraints.restraints.push(Restraint { node: wheel[0], dof: 5, motion: Some(motion) });
     m.output.cadence = rdsolve::model::Cadence::Steps(10_000);

@@ -13,7 +13,7 @@ use rdsolve::math::{Vec3, Vec6, angular, stack};
 use rdsolve::model::{AnalysisKind, Beam, Link, MassKind, Model, NodalDamping, PartKind, Pressure, StepLength};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
-use rdsolve::system::assembly::Weights;
+use rdsolve::system::assembly::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, System};
 
 /// A scene at an instant within a step.
@@ -124,7 +124,7 @@ impl Instant {
         self.system.residual(&Configuration::of(&nodes), &self.loading, &mut forces);
         let (mut solver, mut assembly) = self.plan.build(&self.system).unwrap();
         let (rate, acceleration) = self.scheme.weights();
-        let weights = Weights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
+        let weights = TangentWeights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
         assembly.tangent(&self.system, &Configuration::of(&nodes), &self.loading, &mut forces, weights, &mut solver);
         let n = self.plan.dofs.unknowns();
         DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))

@@ -7,7 +7,7 @@ use rdsolve::math::Vec3;
 use rdsolve::model::Model;
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Node};
-use rdsolve::system::assembly::Weights;
+use rdsolve::system::assembly::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::f64::consts::TAU;
 
@@ -33,7 +33,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     system.residual(&Configuration::of(&nodes), &loading, &mut forces);
     let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let acceleration = if stiffness { 0.0 } else { 1.0 };
-    let weights = Weights { stiffness, rate: 0.0, acceleration, moduli: Moduli::Algorithmic };
+    let weights = TangentWeights { stiffness, rate: 0.0, acceleration, moduli: Moduli::Algorithmic };
     assembly.tangent(&system, &Configuration::of(&nodes), &loading, &mut forces, weights, &mut solver);
     let n = plan.dofs.unknowns();
     // A symmetric solver stores one triangle under either name.

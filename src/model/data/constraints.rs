@@ -43,12 +43,12 @@ pub struct Restraint {
     /// 0..6: ux, uy, uz, rx, ry, rz.
     pub dof: usize,
     /// `None`: at rest.
-    pub motion: Option<Motion>,
+    pub motion: Option<PrescribedMotion>,
 }
 
 /// A prescribed motion: an amplitude times a factor.
 #[derive(Debug, Clone)]
-pub struct Motion {
+pub struct PrescribedMotion {
     pub amplitude: usize,
     pub scale: f64,
     pub history: History,

@@ -26,7 +26,7 @@ pub use crate::deck::supports::History;
 pub use analysis::{Analysis, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
-pub use constraints::{Constraints, DependentNode, Joint, Motion, Restraint};
+pub use constraints::{Constraints, DependentNode, Joint, PrescribedMotion, Restraint};
 pub use contact::Contact;
 pub use expect::{Expect, ExpectAt, Tolerance, When};
 pub use integrals::MassIntegrals;

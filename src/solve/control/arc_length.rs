@@ -185,7 +185,7 @@ impl ArcLengthController {
                 Quantity::Time => (target.value, None),
                 Quantity::Displacement { node, dof } => {
                     let to = state.time + part * (report.to - state.time);
-                    (to, Some(Condition::Motion { node, dof, by: target.value - from }))
+                    (to, Some(Condition::Displacement { node, dof, by: target.value - from }))
                 }
             };
             shorten(cx, ws, state, part);

@@ -13,9 +13,9 @@ use crate::solve::joints::constraints_violated;
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Increment, State};
-use crate::system::assembly::Weights;
+use crate::system::assembly::TangentWeights;
 use crate::system::constraint_schur::ConstraintSchur;
-use crate::system::masses::{Masses, Motion};
+use crate::system::masses::{Masses, NodeRates};
 
 /// The masses of a scene and the accelerations that forces cause. It is allocated once.
 pub struct Accelerations {
@@ -197,7 +197,7 @@ impl Accelerations {
 
 /// Forms and factorizes the matrix of masses and joints in the trial motion.
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
-    let weights = Weights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+    let weights = TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
     let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
@@ -225,7 +225,7 @@ fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
 }
 
 /// Writes the rates of the increment at the end of a step that give these velocities and accelerations.
-pub fn set_rates(increment: &mut Increment, motion: &Motion) {
+pub fn set_rates(increment: &mut Increment, motion: &NodeRates) {
     let theta = angular(&increment.q);
     let d = inverse_tangent(&theta, &motion.omega);
     // The part Ṫ Θ̇ of the acceleration is that of the rotation vector itself.

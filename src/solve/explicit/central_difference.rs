@@ -16,7 +16,7 @@ use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, Node, State, Work};
-use crate::system::masses::{CORRECTIONS, Motion};
+use crate::system::masses::{CORRECTIONS, NodeRates};
 
 /// Central differences, with what they need besides the workspace. It is allocated once.
 pub struct CentralDifferenceStepper {
@@ -159,9 +159,9 @@ impl CentralDifferenceStepper {
             }
             for &node in &cx.independent_nodes {
                 let trial = &ws.trial[node];
-                let Motion { v, omega, .. } = mean(&state.nodes[node], trial, &self.accelerations.missing[node], dt);
+                let NodeRates { v, omega, .. } = mean(&state.nodes[node], trial, &self.accelerations.missing[node], dt);
                 let (a, alpha) = (trial.a, trial.alpha);
-                set_rates(&mut ws.increments[node], &Motion { v, omega, a, alpha });
+                set_rates(&mut ws.increments[node], &NodeRates { v, omega, a, alpha });
             }
             move_to_step_end(cx, ws, state, scheme);
         }
@@ -236,11 +236,11 @@ fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
 
 /// The rates at the end of a step by the mean of the accelerations; `missing` is the difference of those of the trial
 /// motion.
-fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> Motion {
+fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> NodeRates {
     let (a, alpha) = (now.a + linear(missing), now.alpha + angular(missing));
     let old = stack(&start.a, &start.alpha);
     let both = (old + stack(&a, &alpha)) * (0.5 * dt);
-    Motion { v: start.v + linear(&both), omega: start.omega + angular(&both), a, alpha }
+    NodeRates { v: start.v + linear(&both), omega: start.omega + angular(&both), a, alpha }
 }
 
 #[cfg(test)]

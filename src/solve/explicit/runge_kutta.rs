@@ -17,7 +17,7 @@ use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, Increment, Node, State};
 use crate::system::Side;
-use crate::system::masses::Motion;
+use crate::system::masses::NodeRates;
 
 /// Square of the longest rotation vector of a step: T⁻¹ is singular at a full turn.
 const FARTHEST: f64 = 9.0;
@@ -143,7 +143,7 @@ impl RungeKuttaStepper {
             let [_, rate] = self.stages[end * cx.independent_nodes.len() + k];
             let trial = &mut ws.trial[node];
             (trial.a, trial.alpha) = (linear(&rate), angular(&rate));
-            let motion = Motion { v: trial.v, omega: trial.omega, a: trial.a, alpha: trial.alpha };
+            let motion = NodeRates { v: trial.v, omega: trial.omega, a: trial.a, alpha: trial.alpha };
             set_rates(&mut ws.increments[node], &motion);
         }
         update_dependent_nodes(cx, ws, &state.nodes);

@@ -22,7 +22,7 @@ pub enum Condition {
     /// The motion of the step has this length.
     Arc(f64),
     /// One unknown translation moves by this in the step.
-    Motion { node: usize, dof: usize, by: f64 },
+    Displacement { node: usize, dof: usize, by: f64 },
 }
 
 /// The equation that is added where the time is unknown, with its data. It is allocated once.
@@ -103,7 +103,7 @@ impl ArcLengthConstraint {
         let dt = match condition {
             _ if unloaded => None,
             Condition::Arc(length) => self.on_arc(cx, ws, length),
-            Condition::Motion { node, dof, by } => {
+            Condition::Displacement { node, dof, by } => {
                 let row = cx.plan.dofs.row(node, dof);
                 row.map(|row| (by - ws.increments[node].q[dof] - ws.r[row]) / self.rate[row])
             }

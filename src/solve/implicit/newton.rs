@@ -21,7 +21,7 @@ use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, State};
-use crate::system::assembly::Weights;
+use crate::system::assembly::TangentWeights;
 
 /// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace.
 pub struct Newton {
@@ -272,7 +272,7 @@ impl Newton {
         let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
         let mut moduli = self.refresh.moduli();
         loop {
-            let weights = Weights { stiffness: true, rate, acceleration, moduli };
+            let weights = TangentWeights { stiffness: true, rate, acceleration, moduli };
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             ws.factorizations += 1;
