@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{Deref, DerefMut};
 
-use super::data::{DependentNode, PrescribedMotion, Node, Restraint};
+use super::data::{DependentNode, Node, PrescribedMotion, Restraint};
 use super::report::Report;
 use super::spot::Spot;
 use crate::diagnostic::Span;

@@ -436,7 +436,14 @@ impl Assembly {
     }
 
     /// Forms the matrices of nodes: inertia, nodal damping, follower loads, arms.
-    fn form_nodes(&mut self, system: &System, nodes: &[Node], loading: &Loading, forces: &Forces, weights: TangentWeights) {
+    fn form_nodes(
+        &mut self,
+        system: &System,
+        nodes: &[Node],
+        loading: &Loading,
+        forces: &Forces,
+        weights: TangentWeights,
+    ) {
         let own = &mut self.scratch.own;
         for (node, _) in &self.nodes {
             own[*node] = Mat6::zeros();

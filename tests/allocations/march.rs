@@ -7,8 +7,8 @@ use rand::rngs::StdRng;
 use rdsolve::diagnostic::Source;
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    AnalysisKind, BaseAcceleration, Cadence, History, Iteration, MassKind, Method, Model, PrescribedMotion, NodalDamping,
-    Restraint, StepLength, Update,
+    AnalysisKind, BaseAcceleration, Cadence, History, Iteration, MassKind, Method, Model, NodalDamping,
+    PrescribedMotion, Restraint, StepLength, Update,
 };
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, Outcome, Run, Wanted};
@@ -35,8 +35,10 @@ fn lively(rng: &mut StdRng) -> Model {
     m.loading.nodal[0].amplitude = Some(pulse);
     m.loading.base_accelerations.push(BaseAcceleration { direction: Vec3::x(), amplitude: pulse });
     let foot = m.constraints.restraints[0].clone();
-    m.constraints.restraints[0] =
-        Restraint { motion: Some(PrescribedMotion { amplitude: pulse, scale: 0.1, history: History::Displacement }), ..foot };
+    m.constraints.restraints[0] = Restraint {
+        motion: Some(PrescribedMotion { amplitude: pulse, scale: 0.1, history: History::Displacement }),
+        ..foot
+    };
     m.damping.mass_factor = 0.1;
     m.damping.stiffness_factor = 0.001;
     m.damping.nodal.push(NodalDamping { node: 2, translation: 0.2, rotation: 0.1 });

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, History, MassKind, Model, PrescribedMotion, NodalDamping, Restraint};
+use rdsolve::model::{AnalysisKind, History, MassKind, Model, NodalDamping, PrescribedMotion, Restraint};
 
 /// A crane of a slanted column, a jib and a heavy block on a spring, one foot pushed about. Its beams are soft enough for
 /// the steps to follow every motion that takes part.

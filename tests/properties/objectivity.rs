@@ -4,7 +4,7 @@ use super::scene::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::math::{Vec3, rotation};
-use rdsolve::model::{AnalysisKind, History, MassKind, Model, PrescribedMotion, NodalDamping};
+use rdsolve::model::{AnalysisKind, History, MassKind, Model, NodalDamping, PrescribedMotion};
 use rdsolve::sections::Stiffness;
 
 /// 150 steps in which the ends move by a third of the structure and turn by a radian.

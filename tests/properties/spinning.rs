@@ -55,7 +55,8 @@ fn whole_turns_lead_back() {
     let turns = 1e4;
     let (mut m, wheel) = wheel(1e-3, 100.0);
     m.loading.amplitudes.push(Amplitude::Ramp { start: 0.0, end: 100.0 });
-    let motion = PrescribedMotion { amplitude: 0, scale: std::f64::consts::TAU * turns, history: History::Displacement };
+    let motion =
+        PrescribedMotion { amplitude: 0, scale: std::f64::consts::TAU * turns, history: History::Displacement };
     fix(&mut m, wheel[0], 0..5);
     m.constraints.restraints.push(Restraint { node: wheel[0], dof: 5, motion: Some(motion) });
     m.output.cadence = rdsolve::model::Cadence::Steps(10_000);
