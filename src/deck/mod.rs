@@ -29,6 +29,7 @@ pub mod set;
 pub mod shells;
 pub mod study;
 pub mod supports;
+mod value;
 
 pub use crate::words;
 pub use read::read;

@@ -1,15 +1,16 @@
 //! Text → deck, with everything that is wrong found in one go.
 //!
 //! Serde stops at the first error. So the entry it stumbles over is noted, taken out of the table, and reading starts
-//! again until nothing is left to stumble over.
+//! again until nothing is left to stumble over. What is wrong comes as a [`Wrong`]; the sentences about it are made here.
 
 use serde::Deserialize;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, ValueDeserializer};
+use toml::de::{DeTable, DeValue};
 
+use super::value::{Problem, Value, Wanted, Wrong};
 use super::{Deck, Spoiled, aliases, hints, set, study};
 use crate::diagnostic::{Diagnostic, Source, Span};
-use crate::names::nearest;
+use crate::names::{nearest, quoted};
 
 /// Where the table of the top-level keys stands.
 pub const ROOT: Span = 0..0;
@@ -34,7 +35,6 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
         }
     }
     let words = study::words(&root);
-    let mut root = root;
     reader.problems.extend(study::expand(&mut root, &words));
     reader.numbers(&mut root);
     let deck = reader.tables(root);
@@ -89,20 +89,24 @@ impl Reader {
         }
     }
 
-    fn tables(&mut self, mut root: DeTable) -> Option<Deck> {
+    fn tables(&mut self, root: DeTable) -> Option<Deck> {
+        let mut root = Spanned::new(ROOT, DeValue::Table(root));
         loop {
-            let table = Spanned::new(ROOT, DeValue::Table(root.clone()));
-            let error = match Deck::deserialize(ValueDeserializer::from(table)) {
+            let wrong = match Deck::deserialize(Value(&root)) {
                 Ok(deck) => return Some(deck),
-                Err(error) => error,
+                Err(wrong) => wrong,
             };
-            let span = error.span().unwrap_or_default();
-            let Some(entry) = self.strike(&mut root, &span) else {
-                self.problems.push(Diagnostic::error(error.message().to_owned()).at(&span));
+            let span = wrong.place.clone().unwrap_or_default();
+            let entry = match root.get_mut() {
+                DeValue::Table(table) => self.strike(table, &span),
+                _ => None,
+            };
+            let Some(entry) = entry else {
+                self.problems.push(Diagnostic::error(wrong.to_string()).at(&span));
                 return None;
             };
             if !self.is_broken(span.start) {
-                let problem = self.wrong(&entry, error.message());
+                let problem = self.explain(&entry, &wrong);
                 self.problems.push(problem.at(&span));
             }
             if self.problems.len() >= LIMIT {
@@ -146,78 +150,43 @@ impl Reader {
         }
     }
 
-    /// Serde's message in the deck's words.
-    fn wrong(&mut self, entry: &Entry, message: &str) -> Diagnostic {
-        let key = &entry.key;
+    /// What is wrong, in the deck's words.
+    fn explain(&mut self, entry: &Entry, wrong: &Wrong) -> Diagnostic {
+        let (key, found) = (&entry.key, &wrong.found);
         let subject = if entry.whole { format!("`{key}`") } else { format!("an entry of `{key}`") };
-        let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
-        let words: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
-        if problem.starts_with("unknown field") {
-            return self.unknown_key(entry, &words);
-        }
-        if problem.starts_with("unknown variant") {
-            let word = problem.split('`').nth(1).unwrap_or_default();
-            let known = crate::names::quoted(words.iter().copied());
-            let diagnostic = Diagnostic::error(format!("{subject} cannot be `{word}`"));
-            if let Some(hint) = hints::value(word, &words) {
-                return diagnostic.hint(hint);
+        match &wrong.problem {
+            Problem::UnknownKey { known } => self.unknown_key(entry, known),
+            Problem::UnknownWord { word, known } => unknown_word(&subject, word, known),
+            Problem::Type(Wanted::ListOfTables) if entry.table == ROOT => {
+                Diagnostic::error(format!("`{key}` is a list of tables")).hint(format!("each begins with [[{key}]]"))
             }
-            return match nearest(word, words.iter().copied().chain(hints::aliases(&words))) {
-                Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
-                None => diagnostic.hint(format!("known: {known}")),
-            };
-        }
-        if let Some(found) = problem.strip_prefix("invalid type: ").or(problem.strip_prefix("invalid value: ")) {
-            if entry.table == ROOT && found == "map" && expected == "a sequence" {
-                return Diagnostic::error(format!("`{key}` is a list of tables"))
-                    .hint(format!("each begins with [[{key}]]"));
+            Problem::Type(wanted) => {
+                let problem = Diagnostic::error(format!("{subject} must be {wanted}, not {found}"));
+                match hints::example(key) {
+                    _ if *wanted == Wanted::NumberWithoutQuotes => {
+                        problem.hint("numbers stand without quotes and units")
+                    }
+                    Some(example) => problem.hint(example),
+                    None => problem,
+                }
             }
-            let message = format!("{subject} must be {}, not {}", wanted(expected), found_words(found));
-            return with_example(Diagnostic::error(message), key, expected, found);
+            Problem::Length { length, expected } => {
+                Diagnostic::error(format!("{subject} must be {expected}; there are {length}"))
+            }
+            Problem::Other(message) => Diagnostic::error(format!("{subject}: {message}")),
         }
-        if let Some(length) = problem.strip_prefix("invalid length ") {
-            return Diagnostic::error(format!("{subject} must be {}; there are {length}", wanted(expected)));
-        }
-        if problem.starts_with("wanted ") {
-            return with_example(Diagnostic::error(format!("{subject} must be a word in quotes")), key, "", "");
-        }
-        Diagnostic::error(format!("{subject}: {message}"))
     }
 }
 
-/// An example of what may stand behind the key; of a number with its unit, that it has none.
-fn with_example(problem: Diagnostic, key: &str, expected: &str, found: &str) -> Diagnostic {
-    let with_unit =
-        expected == "f64" && found.starts_with("string \"") && found[8..].starts_with(|c: char| c.is_ascii_digit());
-    match hints::example(key) {
-        _ if with_unit => problem.hint("numbers stand without quotes and units"),
-        Some(example) => problem.hint(example),
-        None => problem,
+/// A word that is none of those known, with the one that may be meant.
+fn unknown_word(subject: &str, word: &str, known: &[&str]) -> Diagnostic {
+    let problem = Diagnostic::error(format!("{subject} cannot be `{word}`"));
+    if let Some(hint) = hints::value(word, known) {
+        return problem.hint(hint);
     }
-}
-
-/// What serde expects, in plain words with an example.
-fn wanted(expected: &str) -> &str {
-    match expected {
-        "f64" => "a number, such as 2.5",
-        "u64" | "usize" => "a whole number of 1 or more, such as 12",
-        "a boolean" => "true or false",
-        "a string" => "text in quotes, such as \"steel\"",
-        "a sequence" => "a list in brackets, such as [1.0, 2.0, 3.0]",
-        other => other,
-    }
-}
-
-/// What serde found, in plain words.
-fn found_words(found: &str) -> String {
-    let quoted = found.split('`').nth(1).unwrap_or(found);
-    match found.split_once(' ') {
-        Some(("string", text)) => format!("the text {text}"),
-        Some(("integer" | "floating", _)) => format!("the number {quoted}"),
-        Some(("boolean", _)) => quoted.to_owned(),
-        None if found == "map" => "a table".to_owned(),
-        None if found == "sequence" => "a list".to_owned(),
-        _ => found.to_owned(),
+    match nearest(word, known.iter().copied().chain(hints::aliases(known))) {
+        Some(near) => problem.hint(format!("did you mean `{near}`?")),
+        None => problem.hint(format!("known: {}", quoted(known.iter().copied()))),
     }
 }
 

@@ -296,10 +296,15 @@ impl<'de, C: Kinds + Deserialize<'de>> Deserialize<'de> for Name<C> {
                         known.push(key.name)
                     }
                 });
-                Err(D::Error::custom(format!("unknown field `{word}`, expected one of `{}`", known.join("`, `"))))
+                Err(D::Error::unknown_field(&word, listed(known)))
             }
         }
     }
+}
+
+/// Words as an error of serde lists them. They stay in memory: an error needs them for ever, and a deck has some errors at most.
+fn listed(words: Vec<&'static str>) -> &'static [&'static str] {
+    Vec::leak(words)
 }
 
 /// The kind of a word.
@@ -322,10 +327,10 @@ impl<'de, C: Kinds> Deserialize<'de> for Word<C> {
                 let words =
                     |kind: &&'static Kind<C::Make>| std::iter::once(kind.word).chain(kind.aliases.iter().copied());
                 let known: Vec<&str> = C::list().iter().flat_map(words).collect();
-                Err(E::custom(format!("unknown variant `{word}`, expected one of `{}`", known.join("`, `"))))
+                Err(E::unknown_variant(word, listed(known)))
             }
         }
-        deserializer.deserialize_str(Reader(PhantomData))
+        deserializer.deserialize_identifier(Reader(PhantomData))
     }
 }
 

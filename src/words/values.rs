@@ -91,7 +91,7 @@ impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
                 numbers.try_into().map(Numbers).map_err(|wrong: Vec<f64>| A::Error::invalid_length(wrong.len(), &self))
             }
         }
-        deserializer.deserialize_seq(Reader)
+        deserializer.deserialize_tuple(N, Reader)
     }
 }
 
@@ -226,9 +226,7 @@ impl<'de, T: Item + Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
             }
         }
 
-        let inner = toml::Spanned::<Inner<T>>::deserialize(deserializer)?;
-        let span = inner.span();
-        let Inner((mut values, single)) = inner.into_inner();
+        let At { value: Inner((mut values, single)), span } = At::deserialize(deserializer)?;
         if single {
             values.iter_mut().for_each(|value| value.span = span.clone());
         }
