@@ -3,10 +3,10 @@
 use rdsolve::diagnostic::Source;
 use rdsolve::materials::Dissipation;
 use rdsolve::model::{self, Model, Part};
-use rdsolve::output::tables::energy;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{ContactState, Frame, JointState, Observer, Outcome, Run, Wanted};
 use rdsolve::state::{Node, State, Work};
+use rdsolve::system::energy::Energy;
 use rdsolve::system::System;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -316,12 +316,21 @@ struct Step {
     touching: Vec<usize>,
 }
 
+/// All energies and momenta of a state.
+fn numbers_of(energy: &Energy) -> Vec<f64> {
+    let &Energy { kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact, .. } = energy;
+    let &Energy { external, numerical, mechanical, p, l, verlet_energy_offset, .. } = energy;
+    let stored = [kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact];
+    let sums = [external, numerical, mechanical, verlet_energy_offset];
+    stored.into_iter().chain(sums).chain([p, l].into_iter().flat_map(|momentum| [momentum.x, momentum.y, momentum.z])).collect()
+}
+
 #[derive(Default)]
 struct Steps(Vec<Step>);
 
 impl Observer for Steps {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
-        let mut sums: Vec<f64> = frame.derived.energy.map_or(Vec::new(), |of| energy::values(&of).to_vec());
+        let mut sums: Vec<f64> = frame.derived.energy.map_or(Vec::new(), |energy| numbers_of(&energy));
         let mut touching = Vec::new();
         for JointState { f, m } in &frame.derived.joints {
             sums.extend(f.iter().chain(m));
