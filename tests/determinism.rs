@@ -6,8 +6,8 @@ use rdsolve::model::{self, Model, Part};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{ContactState, Frame, JointState, Observer, Outcome, Run, Wanted};
 use rdsolve::state::{Node, State, Work};
-use rdsolve::system::energy::Energy;
 use rdsolve::system::System;
+use rdsolve::system::energy::Energy;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -322,7 +322,11 @@ fn numbers_of(energy: &Energy) -> Vec<f64> {
     let &Energy { external, numerical, mechanical, p, l, verlet_energy_offset, .. } = energy;
     let stored = [kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact];
     let sums = [external, numerical, mechanical, verlet_energy_offset];
-    stored.into_iter().chain(sums).chain([p, l].into_iter().flat_map(|momentum| [momentum.x, momentum.y, momentum.z])).collect()
+    stored
+        .into_iter()
+        .chain(sums)
+        .chain([p, l].into_iter().flat_map(|momentum| [momentum.x, momentum.y, momentum.z]))
+        .collect()
 }
 
 #[derive(Default)]
