@@ -8,7 +8,8 @@ use super::console::{complain, counted, print, say};
 use super::exit::Exit;
 use crate::names::{nearest, short};
 use crate::output::compare::{
-    Alone, Column, Comparison, Selector, Settings, Table, Tolerance, compare as compared, shown, size,
+    Alone, ColumnTolerance, ComparedColumn, ComparedTable, Comparison, Selector, Settings, compare as compared, shown,
+    size,
 };
 
 #[derive(Debug, Args)]
@@ -28,7 +29,7 @@ pub struct CompareArgs {
     /// Largest difference of a column, relative to its range: for all, or for some (nodes.csv:ux=1e-4, nodes.csv=1e-4,
     /// ux=1e-4); repeatable, the closest name counts [default: 1e-6]
     #[arg(long, value_name = "[FILE:COLUMN=]X")]
-    tolerance: Vec<Tolerance>,
+    tolerance: Vec<ColumnTolerance>,
     /// Differences up to this are none, whatever the column
     #[arg(long, value_name = "X", default_value = "0", value_parser = size)]
     absolute: f64,
@@ -89,7 +90,7 @@ const HEAD: [&str; 7] = ["file", "column", "relative", "absolute", "where", "tol
 fn table(comparison: &Comparison, quiet: bool) -> String {
     let mut lines: Vec<[String; 7]> = Vec::new();
     for table in &comparison.tables {
-        let differs = |column: &&Column| column.worst.difference > 0.0;
+        let differs = |column: &&ComparedColumn| column.worst.difference > 0.0;
         let shown = table.columns.iter().filter(differs).filter(|column| !(quiet && column.passed));
         lines.extend(shown.map(|column| line(table, column)));
         let same: Vec<&str> =
@@ -117,7 +118,7 @@ fn table(comparison: &Comparison, quiet: bool) -> String {
     lines.iter().map(row).collect()
 }
 
-fn line(table: &Table, column: &Column) -> [String; 7] {
+fn line(table: &ComparedTable, column: &ComparedColumn) -> [String; 7] {
     let verdict = match (column.judged, column.passed) {
         (false, _) => "not judged",
         (true, true) => "ok",

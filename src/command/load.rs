@@ -5,8 +5,8 @@ use super::exit::Exit;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::linear::TooLarge;
 use crate::model::{self, Model};
-use crate::plan::Plan;
 use crate::plan::explain::redundant_constraints;
+use crate::plan::{Plan, unreachable_targets};
 use crate::system::System;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -75,7 +75,7 @@ pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagno
         Exit::Internal
     })?;
     let plan = Plan::new(&loaded.model, &system, threads);
-    let mut problems = plan.unreachable_targets(&loaded.model);
+    let mut problems = unreachable_targets(&plan, &loaded.model);
     problems.extend(plan.massless(&loaded.model, &system));
     problems.extend(plan.partial_rotations(&loaded.model));
     if !problems.is_empty() {

@@ -19,7 +19,7 @@ use crate::model::Part;
 use crate::output::expect::Expectations;
 use crate::output::log::Log;
 use crate::output::progress::Progress;
-use crate::output::result_json::{Counts, Origin, RunResult, Sizes, Status, Timings, peak_memory_bytes};
+use crate::output::result_json::{ReportedCounts, RunOrigin, RunResult, Sizes, Status, Timings, peak_memory_bytes};
 use crate::output::{Files, listed, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
@@ -100,9 +100,9 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn origin(&self) -> Origin {
+    fn origin(&self) -> RunOrigin {
         let Loaded { model, source, sets, hash, .. } = self.loaded;
-        Origin {
+        RunOrigin {
             version: VERSION.to_owned(),
             title: model.title.clone(),
             deck: source.path.clone(),
@@ -207,9 +207,9 @@ impl Job<'_> {
     }
 }
 
-fn counts(run: &Run) -> Counts {
+fn counts(run: &Run) -> ReportedCounts {
     let counts = run.counts();
-    Counts {
+    ReportedCounts {
         steps: counts.steps,
         iterations: counts.iterations,
         factorizations: counts.factorizations,

@@ -15,7 +15,7 @@ use super::signals::stop_on_signals;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::Model;
 use crate::plan::Plan;
-use crate::study::{Fault, Options, Status, rigidify, study as studied, text};
+use crate::study::{Options, RunStatus, StudyFault, rigidify, study as studied, text};
 use crate::system::System;
 
 #[derive(Debug, Args)]
@@ -116,7 +116,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     if !args.rigidify {
         let problems = massless(&loaded.model)?;
         if !problems.is_empty() {
-            return Err(exit(Fault::Deck(problems), &loaded.source));
+            return Err(exit(StudyFault::Deck(problems), &loaded.source));
         }
     }
     let stop = Arc::new(AtomicBool::new(false));
@@ -124,10 +124,10 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     let (model, options) = (&loaded.model, args.options(&folder));
     let found = if args.rigidify {
         let advice = rigidify(model, &deck, &options, &stop);
-        advice.map(|advice| (advice.text(), advice.stopped, advice.base.status == Status::Done))
+        advice.map(|advice| (advice.text(), advice.stopped, advice.base.status == RunStatus::Done))
     } else {
         let found = studied(model, &deck, &options, &stop);
-        found.map(|found| (text(&found), found.stopped, found.runs.iter().any(|run| run.status == Status::Done)))
+        found.map(|found| (text(&found), found.stopped, found.runs.iter().any(|run| run.status == RunStatus::Done)))
     };
     let (text, stopped, any) = found.map_err(|fault| exit(fault, &loaded.source))?;
     print(&text)?;
@@ -146,18 +146,18 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
 }
 
 /// Says why there is no study.
-fn exit(fault: Fault, source: &Source) -> Exit {
+fn exit(fault: StudyFault, source: &Source) -> Exit {
     match fault {
-        Fault::Deck(problems) => {
+        StudyFault::Deck(problems) => {
             show(&problems, source);
             complain(&format!("`{}` cannot be studied: {}", source.path, counted(problems.len(), "error")));
             Exit::DeckInvalid
         }
-        Fault::Io(error) if error.kind() == std::io::ErrorKind::Interrupted => {
+        StudyFault::Io(error) if error.kind() == std::io::ErrorKind::Interrupted => {
             complain(&error.to_string());
             Exit::Stopped
         }
-        Fault::Io(error) => {
+        StudyFault::Io(error) => {
             complain(&format!("the study cannot go on: {error}"));
             Exit::InputOutput
         }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::words::kinds::Kinds;
 use super::words::{Maybe, NumberOrAuto, Table};
 use crate::integrators::SCHEMES;
-use crate::integrators::scheme::{Make, SchemeKind};
+use crate::integrators::scheme::{MakeScheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 
 /// What is computed and over what time.
@@ -111,7 +111,7 @@ impl Kinds for Integrator {
     const CHOOSER: &'static str = "scheme";
     const ABOUT: &'static str = "The scheme that integrates the motion in time. Default: \"wilson-theta\".";
     const REQUIRED: bool = false;
-    type Make = Make;
+    type Make = MakeScheme;
 
     fn list() -> &'static [&'static SchemeKind] {
         &SCHEMES

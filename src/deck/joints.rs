@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::links::End;
 use super::words::kinds::Kinds;
 use super::words::{Maybe, Table};
-use crate::constraints::joints::kind::Make;
+use crate::constraints::joints::kind::MakeJoint;
 use crate::constraints::joints::{JOINTS, JointKind};
 
 /// Two ends that may move against each other only as the kind of joint allows; Lagrange multipliers hold them.
@@ -29,7 +29,7 @@ impl Kinds for Joint {
     const CHOOSER: &'static str = "kind";
     const ABOUT: &'static str = "What the joint leaves free.";
     const REQUIRED: bool = true;
-    type Make = Make;
+    type Make = MakeJoint;
 
     fn list() -> &'static [&'static JointKind] {
         &JOINTS

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::kinds::Kinds;
-use crate::sections::section_shape::Make;
+use crate::sections::section_shape::MakeSection;
 use crate::sections::{SECTIONS, SectionKind};
 
 /// The cross section of a beam, in its local axes: width along y, height along z.
@@ -16,7 +16,7 @@ impl Kinds for Section {
     const CHOOSER: &'static str = "shape";
     const ABOUT: &'static str = "The shape, on which the other keys depend.";
     const REQUIRED: bool = true;
-    type Make = Make;
+    type Make = MakeSection;
 
     fn list() -> &'static [&'static SectionKind] {
         &SECTIONS

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::scheme::{Backward, Make, Scheme, SchemeKind, Stepping, TwoStages};
+use super::scheme::{Backward, MakeScheme, Scheme, SchemeKind, Stepping, TwoStages};
 use crate::math::rotation::RotationUpdate;
 use crate::names::short;
 use crate::words::kinds::{Form, Key};
@@ -25,7 +25,7 @@ pub static KIND: SchemeKind = SchemeKind {
         about: "Part of the step that the first stage covers, 0.05 to 0.95. Default: 2 - sqrt(2) = 0.585786437626905, with which \
                 both stages have the same matrix.",
     }],
-    make: Make {
+    make: MakeScheme {
         scheme: |given, rotation| {
             let split = given.between("split", [0.05, 0.95], 2.0 - 2.0_f64.sqrt());
             Arc::new(Bathe { split, rotation })

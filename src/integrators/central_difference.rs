@@ -12,7 +12,7 @@
 use std::sync::Arc;
 
 use super::coefficients::Coefficients;
-use super::scheme::{Make, Scheme, SchemeKind, Stepping};
+use super::scheme::{MakeScheme, Scheme, SchemeKind, Stepping};
 use crate::math::rotation::RotationUpdate;
 
 /// The scheme's word, keys and maker.
@@ -23,7 +23,7 @@ pub static KIND: SchemeKind = SchemeKind {
     about: "Explicit, of second order: no matrix but the masses; steps must be shorter than the highest mode allows (omega dt <= 2). \
             time_step = \"auto\" takes 0.8 of the critical time step, 0.5 where contacts or links may stiffen.",
     keys: &[],
-    make: Make { scheme: |_, rotation| Arc::new(CentralDifference { rotation }), rotation_update: true },
+    make: MakeScheme { scheme: |_, rotation| Arc::new(CentralDifference { rotation }), rotation_update: true },
 };
 
 /// Central differences.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::scheme::{Make, Scheme, SchemeKind};
+use super::scheme::{MakeScheme, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::names::short;
 use crate::words::kinds::{Form, Key};
@@ -26,7 +26,7 @@ pub static KIND: SchemeKind = SchemeKind {
         form: Form::Number,
         about: "What a step leaves of motion that it does not resolve, from 0 (nothing) to 1 (all: no damping). Default: 0.8.",
     }],
-    make: Make {
+    make: MakeScheme {
         scheme: |given, rotation| {
             let radius = given.between("spectral_radius", [0.0, 1.0], 0.8);
             Arc::new(GeneralizedAlpha::new(radius, rotation))

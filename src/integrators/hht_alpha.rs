@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::scheme::{Make, Scheme, SchemeKind};
+use super::scheme::{MakeScheme, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Key};
 
@@ -20,7 +20,7 @@ pub static KIND: SchemeKind = SchemeKind {
         form: Form::Number,
         about: "From -1/3, the most damping, to 0, none. Default: -0.05.",
     }],
-    make: Make {
+    make: MakeScheme {
         scheme: |given, rotation| {
             let alpha = given.between("alpha", [-1.0 / 3.0, 0.0], -0.05);
             Arc::new(HhtAlpha { alpha, rotation })

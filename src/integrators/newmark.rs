@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::alpha_family::AlphaFamily;
 use super::coefficients::Coefficients;
-use super::scheme::{Make, Scheme, SchemeKind};
+use super::scheme::{MakeScheme, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Given, Key};
 
@@ -31,7 +31,7 @@ pub static KIND: SchemeKind = SchemeKind {
                     (gamma + 0.5)^2 / 4.",
         },
     ],
-    make: Make {
+    make: MakeScheme {
         scheme: |given, rotation| {
             let gamma = given.number("gamma").unwrap_or(0.5);
             let beta = given.number("beta").unwrap_or(0.25 * (gamma + 0.5).powi(2));

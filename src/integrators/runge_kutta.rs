@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use super::coefficients::Coefficients;
-use super::scheme::{Make, Scheme, SchemeKind, Stepping};
+use super::scheme::{MakeScheme, Scheme, SchemeKind, Stepping};
 use super::tableau::Tableau;
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Key};
@@ -25,7 +25,7 @@ pub static KIND: SchemeKind = SchemeKind {
         form: Form::Count,
         about: "Order of the error in the time step, 5 or 8. Default: 8.",
     }],
-    make: Make {
+    make: MakeScheme {
         scheme: |given, _| {
             let order = given.number("order").unwrap_or(8.0);
             let scheme = RungeKutta::of_order(order as usize);
@@ -227,7 +227,7 @@ pub static DORMAND_PRINCE_5: Tableau = Tableau {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrators::tableau::Weights;
+    use crate::integrators::tableau::StageWeights;
 
     /// A rooted tree by its branches, biggest first.
     #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -279,7 +279,7 @@ mod tests {
         all.remove(order)
     }
 
-    fn dense(weights: Weights, stages: usize) -> Vec<f64> {
+    fn dense(weights: StageWeights, stages: usize) -> Vec<f64> {
         let mut row = vec![0.0; stages];
         weights.iter().for_each(|&(stage, weight)| row[stage] = weight);
         row
@@ -288,7 +288,7 @@ mod tests {
     /// The rows of all stages, and of the end of the step as the last.
     fn matrix(tableau: &Tableau) -> Vec<Vec<f64>> {
         let stages = tableau.stages();
-        let first: Weights = &[];
+        let first: StageWeights = &[];
         let rows = std::iter::once(first).chain(tableau.a.iter().copied()).chain([tableau.b]);
         rows.map(|row| dense(row, stages)).collect()
     }
@@ -313,7 +313,7 @@ mod tests {
                 trees(order).iter().map(miss).fold(0.0, f64::max)
             };
             let b = dense(tableau.b, tableau.stages());
-            let difference = |errors: &Weights| -> Vec<f64> {
+            let difference = |errors: &StageWeights| -> Vec<f64> {
                 b.iter().zip(dense(errors, tableau.stages())).map(|(b, e)| b - e).collect()
             };
             let all = std::iter::once((b.clone(), tableau.order));

@@ -87,11 +87,11 @@ pub struct Backward {
 }
 
 /// A scheme that the deck can name.
-pub type SchemeKind = Kind<Make>;
+pub type SchemeKind = Kind<MakeScheme>;
 
 /// Makes a scheme of its keys. Where a key is wrong the scheme has its default, and the error is collected.
 #[derive(Debug)]
-pub struct Make {
+pub struct MakeScheme {
     /// Makes the scheme from its keys and the rotation update.
     pub scheme: fn(&mut Given, RotationUpdate) -> Arc<dyn Scheme>,
     /// True where the deck may choose how rotations follow from their increments.

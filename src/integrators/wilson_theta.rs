@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::coefficients::Coefficients;
-use super::scheme::{Make, Scheme, SchemeKind};
+use super::scheme::{MakeScheme, Scheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Form, Key};
 
@@ -24,7 +24,7 @@ pub static KIND: SchemeKind = SchemeKind {
         form: Form::Number,
         about: "Equilibrium is written at t + theta * time_step; 1 or more, unconditionally stable from 1.366 on. Default: 1.4.",
     }],
-    make: Make {
+    make: MakeScheme {
         scheme: |given, rotation| {
             let theta = given.number("theta").unwrap_or(1.4);
             if theta < 1.0 {

@@ -7,7 +7,7 @@
 
 use super::elimination::Elimination;
 use super::graph::Graph;
-use super::kernel::{Column, DenseBlock, gemm, gemv, invert, multiply, negative_eigenvalues, product, row_scale};
+use super::kernel::{DenseBlock, DenseColumn, gemm, gemv, invert, multiply, negative_eigenvalues, product, row_scale};
 use super::pivot::Singular;
 use super::stats::Stats;
 
@@ -25,9 +25,9 @@ pub struct BlockLu<const B: usize> {
     /// Written by assembly, overwritten by `factor`.
     blocks: Vec<DenseBlock<B>>,
     /// The largest magnitude in each row of the diagonal blocks as assembled, by position. Written by `factor`.
-    scales: Vec<Column<B>>,
+    scales: Vec<DenseColumn<B>>,
     /// Right-hand side and solution by position; zero in padded rows. Written by `solve`.
-    x: Vec<Column<B>>,
+    x: Vec<DenseColumn<B>>,
 }
 
 impl<const B: usize> BlockLu<B> {
@@ -138,7 +138,7 @@ impl<const B: usize> BlockLu<B> {
     fn gather(&mut self, b: &[f64]) {
         for (x, &g) in self.x.iter_mut().zip(&self.elimination.order) {
             let b = &b[self.graph.first[g]..self.graph.first[g + 1]];
-            match <&Column<B>>::try_from(b) {
+            match <&DenseColumn<B>>::try_from(b) {
                 Ok(whole) => *x = *whole,
                 Err(_) => x.iter_mut().zip(b).for_each(|(x, b)| *x = *b),
             }
@@ -149,7 +149,7 @@ impl<const B: usize> BlockLu<B> {
     fn scatter(&self, b: &mut [f64]) {
         for (x, &g) in self.x.iter().zip(&self.elimination.order) {
             let b = &mut b[self.graph.first[g]..self.graph.first[g + 1]];
-            match <&mut Column<B>>::try_from(&mut *b) {
+            match <&mut DenseColumn<B>>::try_from(&mut *b) {
                 Ok(whole) => *whole = *x,
                 Err(_) => b.iter_mut().zip(x).for_each(|(b, x)| *b = *x),
             }

@@ -24,9 +24,9 @@ const WORTH_CUTTING: f64 = 5e7;
 pub(super) struct Fronts {
     pub(super) tree: Tree,
     /// Ranges of supernodes that are whole subtrees, ascending.
-    pub(super) subtrees: Vec<(Range<usize>, Workspace)>,
+    pub(super) subtrees: Vec<(Range<usize>, FrontWorkspace)>,
     /// The supernodes above the subtrees.
-    pub(super) above: (Vec<usize>, Workspace),
+    pub(super) above: (Vec<usize>, FrontWorkspace),
     /// Subtrees and the halves of dense operations run side by side.
     pub(super) threads: bool,
     /// The solution above the subtrees, by position. Written and read by [`super::substitution`].
@@ -49,7 +49,7 @@ pub(super) struct Tree {
 
 /// The memory of a walk through supernodes: update matrices that wait for their parents, the last on top, and the scratch
 /// of the dense operations.
-pub(super) struct Workspace {
+pub(super) struct FrontWorkspace {
     stack: Vec<f64>,
     top: usize,
     scratch: MemBuffer,
@@ -209,7 +209,7 @@ impl Tree {
     }
 
     /// The workspace for the given supernodes, and their places in it, by walking through them as a factorisation does.
-    fn workspace(&mut self, supernodes: impl Iterator<Item = usize>, subtree: Option<usize>) -> Workspace {
+    fn workspace(&mut self, supernodes: impl Iterator<Item = usize>, subtree: Option<usize>) -> FrontWorkspace {
         let (mut top, mut highest, mut vector, mut longest) = (0, 0, 0, 0);
         let (mut widest, mut tallest) = (0, 0);
         for s in supernodes {
@@ -227,7 +227,7 @@ impl Tree {
             longest = longest.max(vector);
         }
         let scratch = cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
-        Workspace {
+        FrontWorkspace {
             stack: vec![0.0; highest],
             top: 0,
             scratch: MemBuffer::new(scratch),
@@ -239,7 +239,7 @@ impl Tree {
     /// Factors subtrees into `L`, which begins at `base` of the whole factor. False if a pivot is not positive.
     fn factor_subtrees(
         &self,
-        of: &mut [(Range<usize>, Workspace)],
+        of: &mut [(Range<usize>, FrontWorkspace)],
         K: &[f64],
         L: &mut [f64],
         base: usize,
@@ -273,8 +273,8 @@ impl Tree {
         s: usize,
         K: &[f64],
         panel: &mut [f64],
-        workspace: &mut Workspace,
-        subtrees: &[(Range<usize>, Workspace)],
+        workspace: &mut FrontWorkspace,
+        subtrees: &[(Range<usize>, FrontWorkspace)],
         threads: bool,
     ) -> bool {
         let (front, next) = (&self.fronts[s], &self.fronts[s + 1]);

@@ -6,11 +6,11 @@ use crate::math::fma;
 /// A square matrix: `block[column][row]`.
 pub(super) type DenseBlock<const B: usize> = [[f64; B]; B];
 /// A vector of the same height.
-pub(super) type Column<const B: usize> = [f64; B];
+pub(super) type DenseColumn<const B: usize> = [f64; B];
 
 /// y ← y − A x.
 #[inline(always)]
-pub(super) fn gemv<const B: usize>(y: &mut Column<B>, A: &DenseBlock<B>, x: &Column<B>) {
+pub(super) fn gemv<const B: usize>(y: &mut DenseColumn<B>, A: &DenseBlock<B>, x: &DenseColumn<B>) {
     for k in 0..B {
         for i in 0..B {
             y[i] = fma(A[k][i], -x[k], y[i]);
@@ -20,7 +20,7 @@ pub(super) fn gemv<const B: usize>(y: &mut Column<B>, A: &DenseBlock<B>, x: &Col
 
 /// A x.
 #[inline(always)]
-pub(super) fn multiply<const B: usize>(A: &DenseBlock<B>, x: &Column<B>) -> Column<B> {
+pub(super) fn multiply<const B: usize>(A: &DenseBlock<B>, x: &DenseColumn<B>) -> DenseColumn<B> {
     let mut y = [0.0; B];
     for k in 0..B {
         for i in 0..B {
@@ -57,7 +57,7 @@ pub(super) fn gemm<const B: usize>(Y: &mut DenseBlock<B>, A: &DenseBlock<B>, X: 
 
 /// The largest magnitude in each row, which pivots of the row are compared with.
 #[inline(always)]
-pub(super) fn row_scale<const B: usize>(A: &DenseBlock<B>) -> Column<B> {
+pub(super) fn row_scale<const B: usize>(A: &DenseBlock<B>) -> DenseColumn<B> {
     let mut scale = [0.0_f64; B];
     for column in A {
         for i in 0..B {
@@ -80,7 +80,7 @@ const LANES: usize = 8;
 /// # Errors
 /// A pivot is zero or not finite: its row before exchanges, and its value.
 #[inline(always)]
-pub(super) fn invert<const B: usize>(A: &mut DenseBlock<B>, scale: &Column<B>) -> Result<(), (usize, f64)> {
+pub(super) fn invert<const B: usize>(A: &mut DenseBlock<B>, scale: &DenseColumn<B>) -> Result<(), (usize, f64)> {
     let mut M = [[0.0; LANES]; B];
     let mut row = [0; B]; // the original row at each place
     for k in 0..B {

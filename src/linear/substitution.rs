@@ -3,7 +3,7 @@
 //! by the speed of memory.
 
 use super::dense::join;
-use super::fronts::{Fronts, Tree, Workspace};
+use super::fronts::{FrontWorkspace, Fronts, Tree};
 use crate::math::fma;
 use std::ops::Range;
 
@@ -38,7 +38,14 @@ impl Tree {
     }
 
     /// Forward substitution in subtrees; `x` begins at `base` of the whole vector.
-    fn forward_all(&self, of: &mut [(Range<usize>, Workspace)], L: &[f64], x: &mut [f64], base: usize, threads: bool) {
+    fn forward_all(
+        &self,
+        of: &mut [(Range<usize>, FrontWorkspace)],
+        L: &[f64],
+        x: &mut [f64],
+        base: usize,
+        threads: bool,
+    ) {
         match of {
             [] => {}
             [(supernodes, workspace)] => {
@@ -67,8 +74,8 @@ impl Tree {
         s: usize,
         L: &[f64],
         x: &mut [f64],
-        workspace: &mut Workspace,
-        subtrees: &[(Range<usize>, Workspace)],
+        workspace: &mut FrontWorkspace,
+        subtrees: &[(Range<usize>, FrontWorkspace)],
     ) {
         let front = &self.fronts[s];
         let height = front.columns + front.rows;
@@ -117,7 +124,7 @@ impl Tree {
     /// the subtree.
     fn backward_all(
         &self,
-        of: &mut [(Range<usize>, Workspace)],
+        of: &mut [(Range<usize>, FrontWorkspace)],
         L: &[f64],
         (x, base): (&mut [f64], usize),
         done: &[f64],

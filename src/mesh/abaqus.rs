@@ -6,7 +6,7 @@
 use super::data::CellShape;
 use super::draft::{Draft, RawGroup};
 use super::ids::{Ids, short};
-use super::text::{Fault, Line, Text, Word};
+use super::text::{Fault, Text, TextLine, Word};
 use crate::math::Vec3;
 use std::collections::HashMap;
 
@@ -141,7 +141,12 @@ pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
 
 /// The words of a line and of those that continue it: after a last comma a keyword goes on, or an element that lacks nodes. `next`
 /// is the line after the last.
-fn continued<'t>(text: &mut Text<'t>, block: &DataLines, line: Line<'t>, next: &mut Option<Line<'t>>) -> Vec<Word<'t>> {
+fn continued<'t>(
+    text: &mut Text<'t>,
+    block: &DataLines,
+    line: TextLine<'t>,
+    next: &mut Option<TextLine<'t>>,
+) -> Vec<Word<'t>> {
     let mut words: Vec<Word> = line.fields().collect();
     let keyword = line.bytes.starts_with(b"*");
     let wants = match block {
@@ -169,7 +174,7 @@ fn node(
     text: &Text,
     draft: &mut Draft,
     sets: &mut Sets,
-    line: Line,
+    line: TextLine,
     words: &[Word],
     set: Option<usize>,
 ) -> Result<(), Fault> {
@@ -195,7 +200,7 @@ fn element(
     text: &Text,
     draft: &mut Draft,
     sets: &mut Sets,
-    line: Line,
+    line: TextLine,
     words: &[Word],
     (kind, what, set): (Option<CellShape>, &str, Option<usize>),
 ) -> Result<Result<(), u64>, Fault> {
@@ -220,7 +225,7 @@ fn element(
 }
 
 /// The next line that is not a comment.
-fn content<'t>(text: &mut Text<'t>) -> Option<Line<'t>> {
+fn content<'t>(text: &mut Text<'t>) -> Option<TextLine<'t>> {
     std::iter::from_fn(|| text.line()).find(|line| !line.bytes.starts_with(b"**"))
 }
 
@@ -242,7 +247,7 @@ fn refused(text: &Text, message: impl Into<String>, line: usize, hint: &str) -> 
 }
 
 /// A whole number among the words of a line.
-fn number(text: &Text, words: &[Word], at: usize, line: Line) -> Result<u64, Fault> {
+fn number(text: &Text, words: &[Word], at: usize, line: TextLine) -> Result<u64, Fault> {
     let word = words.get(at).ok_or_else(|| text.fault("this line lacks a number", line.number))?;
     word.whole().ok_or_else(|| text.fault_at("this must be a whole number", word))
 }
@@ -253,7 +258,7 @@ fn keyword(
     draft: &mut Draft,
     sets: &mut Sets,
     frame: &mut Frame,
-    line: Line,
+    line: TextLine,
     words: &[Word],
 ) -> Result<DataLines, Fault> {
     let first = words.first().map(|word| word.text()).unwrap_or_default();
@@ -306,7 +311,7 @@ fn keyword(
 fn members(
     text: &Text,
     sets: &mut Sets,
-    line: Line,
+    line: TextLine,
     words: &[Word],
     (set, nodes, generate): (usize, bool, bool),
 ) -> Result<(), Fault> {

@@ -4,7 +4,7 @@
 use super::data::CellShape;
 use super::draft::{Draft, RawGroup};
 use super::ids::short;
-use super::text::{Fault, Line, Text, Word, Words};
+use super::text::{Fault, Text, TextLine, Word, Words};
 use crate::math::Vec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -160,7 +160,7 @@ fn format(text: &mut Text) -> Result<bool, Fault> {
 }
 
 /// Passes over a section that is not read, up to its end.
-fn skip_section(text: &mut Text, draft: &mut Draft, name: &str, line: Line) -> Result<(), Fault> {
+fn skip_section(text: &mut Text, draft: &mut Draft, name: &str, line: TextLine) -> Result<(), Fault> {
     let close = format!("$End{name}");
     loop {
         match text.line() {
@@ -176,7 +176,7 @@ fn skip_section(text: &mut Text, draft: &mut Draft, name: &str, line: Line) -> R
 }
 
 /// The next line of a section; an error where the section or the file ends.
-fn within<'t>(text: &mut Text<'t>, section: &str) -> Result<Line<'t>, Fault> {
+fn within<'t>(text: &mut Text<'t>, section: &str) -> Result<TextLine<'t>, Fault> {
     match text.line() {
         Some(line) if line.bytes.starts_with(b"$") => {
             Err(text.fault(format!("${section} has fewer lines than its counts require"), line.number))
@@ -198,12 +198,12 @@ fn end(text: &mut Text, section: &str) -> Result<(), Fault> {
 /// The words of a line, read as numbers one after the other. `what` names the number in messages.
 struct Numbers<'a, 't> {
     text: &'a Text<'t>,
-    line: Line<'t>,
+    line: TextLine<'t>,
     words: Words<'t>,
 }
 
 impl<'a, 't> Numbers<'a, 't> {
-    fn of(text: &'a Text<'t>, line: Line<'t>) -> Self {
+    fn of(text: &'a Text<'t>, line: TextLine<'t>) -> Self {
         Numbers { text, line, words: line.words() }
     }
 
@@ -350,7 +350,7 @@ fn nodes_2(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
 }
 
 /// Compares the number of nodes or elements that a section announces with that found.
-fn counted(text: &Text, line: Line, section: &str, what: &str, said: u64, found: usize) -> Result<(), Fault> {
+fn counted(text: &Text, line: TextLine, section: &str, what: &str, said: u64, found: usize) -> Result<(), Fault> {
     if said == found as u64 {
         return Ok(());
     }
@@ -456,7 +456,7 @@ impl Hasher for Mix {
 fn element(
     words: &mut Numbers,
     (id, kind): (u64, &ElementType),
-    line: Line,
+    line: TextLine,
     draft: &mut Draft,
     (groups, places): (&mut [(Physical, RawGroup)], &[usize]),
 ) -> Result<(), Fault> {

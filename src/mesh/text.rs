@@ -19,7 +19,7 @@ pub struct Text<'t> {
 
 /// A line without its end.
 #[derive(Debug, Clone, Copy)]
-pub struct Line<'t> {
+pub struct TextLine<'t> {
     pub bytes: &'t [u8],
     /// Counted from 1.
     pub number: usize,
@@ -41,7 +41,7 @@ impl<'t> Text<'t> {
     }
 
     /// The next line that is not blank.
-    pub fn line(&mut self) -> Option<Line<'t>> {
+    pub fn line(&mut self) -> Option<TextLine<'t>> {
         while self.next < self.bytes.len() {
             let rest = &self.bytes[self.next..];
             let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
@@ -49,7 +49,7 @@ impl<'t> Text<'t> {
             self.line += 1;
             let bytes = rest[..length].trim_ascii_end();
             if !bytes.is_empty() {
-                return Some(Line { bytes, number: self.line });
+                return Some(TextLine { bytes, number: self.line });
             }
         }
         None
@@ -71,7 +71,7 @@ impl<'t> Text<'t> {
     /// An error at a number on a line: the last of that value, since the number of an element comes before those of its nodes.
     pub fn fault_on(&self, message: impl Into<String>, line: usize, number: Option<u64>) -> Fault {
         let bytes = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default();
-        let content = Line { bytes, number: line };
+        let content = TextLine { bytes, number: line };
         let word = number.and_then(|number| {
             let in_words = content.words().filter(|word| word.whole() == Some(number)).last();
             in_words.or_else(|| content.fields().filter(|word| word.whole() == Some(number)).last())
@@ -95,7 +95,7 @@ impl<'t> Text<'t> {
     }
 }
 
-impl<'t> Line<'t> {
+impl<'t> TextLine<'t> {
     /// The parts between blanks.
     pub fn words(self) -> Words<'t> {
         Words { line: self, at: 0 }
@@ -120,7 +120,7 @@ impl<'t> Line<'t> {
 
 /// The parts of a line between blanks.
 pub struct Words<'t> {
-    line: Line<'t>,
+    line: TextLine<'t>,
     at: usize,
 }
 
@@ -128,7 +128,7 @@ impl<'t> Iterator for Words<'t> {
     type Item = Word<'t>;
 
     fn next(&mut self) -> Option<Word<'t>> {
-        let Line { bytes, number } = self.line;
+        let TextLine { bytes, number } = self.line;
         let column = self.at + bytes[self.at..].iter().position(|byte| !byte.is_ascii_whitespace())?;
         let length = bytes[column..].iter().position(u8::is_ascii_whitespace).unwrap_or(bytes.len() - column);
         self.at = column + length;

@@ -2,7 +2,7 @@
 
 use super::data::Joint;
 use super::joints::equations;
-use super::nearest_nodes::Line;
+use super::nearest_nodes::NodesAlongAxis;
 use super::nodes::Nodes;
 use super::place::Place;
 use super::report::{Owner, Report};
@@ -138,7 +138,7 @@ impl<'d> Attacher<'_, 'd> {
     fn attach_to_beam(&mut self, name: &At<String>, beam: PartIndex, spots: &[Spot<'d>]) {
         let own: HashSet<usize> =
             self.scene.parts.entry(beam).into_iter().flat_map(|entry| &entry.nodes).copied().collect();
-        let line = Line::new(&own, self.nodes);
+        let line = NodesAlongAxis::new(&own, self.nodes);
         let lengths = self.element_vectors(beam);
         let (mut far, mut farthest, mut between) = (0, 0.0f64, Vec::new());
         for spot in spots.iter().filter(|spot| !own.contains(&spot.node)) {

@@ -5,13 +5,13 @@ use crate::math::Vec3;
 use std::collections::HashSet;
 
 /// Nodes sorted along the axis in which they reach farthest, so that a search may stop where nothing nearer can come.
-pub(super) struct Line {
+pub(super) struct NodesAlongAxis {
     axis: usize,
     /// Coordinate along the axis, and node.
     sorted: Vec<(f64, usize)>,
 }
 
-impl Line {
+impl NodesAlongAxis {
     pub fn new(of: &HashSet<usize>, nodes: &Nodes) -> Self {
         let (low, high) = of.iter().fold((Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN)), |(low, high), &node| {
             (low.inf(&nodes.x(node)), high.sup(&nodes.x(node)))
@@ -19,7 +19,7 @@ impl Line {
         let axis = (high - low).imax();
         let mut sorted: Vec<(f64, usize)> = of.iter().map(|&node| (nodes.x(node)[axis], node)).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Line { axis, sorted }
+        NodesAlongAxis { axis, sorted }
     }
 
     /// The two nodes nearest to x by their distance; of equals the first.

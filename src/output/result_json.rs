@@ -45,11 +45,11 @@ pub struct RunResult {
     pub valid_until: Option<f64>,
     /// The deck and the program that the results come from.
     #[serde(flatten)]
-    pub origin: Origin,
+    pub origin: RunOrigin,
     /// The lines that `rdsolve check` prints.
     pub plan: Vec<String>,
     pub sizes: Sizes,
-    pub counts: Counts,
+    pub counts: ReportedCounts,
     pub timings: Timings,
     /// Largest departure from orthogonality that a first- or second-order rotation update left to be corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,7 +65,7 @@ pub struct RunResult {
 
 /// What results come from: enough to run them again, and to tell whether two runs were of the same deck and program.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Origin {
+pub struct RunOrigin {
     /// Version of the program, with the commit it was built from where that was known.
     pub version: String,
     /// That of the deck.
@@ -79,7 +79,7 @@ pub struct Origin {
     pub deck_hash: String,
 }
 
-impl Origin {
+impl RunOrigin {
     /// Lines for the log.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("rdsolve {}, deck {}", self.version, self.deck)];
@@ -103,7 +103,7 @@ pub struct Sizes {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Counts {
+pub struct ReportedCounts {
     pub steps: usize,
     pub iterations: usize,
     pub factorizations: usize,
@@ -152,10 +152,10 @@ mod tests {
             exit_code: Status::NotConverged.exit_code(),
             reason: "no equilibrium at t = 0.1".into(),
             valid_until: Some(0.1),
-            origin: Origin { version: "0.1.0".into(), deck_hash: "00ff".into(), ..Origin::default() },
+            origin: RunOrigin { version: "0.1.0".into(), deck_hash: "00ff".into(), ..RunOrigin::default() },
             plan: vec!["dynamic".into()],
             sizes: Sizes { unknowns: 12, ..Sizes::default() },
-            counts: Counts { steps: 3, ..Counts::default() },
+            counts: ReportedCounts { steps: 3, ..ReportedCounts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },
             rotation_drift: None,
             joint_violation: None,

@@ -14,6 +14,7 @@ use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{self, Assembly};
 use crate::system::{DofMap, NodeRows, System};
 use dof_status::DofStatus;
+pub use unreachable_targets::unreachable_targets;
 
 /// The decisions about a model. They are constant over a run.
 pub struct Plan {

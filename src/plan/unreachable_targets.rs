@@ -5,33 +5,31 @@ use super::dof_status::DofStatus;
 use crate::diagnostic::Diagnostic;
 use crate::model::{ArcLength, DIRECTIONS, Model, Passage, StepLength, When};
 
-impl Plan {
-    /// An error for each `stop` and each `when` of the model whose displacement cannot change, with its place in the
-    /// deck.
-    pub fn unreachable_targets(&self, model: &Model) -> Vec<Diagnostic> {
-        let stop = match &model.analysis.step_length {
-            StepLength::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
-            _ => None,
-        };
-        let expected = model.expects.iter().filter_map(|expect| match &expect.when {
-            When::Passing(target) => Some(target),
-            _ => None,
-        });
-        let targets = stop.into_iter().chain(expected);
-        targets.filter_map(|target| self.why_unreachable(model, target)).collect()
-    }
+/// An error for each `stop` and each `when` of the model whose displacement cannot change, with its place in the
+/// deck.
+pub fn unreachable_targets(plan: &Plan, model: &Model) -> Vec<Diagnostic> {
+    let stop = match &model.analysis.step_length {
+        StepLength::ArcLength(ArcLength { stop: Some(stop), .. }) => Some(stop),
+        _ => None,
+    };
+    let expected = model.expects.iter().filter_map(|expect| match &expect.when {
+        When::Passing(target) => Some(target),
+        _ => None,
+    });
+    let targets = stop.into_iter().chain(expected);
+    targets.filter_map(|target| why_unreachable(plan, model, target)).collect()
+}
 
-    fn why_unreachable(&self, model: &Model, target: &Passage) -> Option<Diagnostic> {
-        let &Passage { node, dof, place: [start, end], .. } = target;
-        let why = match self.nodes[node][dof] {
-            // A dependent node moves with its master, which the deck allows or not.
-            DofStatus::Unknown | DofStatus::Dependent => return None,
-            DofStatus::Restrained => "a support gives it",
-            DofStatus::Unused => "nothing acts on it",
-            DofStatus::Inactive => "nothing sets it moving",
-            DofStatus::Plane => "the scene is plane, and this is normal to it",
-        };
-        let message = format!("{} of `{}` never changes: {why}", DIRECTIONS[dof], model.nodes[node].label);
-        Some(Diagnostic::error(message).at(&(start..end)).hint("name a displacement that is an unknown"))
-    }
+fn why_unreachable(plan: &Plan, model: &Model, target: &Passage) -> Option<Diagnostic> {
+    let &Passage { node, dof, place: [start, end], .. } = target;
+    let why = match plan.nodes[node][dof] {
+        // A dependent node moves with its master, which the deck allows or not.
+        DofStatus::Unknown | DofStatus::Dependent => return None,
+        DofStatus::Restrained => "a support gives it",
+        DofStatus::Unused => "nothing acts on it",
+        DofStatus::Inactive => "nothing sets it moving",
+        DofStatus::Plane => "the scene is plane, and this is normal to it",
+    };
+    let message = format!("{} of `{}` never changes: {why}", DIRECTIONS[dof], model.nodes[node].label);
+    Some(Diagnostic::error(message).at(&(start..end)).hint("name a displacement that is an unknown"))
 }

@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use crate::words::kinds::{Form, Given, Key};
 
 pub static KIND: SectionKind = SectionKind {
@@ -23,7 +23,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [12, 4].",
         },
     ],
-    make: Make { read, takes_material: |_| true },
+    make: MakeSection { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -42,7 +42,7 @@ pub struct C {
 
 impl SectionShape for C {
     fn section(&self) -> Result<Section, String> {
-        Section::c(self.height, self.width, self.web, self.flange)
+        channel(self.height, self.width, self.web, self.flange)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -58,14 +58,12 @@ impl SectionShape for C {
     }
 }
 
-impl Section {
-    /// Channel: web along z at the side of −y, flanges pointing to +y.
-    pub fn c(height: f64, width: f64, web: f64, flange: f64) -> Result<Section, String> {
-        Ok(c(height, width, web, flange)?.section())
-    }
+/// Channel: web along z at the side of −y, flanges pointing to +y.
+pub fn channel(height: f64, width: f64, web: f64, flange: f64) -> Result<Section, String> {
+    Ok(c(height, width, web, flange)?.section())
 }
 
-/// Walls of [`Section::c`]; the web takes the corners.
+/// Walls of [`channel`]; the web takes the corners.
 fn c(height: f64, width: f64, web: f64, flange: f64) -> Result<Profile, String> {
     positive(&[("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)])?;
     smaller(("web_thickness", web), ("width", width), "the web must leave a flange: less than")?;
@@ -88,7 +86,7 @@ mod tests {
     #[test]
     fn channel_shear_center_is_behind_the_web() {
         let (height, width, web, flange) = (0.2, 0.075, 0.0085, 0.0115);
-        let c = Section::c(height, width, web, flange).unwrap();
+        let c = channel(height, width, web, flange).unwrap();
         let (b, h) = (width - 0.5 * web, height - flange);
         let e = 3.0 * b * b * flange / (6.0 * b * flange + h * web);
         let area = height * web + 2.0 * (width - web) * flange;

@@ -107,10 +107,13 @@ mod tests {
     use crate::sections::general::General;
     use crate::sections::hollow_box::HollowBox;
     use crate::sections::i::I;
+    use crate::sections::i::i_section;
     use crate::sections::l::L;
     use crate::sections::rectangle::Rectangle;
+    use crate::sections::rectangle::rectangle;
     use crate::sections::tests::close;
     use crate::sections::tube::Tube;
+    use crate::sections::tube::tube;
     use rand::{RngExt, SeedableRng, rngs::SmallRng};
     use std::f64::consts::PI;
 
@@ -201,16 +204,16 @@ mod tests {
     #[test]
     fn modes_are_nearly_right_by_themselves() {
         let rectangle = |n| shear_stiffness(&super::super::rectangle::rectangle_fibres(0.1, 0.2, [n, n]));
-        let exact = Section::rectangle(0.1, 0.2).unwrap();
+        let exact = rectangle(0.1, 0.2).unwrap();
         close(rectangle(12)[(0, 0)], exact.shear[0], 1e-3);
         close(rectangle(12)[(2, 2)], exact.torsion, 2e-3);
         // Cowper's factor is the energy of the closed form; Gauss pairs meet it with their fourth order.
         for (inner, bound) in [(0.0, 1e-3), (0.05, 1e-3), (0.098, 1e-6)] {
-            let shear = Section::tube(0.1, 0.1 - inner).unwrap().shear[0];
+            let shear = tube(0.1, 0.1 - inner).unwrap().shear[0];
             let tube = super::super::tube::tube_fibres(0.1, inner, shear, [20, 6]);
             close(shear_stiffness(&tube)[(0, 0)], shear, bound);
         }
-        let section = Section::i(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
+        let section = i_section(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
         let i = super::super::i::i(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
         let C = shear_stiffness(&i.fibres([8, 4]));
         close(C[(0, 0)], section.shear[0], 0.01);

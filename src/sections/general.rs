@@ -3,7 +3,7 @@
 use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, Stiffness};
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use crate::words::kinds::Values;
 use crate::words::kinds::{Form, Given, Key};
 
@@ -45,7 +45,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Rotary inertia per length [about x, y, z], mass times length, 0 or more, with axial_stiffness.",
         },
     ],
-    make: Make { read, takes_material: |values| !is_direct(values) },
+    make: MakeSection { read, takes_material: |values| !is_direct(values) },
 };
 
 const STIFFNESSES: [&str; 6] = [
@@ -119,7 +119,7 @@ const NO_FIBRES: &str = "a general section has no fibres: it says how much area 
 
 impl SectionShape for General {
     fn section(&self) -> Result<Section, String> {
-        Section::general(self.area, self.moments, self.Iyz, self.torsion, self.shear_areas)
+        general(self.area, self.moments, self.Iyz, self.torsion, self.shear_areas)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -135,33 +135,25 @@ impl SectionShape for General {
     }
 }
 
-impl Section {
-    /// A section given by its numbers; `moments` = [Iy, Iz]. The shear centre is the centroid.
-    ///
-    /// Errors: a number that is not positive and finite, or a product of inertia too large for the moments.
-    pub fn general(
-        area: f64,
-        moments: [f64; 2],
-        Iyz: f64,
-        torsion: f64,
-        shear_areas: [f64; 2],
-    ) -> Result<Section, String> {
-        let [Iy, Iz] = moments;
-        let [y, z] = shear_areas;
-        positive(&[
-            ("area", area),
-            ("moments", Iy),
-            ("moments", Iz),
-            ("torsion_constant", torsion),
-            ("shear_areas", y),
-            ("shear_areas", z),
-        ])?;
-        if Iyz.is_nan() || Iyz * Iyz >= Iy * Iz {
-            return Err(format!(
-                "`product_moment` is {Iyz}, but must be smaller in size than the geometric mean of the moments, {}",
-                (Iy * Iz).sqrt()
-            ));
-        }
-        Ok(Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, 0.0], shear_center: [0.0; 2] })
+/// A section given by its numbers; `moments` = [Iy, Iz]. The shear centre is the centroid.
+///
+/// Errors: a number that is not positive and finite, or a product of inertia too large for the moments.
+pub fn general(area: f64, moments: [f64; 2], Iyz: f64, torsion: f64, shear_areas: [f64; 2]) -> Result<Section, String> {
+    let [Iy, Iz] = moments;
+    let [y, z] = shear_areas;
+    positive(&[
+        ("area", area),
+        ("moments", Iy),
+        ("moments", Iz),
+        ("torsion_constant", torsion),
+        ("shear_areas", y),
+        ("shear_areas", z),
+    ])?;
+    if Iyz.is_nan() || Iyz * Iyz >= Iy * Iz {
+        return Err(format!(
+            "`product_moment` is {Iyz}, but must be smaller in size than the geometric mean of the moments, {}",
+            (Iy * Iz).sqrt()
+        ));
     }
+    Ok(Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, 0.0], shear_center: [0.0; 2] })
 }

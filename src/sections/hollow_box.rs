@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::Profile;
 use super::section::Section;
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape, check_walls};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
 use super::wall::Wall;
 use crate::words::kinds::{Form, Given, Key};
 
@@ -27,7 +27,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 2].",
         },
     ],
-    make: Make { read, takes_material: |_| true },
+    make: MakeSection { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -50,7 +50,7 @@ pub struct HollowBox {
 
 impl SectionShape for HollowBox {
     fn section(&self) -> Result<Section, String> {
-        Section::box_(self.width, self.height, self.web, self.flange)
+        hollow_box(self.width, self.height, self.web, self.flange)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -66,14 +66,12 @@ impl SectionShape for HollowBox {
     }
 }
 
-impl Section {
-    /// Rectangular hollow section; `web` is the thickness of the two walls normal to y, `flange` of those normal to z.
-    ///
-    /// Area and moments are exact, with sharp corners. Torsion: Bredt's cell plus the walls' own, J = 4 A_m²/∮ds/t + Σ b t³/3
-    /// over middle lines (EN 10210-2, annex A, with no corner radius). Shear areas: energy of the shear flow.
-    pub fn box_(width: f64, height: f64, web: f64, flange: f64) -> Result<Section, String> {
-        Ok(cell(width, height, web, flange)?.section())
-    }
+/// Rectangular hollow section; `web` is the thickness of the two walls normal to y, `flange` of those normal to z.
+///
+/// Area and moments are exact, with sharp corners. Torsion: Bredt's cell plus the walls' own, J = 4 A_m²/∮ds/t + Σ b t³/3
+/// over middle lines (EN 10210-2, annex A, with no corner radius). Shear areas: energy of the shear flow.
+pub fn hollow_box(width: f64, height: f64, web: f64, flange: f64) -> Result<Section, String> {
+    Ok(cell(width, height, web, flange)?.section())
 }
 
 /// The walls of a box, counter-clockwise; the webs take the corners.
@@ -113,7 +111,7 @@ mod tests {
             let (h, A) = (4.0 * (0.1 - t) - 2.0 * radius * corner, (0.1 - t).powi(2) - radius * radius * corner);
             t.powi(3) * h / 3.0 + 4.0 * A * A * t / h
         };
-        let shs = Section::box_(0.1, 0.1, t, t).unwrap();
+        let shs = hollow_box(0.1, 0.1, t, t).unwrap();
         close(standard(1.25 * t), 439e-8, 0.5 / 439.0);
         close(shs.torsion, standard(0.0), 1e-14);
         close(shs.area, 0.1f64.powi(2) - 0.09f64.powi(2), 1e-14);
@@ -126,7 +124,7 @@ mod tests {
     #[test]
     fn square_cell_shear_area() {
         let (a, t) = (1.0, 1e-6);
-        let cell = Section::box_(a + t, a + t, t, t).unwrap();
+        let cell = hollow_box(a + t, a + t, t, t).unwrap();
         close(cell.shear[1], 5.0 / 3.0 * a * t, 2.0 * t);
         close(cell.shear[0], cell.shear[1], 1e-12);
         assert!(cell.shear[2].abs() < 1e-12 * cell.area);
@@ -135,9 +133,9 @@ mod tests {
     #[test]
     fn nonsense_is_named() {
         assert_eq!(
-            Section::box_(0.1, 0.2, 0.05, 0.01).unwrap_err(),
+            hollow_box(0.1, 0.2, 0.05, 0.01).unwrap_err(),
             "`thickness` is 0.05, but two walls must leave a hollow: less than width/2 = 0.05"
         );
-        assert!(Section::box_(0.1, 0.2, 0.01, -0.01).unwrap_err().starts_with("`thickness` is -0.01"));
+        assert!(hollow_box(0.1, 0.2, 0.01, -0.01).unwrap_err().starts_with("`thickness` is -0.01"));
     }
 }

@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape, pair};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, pair};
 use crate::words::kinds::{Form, Given, Key};
 
 pub static KIND: SectionKind = SectionKind {
@@ -35,7 +35,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
         },
     ],
-    make: Make { read, takes_material: |_| true },
+    make: MakeSection { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -59,7 +59,7 @@ pub struct I {
 
 impl SectionShape for I {
     fn section(&self) -> Result<Section, String> {
-        Section::i(self.height, self.top_width, self.bottom_width, self.web, self.top_flange, self.bottom_flange)
+        i_section(self.height, self.top_width, self.bottom_width, self.web, self.top_flange, self.bottom_flange)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -76,21 +76,19 @@ impl SectionShape for I {
     }
 }
 
-impl Section {
-    /// I section: web along z on the axis y = 0, flanges of any two sizes; also a T in the limit of a small flange.
-    pub fn i(
-        height: f64,
-        width_top: f64,
-        width_bottom: f64,
-        web: f64,
-        flange_top: f64,
-        flange_bottom: f64,
-    ) -> Result<Section, String> {
-        Ok(i(height, width_top, width_bottom, web, flange_top, flange_bottom)?.section())
-    }
+/// I section: web along z on the axis y = 0, flanges of any two sizes; also a T in the limit of a small flange.
+pub fn i_section(
+    height: f64,
+    width_top: f64,
+    width_bottom: f64,
+    web: f64,
+    flange_top: f64,
+    flange_bottom: f64,
+) -> Result<Section, String> {
+    Ok(i(height, width_top, width_bottom, web, flange_top, flange_bottom)?.section())
 }
 
-/// Walls of [`Section::i`], flanges in halves from their free ends to the web.
+/// Walls of [`i_section`], flanges in halves from their free ends to the web.
 pub(super) fn i(
     height: f64,
     width_top: f64,
@@ -133,7 +131,7 @@ mod tests {
     /// Shear centre on the web, where the flanges' lateral bending balances: from the top, h I_bottom/(I_top + I_bottom).
     #[test]
     fn unequal_flanges_share_shear_by_their_moments() {
-        let i = Section::i(0.3, 0.2, 0.1, 0.008, 0.012, 0.015).unwrap();
+        let i = i_section(0.3, 0.2, 0.1, 0.008, 0.012, 0.015).unwrap();
         let (top, bottom) = (0.012 * 0.2f64.powi(3), 0.015 * 0.1f64.powi(3));
         let h = 0.3 - 0.5 * (0.012 + 0.015);
         let (_, center, _) =
@@ -146,7 +144,7 @@ mod tests {
     /// 4 r² (1 − π/4) is added here, the rest of their effect stays within the bounds. Torsion lives from its fillets.
     #[test]
     fn ipe_200_near_the_standard() {
-        let i = Section::i(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
+        let i = i_section(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
         close(i.area + 4.0 * 0.012f64.powi(2) * (1.0 - std::f64::consts::FRAC_PI_4), 28.5e-4, 0.002);
         close(i.Iz, 142e-8, 0.005);
         assert!(i.Iy < 1943e-8 && i.Iy > 0.94 * 1943e-8);

@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape, check_walls};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
 use crate::words::kinds::{Form, Given, Key};
 
 pub static KIND: SectionKind = SectionKind {
@@ -26,7 +26,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
         },
     ],
-    make: Make { read, takes_material: |_| true },
+    make: MakeSection { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -47,7 +47,7 @@ pub struct L {
 
 impl SectionShape for L {
     fn section(&self) -> Result<Section, String> {
-        Section::l(self.height, self.width, self.vertical, self.horizontal)
+        angle(self.height, self.width, self.vertical, self.horizontal)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -63,14 +63,12 @@ impl SectionShape for L {
     }
 }
 
-impl Section {
-    /// Angle: corner at −y, −z; one leg of thickness `vertical` up along z, one of thickness `horizontal` out along y.
-    pub fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Section, String> {
-        Ok(l(height, width, vertical, horizontal)?.section())
-    }
+/// Angle: corner at −y, −z; one leg of thickness `vertical` up along z, one of thickness `horizontal` out along y.
+pub fn angle(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Section, String> {
+    Ok(l(height, width, vertical, horizontal)?.section())
 }
 
-/// Walls of [`Section::l`]; the upright leg takes the corner.
+/// Walls of [`angle`]; the upright leg takes the corner.
 fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Profile, String> {
     positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
     smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
@@ -92,7 +90,7 @@ mod tests {
     /// Each leg's flow runs through the corner of the middle lines, so does its resultant.
     #[test]
     fn angle_shear_center_is_the_corner() {
-        let l = Section::l(0.12, 0.08, 0.01, 0.008).unwrap();
+        let l = angle(0.12, 0.08, 0.01, 0.008).unwrap();
         let (_, center, _) = rectangles(&[([0.005, 0.06], 0.01, 0.12), ([0.045, 0.004], 0.07, 0.008)]);
         close(l.shear_center[0], 0.005 - center[0], 1e-12);
         close(l.shear_center[1], 0.004 - center[1], 1e-12);
@@ -104,7 +102,7 @@ mod tests {
     /// both.
     #[test]
     fn equal_angle_has_axes_at_45_degrees() {
-        let l = Section::l(0.1, 0.1, 0.01, 0.01).unwrap();
+        let l = angle(0.1, 0.1, 0.01, 0.01).unwrap();
         close(l.Iy, l.Iz, 1e-14);
         close(l.shear[0], l.shear[1], 1e-12);
         close(l.Iy, 177e-8, 0.02);

@@ -30,6 +30,13 @@ pub static SECTIONS: [&SectionKind; 7] =
 mod tests {
     use super::*;
     use crate::math::Mat6;
+    use crate::sections::c::channel;
+    use crate::sections::general::general;
+    use crate::sections::hollow_box::hollow_box;
+    use crate::sections::i::i_section;
+    use crate::sections::l::angle;
+    use crate::sections::rectangle::rectangle;
+    use crate::sections::tube::tube;
     use rand::{RngExt, SeedableRng, rngs::SmallRng};
 
     pub fn close(value: f64, expected: f64, relative: f64) {
@@ -49,8 +56,8 @@ mod tests {
     #[test]
     fn constants_of_the_scenes() {
         let digits = 5e-7;
-        let c1 = Section::rectangle(0.03, 0.005).unwrap().stiffness(210e9, 0.3, 7850.0);
-        let c2 = Section::rectangle(0.004, 0.04).unwrap().stiffness(70e9, 0.33, 2700.0);
+        let c1 = rectangle(0.03, 0.005).unwrap().stiffness(210e9, 0.3, 7850.0);
+        let c2 = rectangle(0.004, 0.04).unwrap().stiffness(70e9, 0.33, 2700.0);
         for (s, [EA, GA, GJ, EIy, EIz, A_rho]) in [
             (c1, [3.15e7, 1.009615e7, 90.35639, 65.625, 2362.5, 1.1775]),
             (c2, [1.12e7, 3.508772e6, 21.04084, 1493.333, 14.93333, 0.432]),
@@ -73,13 +80,13 @@ mod tests {
             let (h, w) = (r(0.05, 0.5), r(0.05, 0.5));
             let (t, u, v) = (r(1e-3, 0.012), r(1e-3, 0.012), r(1e-3, 0.012));
             sections.extend([
-                Section::rectangle(w, h).unwrap(),
-                Section::tube(w, t).unwrap(),
-                Section::box_(w, h, t, u).unwrap(),
-                Section::i(h, w, r(0.05, 0.5), t, u, v).unwrap(),
-                Section::c(h, w, t, u).unwrap(),
-                Section::l(h, w, t, u).unwrap(),
-                Section::general(t * u, [t.powi(4), u.powi(4)], 0.9 * (t * u).powi(2), v, [t * t, u * u]).unwrap(),
+                rectangle(w, h).unwrap(),
+                tube(w, t).unwrap(),
+                hollow_box(w, h, t, u).unwrap(),
+                i_section(h, w, r(0.05, 0.5), t, u, v).unwrap(),
+                channel(h, w, t, u).unwrap(),
+                angle(h, w, t, u).unwrap(),
+                general(t * u, [t.powi(4), u.powi(4)], 0.9 * (t * u).powi(2), v, [t * t, u * u]).unwrap(),
             ]);
         }
         sections
@@ -137,9 +144,9 @@ mod tests {
     #[test]
     fn numbers_out_of_range_are_named() {
         assert_eq!(
-            Section::general(1.0, [1.0, 1.0], 0.0, 0.0, [1.0; 2]).unwrap_err(),
+            general(1.0, [1.0, 1.0], 0.0, 0.0, [1.0; 2]).unwrap_err(),
             "`torsion_constant` is 0, but must be a positive number"
         );
-        assert!(Section::general(1.0, [1.0, 4.0], 2.0, 1.0, [1.0; 2]).unwrap_err().contains("geometric mean"));
+        assert!(general(1.0, [1.0, 4.0], 2.0, 1.0, [1.0; 2]).unwrap_err().contains("geometric mean"));
     }
 }

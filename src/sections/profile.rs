@@ -105,11 +105,11 @@ mod tests {
     #[test]
     fn torsion_is_slightly_low() {
         for (section, exact) in [
-            (Section::l(100.0, 100.0, 10.0, 10.0), 61_940.0),
-            (Section::l(100.0, 100.0, 20.0, 20.0), 457_700.0),
-            (Section::c(200.0, 76.0, 8.0, 12.0), 111_170.0),
-            (Section::i(200.0, 100.0, 100.0, 6.0, 8.0, 8.0), 46_877.0),
-            (Section::i(300.0, 100.0, 100.0, 10.0, 20.0, 20.0), 571_750.0),
+            (angle(100.0, 100.0, 10.0, 10.0), 61_940.0),
+            (angle(100.0, 100.0, 20.0, 20.0), 457_700.0),
+            (channel(200.0, 76.0, 8.0, 12.0), 111_170.0),
+            (i_section(200.0, 100.0, 100.0, 6.0, 8.0, 8.0), 46_877.0),
+            (i_section(300.0, 100.0, 100.0, 10.0, 20.0, 20.0), 571_750.0),
         ] {
             let torsion = section.unwrap().torsion;
             assert!(torsion < exact && torsion > 0.97 * exact, "{torsion} for {exact}");
@@ -119,13 +119,13 @@ mod tests {
     #[test]
     fn nonsense_is_named() {
         assert_eq!(
-            Section::c(0.2, 0.075, 0.08, 0.01).unwrap_err(),
+            channel(0.2, 0.075, 0.08, 0.01).unwrap_err(),
             "`web_thickness` is 0.08, but the web must leave a flange: less than width = 0.075"
         );
         assert!(
-            Section::i(0.2, 0.1, 0.1, 0.01, 0.12, 0.1).unwrap_err().contains("both together must be less than height")
+            i_section(0.2, 0.1, 0.1, 0.01, 0.12, 0.1).unwrap_err().contains("both together must be less than height")
         );
-        assert!(Section::l(0.1, 0.1, 0.09, 0.09).unwrap_err().contains("not thin-walled"));
-        assert!(Section::l(0.1, f64::INFINITY, 0.09, 0.01).unwrap_err().starts_with("`width` is inf"));
+        assert!(angle(0.1, 0.1, 0.09, 0.09).unwrap_err().contains("not thin-walled"));
+        assert!(angle(0.1, f64::INFINITY, 0.09, 0.01).unwrap_err().starts_with("`width` is inf"));
     }
 }

@@ -3,7 +3,7 @@
 use super::dimensions::positive;
 use super::fibres::{Fibre, pairs};
 use super::section::Section;
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use crate::words::kinds::{Form, Given, Key};
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres along y and along z, even numbers, where the material yields; one number holds for both. Default: [12, 12].",
         },
     ],
-    make: Make { read, takes_material: |_| true },
+    make: MakeSection { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -37,7 +37,7 @@ pub struct Rectangle {
 
 impl SectionShape for Rectangle {
     fn section(&self) -> Result<Section, String> {
-        Section::rectangle(self.width, self.height)
+        rectangle(self.width, self.height)
     }
 
     fn default_fibres(&self, first: Option<usize>) -> Result<[usize; 2], String> {
@@ -53,21 +53,19 @@ impl SectionShape for Rectangle {
     }
 }
 
-impl Section {
-    /// Solid rectangle.
-    pub fn rectangle(width: f64, height: f64) -> Result<Section, String> {
-        positive(&[("width", width), ("height", height)])?;
-        let area = width * height;
-        Ok(Section {
-            area,
-            Iy: area * height * height / 12.0,
-            Iz: area * width * width / 12.0,
-            Iyz: 0.0,
-            torsion: rectangle_torsion(width.max(height), width.min(height)),
-            shear: [5.0 / 6.0 * area, 5.0 / 6.0 * area, 0.0],
-            shear_center: [0.0; 2],
-        })
-    }
+/// Solid rectangle.
+pub fn rectangle(width: f64, height: f64) -> Result<Section, String> {
+    positive(&[("width", width), ("height", height)])?;
+    let area = width * height;
+    Ok(Section {
+        area,
+        Iy: area * height * height / 12.0,
+        Iz: area * width * width / 12.0,
+        Iyz: 0.0,
+        torsion: rectangle_torsion(width.max(height), width.min(height)),
+        shear: [5.0 / 6.0 * area, 5.0 / 6.0 * area, 0.0],
+        shear_center: [0.0; 2],
+    })
 }
 
 /// J = a b³/3 (1 − 192/π⁵ (b/a) Σ_{n odd} tanh(nπa/2b)/n⁵), a ≥ b (Timoshenko & Goodier, Theory of Elasticity, art. 109).
@@ -138,7 +136,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_named() {
-        assert_eq!(Section::rectangle(0.0, 1.0).unwrap_err(), "`width` is 0, but must be a positive number");
-        assert_eq!(Section::rectangle(1.0, f64::NAN).unwrap_err(), "`height` is NaN, but must be a positive number");
+        assert_eq!(rectangle(0.0, 1.0).unwrap_err(), "`width` is 0, but must be a positive number");
+        assert_eq!(rectangle(1.0, f64::NAN).unwrap_err(), "`height` is NaN, but must be a positive number");
     }
 }

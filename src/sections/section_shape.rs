@@ -6,10 +6,10 @@ use crate::words::kinds::{Given, Kind, Values};
 use std::fmt;
 
 /// A shape that the deck can name.
-pub type SectionKind = Kind<Make>;
+pub type SectionKind = Kind<MakeSection>;
 
 #[derive(Debug)]
-pub struct Make {
+pub struct MakeSection {
     /// What the keys of a section give; `true` where a beam needs its mass. `None` where a key is wrong.
     pub read: fn(&mut Given, bool) -> Option<CrossSection>,
     /// Whether a beam of a section with these keys has a material.

@@ -3,7 +3,7 @@
 use super::dimensions::positive;
 use super::fibres::{Fibre, pairs};
 use super::section::Section;
-use super::section_shape::{CrossSection, Make, SectionKind, SectionShape, check_walls};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
 use crate::words::kinds::{Form, Given, Key};
 use std::f64::consts::{PI, TAU};
 
@@ -22,7 +22,7 @@ pub static KIND: SectionKind = SectionKind {
             about: "Fibres around, at least 4, and through the wall, even numbers, where the material yields. Default: [20, 2]; from half the radius on [20, 4].",
         },
     ],
-    make: Make { read, takes_material: |_| true },
+    make: MakeSection { read, takes_material: |_| true },
 };
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
@@ -45,7 +45,7 @@ pub struct Tube {
 
 impl SectionShape for Tube {
     fn section(&self) -> Result<Section, String> {
-        Section::tube(self.radius, self.thickness)
+        tube(self.radius, self.thickness)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -64,36 +64,26 @@ impl SectionShape for Tube {
     }
 }
 
-impl Section {
-    /// Circular tube; a thickness equal to the radius is a solid round.
-    ///
-    /// Shear factor: Cowper 1966 (J. Appl. Mech. 33, 335-340) for the hollow circle at ν = 0, as the section knows no
-    /// material: 6/7 when solid, 1/2 when thin.
-    pub fn tube(outer_radius: f64, thickness: f64) -> Result<Section, String> {
-        positive(&[("radius", outer_radius), ("thickness", thickness)])?;
-        if thickness > outer_radius {
-            return Err(format!(
-                "`thickness` is {thickness}, but a wall cannot be thicker than radius = {outer_radius} (a solid round)"
-            ));
-        }
-        let inner_radius = outer_radius - thickness;
-        let squares = outer_radius * outer_radius + inner_radius * inner_radius;
-        let area = PI * thickness * (outer_radius + inner_radius);
-        let I = 0.25 * area * squares;
-        // k = 6 (1 + m²)² / (7 (1 + m²)² + 20 m²), m = inner/outer radius.
-        let m2 = (inner_radius / outer_radius).powi(2);
-        let a = (1.0 + m2).powi(2);
-        let shear = 6.0 * a / (7.0 * a + 20.0 * m2) * area;
-        Ok(Section {
-            area,
-            Iy: I,
-            Iz: I,
-            Iyz: 0.0,
-            torsion: 2.0 * I,
-            shear: [shear, shear, 0.0],
-            shear_center: [0.0; 2],
-        })
+/// Circular tube; a thickness equal to the radius is a solid round.
+///
+/// Shear factor: Cowper 1966 (J. Appl. Mech. 33, 335-340) for the hollow circle at ν = 0, as the section knows no
+/// material: 6/7 when solid, 1/2 when thin.
+pub fn tube(outer_radius: f64, thickness: f64) -> Result<Section, String> {
+    positive(&[("radius", outer_radius), ("thickness", thickness)])?;
+    if thickness > outer_radius {
+        return Err(format!(
+            "`thickness` is {thickness}, but a wall cannot be thicker than radius = {outer_radius} (a solid round)"
+        ));
     }
+    let inner_radius = outer_radius - thickness;
+    let squares = outer_radius * outer_radius + inner_radius * inner_radius;
+    let area = PI * thickness * (outer_radius + inner_radius);
+    let I = 0.25 * area * squares;
+    // k = 6 (1 + m²)² / (7 (1 + m²)² + 20 m²), m = inner/outer radius.
+    let m2 = (inner_radius / outer_radius).powi(2);
+    let a = (1.0 + m2).powi(2);
+    let shear = 6.0 * a / (7.0 * a + 20.0 * m2) * area;
+    Ok(Section { area, Iy: I, Iz: I, Iyz: 0.0, torsion: 2.0 * I, shear: [shear, shear, 0.0], shear_center: [0.0; 2] })
 }
 
 /// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free
@@ -131,11 +121,11 @@ mod tests {
     #[test]
     fn thick_tube_is_a_circle_less_a_circle() {
         let (outer, inner): (f64, f64) = (0.05, 0.02);
-        let tube = Section::tube(outer, outer - inner).unwrap();
+        let tube = tube(outer, outer - inner).unwrap();
         close(tube.area, PI * (outer.powi(2) - inner.powi(2)), 1e-14);
         close(tube.Iy, PI / 4.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
         close(tube.torsion, PI / 2.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
-        let round = Section::tube(outer, outer).unwrap();
+        let round = tube(outer, outer).unwrap();
         close(round.shear[0], 6.0 / 7.0 * round.area, 1e-15);
         close(round.Iz, PI / 4.0 * outer.powi(4), 1e-15);
     }
@@ -144,7 +134,7 @@ mod tests {
     #[test]
     fn thin_tube_has_shear_factor_one_half() {
         let (R, t) = (1.0, 1e-6);
-        let tube = Section::tube(R, t).unwrap();
+        let tube = tube(R, t).unwrap();
         close(tube.shear[1], 0.5 * tube.area, 1e-11);
         close(tube.area, 2.0 * PI * R * t, 1e-6);
         close(tube.torsion, 2.0 * PI * R.powi(3) * t, 2e-6);
@@ -152,6 +142,6 @@ mod tests {
 
     #[test]
     fn nonsense_is_named() {
-        assert!(Section::tube(0.1, 0.2).unwrap_err().starts_with("`thickness` is 0.2, but a wall cannot be thicker"));
+        assert!(tube(0.1, 0.2).unwrap_err().starts_with("`thickness` is 0.2, but a wall cannot be thicker"));
     }
 }

@@ -22,21 +22,21 @@ fn read(given: &mut Given) -> Option<Solid> {
         return given.error("size", "the edges of a box must be above zero");
     }
     let inertia = Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b) / 12.0;
-    let shape = Arc::new(Cuboid { size: [a, b, c], axes: Mat3::identity() });
+    let shape = Arc::new(SolidCuboid { size: [a, b, c], axes: Mat3::identity() });
     Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c })
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cuboid {
+pub struct SolidCuboid {
     /// Full edge lengths along `axes`.
     pub size: [f64; 3],
     /// Columns: the cuboid's axes in body components.
     pub axes: Mat3,
 }
 
-impl Cuboid {
+impl SolidCuboid {
     /// The homogeneous cuboid of a mass and inertia: I_i = m/12 (s_j² + s_k²).
-    pub fn of_inertia(mass: f64, inertia: &Mat3) -> Cuboid {
+    pub fn of_inertia(mass: f64, inertia: &Mat3) -> SolidCuboid {
         let eigen = inertia.symmetric_eigen();
         let moments = eigen.eigenvalues;
         let edge = |i: usize| (6.0 * (moments.sum() - 2.0 * moments[i]).max(0.0) / mass).sqrt();
@@ -44,11 +44,11 @@ impl Cuboid {
         if axes.determinant() < 0.0 {
             axes.set_column(2, &-axes.column(2).into_owned());
         }
-        Cuboid { size: [edge(0), edge(1), edge(2)], axes }
+        SolidCuboid { size: [edge(0), edge(1), edge(2)], axes }
     }
 }
 
-impl SolidShape for Cuboid {
+impl SolidShape for SolidCuboid {
     fn outline(&self) -> Outline {
         const CORNERS: [[f64; 3]; 8] = [
             [-0.5, -0.5, -0.5],
@@ -89,7 +89,7 @@ mod tests {
     fn the_cuboid_of_a_box_is_the_box() {
         let (m, [a, b, c]) = (12.0, [1.0, 2.0, 3.0]);
         let inertia = Mat3::from_diagonal(&Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b));
-        let Cuboid { size, axes } = Cuboid::of_inertia(m, &inertia);
+        let SolidCuboid { size, axes } = SolidCuboid::of_inertia(m, &inertia);
         let mut edges = size;
         edges.sort_by(f64::total_cmp);
         // Square roots of numbers of order one.
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn its_corners_are_half_a_diagonal_away() {
-        let cuboid = Cuboid { size: [2.0, 4.0, 4.0], axes: Mat3::identity() };
+        let cuboid = SolidCuboid { size: [2.0, 4.0, 4.0], axes: Mat3::identity() };
         assert!((reach(&cuboid.outline()) - 3.0).abs() < 3e-14, "round-off of a few products");
     }
 }

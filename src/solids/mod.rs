@@ -22,5 +22,5 @@ pub static SOLIDS: [&SolidKind; 4] = [&cuboid::KIND, &cylinder::KIND, &sphere::K
 
 /// What a body is drawn as of which the deck gives no shape: the homogeneous cuboid of its mass and inertia.
 pub fn drawn_by_inertia(mass: f64, inertia: &Mat3) -> Arc<dyn SolidShape> {
-    Arc::new(cuboid::Cuboid::of_inertia(mass, inertia))
+    Arc::new(cuboid::SolidCuboid::of_inertia(mass, inertia))
 }

@@ -19,15 +19,15 @@ pub static KIND: SolidKind = SolidKind {
 fn read(given: &mut Given) -> Option<Solid> {
     let r = given.require_positive("radius")?;
     let inertia = Mat3::identity() * (0.4 * r * r);
-    Some(Solid { shape: Arc::new(Sphere { radius: r }), inertia, volume: 4.0 / 3.0 * PI * r * r * r })
+    Some(Solid { shape: Arc::new(SolidSphere { radius: r }), inertia, volume: 4.0 / 3.0 * PI * r * r * r })
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sphere {
+pub struct SolidSphere {
     pub radius: f64,
 }
 
-impl SolidShape for Sphere {
+impl SolidShape for SolidSphere {
     fn outline(&self) -> Outline {
         let radius = self.radius;
         let mut outline = Outline::default();
@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn it_is_drawn_closed_and_of_its_size() {
-        let outline = Sphere { radius: 2.0 }.outline();
+        let outline = SolidSphere { radius: 2.0 }.outline();
         assert!(is_closed(&outline));
         assert!((reach(&outline) - 2.0).abs() < 2e-14, "round-off of a few products");
     }

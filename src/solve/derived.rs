@@ -3,8 +3,8 @@
 
 use crate::model::{Model, PartKind};
 use crate::state::State;
-use crate::system::energy::{Energy, PartEnergy};
-use crate::system::results::{LinkState, SectionPoint, ShellState};
+use crate::system::energy::{self, Energy, PartEnergy};
+use crate::system::results::{self, LinkState, SectionPoint, ShellState};
 use crate::system::{ContactState, JointState, System};
 use std::ops::BitOr;
 
@@ -112,28 +112,28 @@ impl Derived {
         let is_wanted = |what| due && wanted.has(what);
         let is_drawn = |what| (due || drawn) && wanted.has(what);
         if is_drawn(Wanted::PLASTIC_STRAINS) {
-            system.plastic_strains(now, &mut self.plastic_strains);
+            results::plastic_strains(system, now, &mut self.plastic_strains);
         }
         if is_drawn(Wanted::SHELLS) {
-            system.shell_states(model, now, &mut self.shells);
+            results::shell_states(system, model, now, &mut self.shells);
         }
         if is_wanted(Wanted::ENERGY) {
-            self.energy = Some(system.energy(state, balance, threads));
+            self.energy = Some(Energy::of(system, state, balance, threads));
         }
         if is_wanted(Wanted::REACTIONS) {
             system.joint_states(&state.nodes, &state.multipliers, &mut self.joints);
         }
         if is_wanted(Wanted::LINKS) {
-            system.link_states(&state.nodes, &mut self.links);
+            results::link_states(system, &state.nodes, &mut self.links);
         }
         if is_wanted(Wanted::CONTACTS) {
             system.contact_states(model, now, &mut self.contacts);
         }
         if is_wanted(Wanted::SECTIONS) {
-            system.section_points(model, now, &mut self.sections);
+            results::section_points(system, model, now, &mut self.sections);
         }
         if is_wanted(Wanted::PARTS) {
-            system.part_energies(model, now, &mut self.parts);
+            energy::part_energies(system, model, now, &mut self.parts);
         }
     }
 

@@ -39,7 +39,7 @@ impl EnergyGrowth {
         self.balance.update_work(state.work.external);
         let letting_go = || {
             (is_watched(model) && model.parts.iter().any(Part::may_release))
-                .then(|| system.energy(state, initial, plan.threads))
+                .then(|| Energy::of(system, state, initial, plan.threads))
         };
         self.balance.update(&energy.or_else(letting_go)?);
         let Balance { generated, available, plastic, .. } = self.balance;

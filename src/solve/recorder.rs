@@ -9,6 +9,7 @@ use super::report::StepReport;
 use super::workspace::Workspace;
 use crate::model::{Cadence, Model};
 use crate::state::State;
+use crate::system::energy::Energy;
 use std::time::{Duration, Instant};
 
 /// The account of a run. It is allocated once.
@@ -57,7 +58,7 @@ impl Recorder {
     /// Sums the energy at the start of the run.
     pub fn begin(&mut self, cx: &Context, state: &State) {
         if self.wanted.has(Wanted::ENERGY) || is_watched(cx.model) {
-            self.initial_energy = Some(cx.system.energy(state, None, cx.plan.threads).mechanical);
+            self.initial_energy = Some(Energy::of(cx.system, state, None, cx.plan.threads).mechanical);
         }
     }
 

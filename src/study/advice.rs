@@ -1,14 +1,14 @@
 //! What the parts of a deck cost and carry, in words and as rigidify.csv.
 
 use super::columns::columns;
-use super::run::{Run, Status};
+use super::run::{RunStatus, StudyRun};
 use super::study_csv::{field, maybe};
 use super::table::seconds;
 use crate::model::study::Quantity;
 
 /// A beam, bar or shell that deforms.
 #[derive(Debug, Clone)]
-pub struct Part {
+pub struct AdvisedPart {
     pub kind: &'static str,
     pub name: String,
     /// Of the largest elastic energy of all parts together at any time: the largest of this part's. `None`, as the next: the deck
@@ -17,20 +17,20 @@ pub struct Part {
     /// Of the energy over all times: this part's.
     pub mean_share: Option<f64>,
     /// The run with this part rigid; a reason alone where there can be none.
-    pub rigid: Result<Run, String>,
+    pub rigid: Result<StudyRun, String>,
 }
 
 /// What the parts of a deck cost and carry.
-pub struct Advice {
+pub struct StudyAdvice {
     pub quantities: Vec<Quantity>,
     pub samples: usize,
     /// The deck as it is.
-    pub base: Run,
-    pub parts: Vec<Part>,
+    pub base: StudyRun,
+    pub parts: Vec<AdvisedPart>,
     pub stopped: bool,
 }
 
-impl Advice {
+impl StudyAdvice {
     /// For standard output: the parts, those that could go first.
     pub fn text(&self) -> String {
         let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
@@ -44,24 +44,24 @@ impl Advice {
         let mut rows = vec![head.map(String::from).to_vec()];
         let empty = String::new;
         let (loop_s, unknowns) = (seconds(base.loop_s), base.measured.unknowns.to_string());
-        let status = if base.status == Status::Done {
+        let status = if base.status == RunStatus::Done {
             "done".into()
         } else {
             format!("{}: {}", base.status.word(), base.reason)
         };
         rows.push(vec!["(as it is)".into(), empty(), empty(), empty(), empty(), loop_s, empty(), unknowns, status]);
-        let mut parts: Vec<&Part> = self.parts.iter().collect();
-        let error = |part: &Part| part.rigid.as_ref().ok().and_then(|run| run.error).unwrap_or(f64::INFINITY);
-        let share = |part: &Part| part.peak_share.unwrap_or(0.0);
+        let mut parts: Vec<&AdvisedPart> = self.parts.iter().collect();
+        let error = |part: &AdvisedPart| part.rigid.as_ref().ok().and_then(|run| run.error).unwrap_or(f64::INFINITY);
+        let share = |part: &AdvisedPart| part.peak_share.unwrap_or(0.0);
         parts.sort_by(|a, b| error(a).total_cmp(&error(b)).then(share(a).total_cmp(&share(b))));
         for part in parts {
             let mut row =
                 vec![part.name.clone(), part.kind.to_owned(), percent(part.peak_share), percent(part.mean_share)];
             match &part.rigid {
-                Ok(run) if run.status == Status::Done => row.extend([
+                Ok(run) if run.status == RunStatus::Done => row.extend([
                     run.error.map_or(empty(), |error| format!("{error:.2e}")),
                     seconds(run.loop_s),
-                    percent((base.status == Status::Done).then(|| 1.0 - run.loop_s / base.loop_s)),
+                    percent((base.status == RunStatus::Done).then(|| 1.0 - run.loop_s / base.loop_s)),
                     run.measured.unknowns.to_string(),
                     "done".into(),
                 ]),
@@ -85,7 +85,7 @@ impl Advice {
             .iter()
             .for_each(|quantity| out += &format!(",{}", field(&format!("error:{}", quantity.word()))));
         out.push('\n');
-        let mut row = |kind: &str, name: &str, shares: [Option<f64>; 2], run: Result<&Run, &str>| {
+        let mut row = |kind: &str, name: &str, shares: [Option<f64>; 2], run: Result<&StudyRun, &str>| {
             let [peak, mean] = shares.map(maybe);
             out += &format!("{kind},{},{peak},{mean}", field(name));
             match run {

@@ -3,7 +3,7 @@
 use super::grid::StudyGrid;
 use super::order::{Cheapest, Order};
 use super::reference::Reference;
-use super::run::Run;
+use super::run::StudyRun;
 use crate::model::study::Quantity;
 
 /// A study that has been run.
@@ -13,7 +13,7 @@ pub struct Found {
     pub quantities: Vec<Quantity>,
     pub grid: StudyGrid,
     /// By line, longest time step first.
-    pub runs: Vec<Run>,
+    pub runs: Vec<StudyRun>,
     /// Or why there is none, in words.
     pub reference: Result<Reference, String>,
     /// Of each line; or why there is none, in words.

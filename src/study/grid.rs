@@ -20,7 +20,7 @@ const OF_LOAD_STEPS: f64 = 2.0;
 
 /// A scheme, a method and a mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct StudyLine {
     /// What distinguishes it from the others.
     pub label: String,
     pub scheme: String,
@@ -37,7 +37,7 @@ pub struct Line {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyGrid {
-    pub lines: Vec<Line>,
+    pub lines: Vec<StudyLine>,
     /// Longest first; each fits a whole number of times between two samples.
     pub time_steps: Vec<f64>,
     /// Largest first.
@@ -216,7 +216,7 @@ fn fitting(interval: f64, step: f64) -> f64 {
     interval / (interval / step - 1e-9).ceil().max(1.0)
 }
 
-fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<Line> {
+fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<StudyLine> {
     let word = model.solution.scheme.word().to_owned();
     let is_static = model.analysis.kind == AnalysisKind::Static;
     let scheme = |label: &str, scheme: &Arc<dyn Scheme>, set: Option<String>| (label.to_owned(), scheme.clone(), set);
@@ -258,7 +258,7 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
                 let label = words.join(", ");
                 let sets = of_scheme.iter().chain(of_method).chain(of_mesh).cloned().collect();
                 let (scheme, method) = (scheme.clone(), (*method).to_owned());
-                lines.push(Line { label, scheme, method, mesh, automatic, order, sets });
+                lines.push(StudyLine { label, scheme, method, mesh, automatic, order, sets });
             }
         }
     }

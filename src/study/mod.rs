@@ -25,15 +25,15 @@ mod run_all;
 mod study_csv;
 mod table;
 
-pub use advice::{Advice, Part};
+pub use advice::{AdvisedPart, StudyAdvice};
 pub use found::Found;
-pub use grid::{Line, StudyGrid};
-pub use options::{Fault, Options};
+pub use grid::{StudyGrid, StudyLine};
+pub use options::{Options, StudyFault};
 pub use order::{Cheapest, Order};
 pub use process::LIFELINE;
 pub use reference::Reference;
 pub use rigidify::rigidify;
-pub use run::{Run, Status};
+pub use run::{RunStatus, StudyRun};
 pub use table::text;
 
 use crate::deck::Deck;
@@ -48,7 +48,7 @@ const PICTURE: &str = "study.svg";
 const PAGE: &str = "study.html";
 
 /// Runs the grid of settings of a sound deck and writes study.csv, study.svg and study.html.
-pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Found, Fault> {
+pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Found, StudyFault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);
     let base = options.deck.parent().map(PathBuf::from).unwrap_or_default();
@@ -59,7 +59,7 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     let (given, grid) = match (given, grid) {
         (Ok(given), Ok(grid)) => (given, grid),
         (given, grid) => {
-            return Err(Fault::Deck([given.err(), grid.err()].into_iter().flatten().flatten().collect()));
+            return Err(StudyFault::Deck([given.err(), grid.err()].into_iter().flatten().flatten().collect()));
         }
     };
     let mut manifest = Manifest::begin(&options.folder, &[TABLE, PICTURE, PAGE], &run_all::folders(&grid))?;

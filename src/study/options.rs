@@ -28,14 +28,14 @@ pub struct Options {
 
 /// Why there is no study.
 #[derive(Debug)]
-pub enum Fault {
+pub enum StudyFault {
     /// What is asked for makes no sense with this deck.
     Deck(Vec<Diagnostic>),
     Io(io::Error),
 }
 
-impl From<io::Error> for Fault {
+impl From<io::Error> for StudyFault {
     fn from(error: io::Error) -> Self {
-        Fault::Io(error)
+        StudyFault::Io(error)
     }
 }

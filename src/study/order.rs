@@ -1,7 +1,7 @@
 //! What a line of runs says: its order where it has one, and what an error costs.
 
 use super::grid::StudyGrid;
-use super::run::{Run, Status};
+use super::run::{RunStatus, StudyRun};
 
 /// Local orders that agree so far are of one slope.
 const SLOPE: f64 = 0.3;
@@ -36,17 +36,17 @@ pub struct Cheapest {
 }
 
 /// Of each line; or why it has none.
-pub fn orders(grid: &StudyGrid, runs: &[Run]) -> Vec<Result<Order, &'static str>> {
+pub fn orders(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<Result<Order, &'static str>> {
     let of = |line| {
-        let of_line: Vec<&Run> = runs.iter().filter(|run| run.line == line).collect();
+        let of_line: Vec<&StudyRun> = runs.iter().filter(|run| run.line == line).collect();
         over(grid.resolutions(line), &of_line)
     };
     (0..grid.lines.len()).map(of).collect()
 }
 
 /// Over settings next to each other: one that failed, or was not come to, parts the line.
-fn over(resolutions: &[f64], runs: &[&Run]) -> Result<Order, &'static str> {
-    let run = |resolution: &f64| runs.iter().find(|run| run.resolution == *resolution && run.status == Status::Done);
+fn over(resolutions: &[f64], runs: &[&StudyRun]) -> Result<Order, &'static str> {
+    let run = |resolution: &f64| runs.iter().find(|run| run.resolution == *resolution && run.status == RunStatus::Done);
     // Errors well above that of the reference.
     let point = |resolution: &f64| {
         let run = run(resolution).filter(|run| run.resolved)?;
@@ -103,7 +103,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 
 /// For each error asked for, the lines that come to it, the cheapest first: on straight lines between neighbours of log error
 /// and log time, never beyond the grid.
-pub fn cheapest(grid: &StudyGrid, runs: &[Run], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
+pub fn cheapest(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
     let of = |error: f64| {
         let lines = 0..grid.lines.len();
         let mut found: Vec<Cheapest> =
@@ -114,12 +114,12 @@ pub fn cheapest(grid: &StudyGrid, runs: &[Run], wanted: &[f64]) -> Vec<(f64, Vec
     wanted.iter().map(|&error| of(error)).collect()
 }
 
-fn cost(resolutions: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<Cheapest> {
+fn cost(resolutions: &[f64], runs: &[StudyRun], line: usize, wanted: f64) -> Option<Cheapest> {
     // Bounds count: what they hold is at least as good.
-    let points: Vec<(&Run, f64)> =
+    let points: Vec<(&StudyRun, f64)> =
         runs.iter().filter(|run| run.line == line).filter_map(|run| Some((run, run.error?))).collect();
     let reached = points.iter().filter(|(_, error)| *error <= wanted);
-    let at = |run: &Run, at_the_top| Cheapest {
+    let at = |run: &StudyRun, at_the_top| Cheapest {
         line,
         loop_s: run.loop_s,
         process_s: run.process_s,
@@ -147,7 +147,7 @@ fn cost(resolutions: &[f64], runs: &[Run], line: usize, wanted: f64) -> Option<C
 }
 
 /// The order between a run and the one before it on its line.
-pub fn local(before: Option<&Run>, run: &Run) -> Option<f64> {
+pub fn local(before: Option<&StudyRun>, run: &StudyRun) -> Option<f64> {
     let before = before.filter(|before| before.resolved && run.resolved)?;
     let (above, below) = (before.error?, run.error?);
     let order = (above / below).ln() / (before.resolution / run.resolution).ln();
@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn settings_that_failed_part_a_line() {
         let resolutions = [0.08, 0.04, 0.02, 0.01, 0.005];
-        let run = |resolution: f64, status| Run {
+        let run = |resolution: f64, status| StudyRun {
             line: 0,
             resolution,
             folder: String::new(),
@@ -191,15 +191,15 @@ mod tests {
             loop_s: 1.0,
             process_s: 1.0,
             times: vec![1.0],
-            error: (status == Status::Done).then_some(resolution * resolution),
+            error: (status == RunStatus::Done).then_some(resolution * resolution),
             errors: Vec::new(),
-            resolved: status == Status::Done,
+            resolved: status == RunStatus::Done,
             history: Vec::new(),
         };
         let of = |words: &str| {
-            let status = |word| if word == 'd' { Status::Done } else { Status::NotConverged };
+            let status = |word| if word == 'd' { RunStatus::Done } else { RunStatus::NotConverged };
             // Those behind the words were never run.
-            let runs: Vec<Run> = resolutions
+            let runs: Vec<StudyRun> = resolutions
                 .iter()
                 .zip(words.chars())
                 .map(|(&resolution, word)| run(resolution, status(word)))

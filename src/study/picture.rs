@@ -2,8 +2,8 @@
 //! and dark paper.
 
 use super::found::Found;
-use super::grid::Line;
-use super::run::Run;
+use super::grid::StudyLine;
+use super::run::StudyRun;
 use super::table::{resolution, seconds};
 use crate::names::short;
 use crate::output::report::html::escaped;
@@ -55,8 +55,8 @@ fn label(value: f64) -> String {
 
 pub fn draw(found: &Found) -> String {
     let [left, top, width, height] = FRAME;
-    let shown = |run: &&Run| run.error.is_some_and(|error| error > 0.0) && run.loop_s > 0.0;
-    let runs: Vec<&Run> = found.runs.iter().filter(shown).collect();
+    let shown = |run: &&StudyRun| run.error.is_some_and(|error| error > 0.0) && run.loop_s > 0.0;
+    let runs: Vec<&StudyRun> = found.runs.iter().filter(shown).collect();
     let errors: Vec<f64> = runs.iter().filter_map(|run| run.error).collect();
     let times: Vec<f64> = runs.iter().map(|run| run.loop_s).collect();
     let letters = found.grid.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0).max(28);
@@ -64,7 +64,7 @@ pub fn draw(found: &Found) -> String {
     let (x, y) = (Axis::new(&times, [left, left + width]), Axis::new(&errors, [top + height, top]));
     let mut out = open(whole) + &axes(&x, &y, found);
     for (index, setting) in found.grid.lines.iter().enumerate() {
-        let of_line: Vec<&Run> = runs.iter().copied().filter(|run| run.line == index).collect();
+        let of_line: Vec<&StudyRun> = runs.iter().copied().filter(|run| run.line == index).collect();
         out += &curve(index, setting, &of_line, [&x, &y]);
     }
     if runs.is_empty() {
@@ -124,7 +124,7 @@ fn axes(x: &Axis, y: &Axis, found: &Found) -> String {
 }
 
 /// The runs of a setting, joined, and its entry in the legend.
-fn curve(index: usize, setting: &Line, runs: &[&Run], [x, y]: [&Axis; 2]) -> String {
+fn curve(index: usize, setting: &StudyLine, runs: &[&StudyRun], [x, y]: [&Axis; 2]) -> String {
     let [left, top, width, height] = FRAME;
     let (colour, dash) = (COLOURS[index % COLOURS.len()], DASHES[index / COLOURS.len() % DASHES.len()]);
     let points: Vec<String> =

@@ -8,15 +8,15 @@ use std::time::Duration;
 const LENGTH: f64 = 1e4;
 
 /// Nothing when quiet or not on a terminal.
-pub struct Progress {
+pub struct StudyProgress {
     bar: Option<ProgressBar>,
     work: f64,
     done: f64,
 }
 
-impl Progress {
+impl StudyProgress {
     /// `work` in any unit of which runs take time alike.
-    pub fn new(quiet: bool, work: f64) -> Progress {
+    pub fn new(quiet: bool, work: f64) -> StudyProgress {
         let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
             let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {eta} left");
             let bar = ProgressBar::with_draw_target(Some(LENGTH as u64), ProgressDrawTarget::stderr());
@@ -24,7 +24,7 @@ impl Progress {
             bar.enable_steady_tick(Duration::from_millis(500));
             bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Progress { bar, work, done: 0.0 }
+        StudyProgress { bar, work, done: 0.0 }
     }
 
     /// What runs now.

@@ -10,10 +10,10 @@
 //! The step of a run is the mean of those it took: what was asked for may have been cut to the limit of stability, or to the
 //! interval between samples, and runs with the same steps show nothing of their error.
 
-use super::grid::{Line, StudyGrid};
+use super::grid::{StudyGrid, StudyLine};
 use super::history;
-use super::reference_file::Given;
-use super::run::{Run, Status};
+use super::reference_file::GivenReference;
+use super::run::{RunStatus, StudyRun};
 use crate::model::study::Quantity;
 
 /// Steps less than so many times as long as others are as long: less than halving does, more than what rounding to
@@ -35,8 +35,8 @@ pub struct Reference {
     pub source: String,
 }
 
-impl From<Given> for Reference {
-    fn from(given: Given) -> Self {
+impl From<GivenReference> for Reference {
+    fn from(given: GivenReference) -> Self {
         Reference { values: given.values, error_bound: 0.0, source: given.source }
     }
 }
@@ -107,8 +107,8 @@ fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
 
 /// Mean steps of the runs of a line, coarse to fine, each shorter than the one before. Those that the limit of stability or the
 /// interval between samples has made alike are one run: the last of them counts.
-fn distinct<'a>(runs: impl DoubleEndedIterator<Item = &'a Run>, end_time: f64) -> Vec<(f64, &'a Run)> {
-    let mut kept: Vec<(f64, &Run)> = Vec::new();
+fn distinct<'a>(runs: impl DoubleEndedIterator<Item = &'a StudyRun>, end_time: f64) -> Vec<(f64, &'a StudyRun)> {
+    let mut kept: Vec<(f64, &StudyRun)> = Vec::new();
     for run in runs.rev().filter(|run| run.measured.steps > 0) {
         let h = end_time / run.measured.steps as f64;
         if kept.last().is_none_or(|(finer, _)| h > ALIKE * finer) {
@@ -120,8 +120,8 @@ fn distinct<'a>(runs: impl DoubleEndedIterator<Item = &'a Run>, end_time: f64) -
 }
 
 /// Why there is nothing to extrapolate.
-fn nothing(grid: &StudyGrid, runs: &[Run]) -> String {
-    let ended = |line: usize| runs.iter().filter(move |run| run.line == line && run.status == Status::Done).count();
+fn nothing(grid: &StudyGrid, runs: &[StudyRun]) -> String {
+    let ended = |line: usize| runs.iter().filter(move |run| run.line == line && run.status == RunStatus::Done).count();
     let resolutions = |line: usize| grid.resolutions(line).len();
     let lines = || 0..grid.lines.len();
     if lines().any(|line| ended(line) > 1) {
@@ -141,8 +141,8 @@ fn at_rest(quantities: &[Quantity]) -> String {
 }
 
 /// What the runs of a grid tend to; or, in words, why that is not known.
-pub fn extrapolate(grid: &StudyGrid, runs: &[Run], quantities: &[Quantity]) -> Result<Reference, String> {
-    let ended = runs.iter().filter(|run| run.status == Status::Done);
+pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity]) -> Result<Reference, String> {
+    let ended = runs.iter().filter(|run| run.status == RunStatus::Done);
     let finest = ended.map(|run| grid.lines[run.line].mesh).fold(0.0, f64::max);
     let mut candidates: Vec<(usize, Limit, Option<Limit>)> = grid
         .lines
@@ -181,18 +181,19 @@ pub fn extrapolate(grid: &StudyGrid, runs: &[Run], quantities: &[Quantity]) -> R
 }
 
 /// The limits of a line in time, and of it and its coarser meshes in both.
-fn over_meshes(grid: &StudyGrid, runs: &[Run], index: usize) -> Option<(Limit, Option<Limit>)> {
+fn over_meshes(grid: &StudyGrid, runs: &[StudyRun], index: usize) -> Option<(Limit, Option<Limit>)> {
     let line = &grid.lines[index];
     let of_line = |index: usize| {
-        let done = runs.iter().filter(|run| run.line == index && run.status == Status::Done);
+        let done = runs.iter().filter(|run| run.line == index && run.status == RunStatus::Done);
         let (h, q): (Vec<f64>, Vec<&[f64]>) =
             distinct(done, grid.end_time).iter().map(|(h, run)| (*h, run.history.as_slice())).unzip();
         let count = q.first()?.len() / (grid.samples + 1);
         limit(&h, &q, count, grid.lines[index].order).map(|limit| (limit, count))
     };
     let (time, count) = of_line(index)?;
-    let same =
-        |other: &Line| other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic;
+    let same = |other: &StudyLine| {
+        other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic
+    };
     let meshes = grid.lines.iter().enumerate().filter(|(_, other)| same(other));
     let mut meshes: Vec<(f64, Limit)> =
         meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();

@@ -1,7 +1,7 @@
 //! The file that a deck names as the reference of its study, read with all of its faults told at once.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::mesh::text::{Line, Text};
+use crate::mesh::text::{Text, TextLine};
 use crate::model::Model;
 use crate::model::study::{Quantity, Study};
 use crate::names::{nearest, quoted};
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// The values of a file.
-pub struct Given {
+pub struct GivenReference {
     pub values: Vec<f64>,
     pub samples: usize,
     /// The file, as it was found.
@@ -47,7 +47,7 @@ impl Faults<'_> {
     fn in_field(&self, line: usize, field: usize, text: String) -> Diagnostic {
         let bytes = self.text.bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
         // Commas in quotes part nothing.
-        let word = Line { bytes, number: line }.fields().nth(field).filter(|_| !bytes.contains(&b'"'));
+        let word = TextLine { bytes, number: line }.fields().nth(field).filter(|_| !bytes.contains(&b'"'));
         match word {
             Some(word) => *self.text.fault_at(format!("the reference `{}` {text}", self.file), &word),
             None => self.on(line, text),
@@ -62,7 +62,7 @@ pub fn read(
     quantities: &[Quantity],
     base: &Path,
     key: Option<&Span>,
-) -> Result<Option<Given>, Vec<Diagnostic>> {
+) -> Result<Option<GivenReference>, Vec<Diagnostic>> {
     let Some(file) = &study.reference else { return Ok(None) };
     let path = base.join(file);
     let placed = |list: Vec<Diagnostic>| match key {
@@ -107,7 +107,7 @@ pub fn read(
         let text = "is zero throughout: there is nothing an error could be relative to";
         return Err(placed(vec![error(text.to_owned())]));
     }
-    Ok(Some(Given { values, samples, source: shown }))
+    Ok(Some(GivenReference { values, samples, source: shown }))
 }
 
 /// A time of a reference, and the quantities then.

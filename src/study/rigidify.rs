@@ -1,14 +1,14 @@
 //! What would it cost to make a part rigid, and what would it save? Each part's share of the elastic energy says where to look;
 //! a run with that part rigid says what comes of it.
 
-use super::advice::{Advice, Part};
+use super::advice::{AdvisedPart, StudyAdvice};
 use super::grid::{SAMPLES, output};
 use super::history;
 use super::manifest::Manifest;
-use super::options::{AS_IT_IS, Fault, Options, RIGID, RUNS};
+use super::options::{AS_IT_IS, Options, RIGID, RUNS, StudyFault};
 use super::process::Program;
-use super::progress::Progress;
-use super::run::{Run, Status};
+use super::progress::StudyProgress;
+use super::run::{RunStatus, StudyRun};
 use super::run_all::program;
 use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
@@ -55,7 +55,7 @@ struct Trial<'a> {
 type Shares = HashMap<(String, String), [f64; 2]>;
 
 /// Runs the deck as it is and with each part rigid; writes rigidify.csv.
-pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Advice, Fault> {
+pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<StudyAdvice, StudyFault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);
     let candidates = candidates(deck);
@@ -73,17 +73,17 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     let mut runs = runs.into_iter();
     let Some(base) = runs.next().flatten() else {
         let message = "stopped before the first run came to its end";
-        return Err(Fault::Io(io::Error::new(io::ErrorKind::Interrupted, message)));
+        return Err(StudyFault::Io(io::Error::new(io::ErrorKind::Interrupted, message)));
     };
     let count = quantities.len();
     let parts = candidates.into_iter().zip(runs).map(|(candidate, run)| part(candidate, run, &base, &shares, count));
     let parts = parts.collect();
-    let advice = Advice { quantities, samples, base, parts, stopped };
+    let advice = StudyAdvice { quantities, samples, base, parts, stopped };
     manifest.write(TABLE, advice.table().as_bytes())?;
     Ok(advice)
 }
 
-fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Result<(), Fault> {
+fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Result<(), StudyFault> {
     let mut problems: Vec<Diagnostic> = obstacle(model).map(Diagnostic::error).into_iter().collect();
     if quantities.is_empty() {
         let hint = "name a point or a body, or list `quantities` in `[study]`";
@@ -92,7 +92,7 @@ fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Re
     if candidates.is_empty() {
         problems.push(Diagnostic::error("the deck has no part that deforms"));
     }
-    if problems.is_empty() { Ok(()) } else { Err(Fault::Deck(problems)) }
+    if problems.is_empty() { Ok(()) } else { Err(StudyFault::Deck(problems)) }
 }
 
 fn jobs(candidates: &[Candidate], options: &Options, common: &[String]) -> Vec<Job> {
@@ -113,11 +113,11 @@ impl Trial<'_> {
         jobs: &[Job],
         manifest: &mut Manifest,
         stop: &AtomicBool,
-    ) -> Result<(Vec<Option<Run>>, Shares, bool), Fault> {
+    ) -> Result<(Vec<Option<StudyRun>>, Shares, bool), StudyFault> {
         let repeats = self.options.repeats;
-        let mut runs: Vec<Option<Run>> = vec![None; jobs.len()];
+        let mut runs: Vec<Option<StudyRun>> = vec![None; jobs.len()];
         let mut shares = Shares::new();
-        let mut progress = Progress::new(self.options.quiet, (repeats * jobs.len()) as f64);
+        let mut progress = StudyProgress::new(self.options.quiet, (repeats * jobs.len()) as f64);
         let mut stopped = false;
         'all: for repeat in 0..repeats {
             for (index, job) in jobs.iter().enumerate() {
@@ -136,9 +136,9 @@ impl Trial<'_> {
                     stopped = true;
                     break 'all;
                 };
-                let run = Run::new(0, self.time_step, job.folder.clone(), &ended, &place)?;
+                let run = StudyRun::new(0, self.time_step, job.folder.clone(), &ended, &place)?;
                 match &mut runs[index] {
-                    Some(before) if run.status == Status::Done => before.again(run.loop_s, ended.process_s),
+                    Some(before) if run.status == RunStatus::Done => before.again(run.loop_s, ended.process_s),
                     Some(_) => {}
                     none => {
                         let run = run.with_history(self.quantities, self.samples, self.end, &place);
@@ -154,33 +154,33 @@ impl Trial<'_> {
         Ok((runs, shares, stopped))
     }
 
-    fn is_enough(&self, run: &Run, repeat: usize) -> bool {
-        run.status != Status::Done || run.process_s * repeat as f64 > self.options.budget
+    fn is_enough(&self, run: &StudyRun, repeat: usize) -> bool {
+        run.status != RunStatus::Done || run.process_s * repeat as f64 > self.options.budget
     }
 }
 
 /// Of the deck as it is, which must not be refused.
-fn shares_of(base: &Run, place: &Path) -> Result<Shares, Fault> {
+fn shares_of(base: &StudyRun, place: &Path) -> Result<Shares, StudyFault> {
     match base.status {
-        Status::Failed => {
+        RunStatus::Failed => {
             let message = format!("the deck as it is fails: {}", base.reason);
-            Err(Fault::Deck(vec![Diagnostic::error(message)]))
+            Err(StudyFault::Deck(vec![Diagnostic::error(message)]))
         }
-        Status::Done => Ok(read_shares(&place.join("parts.csv"))?),
-        Status::NotConverged => Ok(Shares::new()),
+        RunStatus::Done => Ok(read_shares(&place.join("parts.csv"))?),
+        RunStatus::NotConverged => Ok(Shares::new()),
     }
 }
 
 /// A part with what is known of it; `count`: of quantities.
-fn part(candidate: Candidate, run: Option<Run>, base: &Run, shares: &Shares, count: usize) -> Part {
+fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &Shares, count: usize) -> AdvisedPart {
     let key = (candidate.kind.to_owned(), candidate.name.clone());
     let [peak_share, mean_share] = match base.status {
-        Status::Done => shares.get(&key).copied().unwrap_or([0.0; 2]).map(Some),
+        RunStatus::Done => shares.get(&key).copied().unwrap_or([0.0; 2]).map(Some),
         _ => [None; 2],
     };
     let rigid = match (run, &candidate.set) {
         (Some(mut run), _) => {
-            if run.status == Status::Done && base.status == Status::Done {
+            if run.status == RunStatus::Done && base.status == RunStatus::Done {
                 let error = |of: &dyn Fn(usize) -> bool| history::error(&run.history, &base.history, count, of);
                 let (all, each) = (error(&|_| true), (0..count).map(|k| error(&|i| i == k)).collect());
                 (run.error, run.errors) = (Some(all), each);
@@ -190,7 +190,7 @@ fn part(candidate: Candidate, run: Option<Run>, base: &Run, shares: &Shares, cou
         (None, None) => Err("a bar has no inertia about itself, so it cannot be a body".to_owned()),
         (None, Some(_)) => Err("not run".to_owned()),
     };
-    Part { kind: candidate.kind, name: candidate.name, peak_share, mean_share, rigid }
+    AdvisedPart { kind: candidate.kind, name: candidate.name, peak_share, mean_share, rigid }
 }
 
 /// Parts that are not rigid already.

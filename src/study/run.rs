@@ -11,33 +11,33 @@ use std::path::Path;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Status {
+pub enum RunStatus {
     Done,
     NotConverged,
     /// Refused, or ended in another way.
     Failed,
 }
 
-impl Status {
+impl RunStatus {
     pub fn word(self) -> &'static str {
         match self {
-            Status::Done => "done",
-            Status::NotConverged => "not-converged",
-            Status::Failed => "failed",
+            RunStatus::Done => "done",
+            RunStatus::NotConverged => "not-converged",
+            RunStatus::Failed => "failed",
         }
     }
 }
 
 /// A setting and what came of it.
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct StudyRun {
     /// Index into [`StudyGrid::lines`].
     pub line: usize,
     /// Its time step; on an automatic line, its tolerance.
     pub resolution: f64,
     /// Its folder, below that of the study.
     pub folder: String,
-    pub status: Status,
+    pub status: RunStatus,
     /// Why it failed; empty when done.
     pub reason: String,
     pub measured: Measured,
@@ -70,10 +70,10 @@ pub struct Measured {
 /// Errors below so many times that of the reference are not told apart from it.
 pub const RESOLVED: f64 = 3.0;
 
-impl Run {
+impl StudyRun {
     /// Its error against the values of a reference, which are themselves off by up to `error_bound`.
     pub fn judge(&mut self, reference: &[f64], error_bound: f64, count: usize) {
-        if self.status != Status::Done {
+        if self.status != RunStatus::Done {
             return;
         }
         let error = history::error(&self.history, reference, count, |_| true);
@@ -83,21 +83,21 @@ impl Run {
     }
 }
 
-impl Run {
-    pub fn new(line: usize, resolution: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<Run> {
+impl StudyRun {
+    pub fn new(line: usize, resolution: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<StudyRun> {
         let status = match ended.code {
-            Some(0) => Status::Done,
-            Some(4) => Status::NotConverged,
-            _ => Status::Failed,
+            Some(0) => RunStatus::Done,
+            Some(4) => RunStatus::NotConverged,
+            _ => RunStatus::Failed,
         };
         let reason = match (status, ended.code) {
-            (Status::Done, _) => String::new(),
-            (Status::NotConverged, _) => reason(place),
+            (RunStatus::Done, _) => String::new(),
+            (RunStatus::NotConverged, _) => reason(place),
             (_, Some(code)) => first_error(&ended.said).unwrap_or_else(|| format!("exit code {code}")),
             (_, None) => "ended by a signal".to_owned(),
         };
-        let measured = if status == Status::Failed { Measured::default() } else { measured(place)? };
-        Ok(Run {
+        let measured = if status == RunStatus::Failed { Measured::default() } else { measured(place)? };
+        Ok(StudyRun {
             line,
             resolution,
             folder,
@@ -127,11 +127,11 @@ impl Run {
     }
 
     /// With what it has written; where that is not whole, it has failed.
-    pub fn with_history(mut self, quantities: &[Quantity], samples: usize, end: f64, place: &Path) -> Run {
-        if self.status == Status::Done {
+    pub fn with_history(mut self, quantities: &[Quantity], samples: usize, end: f64, place: &Path) -> StudyRun {
+        if self.status == RunStatus::Done {
             match history::read(place, quantities, samples, end) {
                 Ok(values) => self.history = values,
-                Err(error) => (self.status, self.reason) = (Status::Failed, one_line(&error.to_string())),
+                Err(error) => (self.status, self.reason) = (RunStatus::Failed, one_line(&error.to_string())),
             }
         }
         self
@@ -147,7 +147,7 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
 /// How far times can be trusted: the median of a setting's times over the least of them, and of these ratios the median over all
 /// settings.
 /// `None`: nothing was run twice.
-pub fn spread(runs: &[Run]) -> Option<f64> {
+pub fn spread(runs: &[StudyRun]) -> Option<f64> {
     let twice = runs.iter().filter(|run| run.times.len() > 1 && run.loop_s > 0.0);
     median(twice.map(|run| run.median_s() / run.loop_s).collect())
 }

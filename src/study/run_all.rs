@@ -3,10 +3,10 @@
 
 use super::grid::StudyGrid;
 use super::manifest::Manifest;
-use super::options::{Fault, Options, RUNS};
+use super::options::{Options, RUNS, StudyFault};
 use super::process::Program;
-use super::progress::Progress;
-use super::run::{Run, Status, measured};
+use super::progress::StudyProgress;
+use super::run::{RunStatus, StudyRun, measured};
 use crate::model::study::Quantity;
 use std::io;
 use std::sync::atomic::AtomicBool;
@@ -29,7 +29,7 @@ pub fn run_all(
     options: &Options,
     manifest: &mut Manifest,
     stop: &AtomicBool,
-) -> Result<(Vec<Run>, bool), Fault> {
+) -> Result<(Vec<StudyRun>, bool), StudyFault> {
     let program = program(options)?;
     let mut jobs = Vec::new();
     for line in 0..grid.lines.len() {
@@ -41,15 +41,16 @@ pub fn run_all(
     // A process itself costs as much as some hundred steps.
     let work = |line: usize, resolution: f64| 300.0 + grid.work(line, resolution);
     let all: f64 = jobs.iter().map(|(line, resolution, _)| work(*line, *resolution)).sum();
-    let mut progress = Progress::new(options.quiet, all * options.repeats as f64);
-    let mut runs: Vec<Run> = Vec::new();
+    let mut progress = StudyProgress::new(options.quiet, all * options.repeats as f64);
+    let mut runs: Vec<StudyRun> = Vec::new();
     let mut stopped = false;
     for repeat in 0..options.repeats {
         for (index, (line, resolution, sets)) in jobs.iter().enumerate() {
             let label = format!("{}, {}", grid.lines[*line].label, crate::names::short(*resolution));
             progress.show(&label, repeat + 1, options.repeats);
             let folder = folder(index);
-            let enough = |run: &Run| run.status != Status::Done || run.process_s * repeat as f64 > options.budget;
+            let enough =
+                |run: &StudyRun| run.status != RunStatus::Done || run.process_s * repeat as f64 > options.budget;
             if repeat > 0 && runs.get(index).is_none_or(enough) {
                 progress.did(work(*line, *resolution));
                 continue;
@@ -64,7 +65,7 @@ pub fn run_all(
             };
             progress.did(work(*line, *resolution));
             if repeat == 0 {
-                let run = Run::new(*line, *resolution, folder, &ended, &place)?;
+                let run = StudyRun::new(*line, *resolution, folder, &ended, &place)?;
                 runs.push(run.with_history(quantities, grid.samples, grid.end_time, &place));
             } else if ended.code == Some(0)
                 && let (Some(run), Ok(again)) = (runs.get_mut(index), measured(&place))

@@ -3,7 +3,7 @@
 use super::found::Found;
 use super::grid::float;
 use super::order::local;
-use super::run::Run;
+use super::run::StudyRun;
 
 const COLUMNS: [&str; 22] = [
     "run",
@@ -45,7 +45,7 @@ pub fn table(found: &Found) -> String {
     let mut header: Vec<String> = COLUMNS.map(String::from).to_vec();
     header.extend(found.quantities.iter().map(|quantity| field(&format!("error:{}", quantity.word()))));
     let mut text = header.join(",") + "\n";
-    let mut before: Option<&Run> = None;
+    let mut before: Option<&StudyRun> = None;
     for (index, run) in found.runs.iter().enumerate() {
         let line = &found.grid.lines[run.line];
         let order = local(before.filter(|before| before.line == run.line), run);

@@ -2,16 +2,16 @@
 
 use super::columns::columns;
 use super::found::Found;
-use super::grid::Line;
+use super::grid::StudyLine;
 use super::order::{Cheapest, Order, local};
-use super::run::{Run, Status, spread};
+use super::run::{RunStatus, StudyRun, spread};
 use crate::names::short;
 
 pub const HEAD: [&str; 9] =
     ["setting", "time step", "error", "order", "loop s", "process s", "iterations", "factorizations", "status"];
 
 /// An error to two digits; a bound is said to be one.
-pub fn error(run: &Run) -> String {
+pub fn error(run: &StudyRun) -> String {
     match run.error {
         Some(error) if run.resolved => format!("{error:.2e}"),
         Some(error) => format!("<= {error:.1e}"),
@@ -30,7 +30,7 @@ pub fn seconds(seconds: f64) -> String {
 
 /// The cells of all runs, in the columns of [`HEAD`].
 pub fn cells(found: &Found) -> Vec<Vec<String>> {
-    let mut before: Option<&Run> = None;
+    let mut before: Option<&StudyRun> = None;
     let mut rows = Vec::new();
     for run in &found.runs {
         let line = &found.grid.lines[run.line];
@@ -39,7 +39,7 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
         let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
         let cuts = if run.measured.cuts > 0 { format!(", {} cuts", run.measured.cuts) } else { String::new() };
         let status = match run.status {
-            Status::Done => format!("done{cuts}"),
+            RunStatus::Done => format!("done{cuts}"),
             status => format!("{}: {}", status.word(), run.reason),
         };
         rows.push(vec![
@@ -58,11 +58,11 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
 }
 
 /// A time step, or a tolerance that says it is one.
-pub fn resolution(line: &Line, resolution: f64) -> String {
+pub fn resolution(line: &StudyLine, resolution: f64) -> String {
     if line.automatic { format!("tol {}", short(resolution)) } else { short(resolution) }
 }
 
-pub fn order(line: &Line, order: &Result<Order, &str>) -> String {
+pub fn order(line: &StudyLine, order: &Result<Order, &str>) -> String {
     let order = match order {
         Ok(order) => order,
         Err(reason) => return (*reason).to_owned(),
@@ -75,7 +75,7 @@ pub fn order(line: &Line, order: &Result<Order, &str>) -> String {
 }
 
 /// "0.0021 s (process 0.0070 s), time step 0.0071".
-pub fn cost(line: &Line, of: &Cheapest) -> String {
+pub fn cost(line: &StudyLine, of: &Cheapest) -> String {
     let what = if line.automatic { "tolerance" } else { "time step" };
     let bound = if of.at_the_top { ", the coarsest setting run" } else { "" };
     let (loop_s, process_s) = (seconds(of.loop_s), seconds(of.process_s));

@@ -42,6 +42,66 @@ pub struct Energy {
 }
 
 impl Energy {
+    /// Energies and momenta of a state. `initial` is the mechanical energy at t = 0, from which the balance is drawn;
+    /// `None` at t = 0.
+    pub fn of(system: &System, state: &State, initial: Option<f64>, threads: usize) -> Energy {
+        let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
+        let stored = |of: &(dyn Fn(PartKind) -> bool + Sync)| -> f64 {
+            thread_partition::sum(&system.groups, system.splits(threads), &|group| match of(group.kind) {
+                true => group.block.energy(&group.share(&now)),
+                false => 0.0,
+            })
+        };
+        let strain = stored(&PartKind::is_deformable) + work.material.stored;
+        let links = stored(&|kind| kind == PartKind::Link);
+        let contact = if system.has_contacts() { stored(&|kind| kind == PartKind::Contact) } else { 0.0 };
+        let mut kinetic = 0.0;
+        let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
+        for inertia in &system.inertias {
+            let node = &nodes[inertia.node];
+            kinetic += inertia.kinetic_energy(node);
+            let momentum = inertia.mass * node.v;
+            p += momentum;
+            l += node.x.cross(&momentum);
+            if inertia.rotary {
+                l += inertia.J(node) * node.omega;
+            }
+        }
+        for mass in &system.consistent {
+            kinetic += mass.kinetic_energy(nodes);
+            let (dp, dl) = mass.momentum(nodes);
+            p += dp;
+            l += dl;
+        }
+        if !system.dynamic {
+            (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
+        }
+        let mechanical = kinetic + strain + links + contact;
+        Energy {
+            kinetic,
+            strain,
+            plastic: work.material.plastic,
+            viscoplastic: work.material.viscous,
+            damping: work.damping,
+            links,
+            external: work.external,
+            numerical: initial.unwrap_or(mechanical) + work.external
+                - work.damping
+                - work.material.plastic
+                - work.material.viscous
+                - work.material.friction
+                - work.material.impact
+                - mechanical,
+            mechanical,
+            p,
+            l,
+            contact,
+            friction: work.material.friction,
+            impact: work.material.impact,
+            verlet_energy_offset: work.verlet_energy_offset,
+        }
+    }
+
     /// Algorithmic dissipation without the oscillation that velocity Verlet has by itself. In linear motion it
     /// conserves ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa, so the energy at a step oscillates by the last term: up to a factor 1/(1
     /// − (ωΔt/2)²), nearly three at 0.8 of the stability limit.
@@ -114,77 +174,15 @@ impl PartEnergy {
     }
 }
 
-impl System {
-    /// Writes the elastic energy of each beam, bar and shell in deck order, without the energy stored by kinematic
-    /// hardening.
-    pub fn part_energies(&self, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
-        for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
-            let energy = group.block.energy(&group.share(now));
-            let part = &model.parts[group.part];
-            match parts.last_mut() {
-                Some(last) if last.of(model).is_one_with(part) => last.strain += energy,
-                _ => parts.push(PartEnergy { part: group.part, strain: energy }),
-            }
-        }
-    }
-
-    /// Energies and momenta of a state. `initial` is the mechanical energy at t = 0, from which the balance is drawn;
-    /// `None` at t = 0.
-    pub fn energy(&self, state: &State, initial: Option<f64>, threads: usize) -> Energy {
-        let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
-        let stored = |of: &(dyn Fn(PartKind) -> bool + Sync)| -> f64 {
-            thread_partition::sum(&self.groups, self.splits(threads), &|group| match of(group.kind) {
-                true => group.block.energy(&group.share(&now)),
-                false => 0.0,
-            })
-        };
-        let strain = stored(&PartKind::is_deformable) + work.material.stored;
-        let links = stored(&|kind| kind == PartKind::Link);
-        let contact = if self.has_contacts() { stored(&|kind| kind == PartKind::Contact) } else { 0.0 };
-        let mut kinetic = 0.0;
-        let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
-        for inertia in &self.inertias {
-            let node = &nodes[inertia.node];
-            kinetic += inertia.kinetic_energy(node);
-            let momentum = inertia.mass * node.v;
-            p += momentum;
-            l += node.x.cross(&momentum);
-            if inertia.rotary {
-                l += inertia.J(node) * node.omega;
-            }
-        }
-        for mass in &self.consistent {
-            kinetic += mass.kinetic_energy(nodes);
-            let (dp, dl) = mass.momentum(nodes);
-            p += dp;
-            l += dl;
-        }
-        if !self.dynamic {
-            (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
-        }
-        let mechanical = kinetic + strain + links + contact;
-        Energy {
-            kinetic,
-            strain,
-            plastic: work.material.plastic,
-            viscoplastic: work.material.viscous,
-            damping: work.damping,
-            links,
-            external: work.external,
-            numerical: initial.unwrap_or(mechanical) + work.external
-                - work.damping
-                - work.material.plastic
-                - work.material.viscous
-                - work.material.friction
-                - work.material.impact
-                - mechanical,
-            mechanical,
-            p,
-            l,
-            contact,
-            friction: work.material.friction,
-            impact: work.material.impact,
-            verlet_energy_offset: work.verlet_energy_offset,
+/// Writes the elastic energy of each beam, bar and shell in deck order, without the energy stored by kinematic
+/// hardening.
+pub fn part_energies(system: &System, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
+    for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
+        let energy = group.block.energy(&group.share(now));
+        let part = &model.parts[group.part];
+        match parts.last_mut() {
+            Some(last) if last.of(model).is_one_with(part) => last.strain += energy,
+            _ => parts.push(PartEnergy { part: group.part, strain: energy }),
         }
     }
 }

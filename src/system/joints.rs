@@ -168,20 +168,15 @@ impl Diagonal {
     }
 }
 
-/// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
-/// `projections` are those of the nodes onto independent nodes; with `stiffness` the matrix holds the derivative of the
-/// joint's forces.
-pub(super) fn tangents(
+/// Finds the penalty factors, which rest on the matrix before any joint has added to it. An equation on which nothing acts has the
+/// factor of the stiffest other.
+fn set_penalties(
     system: &System,
     nodes: &[Node],
     (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
     multipliers: &mut Multipliers,
-    stiffness: bool,
-    values: &mut [f64],
-    mut add: impl FnMut(usize, &[f64], &mut [f64]),
+    values: &[f64],
 ) {
-    // The penalty factors rest on the matrix before any joint has added to it. An equation on which nothing acts has
-    // the factor of the stiffest other.
     let mut stiffest = [0.0f64; 2];
     let mut first = 0;
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {
@@ -201,6 +196,21 @@ pub(super) fn tangents(
             *s = if other > 0.0 { other } else { 1.0 };
         }
     }
+}
+
+/// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
+/// `projections` are those of the nodes onto independent nodes; with `stiffness` the matrix holds the derivative of the
+/// joint's forces.
+pub(super) fn tangents(
+    system: &System,
+    nodes: &[Node],
+    (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
+    multipliers: &mut Multipliers,
+    stiffness: bool,
+    values: &mut [f64],
+    mut add: impl FnMut(usize, &[f64], &mut [f64]),
+) {
+    set_penalties(system, nodes, (diagonals, projections), multipliers, values);
     let mut K = [0.0; WIDTH * WIDTH];
     let mut first = 0;
     for (j, joint) in system.joints.iter().enumerate() {

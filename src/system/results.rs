@@ -64,79 +64,77 @@ impl ShellState {
     }
 }
 
-impl System {
-    /// Writes the states of all links into `out`, in deck order.
-    pub fn link_states(&self, nodes: &[Node], out: &mut Vec<LinkState>) {
-        out.clear();
-        out.extend(self.watched.iter().map(|link| match link {
-            Watched::Line(link) => {
-                let (elongation, rate, force) = link.state(nodes);
-                LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros() }
-            }
-            Watched::Bushing(bushing) => {
-                let (d, rate, f, m) = bushing.state(nodes);
-                let [first, second] = bushing.nodes.map(|n| &nodes[n]);
-                let B = first.R() * bushing.axes;
-                // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
-                // the first.
-                let f_global = B * f;
-                let m = B * m + (second.x - first.x).cross(&f_global);
-                LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
-            }
-        }));
-    }
+/// Writes the states of all links into `out`, in deck order.
+pub fn link_states(system: &System, nodes: &[Node], out: &mut Vec<LinkState>) {
+    out.clear();
+    out.extend(system.watched.iter().map(|link| match link {
+        Watched::Line(link) => {
+            let (elongation, rate, force) = link.state(nodes);
+            LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros() }
+        }
+        Watched::Bushing(bushing) => {
+            let (d, rate, f, m) = bushing.state(nodes);
+            let [first, second] = bushing.nodes.map(|n| &nodes[n]);
+            let B = first.R() * bushing.axes;
+            // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
+            // the first.
+            let f_global = B * f;
+            let m = B * m + (second.x - first.x).cross(&f_global);
+            LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
+        }
+    }));
+}
 
-    /// Writes the largest accumulated plastic strain of each element into `out`: all beams, bars and shells in deck
-    /// order.
-    pub fn plastic_strains(&self, now: &Configuration, out: &mut Vec<f64>) {
-        out.clear();
-        for group in self.groups.iter().filter(|group| group.kind.is_deformable()) {
-            let history = group.share(now).history;
-            out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, history)));
+/// Writes the largest accumulated plastic strain of each element into `out`: all beams, bars and shells in deck
+/// order.
+pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>) {
+    out.clear();
+    for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
+        let history = group.share(now).history;
+        out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, history)));
+    }
+}
+
+/// Writes the stress resultants of all elements of all shells into `out`, in deck order.
+pub fn shell_states(system: &System, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
+    out.clear();
+    for group in &system.groups {
+        let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
+        let now = group.share(now);
+        for e in 0..group.block.len() {
+            let element = group.first + e;
+            let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
+            let resultants = group.block.resultants(e, &shell.axis, &start[..shell.corners], &now);
+            let Some(mut at) = resultants else { continue };
+            if at.layers().is_empty() {
+                at.set_elastic_layers(shell.plate.thickness);
+            }
+            out.push(ShellState { part: group.part, element: shell.number(element), at });
         }
     }
+}
 
-    /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
-    pub fn shell_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
-        out.clear();
-        for group in &self.groups {
-            let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
-            let now = group.share(now);
-            for e in 0..group.block.len() {
-                let element = group.first + e;
-                let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
-                let resultants = group.block.resultants(e, &shell.axis, &start[..shell.corners], &now);
-                let Some(mut at) = resultants else { continue };
-                if at.layers().is_empty() {
-                    at.set_elastic_layers(shell.plate.thickness);
-                }
-                out.push(ShellState { part: group.part, element: shell.number(element), at });
-            }
+/// Writes the stress resultants at all integration points of all beams into `out`, in deck order.
+pub fn section_points(system: &System, model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
+    out.clear();
+    let mut start = 0.0;
+    for group in &system.groups {
+        let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
+        let now = group.share(now);
+        if group.first == 0 {
+            start = 0.0;
         }
-    }
-
-    /// Writes the stress resultants at all integration points of all beams into `out`, in deck order.
-    pub fn section_points(&self, model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
-        out.clear();
-        let mut start = 0.0;
-        for group in &self.groups {
-            let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
-            let now = group.share(now);
-            if group.first == 0 {
-                start = 0.0;
+        for e in 0..group.block.len() {
+            let element = group.first + e;
+            let spec = &beam.elements[element];
+            let frame: &Mat3 = &spec.frame;
+            for point in 0..group.block.points() {
+                let Some(mut at) = group.block.point(e, point, frame, &now) else { continue };
+                at.s += start;
+                out.push(SectionPoint { part: group.part, element, point, at });
             }
-            for e in 0..group.block.len() {
-                let element = group.first + e;
-                let spec = &beam.elements[element];
-                let frame: &Mat3 = &spec.frame;
-                for point in 0..group.block.points() {
-                    let Some(mut at) = group.block.point(e, point, frame, &now) else { continue };
-                    at.s += start;
-                    out.push(SectionPoint { part: group.part, element, point, at });
-                }
-                let ends = (spec.nodes[0], spec.nodes[beam.order]);
-                start += (model.nodes[ends.1].x - model.nodes[ends.0].x).norm();
-            }
+            let ends = (spec.nodes[0], spec.nodes[beam.order]);
+            start += (model.nodes[ends.1].x - model.nodes[ends.0].x).norm();
         }
     }
 }

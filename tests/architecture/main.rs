@@ -5,6 +5,7 @@
 
 mod circles;
 mod kinds;
+mod names;
 mod ratchet;
 mod rows;
 mod sizes;

@@ -7,6 +7,7 @@ use rdsolve::model::{Cadence, Model};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Run, Wanted};
 use rdsolve::system::System;
+use rdsolve::system::energy::Energy;
 use std::sync::atomic::AtomicBool;
 
 /// Of a mode with ω² = κ and a damper γ: ¼ κ Δt² + γ Δt = 1.
@@ -94,7 +95,7 @@ velocity = [2.0, 0.0, 0.0]
     let system = System::new(&model).unwrap();
     let mut totals = Vec::new();
     let done = run_to_the_end(&model, &mut |frame| {
-        let energy = system.energy(frame.state, None, 1);
+        let energy = Energy::of(&system, frame.state, None, 1);
         totals.push(energy.mechanical);
         vec![energy.mechanical]
     });

@@ -14,7 +14,7 @@ use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::*;
 use rdsolve::plan::Plan;
 use rdsolve::sections::{Fibre, Stiffness};
-use rdsolve::solids::sphere::Sphere;
+use rdsolve::solids::sphere::SolidSphere;
 use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, Wanted};
 use rdsolve::state::State;
 use rdsolve::system::System;
@@ -99,7 +99,7 @@ pub fn node(m: &mut Model, x: Vec3) -> usize {
 
 pub fn body(m: &mut Model, x: Vec3, mass: f64, inertia: Mat3) -> usize {
     let n = node(m, x);
-    m.bodies.push(Body { name: format!("b{n}"), node: n, mass, inertia, shape: Arc::new(Sphere { radius: 1.0 }) });
+    m.bodies.push(Body { name: format!("b{n}"), node: n, mass, inertia, shape: Arc::new(SolidSphere { radius: 1.0 }) });
     n
 }
 

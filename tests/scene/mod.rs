@@ -8,9 +8,9 @@ use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
 use rdsolve::solids::SolidShape;
-use rdsolve::solids::cuboid::Cuboid;
+use rdsolve::solids::cuboid::SolidCuboid;
 use rdsolve::solids::hollow::HollowCylinder;
-use rdsolve::solids::sphere::Sphere;
+use rdsolve::solids::sphere::SolidSphere;
 use rdsolve::solve::{ContactState, Derived, Frame, LinkState, SectionPoint};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
@@ -40,8 +40,8 @@ pub fn model() -> Model {
     };
     let axis = Vec3::new(1.0, 1.0, 0.0);
     let shapes: [Arc<dyn SolidShape>; 4] = [
-        Arc::new(Cuboid { size: [1.0, 0.5, 0.2], axes: Mat3::identity() }),
-        Arc::new(Sphere { radius: 0.5 }),
+        Arc::new(SolidCuboid { size: [1.0, 0.5, 0.2], axes: Mat3::identity() }),
+        Arc::new(SolidSphere { radius: 0.5 }),
         Arc::new(HollowCylinder { radius: 0.5, inner_radius: 0.0, length: 1.0, axis }),
         Arc::new(HollowCylinder { radius: 0.5, inner_radius: 0.4, length: 1.0, axis }),
     ];

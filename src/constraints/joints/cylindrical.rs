@@ -1,6 +1,6 @@
 //! The cylindrical joint leaves the rotation about its axis and the displacement along it free.
 
-use super::kind::{AXIS, JointKind, Make, one_axis, sliding};
+use super::kind::{AXIS, JointKind, MakeJoint, one_axis, sliding};
 use crate::constraints::joint::rotations;
 
 /// The joint's word, keys and equations.
@@ -10,7 +10,7 @@ pub static KIND: JointKind = JointKind {
     guesses: &[],
     about: "The rotation about `axis` and the displacement along it are free. 4 constraint equations.",
     keys: &[AXIS],
-    make: Make {
+    make: MakeJoint {
         axes: one_axis,
         ends_meet: true,
         equations: |axes, d| sliding(axes, d, rotations([false, true, true], axes)),

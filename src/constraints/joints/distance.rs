@@ -1,6 +1,6 @@
 //! The distance joint keeps the distance of its ends: a rigid rod without mass between two spherical joints.
 
-use super::kind::{JointKind, Make, no_axis};
+use super::kind::{JointKind, MakeJoint, no_axis};
 use crate::constraints::joint::ConstraintEquation;
 
 /// The joint's word, keys and equations.
@@ -10,7 +10,7 @@ pub static KIND: JointKind = JointKind {
     guesses: &["rod", "rigid-link"],
     about: "All is free but the distance of the ends: a rigid rod without mass. 1 constraint equation.",
     keys: &[],
-    make: Make {
+    make: MakeJoint {
         axes: no_axis,
         ends_meet: false,
         equations: |_, d| vec![ConstraintEquation::Distance { length: d.norm() }],

@@ -1,6 +1,6 @@
 //! The fixed joint welds the ends together.
 
-use super::kind::{JointKind, Make, meeting, no_axis};
+use super::kind::{JointKind, MakeJoint, meeting, no_axis};
 use crate::constraints::joint::rotations;
 
 /// The joint's word, keys and equations.
@@ -10,5 +10,5 @@ pub static KIND: JointKind = JointKind {
     guesses: &["welded", "clamp", "rigid", "lock"],
     about: "Nothing is free: the ends are welded together. 6 constraint equations.",
     keys: &[],
-    make: Make { axes: no_axis, ends_meet: true, equations: |axes, d| meeting(d, rotations([true; 3], axes)) },
+    make: MakeJoint { axes: no_axis, ends_meet: true, equations: |axes, d| meeting(d, rotations([true; 3], axes)) },
 };

@@ -5,11 +5,11 @@ use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key, Kind};
 
 /// A kind of joint that the deck can name.
-pub type JointKind = Kind<Make>;
+pub type JointKind = Kind<MakeJoint>;
 
 /// The constraint equations of a kind of joint.
 #[derive(Debug)]
-pub struct Make {
+pub struct MakeJoint {
     /// The joint's axes as columns, global at t = 0; the first is the axis that the deck gives. `None` where a key is wrong.
     pub axes: fn(&mut Given) -> Option<Mat3>,
     /// The two ends lie at the same place at t = 0; otherwise they must not.

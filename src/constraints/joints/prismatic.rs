@@ -1,6 +1,6 @@
 //! The prismatic joint leaves the displacement along its axis free.
 
-use super::kind::{AXIS, JointKind, Make, one_axis, sliding};
+use super::kind::{AXIS, JointKind, MakeJoint, one_axis, sliding};
 use crate::constraints::joint::rotations;
 
 /// The joint's word, keys and equations.
@@ -10,5 +10,9 @@ pub static KIND: JointKind = JointKind {
     guesses: &["translational", "sliding"],
     about: "The displacement along `axis` is free. 5 constraint equations.",
     keys: &[AXIS],
-    make: Make { axes: one_axis, ends_meet: true, equations: |axes, d| sliding(axes, d, rotations([true; 3], axes)) },
+    make: MakeJoint {
+        axes: one_axis,
+        ends_meet: true,
+        equations: |axes, d| sliding(axes, d, rotations([true; 3], axes)),
+    },
 };

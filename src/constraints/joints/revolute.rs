@@ -1,6 +1,6 @@
 //! The revolute joint leaves the rotation about its axis free.
 
-use super::kind::{AXIS, JointKind, Make, meeting, one_axis};
+use super::kind::{AXIS, JointKind, MakeJoint, meeting, one_axis};
 use crate::constraints::joint::rotations;
 
 /// The joint's word, keys and equations.
@@ -10,7 +10,7 @@ pub static KIND: JointKind = JointKind {
     guesses: &["pin", "pinned", "rotational"],
     about: "The rotation about `axis` is free. 5 constraint equations.",
     keys: &[AXIS],
-    make: Make {
+    make: MakeJoint {
         axes: one_axis,
         ends_meet: true,
         equations: |axes, d| meeting(d, rotations([false, true, true], axes)),

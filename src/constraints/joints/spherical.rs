@@ -1,6 +1,6 @@
 //! The spherical joint keeps the ends at one place and leaves all rotations free.
 
-use super::kind::{JointKind, Make, meeting, no_axis};
+use super::kind::{JointKind, MakeJoint, meeting, no_axis};
 
 /// The joint's word, keys and equations.
 pub static KIND: JointKind = JointKind {
@@ -9,5 +9,5 @@ pub static KIND: JointKind = JointKind {
     guesses: &["ball-and-socket"],
     about: "Three rotations are free: a ball-and-socket joint. 3 constraint equations.",
     keys: &[],
-    make: Make { axes: no_axis, ends_meet: true, equations: |_, d| meeting(d, Vec::new()) },
+    make: MakeJoint { axes: no_axis, ends_meet: true, equations: |_, d| meeting(d, Vec::new()) },
 };

@@ -1,6 +1,6 @@
 //! The universal (Cardan, Hooke) joint leaves the rotations about the two arms of its cross free, one arm on either end.
 
-use super::kind::{JointKind, Make, meeting};
+use super::kind::{JointKind, MakeJoint, meeting};
 use crate::constraints::joint::rotations;
 use crate::math::Mat3;
 use crate::words::kinds::{Form, Given, Key};
@@ -23,7 +23,7 @@ pub static KIND: JointKind = JointKind {
             about: "The arm of the cross that `to` carries, global at t = 0, perpendicular to `axis`. Any length.",
         },
     ],
-    make: Make { axes, ends_meet: true, equations: |axes, d| meeting(d, rotations([false, false, true], axes)) },
+    make: MakeJoint { axes, ends_meet: true, equations: |axes, d| meeting(d, rotations([false, false, true], axes)) },
 };
 
 /// The arms of a cross count as perpendicular below this cosine of their angle.

@@ -10,7 +10,7 @@ mod select;
 
 pub use join::{Alone, Worst};
 pub use prefetch::shown;
-pub use select::{Selector, Tolerance, size};
+pub use select::{ColumnTolerance, Selector, size};
 
 use super::disk::at;
 use super::table_reader::{TableReader, fields, is_key, number};
@@ -24,7 +24,7 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Relative to the scale of a column; where none takes it, [`TOLERANCE`].
-    pub tolerances: Vec<Tolerance>,
+    pub tolerances: Vec<ColumnTolerance>,
     /// Differences up to this are none.
     pub absolute: f64,
     /// Only these columns; all, where there are none.
@@ -39,7 +39,7 @@ const COST: &str = "steps.csv";
 
 /// One column of both sides.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct ComparedColumn {
     pub name: String,
     pub worst: Worst,
     /// Of what `worst` is a part.
@@ -49,7 +49,7 @@ pub struct Column {
     pub passed: bool,
 }
 
-impl Column {
+impl ComparedColumn {
     pub fn relative(&self) -> f64 {
         if self.worst.difference == 0.0 { 0.0 } else { self.worst.difference / self.scale }
     }
@@ -57,9 +57,9 @@ impl Column {
 
 /// One table of both sides.
 #[derive(Debug, Clone)]
-pub struct Table {
+pub struct ComparedTable {
     pub name: String,
-    pub columns: Vec<Column>,
+    pub columns: Vec<ComparedColumn>,
     /// Columns that one side has alone.
     pub only: [Vec<String>; 2],
     pub alone: [Alone; 2],
@@ -77,7 +77,7 @@ pub struct Table {
     pub judged: bool,
 }
 
-impl Table {
+impl ComparedTable {
     pub fn nothing_matched(&self) -> bool {
         self.rows == 0 && self.all_rows.iter().any(|&rows| rows > 0)
     }
@@ -90,7 +90,7 @@ impl Table {
 
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    pub tables: Vec<Table>,
+    pub tables: Vec<ComparedTable>,
     /// Files that one side has alone.
     pub only: [Vec<String>; 2],
     /// Of `result.json`, as it stands there.
@@ -105,7 +105,7 @@ impl Comparison {
     pub fn agrees(&self) -> bool {
         self.only.iter().all(Vec::is_empty)
             && self.status.as_ref().is_none_or(|[a, b]| a == b)
-            && self.tables.iter().all(Table::agrees)
+            && self.tables.iter().all(ComparedTable::agrees)
     }
 }
 
@@ -183,7 +183,7 @@ fn table(
     settings: &Settings,
     by_step: bool,
     chosen: &dyn Fn(&str, &str) -> bool,
-) -> io::Result<Table> {
+) -> io::Result<ComparedTable> {
     let shared: Vec<String> =
         rows[0].header.iter().filter(|column| rows[1].column(column).is_some()).cloned().collect();
     let only = [0, 1].map(|side: usize| {
@@ -212,18 +212,18 @@ fn table(
         let by = |selector: &Selector| *selector != Selector::default() && selector.takes(name, column);
         settings.columns.iter().chain(settings.tolerances.iter().map(|tolerance| &tolerance.of)).any(by)
     };
-    let columns: Vec<Column> = (values.iter().zip(joined.worst).zip(scales))
+    let columns: Vec<ComparedColumn> = (values.iter().zip(joined.worst).zip(scales))
         .filter(|((column, _), _)| chosen(name, column))
         .map(|((&column, worst), scale)| {
             let tolerance = select::closest(&settings.tolerances, name, column).map_or(TOLERANCE, |t| t.value);
             let judged = name != COST || named(column);
             let near = worst.difference <= settings.absolute || worst.difference <= tolerance * scale;
-            Column { name: column.into(), worst, scale, tolerance, judged, passed: near || !judged }
+            ComparedColumn { name: column.into(), worst, scale, tolerance, judged, passed: near || !judged }
         })
         .collect();
     let truncated = summaries.map(|summary| summary.truncated);
     let judged = name != COST || columns.iter().any(|column| column.judged);
-    Ok(Table {
+    Ok(ComparedTable {
         name: name.into(),
         only,
         alone: joined.alone,

@@ -37,20 +37,20 @@ impl FromStr for Selector {
 
 /// A tolerance for some columns, or for all.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tolerance {
+pub struct ColumnTolerance {
     pub of: Selector,
     pub value: f64,
 }
 
-impl FromStr for Tolerance {
+impl FromStr for ColumnTolerance {
     type Err = String;
 
-    fn from_str(word: &str) -> Result<Tolerance, String> {
+    fn from_str(word: &str) -> Result<ColumnTolerance, String> {
         let (of, value) = match word.rsplit_once('=') {
             Some((of, value)) => (of.parse()?, value),
             None => (Selector::default(), word),
         };
-        Ok(Tolerance { of, value: size(value)? })
+        Ok(ColumnTolerance { of, value: size(value)? })
     }
 }
 
@@ -61,7 +61,7 @@ pub fn size(word: &str) -> Result<f64, String> {
 }
 
 /// The tolerance that names a column most closely, and of several alike the last.
-pub fn closest<'t>(all: &'t [Tolerance], file: &str, column: &str) -> Option<&'t Tolerance> {
+pub fn closest<'t>(all: &'t [ColumnTolerance], file: &str, column: &str) -> Option<&'t ColumnTolerance> {
     all.iter().filter(|tolerance| tolerance.of.takes(file, column)).max_by_key(|tolerance| tolerance.of.closeness())
 }
 
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn the_closest_name_wins() {
-        let all: Vec<Tolerance> =
+        let all: Vec<ColumnTolerance> =
             ["1e-3", "nodes.csv:ux=1", "ux=2", "nodes.csv=3", "nodes.csv=4"].map(|word| word.parse().unwrap()).into();
         let value = |file, column| closest(&all, file, column).unwrap().value;
         assert_eq!(value("nodes.csv", "ux"), 1.0);
@@ -79,7 +79,7 @@ mod tests {
         assert_eq!(value("nodes.csv", "uy"), 4.0);
         assert_eq!(value("other.csv", "uy"), 1e-3);
         for wrong in ["", "a", "ux=-1", "=1", "nodes.csv:=1", "ux=inf", "ux=NaN"] {
-            assert!(wrong.parse::<Tolerance>().is_err(), "{wrong}");
+            assert!(wrong.parse::<ColumnTolerance>().is_err(), "{wrong}");
         }
     }
 }

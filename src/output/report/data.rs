@@ -4,7 +4,7 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 
 /// What moves.
 #[derive(Default)]
-pub struct Scene {
+pub struct PageScene {
     pub times: Vec<f32>,
     /// Undeformed, three numbers a point.
     pub x0: Vec<f32>,

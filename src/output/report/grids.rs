@@ -1,6 +1,6 @@
 //! The moving scene out of the grids of the fields: triangles, lines and edges, where they are over time, and what cells carry.
 
-use super::data::{Scene, numbers};
+use super::data::{PageScene, numbers};
 use crate::output::at;
 use crate::output::table_reader::{TableReader, fields, text};
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -18,7 +18,7 @@ const POINTS: usize = 1_000_000;
 const KINDS: [&str; 5] = ["beam", "bar", "shell", "link", "body"];
 
 /// The scene; `Err` in words where a folder has grids that a page cannot carry, none where there are none.
-pub fn scene(folder: &Path) -> io::Result<Option<Result<Scene, String>>> {
+pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     let grids = listed(&folder.join("fields.pvd"))?;
     let Some((_, first)) = grids.first() else { return Ok(None) };
     let kinds = kinds(&folder.join("fields.csv"))?;
@@ -30,7 +30,7 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<Scene, String>>> {
             "The fields have {count} points, more than a page can carry: see them in ParaView."
         ))));
     }
-    let mut scene = Scene { all: grids.len(), ..Scene::default() };
+    let mut scene = PageScene { all: grids.len(), ..PageScene::default() };
     let displacement = first.array("displacement", 3)?;
     if displacement.len() != points.len() {
         return Err(first.wrong("a displacement for each point"));
@@ -151,7 +151,7 @@ impl Grid {
 const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
 /// Takes cells apart into triangles and lines.
-fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut Scene) -> io::Result<()> {
+fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io::Result<()> {
     let (connectivity, offsets) = (grid.places("connectivity")?, grid.places("offsets")?);
     let (types, parts) = (grid.places("types")?, grid.places("part")?);
     if types.len() != offsets.len() || parts.len() != offsets.len() || connectivity.iter().any(|&p| p >= points) {
@@ -193,7 +193,7 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut Scene) -> io::Res
     Ok(())
 }
 
-impl Scene {
+impl PageScene {
     pub fn json(&self) -> serde_json::Value {
         let fields: Vec<_> = self
             .fields

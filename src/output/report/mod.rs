@@ -13,7 +13,7 @@ mod result;
 use super::disk::at;
 use super::tables::TABLES;
 use crate::quantities::{ENERGY, Unit};
-use data::Scene;
+use data::PageScene;
 use histories::History;
 use html::escaped;
 use serde_json::{Value, json};
@@ -63,7 +63,7 @@ pub fn page(folder: &Path) -> io::Result<String> {
     let title = result.title(folder);
     let all = json!({
         "histories": histories.iter().map(History::json).collect::<Vec<Value>>(),
-        "scene": scene.as_ref().map(Scene::json),
+        "scene": scene.as_ref().map(PageScene::json),
     });
     let notes: String = notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
     let notes = if notes.is_empty() { notes } else { format!("<ul class=\"note\">{notes}</ul>\n") };

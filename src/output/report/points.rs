@@ -1,14 +1,14 @@
 //! The moving scene where there are no grids: nodes and bodies as points, nodes numbered in a row (`beam[1]`, `beam[2]`) joined
 //! by lines.
 
-use super::data::Scene;
+use super::data::PageScene;
 use super::histories::History;
 
 /// Times at most.
 const TIMES: usize = 150;
 
 /// None where there are neither nodes nor bodies.
-pub fn scene(histories: &[History]) -> Option<Scene> {
+pub fn scene(histories: &[History]) -> Option<PageScene> {
     let find = |file: &str| histories.iter().find(|history| history.file == file && history.line(0, "x").is_some());
     let tables: Vec<&History> = ["nodes.csv", "bodies.csv"].into_iter().filter_map(find).collect();
     let first = *tables.first()?;
@@ -16,7 +16,7 @@ pub fn scene(histories: &[History]) -> Option<Scene> {
     let shown: Vec<usize> =
         (0..first.times.len()).filter(|t| t.is_multiple_of(every) || t + 1 == first.times.len()).collect();
     let mut scene =
-        Scene { times: shown.iter().map(|&t| first.times[t]).collect(), all: first.all[0], ..Scene::default() };
+        PageScene { times: shown.iter().map(|&t| first.times[t]).collect(), all: first.all[0], ..PageScene::default() };
     let mut paths: Vec<Vec<[f32; 3]>> = Vec::new();
     for table in tables {
         // Tables of one run have the same times, but for the last of a run that was killed.

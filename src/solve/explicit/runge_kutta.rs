@@ -3,7 +3,7 @@
 use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
 use super::work::{WorkQuadrature, weight_of};
-use crate::integrators::tableau::{Tableau, Weights};
+use crate::integrators::tableau::{StageWeights, Tableau};
 use crate::linear::TooLarge;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, angular, linear, stack};
@@ -39,7 +39,7 @@ pub struct RungeKuttaStepper {
 #[derive(Clone, Copy)]
 struct At {
     stage: usize,
-    weights: Weights,
+    weights: StageWeights,
     c: f64,
 }
 

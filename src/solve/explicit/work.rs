@@ -1,6 +1,6 @@
 //! The work of loads and dampers over a step, by quadrature with the weights of a Runge-Kutta scheme.
 
-use crate::integrators::tableau::Weights;
+use crate::integrators::tableau::StageWeights;
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Node, State, Work};
@@ -62,6 +62,6 @@ fn driving_power(reactions: &[f64], prescribed: &[Prescribed]) -> f64 {
 }
 
 /// The weight of a stage in a sum.
-pub fn weight_of(weights: Weights, stage: usize) -> f64 {
+pub fn weight_of(weights: StageWeights, stage: usize) -> f64 {
     weights.iter().find(|(of, _)| *of == stage).map_or(0.0, |(_, weight)| *weight)
 }
