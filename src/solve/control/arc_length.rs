@@ -2,7 +2,7 @@
 //! are as long as their iterations allow. Where a step passes a target that it must end at, the arc to it is found
 //! between the step's ends.
 
-use super::targets::{Quantity, Targets};
+use super::targets::{TargetQuantity, Targets};
 use crate::integrators::load_steps;
 use crate::model::{ArcLength, Passage};
 use crate::solve::context::Context;
@@ -182,8 +182,8 @@ impl ArcLengthController {
             let target = &self.targets.0[index];
             let (from, _) = target.ends_of_motion(cx, ws, state, report.to);
             let (to, condition) = match target.quantity {
-                Quantity::Time => (target.value, None),
-                Quantity::Displacement { node, dof } => {
+                TargetQuantity::Time => (target.value, None),
+                TargetQuantity::Displacement { node, dof } => {
                     let to = state.time + part * (report.to - state.time);
                     (to, Some(Condition::Displacement { node, dof, by: target.value - from }))
                 }

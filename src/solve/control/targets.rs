@@ -8,7 +8,7 @@ use crate::state::State;
 /// A time or displacement at which a step must end.
 pub struct Target {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: TargetQuantity,
     /// Its value.
     pub value: f64,
     /// Number of passages still to come; the last of them counts.
@@ -23,7 +23,7 @@ pub struct Target {
 
 /// The quantity that reaches a value.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Quantity {
+pub enum TargetQuantity {
     Time,
     Displacement { node: usize, dof: usize },
 }
@@ -35,15 +35,15 @@ impl Targets {
     /// The end of the path, its `stop`, and the expectations along it.
     pub fn new(model: &Model, path: &ArcLength) -> Self {
         let mut all = Targets(Vec::new());
-        all.add(Quantity::Time, model.analysis.end_time, 1).ends = true;
+        all.add(TargetQuantity::Time, model.analysis.end_time, 1).ends = true;
         if let Some(stop) = path.stop {
-            all.add(Quantity::Displacement { node: stop.node, dof: stop.dof }, stop.value, stop.pass).ends = true;
+            all.add(TargetQuantity::Displacement { node: stop.node, dof: stop.dof }, stop.value, stop.pass).ends = true;
         }
         for (index, expect) in model.expects.iter().enumerate() {
             match expect.when {
-                When::Time(time) if time > 0.0 => all.add(Quantity::Time, time, 1).expects.push(index),
+                When::Time(time) if time > 0.0 => all.add(TargetQuantity::Time, time, 1).expects.push(index),
                 When::Passing(at) => {
-                    let quantity = Quantity::Displacement { node: at.node, dof: at.dof };
+                    let quantity = TargetQuantity::Displacement { node: at.node, dof: at.dof };
                     all.add(quantity, at.value, at.pass).expects.push(index);
                 }
                 _ => {}
@@ -53,7 +53,7 @@ impl Targets {
     }
 
     /// Adds a target, unless the same one is there already.
-    fn add(&mut self, quantity: Quantity, value: f64, passes: usize) -> &mut Target {
+    fn add(&mut self, quantity: TargetQuantity, value: f64, passes: usize) -> &mut Target {
         let same = |t: &Target| t.quantity == quantity && t.value == value && t.passes == passes;
         let index = self.0.iter().position(same).unwrap_or_else(|| {
             self.0.push(Target { quantity, value, passes, side: 0.0, ends: false, expects: Vec::new() });
@@ -109,7 +109,7 @@ impl Targets {
 
     /// True where a step ended at this target.
     pub fn is_stop(&self, stop: &Passage, landed: Option<usize>) -> bool {
-        let quantity = Quantity::Displacement { node: stop.node, dof: stop.dof };
+        let quantity = TargetQuantity::Displacement { node: stop.node, dof: stop.dof };
         landed.is_some_and(|i| self.0[i].ends && self.0[i].quantity == quantity)
     }
 }
@@ -118,8 +118,8 @@ impl Target {
     /// The quantity at both ends of the motion found from `state` to the time `to`.
     pub fn ends_of_motion(&self, cx: &Context, ws: &Workspace, state: &State, to: f64) -> (f64, f64) {
         match self.quantity {
-            Quantity::Time => (state.time, to),
-            Quantity::Displacement { node, dof } => {
+            TargetQuantity::Time => (state.time, to),
+            TargetQuantity::Displacement { node, dof } => {
                 let start = &state.nodes[node];
                 let from = start.moved(&cx.model.nodes[node].x)[dof];
                 // Dependent nodes have no increment.
