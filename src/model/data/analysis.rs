@@ -1,24 +1,27 @@
-//! What is computed, and how.
+//! The analysis and the solution procedure.
 
 use super::step_length::{FIRST_STEP, StepLength};
 use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
 use crate::integrators::Scheme;
 use std::sync::Arc;
 
-/// What is computed over which time.
+/// The kind of the analysis, its time and its steps.
 #[derive(Debug, Clone)]
 pub struct Analysis {
+    /// Static or dynamic.
     pub kind: AnalysisKind,
+    /// Time at the end; the run begins at 0.
     pub end_time: f64,
+    /// The way steps get their lengths.
     pub step_length: StepLength,
-    /// A cutback never makes a step shorter than this.
+    /// Least length of a step after cutbacks.
     pub least_step: f64,
-    /// Omit out-of-plane motion from the unknowns where nothing can cause it.
+    /// True where out-of-plane motion that nothing can excite is omitted from the unknowns.
     pub plane: bool,
 }
 
 impl Analysis {
-    /// The length of step that samples and studies are planned with: that of fixed steps, or else about that of the first.
+    /// The length of step on which samples and studies are based: that of fixed steps, or about that of the first.
     pub fn nominal_step(&self) -> f64 {
         match &self.step_length {
             StepLength::Fixed { step } => *step,
@@ -29,21 +32,26 @@ impl Analysis {
     }
 }
 
-/// How the equations of motion are integrated and solved.
+/// The integration scheme and the iteration.
 #[derive(Debug, Clone)]
 pub struct Solution {
+    /// The time integration scheme.
     pub scheme: Arc<dyn Scheme>,
+    /// The equilibrium iteration.
     pub iteration: Iteration,
 }
 
-/// How nonlinear equations are solved in a step.
+/// The solution of the nonlinear equations of a step.
 #[derive(Debug, Clone)]
 pub struct Iteration {
+    /// The moduli and acceleration of the iteration.
     pub method: Method,
+    /// The rule by which the matrix is formed anew.
     pub update: Update,
+    /// The side of the equation on which gyroscopic terms stand.
     pub gyroscopic: Gyroscopic,
-    /// Relative, on residual and increment.
+    /// Relative tolerance of residual and correction.
     pub tolerance: f64,
-    /// Iterations in a step before a cutback.
+    /// Largest number of iterations in a step before a cutback.
     pub limit: usize,
 }

@@ -12,16 +12,21 @@ use crate::sections::Stiffness;
 /// A line of nodes, each two of them joined by an element that resists stretching alone.
 #[derive(Debug, Clone)]
 pub struct Bar {
+    /// The deck's name.
     pub name: String,
     /// E A, force per unit strain.
     pub axial_stiffness: f64,
+    /// Mass per length.
     pub mass_per_length: f64,
+    /// The distribution of the mass.
     pub mass: MassKind,
+    /// True where the bar goes slack under compression.
     pub tension_only: bool,
     /// Length without force over that at t = 0.
     pub free: f64,
-    /// `None`: the material is elastic.
+    /// The law of the material; `None` where it is elastic.
     pub yielding: Option<MaterialLaw>,
+    /// The two nodes of each element.
     pub elements: Vec<[usize; 2]>,
 }
 

@@ -12,20 +12,25 @@ use crate::sections::Stiffness;
 /// A line of nodes, cut into elements with one or more inner nodes.
 #[derive(Debug, Clone)]
 pub struct Beam {
+    /// The deck's name.
     pub name: String,
     /// Degree of the interpolation: an element has `order + 1` nodes.
     pub order: usize,
+    /// The distribution of the mass.
     pub mass: MassKind,
-    /// Keep the rotary inertia of the section.
+    /// True where the section's rotary inertia is kept.
     pub rotary_inertia: bool,
-    /// `None`: the material is elastic.
+    /// The fibres and their law; `None` where the material is elastic.
     pub yielding: Option<FibreModel>,
+    /// The elements along the line.
     pub elements: Vec<BeamElement>,
 }
 
+/// An element of a beam.
 #[derive(Debug, Clone)]
 pub struct BeamElement {
-    /// From one end to the other; the first `order + 1` are used. Inner nodes lie at the Lobatto points of a straight line.
+    /// Nodes from one end to the other, of which the first `order + 1` are used. Inner nodes lie at the Lobatto points
+    /// of a straight line.
     pub nodes: [usize; 5],
     /// Columns: section axes x (along the beam), y, z in global components at t = 0.
     pub frame: Mat3,

@@ -1,55 +1,63 @@
-//! Dependent nodes, joints and restraints.
+//! Rigid links, joints and restraints.
 
 use crate::constraints::joint::ConstraintEquation;
 use crate::deck::supports::History;
 
-/// What ties nodes to one another and to the ground.
+/// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]
 pub struct Constraints {
-    /// Nodes tied to other nodes, each at most once, in no particular order.
+    /// The dependent nodes, each at most once, in no particular order.
     pub dependents: Vec<DependentNode>,
-    /// In deck order; those that hold supports of dependent nodes come last.
+    /// The joints in deck order; those that hold supports of dependent nodes come last.
     pub joints: Vec<Joint>,
-    /// Each direction of a node at most once, sorted by node and direction.
+    /// The restraints, at most one for each degree of freedom, sorted by node and degree of freedom.
     pub restraints: Vec<Restraint>,
 }
 
-/// A node constrained to another in some of its directions (45)-(48).
+/// A node rigidly attached to another in some of its degrees of freedom (45)-(48).
 #[derive(Debug, Clone)]
 pub struct DependentNode {
+    /// The dependent node.
     pub node: usize,
+    /// The node that it depends on.
     pub master: usize,
-    /// Which of ux, uy, uz, rx, ry, rz are taken from the master.
+    /// True for each of ux, uy, uz, rx, ry, rz that follows the master.
     pub dofs: [bool; 6],
-    /// Where the deck attaches it: first byte, and the one after the last.
+    /// Place in the deck that attaches it: first byte, and the one after the last.
     pub place: Option<[usize; 2]>,
 }
 
-/// Two nodes held together by multipliers (57).
+/// Two nodes joined by Lagrange multipliers (57).
 #[derive(Debug, Clone)]
 pub struct Joint {
+    /// The deck's name, or one made from it.
     pub name: String,
     /// Nodes at `from` and `to`: dependent nodes of a node or body, the node itself, or a restrained node for the ground.
     pub ends: [usize; 2],
+    /// The constraint equations.
     pub equations: Vec<ConstraintEquation>,
-    /// It holds a dependent node to its support, whose reactions say what it carries.
+    /// True where it holds a dependent node to its support; the support's reactions are then the joint's forces.
     pub supports: bool,
 }
 
-/// A restrained direction of a node: it is at rest, or its motion is prescribed.
+/// A restrained degree of freedom: it is at rest, or its motion is prescribed.
 #[derive(Debug, Clone)]
 pub struct Restraint {
+    /// The node.
     pub node: usize,
-    /// 0..6: ux, uy, uz, rx, ry, rz.
+    /// Degree of freedom, 0..6 for ux, uy, uz, rx, ry, rz.
     pub dof: usize,
-    /// `None`: at rest.
+    /// The prescribed motion; `None` at rest.
     pub motion: Option<PrescribedMotion>,
 }
 
 /// A prescribed motion: an amplitude times a factor.
 #[derive(Debug, Clone)]
 pub struct PrescribedMotion {
+    /// Index into [`super::Loading::amplitudes`].
     pub amplitude: usize,
+    /// Factor of the amplitude.
     pub scale: f64,
+    /// The quantity that the amplitude prescribes: displacement, velocity or acceleration.
     pub history: History,
 }

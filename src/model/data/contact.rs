@@ -7,15 +7,17 @@ use crate::quantities::{CONTACT, CONTACT_FORCE, Column};
 /// Points against a surface.
 #[derive(Debug, Clone)]
 pub struct Contact {
+    /// The deck's name.
     pub name: String,
     /// The node that carries the surface: a body's, or a restrained one for the ground.
     pub node: usize,
-    /// In the frame of that node.
+    /// The surface, in the frame of that node.
     pub surface: Surface,
+    /// The points.
     pub points: Vec<ContactPoint>,
-    /// `None`: a clearance monitor, nothing acts.
+    /// The contact law; `None` for a clearance monitor, which exerts no force.
     pub law: Option<ContactLaw>,
-    /// The deck left the stiffness open.
+    /// True where the deck leaves the stiffness to the program.
     pub chosen: bool,
 }
 

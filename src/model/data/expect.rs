@@ -1,25 +1,31 @@
-//! Values that a run must reach.
+//! Values that a run is expected to reach.
 
 use super::passage::Passage;
 use crate::deck::parts::PartIndex;
 
-/// A value that the run must reach.
+/// An expected value, checked at the end of the run.
 #[derive(Debug, Clone)]
 pub struct Expect {
+    /// The object.
     pub at: ExpectAt,
+    /// Name of the quantity.
     pub quantity: String,
+    /// The instant.
     pub when: When,
+    /// The expected value.
     pub value: f64,
+    /// The tolerance.
     pub tolerance: Tolerance,
+    /// Source of the value, such as author, year and figure.
     pub source: String,
-    /// As written in the deck, for the message.
+    /// Label as the deck writes it, for the message.
     pub label: String,
 }
 
-/// Where an expected value is read.
+/// The object whose quantity is expected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ExpectAt {
-    /// The time, which follows where the path is followed by arc length.
+    /// The analysis itself: the time, which follows along a path.
     Analysis,
     Node(usize),
     /// Columns of energy.csv.
@@ -34,20 +40,20 @@ pub enum ExpectAt {
     Elements(usize, usize),
 }
 
-/// At which instant an expected value is read.
+/// The instant at which the value is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
-    /// With arc-length: the first time the load comes to it, from below.
+    /// At this time; along a path, when the load reaches it for the first time from below.
     Time(f64),
-    /// With arc-length alone.
+    /// When a displacement passes a value, along a path.
     Passing(Passage),
     Max,
     Min,
-    /// Greatest absolute value.
+    /// The largest absolute value of the run.
     Abs,
 }
 
-/// How far a value may lie from the expected one.
+/// The tolerance of an expected value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
     Relative(f64),

@@ -5,10 +5,11 @@ use crate::math::{Mat3, Vec3};
 /// Integrals of density over elements: 1, x, x xᵀ; and the rotary inertia. Also of 1 instead of density, where there is none.
 #[derive(Default)]
 pub struct MassIntegrals {
+    /// Mass.
     pub mass: f64,
     first: Vec3,
     second: Mat3,
-    /// Of sections and thicknesses about the axes and surfaces on which the mass lies.
+    /// Rotary inertia of sections and thicknesses about the axes and surfaces on which the mass lies.
     pub rotary: Mat3,
     size: f64,
     first_of_size: Vec3,
@@ -29,11 +30,12 @@ impl MassIntegrals {
         }
     }
 
+    /// The centre of mass.
     pub fn center(&self) -> Vec3 {
         if self.mass > 0.0 { self.first / self.mass } else { self.first_of_size / self.size }
     }
 
-    /// About the centre.
+    /// The inertia tensor about the centre of mass.
     pub fn inertia(&self) -> Mat3 {
         let c = self.center();
         let S = self.second - self.mass * c * c.transpose();

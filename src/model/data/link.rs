@@ -8,12 +8,15 @@ use crate::quantities::{Column, LINK};
 /// A spring, damper or bushing between two nodes.
 #[derive(Debug, Clone)]
 pub struct Link {
+    /// The deck's name, or one made from it.
     pub name: String,
     /// Nodes at `from` and `to`: dependent nodes of a node or body, the node itself, or a restrained node for the ground.
     pub ends: [usize; 2],
+    /// Its law.
     pub kind: LinkKind,
 }
 
+/// The law of a link.
 #[derive(Debug, Clone)]
 pub enum LinkKind {
     /// Force along the line of the ends, or along a fixed global unit vector.

@@ -4,14 +4,18 @@ use crate::amplitude::Amplitude;
 use crate::elements::pressure::Face;
 use crate::math::Vec3;
 
-/// What acts on the nodes from outside.
+/// The loads of a scene.
 #[derive(Debug, Clone)]
 pub struct Loading {
     /// Functions of time, which loads and prescribed motions name by index.
     pub amplitudes: Vec<Amplitude>,
+    /// Forces and moments on nodes.
     pub nodal: Vec<Load>,
+    /// Follower pressures on faces.
     pub pressures: Vec<Pressure>,
+    /// Acceleration of gravity, global components.
     pub gravity: Vec3,
+    /// Accelerations of the ground.
     pub base_accelerations: Vec<BaseAcceleration>,
 }
 
@@ -30,43 +34,56 @@ impl Default for Loading {
 /// Force and moment on a node, global components at t = 0.
 #[derive(Debug, Clone)]
 pub struct Load {
+    /// The node.
     pub node: usize,
+    /// Force, global components at t = 0.
     pub force: Vec3,
+    /// Moment, global components at t = 0.
     pub moment: Vec3,
-    /// Turns with its node.
+    /// True where force and moment rotate with the node.
     pub follower: bool,
+    /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
 }
 
-/// Pressure on faces as they are at the moment, against their normals.
+/// Follower pressure: it acts on the current area of faces, against their current normals.
 #[derive(Debug, Clone)]
 pub struct Pressure {
+    /// The faces.
     pub faces: Vec<Face>,
+    /// Pressure, force per current area.
     pub pressure: f64,
+    /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
 }
 
-/// Acceleration of the ground, felt by every mass as −M a; displacements are then relative to the ground.
+/// Acceleration of the ground. Every mass M has the force −M a; displacements are relative to the ground.
 #[derive(Debug, Clone)]
 pub struct BaseAcceleration {
+    /// Acceleration for the amplitude 1, global components.
     pub direction: Vec3,
+    /// Index of its amplitude.
     pub amplitude: usize,
 }
 
-/// Viscous damping beside that of links.
+/// Viscous damping besides that of links.
 #[derive(Debug, Clone, Default)]
 pub struct Damping {
-    /// Rayleigh: C = mass_factor M + stiffness_factor K. The stiffness part acts on strain rates of beams and bars.
+    /// Rayleigh's α in C = α M + β K, 1/time.
     pub mass_factor: f64,
+    /// Rayleigh's β, time; it acts on strain rates of deformable parts.
     pub stiffness_factor: f64,
+    /// Dampers of nodes.
     pub nodal: Vec<NodalDamping>,
 }
 
 /// Viscous damping of a node against the ground.
 #[derive(Debug, Clone)]
 pub struct NodalDamping {
+    /// The node.
     pub node: usize,
-    /// Force per velocity, moment per angular velocity.
+    /// Force per velocity.
     pub translation: f64,
+    /// Moment per angular velocity.
     pub rotation: f64,
 }

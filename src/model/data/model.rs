@@ -15,23 +15,35 @@ use crate::sections::Stiffness;
 /// A scene, checked and ready to be planned.
 #[derive(Debug, Clone)]
 pub struct Model {
+    /// Title of the scene.
     pub title: String,
+    /// The analysis.
     pub analysis: Analysis,
+    /// The scheme and the iteration.
     pub solution: Solution,
+    /// The nodes, to which all else refers by index.
     pub nodes: Vec<Node>,
+    /// Rigid bodies.
     pub bodies: Vec<Body>,
+    /// Point masses.
     pub masses: Vec<Mass>,
     /// Section stiffnesses and inertias, shared by the elements that name them.
     pub stiffnesses: Vec<Stiffness>,
     /// Beams, then bars, shells, links and contacts, each kind in deck order: the order of numbering, assembly and rows.
     pub parts: Vec<Part>,
+    /// Rigid links, joints and restraints.
     pub constraints: Constraints,
+    /// Loads and amplitudes.
     pub loading: Loading,
+    /// Rayleigh and nodal damping.
     pub damping: Damping,
+    /// Expected values.
     pub expects: Vec<Expect>,
+    /// The mesh file, and bodies made of parts.
     pub origin: Origin,
+    /// The output of the run.
     pub output: Output,
-    /// What `rdsolve study` goes over.
+    /// The variants that `rdsolve study` runs.
     pub study: Option<Study>,
 }
 
@@ -59,6 +71,7 @@ impl Model {
         self.parts.iter().filter(|part| part.kind() == kind).count()
     }
 
+    /// True where there are parts of a kind.
     pub fn has(&self, kind: PartKind) -> bool {
         self.count(kind) > 0
     }
@@ -68,7 +81,7 @@ impl Model {
         self.parts.iter().any(Part::yields)
     }
 
-    /// True where something may resist more than it does as it lies, all at once.
+    /// True where a part may suddenly resist more than at the current configuration.
     pub fn may_stiffen(&self) -> bool {
         self.parts.iter().any(Part::may_stiffen)
     }
@@ -79,7 +92,7 @@ impl Model {
     }
 }
 
-/// Where parts come from that the model no longer holds as the deck has them.
+/// The origin of parts that the model no longer holds as the deck has them.
 #[derive(Debug, Clone, Default)]
 pub struct Origin {
     /// The mesh file that the deck names.
@@ -88,27 +101,28 @@ pub struct Origin {
     pub rigid: Vec<Rigid>,
 }
 
-/// What a body is made of.
+/// The parts that a body is made of.
 #[derive(Debug, Clone)]
 pub struct Rigid {
     /// Index into [`Model::bodies`].
     pub body: usize,
-    /// "shell `roof`".
+    /// The parts, in words like "shell `roof`".
     pub parts: Vec<String>,
-    /// Elements left out.
+    /// Number of their elements, which are omitted.
     pub elements: usize,
 }
 
 /// The mesh file that the deck names.
 #[derive(Debug, Clone)]
 pub struct MeshFile {
-    /// As messages name it.
+    /// Path as messages name it.
     pub path: String,
     /// SHA-256 of its bytes.
     pub digest: [u8; 32],
-    /// In the file.
+    /// Number of nodes in the file.
     pub nodes: usize,
+    /// Number of elements in the file.
     pub elements: usize,
-    /// Of these, in parts of the deck.
+    /// Number of elements in parts of the deck.
     pub used: usize,
 }

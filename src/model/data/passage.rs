@@ -1,14 +1,16 @@
 //! Displacements that a path of equilibria is to reach.
 
-/// A displacement on its way through a value.
+/// A displacement that passes a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passage {
+    /// The node.
     pub node: usize,
-    /// 0..3: ux, uy, uz.
+    /// Degree of freedom, 0..3 for ux, uy, uz.
     pub dof: usize,
+    /// The value.
     pub value: f64,
-    /// Which time it does so, from 1.
+    /// Number of the passage that counts, from 1.
     pub pass: usize,
-    /// Where the deck names the direction: first byte, and the one after the last.
+    /// Place in the deck that names the degree of freedom: first byte, and the one after the last.
     pub place: [usize; 2],
 }

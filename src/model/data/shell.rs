@@ -14,16 +14,21 @@ use std::collections::HashSet;
 /// other.
 #[derive(Debug, Clone)]
 pub struct Shell {
+    /// The deck's name.
     pub name: String,
+    /// Thickness and elastic constants.
     pub plate: Plate,
+    /// Mass per volume.
     pub density: f64,
+    /// The distribution of the mass.
     pub mass: MassKind,
-    /// `None`: the material is elastic.
+    /// The layers and their law; `None` where the material is elastic.
     pub yielding: Option<LayerModel>,
-    /// Axis 1 of results: laid into the surface, element by element.
+    /// Axis 1 of results, projected onto the surface element by element.
     pub axis: Vec3,
     /// Corners of each element: 3 or 4.
     pub corners: usize,
+    /// The elements.
     pub elements: Vec<ShellElement>,
     /// The number of each element in the deck's part, which is this shell and its neighbour of the same name. Empty where the
     /// shell is the whole part: they count from 0.
@@ -37,9 +42,10 @@ impl Shell {
     }
 }
 
+/// An element of a shell.
 #[derive(Debug, Clone)]
 pub struct ShellElement {
-    /// Counter-clockwise about the normals; of a triangle the first three are used.
+    /// Nodes, counter-clockwise about the normals; a triangle uses the first three.
     pub nodes: [usize; 4],
     /// Unit normals of the surface at the nodes, at t = 0.
     pub normals: [Vec3; 4],

@@ -1,51 +1,53 @@
-//! What `rdsolve study` goes over.
+//! The variants that `rdsolve study` runs.
 
 use crate::deck::analysis::Method;
 use crate::integrators::Scheme;
 use std::sync::Arc;
 
-/// What is gone over, and what errors are measured on.
+/// The schemes, methods, steps and meshes to be compared, and the quantities whose errors are measured.
 #[derive(Debug, Clone, Default)]
 pub struct Study {
-    /// Empty: displacements of all nodes in nodes.csv and of all bodies.
+    /// Quantities whose errors are measured; if empty, displacements of all nodes in nodes.csv and of all bodies.
     pub quantities: Vec<Quantity>,
-    /// File as the deck names it.
+    /// The reference file as the deck names it.
     pub reference: Option<String>,
-    /// Of each quantity: its column in that file.
+    /// The column of each quantity in that file.
     pub columns: Vec<String>,
-    /// Intervals; `None`: as the reference has them, or 200.
+    /// Number of sampling intervals; `None`: those of the reference, or 200.
     pub samples: Option<usize>,
-    /// Longest first; empty: from the deck's own.
+    /// Time steps, longest first; if empty, from the deck's own.
     pub time_steps: Vec<f64>,
-    /// Of an automatic step, largest first; empty: none, unless the deck's step is one.
+    /// Error tolerances of automatic steps, largest first; if empty, none unless the deck's step is automatic.
     pub error_tolerances: Vec<f64>,
-    /// Of the one time step.
+    /// Number of halvings of the one time step.
     pub halvings: usize,
-    /// Empty: the deck's own.
+    /// The scheme.
+    ///
+    /// Schemes; if empty, the deck's own.
     pub schemes: Vec<Choice>,
-    /// Empty: the deck's own.
+    /// Iteration methods; if empty, the deck's own.
     pub methods: Vec<Method>,
-    /// Factors on numbers of elements, rising; empty: 1.
+    /// Factors on numbers of elements, ascending; if empty, 1.
     pub meshes: Vec<f64>,
-    /// Largest first; empty: 1e-2, 1e-3, 1e-4.
+    /// Errors for which the cheapest variant is wanted, largest first; if empty, 1e-2, 1e-3, 1e-4.
     pub wanted_errors: Vec<f64>,
 }
 
-/// One number of one node at every time.
+/// One component of the motion of one node at all times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// As `output.nodes` and the deck name it.
+    /// Name of the node as `output.nodes` and the deck give it.
     pub name: String,
-    /// As nodes.csv or bodies.csv has it.
+    /// Name as nodes.csv or bodies.csv gives it.
     pub label: String,
-    /// In bodies.csv.
+    /// True for a body, whose motion is in bodies.csv.
     pub body: bool,
-    /// A column of [`crate::quantities::MOTION`], or one that follows from it.
+    /// Column of [`crate::quantities::MOTION`], or one that follows from it.
     pub column: &'static str,
 }
 
 impl Quantity {
-    /// "tip.uz".
+    /// The quantity in a word, like "tip.uz".
     pub fn word(&self) -> String {
         format!("{}.{}", self.name, self.column)
     }
@@ -54,9 +56,9 @@ impl Quantity {
 /// A scheme with its parameters.
 #[derive(Debug, Clone)]
 pub struct Choice {
-    /// "newmark:gamma=0.6".
+    /// Label like "newmark:gamma=0.6".
     pub label: String,
     pub scheme: Arc<dyn Scheme>,
-    /// The table `[integrator]` that asks for it, in line.
+    /// The table `[integrator]` that asks for it, on one line.
     pub table: String,
 }
