@@ -14,17 +14,20 @@ use crate::integrators::{SCHEMES, Scheme, Stepping, default_scheme};
 use crate::names::short;
 use std::sync::Arc;
 
-/// A step is halved at most so many times, unless the deck says otherwise.
+/// Largest number of halvings of a step, unless the deck says otherwise.
 const HALVINGS: i32 = 20;
-/// More steps are a slip of the keyboard.
+/// Largest number of steps; more are taken for a typing error.
 const MOST_STEPS: f64 = 1e9;
-/// Steps of a run whose error is to be τ are about so many over τ^(1/p), p the order of the scheme.
+/// Expected number of steps of a run whose error is to be τ, times τ^(1/p), with p the order of the scheme.
 const STEPS: f64 = 20.0;
 
-/// How a scene is computed, before the supports say what leads it on.
+/// The analysis and its solution, before the supports say how a path is followed.
 pub(super) struct Procedure {
+    /// The analysis.
     pub analysis: Analysis,
+    /// The scheme.
     pub scheme: Arc<dyn Scheme>,
+    /// The iteration.
     pub iteration: Iteration,
 }
 
@@ -130,7 +133,8 @@ fn time_step<'d>(
     }
 }
 
-/// What an error is estimated by holds for schemes of second order, and digits bound how small it can be.
+/// Checks that an error can be controlled: its estimate holds for schemes of second order, and rounding bounds the
+/// tolerance from below.
 fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &dyn Scheme, report: &mut Report) {
     if scheme.order() < 2
         && let Some(at) = &table.time_step
@@ -143,8 +147,8 @@ fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &dyn Sch
     }
 }
 
-/// Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p), the sum may be more than the tolerance. (A mass on
-/// a spring ends at 7e-11, whatever is asked of a scheme of second order.)
+/// Warns of a tolerance below rounding. Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p),
+/// the sum may exceed the tolerance. (A mass on a spring ends at 7e-11, whatever is asked of a scheme of second order.)
 pub(super) fn can_be_kept(key: &str, tolerance: f64, scheme: &dyn Scheme, place: &Span, report: &mut Report) {
     let order = scheme.order() as f64;
     let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
@@ -166,7 +170,7 @@ pub(super) fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &
     report.read(&owner, &owner.what, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))
 }
 
-/// Whether a scheme, named at `place`, goes with material that yields.
+/// Checks that a scheme, named at `place`, goes with material that yields.
 pub(super) fn check_yielding(scheme: &dyn Scheme, place: &Span, yields: bool, report: &mut Report) {
     if yields && matches!(scheme.stepping(), Stepping::RungeKutta(_)) {
         let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";

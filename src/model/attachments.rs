@@ -15,7 +15,7 @@ use crate::math::Vec3;
 use crate::names::short;
 use std::collections::{HashMap, HashSet};
 
-/// Distances that agree to this part are the same but for rounding.
+/// Distances that agree to this relative difference count as equal.
 const SAME: f64 = 1e-9;
 
 /// Attaches nodes to bodies and beams; returns the joints for those that elimination cannot attach.
@@ -49,7 +49,7 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
     joints
 }
 
-/// What nodes are attached to.
+/// The body or beam that nodes are attached to.
 enum Target<'d> {
     Body(usize),
     /// A beam, with the name that the attachment gives it.

@@ -34,7 +34,7 @@ pub(super) fn beams(cx: &mut PartContext) {
     }
 }
 
-/// Half the smaller side of a beam's section, or 0 where the section does not say it.
+/// Half the smaller side of a beam's section; 0 where the section does not say it.
 fn half_depth(deck: &Deck, beam: &words::Beam) -> f64 {
     let index = beam.section.as_ref().and_then(|name| deck.sections.position(name));
     index.map_or(0.0, |index| sections::half_depth(&deck.sections.0[index].1))
@@ -94,7 +94,7 @@ impl<'d> Line<'_, 'd> {
         ];
         cx.report.reject_unused("a beam made of a group of the mesh", &unused);
         let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
-        // Without an orientation, which has been said, the group is still read.
+        // The group is read also without an orientation, whose lack has been reported.
         let frame = |along: Vec3| frame(&along, &toward.unwrap_or_else(|| Vec3::ith(along.iamin(), 1.0)));
         let segments = cx.groups.take(&self.owner.what, group, false, cx.report)?;
         let first = cx.groups.mesh.first;
@@ -227,7 +227,7 @@ fn yielding<'d>(
         rule => chosen(rule),
     };
     let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
-    // Where the section is wrong, that has been said.
+    // A wrong section has been reported.
     let fibres = if section { cx.sections.fibres(beam, cx.report)? } else { return None };
     Some(Some(FibreModel { law, fibres, shear, rule, points }))
 }

@@ -77,7 +77,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let amplitudes = amplitudes(deck, report);
     let Ground { scene, mut nodes, groups, rigid } = ground(deck, input, analysis, report);
 
-    // What connects nodes.
+    // These tables connect nodes.
     let masses = masses(&scene, &mut nodes, report);
     let links = links(&scene, &mut nodes, report);
     let mut joints = joints(&scene, &mut nodes, report);
@@ -85,7 +85,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     connect_touching_points(&scene, &mut nodes);
     let mut topology = Topology::new(nodes, report);
 
-    // What acts on them. Contacts connect what they touch, so that loads may act on it.
+    // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
     let (gravity, base_accelerations) = environment(deck, report);
     joints.extend(supports(&scene, &amplitudes, &mut topology, report));
     let contacts = contacts(&scene, &masses, gravity, &mut topology, report);
@@ -93,7 +93,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let damping = damping(&scene, &topology, report);
     initial(&scene, &amplitudes, &mut topology, report);
 
-    // What is computed and written.
+    // These tables say what is computed and written.
     let arc_length = control(&scene, &amplitudes, &topology, report);
     let expects = expects(&scene, &topology, arc_length.is_some(), report);
     let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
@@ -124,7 +124,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     model
 }
 
-/// What all other tables stand on: nodes with names, bodies, and the deformable parts between them.
+/// The scene that all other tables refer to: nodes with names, bodies, and the deformable parts between them.
 struct Ground<'d> {
     scene: Scene<'d>,
     nodes: Nodes,
@@ -176,7 +176,7 @@ fn check(
 ) -> Option<MeshFile> {
     let (deck, kind, parts) = (scene.deck, scene.analysis.kind, &scene.parts);
     check_content(deck, report);
-    // What an error has left out may be all that used it.
+    // A part left out by an error may have been the only one to use it.
     if deck.spoiled.is_empty() && !report.has_errors() {
         check_use(deck, topology, report);
         check_joints(deck, joints, topology, report);

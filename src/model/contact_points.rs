@@ -12,7 +12,7 @@ use crate::elements::contact::{ContactPoint, MOST_NODES};
 use crate::solids::Touching;
 use std::collections::{HashMap, HashSet};
 
-/// More points between two nodes are a slip of the keyboard.
+/// Largest number of points between two nodes; more are taken for a typing error.
 const MOST_POINTS: usize = 100;
 
 /// A point that may touch, as found.
@@ -93,7 +93,7 @@ impl<'d> Finder<'_, 'd> {
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
     }
 
-    /// Whether a name covers bodies or parts.
+    /// True where a name covers bodies or parts.
     fn names_part(&self, name: &str) -> bool {
         let place = self.scene.names.place(name);
         let leaves = place.into_iter().flat_map(|place| self.scene.names.leaves(place));

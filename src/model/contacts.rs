@@ -14,12 +14,13 @@ use crate::math::Vec3;
 use crate::names::short;
 use std::f64::consts::{PI, TAU};
 
-/// Steps that an impact lasts where the stiffness is left open.
+/// Number of steps that an impact lasts where the program chooses the stiffness.
 const STEPS: f64 = 20.0;
-/// Part of 1/√(k/m) that a step of an impact may reach ahead: nine steps and more an impact.
+/// Fraction of 1/√(k/m) that a step of an impact may reach ahead: an impact then takes nine steps or more.
 const RESOLUTION: f64 = 0.5;
 
-/// What depends on the surface's own body does not touch it and what is restrained has no mass, so all that must be known.
+/// Reads `[[contacts]]`, after all constraints: nodes that depend on the surface's own body do not touch it, and
+/// restrained nodes have no mass.
 pub(super) fn contacts<'d>(
     scene: &Scene<'d>,
     masses: &[Mass],
@@ -79,7 +80,7 @@ fn masses_at_nodes(scene: &Scene, masses: &[Mass], topology: &Topology) -> Vec<f
     at
 }
 
-/// Checks what is said of the force; the answer is whether there is none, so that only the gap is watched.
+/// Checks the keys of the force; returns true for a clearance monitor, which exerts none.
 fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Option<bool> {
     let mark = report.mark();
     report.not_negative("stiffness", &contact.stiffness, 1.0);
@@ -110,7 +111,7 @@ struct LawReader<'a, 'd> {
     scene: &'a Scene<'d>,
     /// Point masses of the deck.
     masses: &'a [Mass],
-    /// By node: the mass that it moves.
+    /// For each node the mass that it moves.
     at_nodes: &'a [f64],
     gravity: Vec3,
     topology: &'a Topology,
@@ -118,11 +119,11 @@ struct LawReader<'a, 'd> {
 
 /// The masses that meet at the points of a contact.
 struct Meeting {
-    /// The greatest that takes part in a blow.
+    /// The largest mass that takes part in an impact.
     mean: f64,
-    /// The least, with the rotation of bodies.
+    /// The least such mass, with the rotation of bodies.
     least: f64,
-    /// True where bodies and point masses alone touch.
+    /// True where only bodies and point masses are in contact.
     rigid: bool,
 }
 
@@ -171,7 +172,7 @@ impl LawReader<'_, '_> {
         })
     }
 
-    /// How deep its weight presses what touches into the surface, if it rests on one point.
+    /// The penetration under gravity, where the largest mass in contact rests on one point.
     fn depth_at_rest(&self, carrier: usize, points: &[ContactPoint], stiffness: f64) -> f64 {
         self.gravity.norm() * self.meeting(carrier, points).mean / stiffness
     }
@@ -206,7 +207,7 @@ impl LawReader<'_, '_> {
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
             let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
             rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
-            // Of a node of something deformable more than its own mass takes part in a blow by a body.
+            // More than the node's own mass takes part in an impact of a body on a deformable part.
             let taken = if is_body || !other.is_finite() { reduced } else { (own * other).sqrt() };
             mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
             least = if reduced > 0.0 { least.min(1.0 / (1.0 / reduced + self.ease(point))) } else { least };
@@ -214,13 +215,13 @@ impl LawReader<'_, '_> {
         Meeting { mean, least, rigid }
     }
 
-    /// Whether point masses are more than half of the mass at a node.
+    /// True where point masses are more than half of the mass at a node.
     fn is_weighted(&self, node: usize) -> bool {
         let own: f64 = self.masses.iter().filter(|mass| mass.node == node).map(|mass| mass.mass).sum();
         own > 0.5 * self.at_nodes.get(node).copied().unwrap_or(0.0)
     }
 
-    /// By how much a body is easier to move at a point than at its centre, per force: r²/J.
+    /// The compliance r²/J by which a body is easier to move at a point than at its centre.
     fn ease(&self, point: &ContactPoint) -> f64 {
         let root = self.topology.root(point.nodes[0]);
         let body = self.scene.bodies.iter().find(|body| body.node == root);
@@ -230,14 +231,15 @@ impl LawReader<'_, '_> {
         })
     }
 
-    /// Whether a node is a body or a point mass, and no part of something deformable.
+    /// True for the node of a body or a point mass that belongs to no deformable part.
     fn is_lump(&self, node: usize) -> bool {
         self.scene.bodies.iter().any(|body| body.node == node)
             || self.masses.iter().any(|mass| mass.node == node) && !self.scene.parts.has_node(node)
     }
 }
 
-/// Warns of what begins deeper inside a surface than its weight on one point holds it, `at_rest`: it is pushed out by a blow.
+/// Warns of points that begin deeper inside a surface than weight on one point holds them, `at_rest`: they are pushed
+/// out by an impact.
 fn check_start(
     owner: &Owner,
     node: usize,

@@ -1,4 +1,4 @@
-//! What leads a static analysis on: `control` of `[analysis]` and the words that go with it.
+//! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
 
 use super::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
 use super::nodes::Topology;
@@ -51,7 +51,7 @@ pub(super) fn control<'d>(
     Some(ArcLength { first, stop, steps, growth })
 }
 
-/// How the steps of a path are iterated: only the tangent at hand tells where the path goes.
+/// The iteration along a path, which needs the tangent at hand: only it shows where the path goes.
 pub(super) fn iterate_along(deck: &Deck, iteration: Iteration) -> Iteration {
     match deck.iteration {
         Some(_) => Iteration { method: Method::TangentStiffness, update: Update::Iteration, ..iteration },

@@ -11,18 +11,20 @@ use crate::diagnostic::At;
 use crate::mesh::{self, CellShape, Mesh};
 use crate::names::{joined, nearest, quoted};
 
-/// What parts have taken of the mesh so far.
+/// The groups and elements of the mesh that parts have taken so far.
 pub(super) struct Groups<'d> {
+    /// The nodes of the mesh.
     pub mesh: MeshNodes<'d>,
     /// Groups that are parts, with what they are: "shell `roof`".
     parts: HashMap<&'d str, String>,
-    /// Whether each element is in a part.
+    /// True for each element that is in a part.
     taken: Vec<bool>,
     /// The number of each node of the mesh in the part in hand, from 1; 0 for none.
     local: Vec<u32>,
 }
 
 impl<'d> Groups<'d> {
+    /// No part has taken anything yet.
     pub fn new(mesh: MeshNodes<'d>) -> Self {
         let elements = mesh.input.map_or(0, |input| input.mesh.elements.len());
         Groups { mesh, parts: HashMap::new(), taken: vec![false; elements], local: Vec::new() }

@@ -43,7 +43,7 @@ pub(super) fn initial<'d>(
     let mut motions = Motions { scene, amplitudes, topology, report };
     scene.deck.initial.iter().for_each(|initial| motions.initial_motion(initial));
     stop_restrained(topology);
-    carry_dependents(topology);
+    move_dependents(topology);
 }
 
 struct Motions<'a, 'd> {
@@ -104,7 +104,7 @@ impl<'d> Motions<'_, 'd> {
         }
     }
 
-    /// Names of which all nodes ride on something that is not named: its motion is theirs.
+    /// Reports names whose nodes all depend on a node that is not named, and move with it.
     fn moves_by_itself(&mut self, spots: &[Spot<'d>]) {
         let named: HashSet<usize> = spots.iter().map(|spot| spot.node).collect();
         for spots in spots.chunk_by(|a, b| a.span == b.span).filter(|spots| !spots[0].direct) {
@@ -159,7 +159,7 @@ impl<'d> Motions<'_, 'd> {
     }
 }
 
-/// Nothing moves at t = 0 where it is restrained at rest.
+/// Sets the initial velocities of restrained degrees of freedom to zero.
 fn stop_restrained(topology: &mut Topology) {
     let rests: Vec<[usize; 2]> =
         topology.restraints().filter(|held| held.motion.is_none()).map(|held| [held.node, held.dof]).collect();
@@ -172,8 +172,8 @@ fn stop_restrained(topology: &mut Topology) {
     }
 }
 
-/// Dependent nodes move as their masters do; masters first.
-fn carry_dependents(topology: &mut Topology) {
+/// Gives dependent nodes the initial velocities that follow from their masters', masters first.
+fn move_dependents(topology: &mut Topology) {
     let mut done = vec![false; topology.dependents.len()];
     for start in 0..done.len() {
         let (mut chain, mut next) = (Vec::new(), Some(start));

@@ -13,7 +13,9 @@ use crate::diagnostic::At;
 /// Loads of the scene, in the order of the deck.
 #[derive(Default)]
 pub(super) struct Loads {
+    /// Forces and moments on nodes.
     pub nodal: Vec<Load>,
+    /// Follower pressures.
     pub pressures: Vec<Pressure>,
 }
 

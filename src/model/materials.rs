@@ -15,7 +15,7 @@ use crate::materials::{MaterialLaw, Viscosity};
 /// The materials of a deck, with what parts ask of them.
 pub(super) struct Materials<'d> {
     table: &'d Named<OneOf<words::Material>>,
-    /// By material: how it yields; `None` for an elastic one and one with errors.
+    /// The law of each material; `None` where it is elastic or has errors.
     laws: Vec<Option<MaterialLaw>>,
     /// Deformable parts must have a mass: in dynamics, and where gravity pulls or the ground accelerates.
     inertia_matters: bool,
@@ -47,7 +47,8 @@ impl<'d> Materials<'d> {
         report.find("material", self.table, name)
     }
 
-    /// How the material of a part yields, `Some(None)` where it is elastic or the part has none; `None` where it has errors.
+    /// The law of the material of a part; `Some(None)` where it is elastic or the part has none, `None` where it has
+    /// errors.
     pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<MaterialLaw>> {
         let Some(name) = name else { return Some(None) };
         let index = self.table.position(name)?;
@@ -58,7 +59,7 @@ impl<'d> Materials<'d> {
         }
     }
 
-    /// Whether a deformable part whose mass is spread in this way must have one.
+    /// True where a deformable part with this distribution of mass must have a density.
     pub fn needs_mass(&self, mass: MassKind) -> bool {
         mass != MassKind::None && self.inertia_matters
     }
@@ -84,7 +85,7 @@ impl<'d> Materials<'d> {
     }
 }
 
-/// How a material yields; `None` for an elastic material, or one with errors.
+/// The law of a material; `None` where it is elastic or has errors.
 fn law_of<'d>(
     owner: &Owner<'d>,
     material: &'d OneOf<words::Material>,
@@ -100,7 +101,7 @@ fn law_of<'d>(
     };
     let modulus = material.youngs_modulus.as_ref().map(|modulus| modulus.value);
     let ratio = material.poisson_ratio.as_ref().map_or(0.0, |ratio| ratio.value);
-    // Where constants are missing or wrong, the keys are still checked.
+    // The other keys are checked also where constants are missing or wrong.
     let law = report.read(owner, model.noun, &material.values, kind, |given| {
         (model.law?)(given, [modulus.unwrap_or(1.0), ratio], viscosity.flatten())
     });

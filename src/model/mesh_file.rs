@@ -13,7 +13,9 @@ use crate::mesh::{self, CellShape, Mesh};
 /// A mesh that has been read.
 #[derive(Debug)]
 pub struct Input {
+    /// Path as messages name it.
     pub path: String,
+    /// Its nodes, elements and groups.
     pub mesh: Mesh,
     /// SHA-256 of the file.
     pub digest: [u8; 32],

@@ -12,6 +12,7 @@ use crate::math::Vec3;
 
 #[derive(Default)]
 pub(super) struct Nodes {
+    /// The nodes.
     pub list: Vec<Node>,
     /// The directions in which an element, a mass, a body or a link acts on each node.
     connected: Vec<[bool; 6]>,
@@ -22,7 +23,7 @@ pub(super) struct Nodes {
     restraints: Restraints,
 }
 
-/// Directions whose motion is given, by node and direction.
+/// The restraints by node and degree of freedom.
 pub(super) type Restraints = BTreeMap<(usize, usize), Restraint>;
 
 impl Nodes {
@@ -59,10 +60,12 @@ impl Nodes {
         self.restraints.insert((node, dof), Restraint { node, dof, motion });
     }
 
+    /// The initial position of a node.
     pub fn x(&self, node: usize) -> Vec3 {
         self.list[node].x
     }
 
+    /// The name of a node.
     pub fn label(&self, node: usize) -> &str {
         &self.list[node].label
     }
@@ -77,11 +80,12 @@ impl Nodes {
         self.restraints.values()
     }
 
+    /// True where something acts on a degree of freedom of a node.
     pub fn is_connected(&self, node: usize, dof: usize) -> bool {
         self.connected[node][dof]
     }
 
-    /// Whether something acts on the rotations of a node.
+    /// True where something acts on the rotations of a node.
     pub fn turns(&self, node: usize) -> bool {
         self.connected[node][3..].contains(&true)
     }
@@ -140,11 +144,12 @@ impl Topology {
         Topology { nodes, complete: report.connections_known() }
     }
 
+    /// True where everything that connects nodes could be read.
     pub fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// Whether anything takes a load or a motion of a node in a direction.
+    /// True where something takes up a load or a motion of a node in a direction.
     pub fn is_taken(&self, node: usize, dof: usize) -> bool {
         self.is_connected(node, dof) || self.master_in(node, dof).is_some()
     }

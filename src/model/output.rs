@@ -8,12 +8,14 @@ use crate::deck::output as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 
-/// More output times are a slip of the keyboard, and would only exhaust memory.
+/// Largest number of output times; more are taken for a typing error, and would exhaust memory.
 const MOST_ROWS: f64 = 1e7;
 
-/// What is written. For `nodes = "all"` the list of nodes stays empty until it is known which of them are left.
+/// The output of a run. For `nodes = "all"` the list of nodes stays empty until unused nodes have been removed.
 pub(super) struct Selection {
+    /// The output.
     pub output: Output,
+    /// True for `nodes = "all"`.
     pub all_nodes: bool,
 }
 

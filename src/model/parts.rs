@@ -12,7 +12,7 @@ use crate::sections::Stiffness;
 /// The most elements of all beams, bars and shells together; more, at some kilobytes each, are a slip of the keyboard.
 const MOST_ELEMENTS: usize = 2_000_000;
 
-/// What one table of the deck has become.
+/// The parts and nodes that one table of the deck has become.
 #[derive(Default)]
 pub(super) struct PartEntry {
     /// Its nodes; of a beam or bar that follows a path, in order along it.
@@ -21,7 +21,7 @@ pub(super) struct PartEntry {
     pub edges: Vec<Vec<usize>>,
     /// Its parts in the list, none where it has errors.
     pub range: Range<usize>,
-    /// Half of its thickness, or how far else from its nodes it is touched.
+    /// Half of its thickness, or another distance from its nodes at which it is in contact.
     pub contact_radius: f64,
     /// Nodes of its elements where these have left the model because the part is rigid.
     pub rigid_elements: Option<Vec<Vec<usize>>>,
@@ -29,6 +29,7 @@ pub(super) struct PartEntry {
 
 #[derive(Default)]
 pub(super) struct Parts {
+    /// The parts, in deck order.
     pub list: Vec<Part>,
     /// Section stiffnesses and inertias, shared by the beams that name them.
     pub stiffnesses: Vec<Stiffness>,
@@ -56,6 +57,7 @@ impl Parts {
         self.entries.get(&at)
     }
 
+    /// The entry of a part that has been begun.
     pub fn entry_mut(&mut self, at: PartIndex) -> &mut PartEntry {
         self.entries.entry(at).or_default()
     }
@@ -79,7 +81,7 @@ impl Parts {
         self.entry(at).and_then(|entry| entry.rigid_elements.clone()).unwrap_or_else(deformable)
     }
 
-    /// Whether a node belongs to a deformable part.
+    /// True where a node belongs to a deformable part.
     pub fn has_node(&self, node: usize) -> bool {
         self.entries.values().any(|entry| entry.nodes.contains(&node))
     }

@@ -5,7 +5,7 @@ use super::report::Owner;
 use crate::deck::words::{Maybe, OneOrMany};
 use crate::diagnostic::At;
 
-/// More elements in a segment are a slip of the keyboard, and would only exhaust memory.
+/// Largest number of elements in a segment; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 1_000_000;
 
 /// Finds the nodes of a path of two or more points and connects them, for a beam with their `rotations`.

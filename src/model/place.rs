@@ -24,6 +24,7 @@ impl Place {
         format!("{} {noun}", if noun.starts_with('e') { "an" } else { "a" })
     }
 
+    /// The noun for it in messages.
     pub fn noun(self) -> &'static str {
         match self {
             Place::Point(_) => "point",

@@ -12,7 +12,9 @@ use crate::names::{nearest, quoted};
 
 /// A table of the deck as messages name it, "beam `portal`", and where it stands.
 pub(super) struct Owner<'d> {
+    /// Words for the table, such as "beam `portal`".
     pub what: String,
+    /// Its place in the deck.
     pub span: &'d Span,
 }
 
@@ -54,10 +56,12 @@ impl<'d> Report<'d> {
         self.push(Diagnostic::warning(message).at(place).hint(hint));
     }
 
+    /// Reports a problem.
     pub fn push(&mut self, problem: Diagnostic) {
         self.problems.push(problem);
     }
 
+    /// True where an error was reported.
     pub fn has_errors(&self) -> bool {
         self.problems.iter().any(Diagnostic::is_error)
     }
@@ -72,7 +76,7 @@ impl<'d> Report<'d> {
         self.problems.len()
     }
 
-    /// Whether nothing was reported since [`Report::mark`].
+    /// True where nothing was reported since [`Report::mark`].
     pub fn is_clean_since(&self, mark: usize) -> bool {
         self.problems.len() == mark
     }
@@ -88,18 +92,18 @@ impl<'d> Report<'d> {
         self.connections_known = false;
     }
 
-    /// Whether everything that connects nodes could be read so far.
+    /// True where everything that connects nodes could be read so far.
     pub fn connections_known(&self) -> bool {
         self.connections_known
     }
 
-    /// Whether a key is written but could not be read, which has been reported when the deck was read.
+    /// True where a key is written but could not be read, which was reported when the deck was read.
     pub fn is_spoiled(&self, table: &Span, key: &str) -> bool {
         let here = |entry: &Option<Span>| entry.as_ref().is_none_or(|span| span == table);
         self.deck.spoiled.iter().any(|entry| entry.key == key && here(&entry.table))
     }
 
-    /// Whether any key of a table could not be read.
+    /// True where any key of a table could not be read.
     pub fn is_any_spoiled(&self, table: &Span) -> bool {
         self.deck.spoiled.iter().any(|entry| entry.table.as_ref() == Some(table))
     }

@@ -22,7 +22,7 @@ pub(super) struct Scene<'d> {
     pub parts: Parts,
 }
 
-/// Which names a list may hold besides points, bodies and sets.
+/// The kinds of names that a list may hold besides points, bodies and sets.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
     /// A list of points, bodies and sets alone.
@@ -37,7 +37,7 @@ impl<'d> Scene<'d> {
         self.names.nodes_of(place, &self.parts)
     }
 
-    /// What a name stands for. A set or group of one node stands for that node.
+    /// The place that a name stands for. A set or group of one node stands for that node.
     pub fn place_or_node(&self, name: &str) -> Option<Place> {
         self.names.place_or_node(name, &self.parts)
     }

@@ -12,7 +12,7 @@ use crate::diagnostic::At;
 use crate::sections::{CrossSection, Fibre, Stiffness};
 use std::collections::HashMap;
 
-/// Beyond this a section's answer no longer changes.
+/// Largest number of fibres; a section's response no longer changes beyond it.
 const MOST_FIBRES: usize = 10_000;
 
 /// The sections of a deck, and the stiffnesses that beams have asked of them so far.
@@ -21,6 +21,7 @@ pub(super) struct Sections<'a, 'd> {
     materials: &'a Materials<'d>,
     /// Section, material and whether it needs a mass → index in `stiffnesses`, none where there are errors.
     known: HashMap<(usize, Option<usize>, bool), Option<usize>>,
+    /// Section stiffnesses that beams have asked for.
     pub stiffnesses: Vec<Stiffness>,
 }
 
@@ -100,7 +101,7 @@ impl<'a, 'd> Sections<'a, 'd> {
     }
 }
 
-/// What the keys of a section give; they are read anew for each material, and what is wrong is merged in the end.
+/// The section that the keys give; they are read anew for each material, and errors are merged in the end.
 fn cross_section<'d>(
     name: &str,
     section: &'d At<OneOf<words::Section>>,
@@ -130,10 +131,10 @@ fn stiffness<'d>(
     }
 }
 
-/// How far from its axis a beam of this section is touched; 0 where the section does not say.
+/// The distance from its axis at which a beam of this section is in contact; 0 where the section does not say.
 pub(super) fn half_depth(section: &At<OneOf<words::Section>>) -> f64 {
     let Some(kind) = &section.kind else { return 0.0 };
-    // What is wrong with the section is said where its stiffness is asked for.
+    // Errors of the section are reported where its stiffness is needed.
     let mut given = Given::new("the section", &section.span, &section.values, Vec::new());
     match (kind.make.read)(&mut given, false) {
         Some(CrossSection::Shape(shape)) => shape.half_depth(),

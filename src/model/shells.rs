@@ -14,7 +14,7 @@ use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, Plate};
 use crate::math::Vec3;
 use crate::mesh;
 
-/// More elements along an edge are a slip of the keyboard, and would only exhaust memory.
+/// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
 const MOST_IN_ALL: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 5;

@@ -5,7 +5,9 @@ use std::fmt;
 
 /// A node that a list of names covers.
 pub(super) struct Spot<'d> {
+    /// The node.
     pub node: usize,
+    /// The name under which a list brought it in.
     pub name: Label<'d>,
     /// The place in the deck of the name that covers the node.
     pub span: &'d Span,

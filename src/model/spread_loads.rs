@@ -49,7 +49,7 @@ pub(super) fn spread_load<'d>(
         forces: BTreeMap::new(),
         faces: Vec::new(),
     };
-    // What is named twice is loaded once, like nodes.
+    // A part named twice is loaded once, like nodes.
     let mut seen = HashSet::new();
     for name in &names.values {
         let Some(place) = scene.names.find(name, report) else { continue };
@@ -111,13 +111,13 @@ impl<'d> Spread<'_, 'd> {
         }
     }
 
-    /// Whether one of two nodes, which a list brought in under a name, is loose.
+    /// True where one of two nodes, which a list brought in under a name, is loose.
     fn is_loose(&self, pair: [usize; 2], name: &'d At<String>, report: &mut Report<'d>) -> bool {
         let spot = |node| Spot { node, name: self.scene.label(node, name), span: &name.span, direct: false };
         pair.iter().any(|&node| self.topology.is_loose(&spot(node), "this load", report))
     }
 
-    /// Half of the force on a segment goes to each of its ends.
+    /// Distributes the force on a segment to its ends in equal halves.
     fn along(&mut self, pair: [usize; 2], line: Vec3) {
         let half = 0.5 * (self.topology.x(pair[1]) - self.topology.x(pair[0])).norm();
         pair.iter().for_each(|&node| *self.forces.entry(node).or_default() += half * line);

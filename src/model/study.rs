@@ -17,12 +17,12 @@ use crate::names::nearest;
 use crate::quantities::{self, MOTION};
 use std::sync::Arc;
 
-/// What can be asked of a node or body besides its motion: angular velocity in axes that turn with it, and its rotation matrix.
+/// Quantities of a node or body besides its motion: angular velocity in body axes, and the rotation matrix.
 const DERIVED: [&str; 12] =
     ["body_wx", "body_wy", "body_wz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 
-/// More are a slip of the keyboard.
-const MOST_RUNGS: usize = 60;
+/// Largest number of entries of a list; more are taken for a typing error.
+const MOST_ENTRIES: usize = 60;
 const MOST_SAMPLES: u64 = 1_000_000;
 
 /// Checks `[study]` of a deck whose own scheme is known.
@@ -96,7 +96,7 @@ impl<'d> Reader<'_, 'd> {
         }
     }
 
-    /// Of each quantity: where it is, and its column in the reference.
+    /// The node and component of each quantity, and its column in the reference.
     fn quantities(&mut self, study: &'d Written) -> (Vec<Quantity>, Vec<String>) {
         if study.reference.is_none() {
             let places: Vec<&Span> = study.columns.0.iter().map(|(column, _)| &column.span).collect();
@@ -173,9 +173,9 @@ impl<'d> Reader<'_, 'd> {
         if list.values.is_empty() {
             self.report.error::<()>(&list.span, format!("`{key}` is empty"));
         }
-        if list.values.len() > MOST_RUNGS {
+        if list.values.len() > MOST_ENTRIES {
             let message = format!("`{key}` has {} entries", list.values.len());
-            self.report.error_with::<()>(&list.span, message, format!("at most {MOST_RUNGS} are allowed"));
+            self.report.error_with::<()>(&list.span, message, format!("at most {MOST_ENTRIES} are allowed"));
         }
         for value in list.values.iter().filter(|value| value.value <= 0.0) {
             self.report.error::<()>(&value.span, format!("`{key}` must be above zero"));
@@ -257,7 +257,7 @@ pub fn obstacle(model: &super::data::Model) -> Option<&'static str> {
     along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
 }
 
-/// What an integrator says besides its scheme, as TOML.
+/// The keys of an integrator besides its scheme, as TOML.
 fn entries(integrator: &OneOf<deck::Integrator>) -> Vec<(&'static str, String)> {
     let keys = SCHEMES.iter().flat_map(|kind| kind.keys);
     let mut entries: Vec<(&'static str, String)> =

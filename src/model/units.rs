@@ -15,6 +15,7 @@ const DENSITY: [f64; 2] = [1.0, 2.3e4];
 const GRAVITY: [f64; 2] = [1.6, 26.0];
 
 impl Units {
+    /// The deck's word for it.
     pub fn label(self) -> &'static str {
         match self {
             Units::Si => "SI",

@@ -14,7 +14,7 @@ pub(super) fn vec3_or_zero(value: &Maybe<Vector>) -> Vec3 {
     value.as_ref().map_or_else(Vec3::zeros, |value| vec3(value))
 }
 
-/// Where the value of a key stands, if it is given.
+/// The place of the value of a key; `None` where it is not given.
 pub(super) fn span<T>(value: &Maybe<T>) -> Option<&Span> {
     value.as_ref().map(|value| &value.span)
 }
