@@ -120,8 +120,8 @@ impl ConstraintEquation {
         matches!(self, ConstraintEquation::Perpendicular { .. })
     }
 
-    /// For motion in the plane normal to a global axis, whether the equation constrains anything; `None` where its
-    /// forces would act out of that plane. `d` is x_a − x_b.
+    /// Tells, for motion in the plane normal to a global axis, whether the equation constrains anything; `None` where
+    /// its forces would act out of that plane. `d` is x_a − x_b.
     pub fn in_plane(&self, normal: usize, d: &Vec3) -> Option<bool> {
         const SMALL: f64 = 1e-12; // what rounding leaves of a zero
         let along = |v: &Vec3| v[normal].abs() > 1.0 - SMALL;

@@ -35,8 +35,8 @@ pub trait Scheme: fmt::Debug + Send + Sync {
     /// schemes.
     fn coefficients(&self, dt: f64) -> Coefficients;
 
-    /// For schemes whose formulas use an algorithmic acceleration a in place of the q̈ of equilibrium, the weights of
-    /// (a, q̈ at the start, q̈ at the end of the step) in a at the end of the step.
+    /// Weights of (a, q̈ at the start, q̈ at the end of the step) in a at the end of the step, for schemes whose
+    /// formulas use an algorithmic acceleration a in place of the q̈ of equilibrium.
     fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
         None
     }

@@ -89,7 +89,7 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
 fn driving(model: &Model, system: &System) -> Vec<usize> {
     let mut leads = vec![false; model.nodes.len()];
     system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
-    // In reverse order, for dependent nodes come after their masters.
+    // The order is reversed, for dependent nodes come after their masters.
     for dependent in system.rigid_links.iter().rev() {
         leads[dependent.master] |= leads[dependent.node];
     }

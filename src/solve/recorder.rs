@@ -94,7 +94,7 @@ impl Recorder {
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
     }
 
-    /// Whether tables are due, and whether fields are drawn; fields are drawn by steps and at the end.
+    /// Decides whether tables are due, and whether fields are drawn; fields are drawn by steps and at the end.
     fn is_due(&self, model: &Model, step: &AcceptedStep) -> (bool, bool) {
         let due = match model.output.cadence {
             Cadence::Steps(every) => self.counts.steps.is_multiple_of(every.max(1)),

@@ -149,7 +149,7 @@ impl ConstraintSchur {
         true
     }
 
-    /// Solves x ← (G M⁻¹ Gᵀ)⁻¹ x. Redundant equations share the load in equal parts.
+    /// Solves x ← (G M⁻¹ Gᵀ)⁻¹ x. Redundant equations share the load by least norm.
     pub fn solve(&mut self) {
         let n = self.rows.len();
         self.x.iter_mut().zip(&self.inert).filter(|(_, inert)| **inert).for_each(|(x, _)| *x = 0.0);

@@ -70,7 +70,7 @@ impl System {
         self.transfer_to_masters(nodes, forces);
     }
 
-    /// For each node, whether any mass acts on its translations and any inertia on its rotations.
+    /// Tells for each node whether any mass acts on its translations and any inertia on its rotations.
     pub fn has_mass(&self, nodes: usize) -> Vec<[bool; 2]> {
         let mut has_mass = vec![[false; 2]; nodes];
         self.inertias.iter().for_each(|inertia| has_mass[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);

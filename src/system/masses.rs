@@ -121,8 +121,8 @@ impl Masses {
         self.place[node].map(|place| &self.blocks[place as usize])
     }
 
-    /// Writes M⁻¹ F into `out`, by node, where there is an unknown; accelerations of restrained degrees of freedom stay
-    /// as they are.
+    /// Writes M⁻¹ F into `out`, by node, for each node with an unknown, and zero at its restrained degrees of freedom;
+    /// the other entries stay.
     pub fn accelerate(&self, nodes: &[Node], F: &[Force], out: &mut [Vec6]) {
         for block in &self.blocks {
             out[block.node] = block.accelerate(&nodes[block.node], &F[block.node]);

@@ -98,7 +98,7 @@ impl<'a> PointHistoryMut<'a> {
         PointHistoryMut(numbers)
     }
 
-    /// The same numbers to be read.
+    /// The same numbers, to be read.
     pub fn read(&self) -> PointHistory<'_> {
         PointHistory(self.0)
     }

@@ -34,7 +34,7 @@ const HARD: usize = 12;
 /// Largest number of steps of a path, unless the deck asks for another.
 const MOST_STEPS: usize = 100_000;
 /// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.
-const LANDINGS: usize = 8;
+const MOST_TARGETS: usize = 8;
 
 /// Leads a static analysis along its equilibrium path.
 pub struct ArcLengthController {
@@ -59,7 +59,7 @@ pub struct ArcLengthController {
 /// An equilibrium that was found, with the target that it lies at.
 struct Found {
     report: StepReport,
-    landed: Option<usize>,
+    reached: Option<usize>,
     motion: StepMotion,
 }
 
@@ -85,7 +85,7 @@ impl ArcLengthController {
     /// Finds the equilibrium under loads that do not begin at zero, which act at once.
     ///
     /// # Errors
-    /// Where no equilibrium is found under them.
+    /// No equilibrium is found under them.
     pub fn apply_initial_loads(&mut self, march: &mut March) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
@@ -100,7 +100,7 @@ impl ArcLengthController {
     /// Follows the path to the end time, to where the deck stops it, or through its number of steps.
     ///
     /// # Errors
-    /// What ends the run early.
+    /// The outcome that ends the run early.
     pub fn follow(&mut self, march: &mut March) -> Result<(), Outcome> {
         if self.begin >= march.cx.model.analysis.end_time {
             return Err(march.failed(Failure::NoLoadIncrement { time: march.state.time }));
@@ -111,12 +111,12 @@ impl ArcLengthController {
             let Some(found) = self.find_or_cut(march)? else { continue };
             let dt = found.report.to - march.state.time;
             self.accept(march, &found)?;
-            let ends = found.landed.is_some_and(|i| self.targets.0[i].ends)
+            let ends = found.reached.is_some_and(|i| self.targets.0[i].ends)
                 || self.path.steps.is_some_and(|steps| march.recorder.counts.steps + 1 >= steps);
-            self.show(march, &found, dt, ends)?;
+            self.notify(march, &found, dt, ends)?;
             if ends {
                 self.short_of_stop =
-                    self.path.stop.filter(|stop| !self.targets.is_stop(stop, found.landed)).map(
+                    self.path.stop.filter(|stop| !self.targets.is_stop(stop, found.reached)).map(
                         |Passage { node, dof, .. }| march.state.nodes[node].moved(&march.cx.model.nodes[node].x)[dof],
                     );
                 return Ok(());
@@ -147,7 +147,7 @@ impl ArcLengthController {
             Ok(_) if motion.cosine < BENT && self.bent < TRIES && may_cut => self.bent += 1,
             // A first step has no direction to compare with; only its iterations show whether it was too long.
             Ok((ref report, _)) if self.unit.is_none() && report.iterations > HARD && may_cut => {}
-            Ok((report, landed)) => return Ok(Some(Found { report, landed, motion })),
+            Ok((report, reached)) => return Ok(Some(Found { report, reached, motion })),
             Err(failure) => {
                 let unrestrained =
                     self.unit.is_none() && cx.system.history == 0 && matches!(failure, Failure::Singular { .. });
@@ -174,10 +174,10 @@ impl ArcLengthController {
         let scheme = load_steps::coefficients();
         self.newton.predict(cx, ws, state, &scheme);
         let mut report = self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?;
-        let mut landed = None;
-        for _ in 0..LANDINGS {
-            let Some((index, part)) = self.targets.first_passed(cx, ws, state, report.to, landed) else {
-                return Ok((report, landed));
+        let mut reached = None;
+        for _ in 0..MOST_TARGETS {
+            let Some((index, part)) = self.targets.first_passed(cx, ws, state, report.to, reached) else {
+                return Ok((report, reached));
             };
             let target = &self.targets.0[index];
             let (from, _) = target.ends_of_motion(cx, ws, state, report.to);
@@ -190,7 +190,7 @@ impl ArcLengthController {
             };
             shorten(cx, ws, state, part);
             report = report.then(self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?);
-            landed = Some(index);
+            reached = Some(index);
         }
         Err(residual::no_equilibrium(cx, ws))
     }
@@ -212,7 +212,7 @@ impl ArcLengthController {
     fn accept(&mut self, march: &mut March, found: &Found) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let to = found.report.to;
-        self.targets.pass(cx, ws, state, to, found.landed);
+        self.targets.pass(cx, ws, state, to, found.reached);
         self.constraint.keep_motion(cx, ws, &found.motion);
         // A first step may have ended early at a target, even before loads begin.
         let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
@@ -225,15 +225,15 @@ impl ArcLengthController {
         accepted.map_err(|failure| march.failed(failure))
     }
 
-    fn show(&mut self, march: &mut March, found: &Found, dt: f64, ends: bool) -> Result<(), Outcome> {
-        let passed = found.landed.map_or(&[][..], |i| &self.targets.0[i].expects);
-        let due = found.landed.is_some() || ends;
+    fn notify(&mut self, march: &mut March, found: &Found, dt: f64, ends: bool) -> Result<(), Outcome> {
+        let passed = found.reached.map_or(&[][..], |i| &self.targets.0[i].expects);
+        let due = found.reached.is_some() || ends;
         march.notify(&AcceptedStep { dt, report: &found.report, cuts: self.cuts, due, last: ends, passed })
     }
 
     /// Chooses the size of the next step by the iterations of this one, unless this ended at a target.
     fn choose_size(&mut self, found: &Found) {
-        if found.landed.is_none() {
+        if found.reached.is_none() {
             let mut change = (DESIRED / found.report.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
             if self.cuts > 0 || found.motion.cosine < STRAIGHT {
                 change = change.min(1.0);

@@ -55,7 +55,7 @@ impl<'a> Controller<'a> {
     /// Leads the run from its state at t = 0 to its end.
     ///
     /// # Errors
-    /// What ends it early.
+    /// The outcome that ends it early.
     pub fn run(&mut self, march: &mut March) -> Result<(), Outcome> {
         match self {
             Controller::Fixed(controller) => through_intervals(controller, march),

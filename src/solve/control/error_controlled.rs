@@ -47,7 +47,7 @@ const TRIALS: [f64; 6] = [1.7e-4, 7.1e-4, 2.9e-3, 0.011, 0.037, 0.053];
 /// less; unless other motion leaves more than the root of it after a third filter.
 const RESOLVED: f64 = 0.3;
 /// Number of filters that remove such motion, and keep most of a mode with ten steps a period.
-const PASSAGES: usize = 8;
+const FILTERS: usize = 8;
 /// Unresolved motion is left to the numerical damping of the scheme while its amplitude is below this multiple of the
 /// tolerance: shorter steps would only prolong it.
 const SLIGHT: f64 = 2.0;
@@ -185,7 +185,7 @@ impl<'a> ErrorController<'a> {
             filter(cx, ws, state, mass_weight, again);
             if relative(again) < RESOLVED.sqrt() * error {
                 // Unresolved motion is left alone; other motion has to show.
-                for _ in 0..PASSAGES {
+                for _ in 0..FILTERS {
                     filter(cx, ws, state, mass_weight, again);
                 }
                 error = relative(again);

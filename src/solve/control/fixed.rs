@@ -13,9 +13,9 @@ use crate::solve::workspace::Workspace;
 use crate::state::State;
 
 /// Largest number of halvings of a step; the deck's least step may stop earlier.
-const DEEPEST: u32 = 40;
+const MOST_HALVINGS: u32 = 40;
 /// A whole step, in units of the smallest substep.
-const WHOLE: u64 = 1 << DEEPEST;
+const WHOLE_STEP: u64 = 1 << MOST_HALVINGS;
 /// Largest number of substeps of a step, without contacts and with them. Without contacts, consecutive steps that are
 /// each cut into more than `MANY` substeps count together.
 const MOST_SUBSTEPS: [usize; 2] = [1024, 4096];
@@ -38,7 +38,7 @@ struct SubdividedSteps {
 struct Substeps {
     from: f64,
     to: f64,
-    /// Time from the start of the step, and the length of the next substep, in parts of [`WHOLE`].
+    /// Time from the start of the step, and the length of the next substep, in parts of [`WHOLE_STEP`].
     at: u64,
     length: u64,
     /// Substeps taken, substeps since one was cut or doubled, and cutbacks before the one at hand.
@@ -61,14 +61,14 @@ impl<'a> FixedController<'a> {
     fn advance(&mut self, march: &mut March, interval: &Interval, k: usize) -> Result<(), Outcome> {
         let due = k == interval.steps && interval.due;
         let mut step = Substeps::of(march.state.time, interval.time(k));
-        while step.at < WHOLE {
+        while step.at < WHOLE_STEP {
             march.check_stop()?;
             let target = step.target();
             let dt = target - march.state.time;
             match self.stepper.step(march.cx, march.ws, march.state, target) {
                 Ok(report) => {
-                    step.took();
-                    step.show(march, &report, dt, due)?;
+                    step.count();
+                    step.notify(march, &report, dt, due)?;
                     self.check_substeps(march, &step, dt)?;
                     step.grow();
                 }
@@ -93,7 +93,7 @@ impl<'a> FixedController<'a> {
         let SubdividedSteps { steps, substeps } = self.subdivided;
         let most = MOST_SUBSTEPS[usize::from(march.cx.system.has_contacts())];
         match &step.cause {
-            Some(cause) if substeps + step.taken >= most && step.at < WHOLE => {
+            Some(cause) if substeps + step.taken >= most && step.at < WHOLE_STEP => {
                 let (steps, substeps, cause) = (steps + 1, substeps + step.taken, Box::new(cause.clone()));
                 Err(march.failed(Failure::TooManySubsteps { steps, substeps, dt, cause }))
             }
@@ -122,7 +122,7 @@ impl Substeps {
             from,
             to,
             at: 0,
-            length: WHOLE,
+            length: WHOLE_STEP,
             taken: 0,
             successes: 0,
             cuts: 0,
@@ -134,20 +134,20 @@ impl Substeps {
     /// Time at which the next substep ends.
     fn target(&self) -> f64 {
         match self.at + self.length {
-            WHOLE => self.to,
-            next => self.from + (self.to - self.from) * (next as f64 / WHOLE as f64),
+            WHOLE_STEP => self.to,
+            next => self.from + (self.to - self.from) * (next as f64 / WHOLE_STEP as f64),
         }
     }
 
-    fn took(&mut self) {
+    fn count(&mut self) {
         self.at += self.length;
         self.successes += 1;
         self.taken += 1;
     }
 
     /// Shows the substep that was taken; with `due`, the end of the step is an output time.
-    fn show(&mut self, march: &mut March, report: &StepReport, dt: f64, due: bool) -> Result<(), Outcome> {
-        let ends = self.at == WHOLE;
+    fn notify(&mut self, march: &mut March, report: &StepReport, dt: f64, due: bool) -> Result<(), Outcome> {
+        let ends = self.at == WHOLE_STEP;
         let (due, last) = (ends && due, ends && march.is_end(self.to));
         march.notify(&AcceptedStep { dt, report, cuts: self.cuts, due, last, passed: &[] })?;
         self.cuts = 0;
@@ -156,7 +156,7 @@ impl Substeps {
 
     /// Doubles the substep where two were taken and a longer one fits.
     fn grow(&mut self) {
-        if self.successes >= 2 && self.length < WHOLE && self.at.is_multiple_of(2 * self.length) {
+        if self.successes >= 2 && self.length < WHOLE_STEP && self.at.is_multiple_of(2 * self.length) {
             self.length *= 2;
             self.successes = 0;
         }

@@ -15,7 +15,7 @@ pub trait CoverInterval {
     /// Takes the state of a run to the end of an interval.
     ///
     /// # Errors
-    /// What ends the run early.
+    /// The outcome that ends the run early.
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome>;
 }
 

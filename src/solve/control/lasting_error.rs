@@ -27,8 +27,8 @@ impl LastingError {
         &self.value
     }
 
-    /// Adds the errors of a step of length `dt`, over `per` c Δt³, by implicit Euler for τ y₁' + y₁ = e and τ² y'' + τ
-    /// y' + y = y₁.
+    /// Passes the errors of a step of length `dt`, divided by `per` = c Δt³, through the filter with the time constant
+    /// `tau`: implicit Euler for τ y₁' + y₁ = e and τ² y'' + τ y' + y = y₁.
     pub fn update(&mut self, errors: &[Vec6], per: f64, dt: f64, tau: f64) {
         let (s, stretched) = (dt / tau, self.tau.map(|before| tau / before));
         self.tau = Some(tau);

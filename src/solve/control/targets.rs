@@ -91,11 +91,11 @@ impl Targets {
         passed.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Counts the targets that the accepted motion passes. It passes `landed` by definition, whatever rounding says.
-    pub fn pass(&mut self, cx: &Context, ws: &Workspace, state: &State, to: f64, landed: Option<usize>) {
+    /// Counts the targets that the accepted motion passes. It passes `reached` by definition, whatever rounding says.
+    pub fn pass(&mut self, cx: &Context, ws: &Workspace, state: &State, to: f64, reached: Option<usize>) {
         for (i, target) in self.0.iter_mut().enumerate() {
             let (_, end) = target.ends_of_motion(cx, ws, state, to);
-            let side = match landed == Some(i) {
+            let side = match reached == Some(i) {
                 true => -target.side,
                 false if end == target.value => target.side,
                 false => (end - target.value).signum(),
@@ -108,9 +108,9 @@ impl Targets {
     }
 
     /// True where a step ended at this target.
-    pub fn is_stop(&self, stop: &Passage, landed: Option<usize>) -> bool {
+    pub fn is_stop(&self, stop: &Passage, reached: Option<usize>) -> bool {
         let quantity = TargetQuantity::Displacement { node: stop.node, dof: stop.dof };
-        landed.is_some_and(|i| self.0[i].ends && self.0[i].quantity == quantity)
+        reached.is_some_and(|i| self.0[i].ends && self.0[i].quantity == quantity)
     }
 }
 

@@ -114,7 +114,7 @@ impl CentralDifferenceStepper {
         contacts::check_passage(cx, ws, state, dt)?;
         joints::check(cx, ws)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
-        self.critical.took(aMa);
+        self.critical.count(aMa);
         offset_energy(&mut state.work, aMa, dt);
         Ok(StepReport { iterations: evaluations, ..StepReport::begin(to) })
     }

@@ -105,7 +105,7 @@ impl CriticalStep {
     }
 
     /// Counts a step taken with these accelerations.
-    pub fn took(&mut self, aMa: f64) {
+    pub fn count(&mut self, aMa: f64) {
         self.max_aMa = self.max_aMa.max(aMa);
     }
 

@@ -9,7 +9,8 @@ const NEW: f64 = 1e-6;
 
 /// The corrections of a step, and the change that each made to the next. It is allocated once.
 pub struct Anderson {
-    /// For each earlier iteration, oldest first, the change of the correction and the change of the increments.
+    /// Changes from each earlier iteration to the next, oldest first: of the correction, and of the increments that it
+    /// leads to.
     differences: Vec<[Vec<f64>; 2]>,
     used: usize,
     /// The last correction as solved and as applied.

@@ -84,7 +84,7 @@ impl ArcLengthConstraint {
         }
     }
 
-    /// With a in `r`, writes a + δt b there, and the loads and prescribed motion at the new time, which it returns.
+    /// Writes a + δt b into `r`, which holds a, and the loads and prescribed motion at the new time, which it returns.
     ///
     /// # Errors
     /// [`Failure::NoEquilibriumOnArc`] where the line of corrections misses the arc, [`Failure::NoLoadIncrement`] where nothing changes with the time.

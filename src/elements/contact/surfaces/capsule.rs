@@ -35,7 +35,7 @@ fn read(given: &mut Given, _: Option<Vec3>) -> Option<Placed<Capsule>> {
 pub struct Capsule {
     /// Radius about the line.
     pub radius: f64,
-    /// Half the length of the line.
+    /// Half length of the line.
     pub half: f64,
 }
 

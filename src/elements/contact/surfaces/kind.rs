@@ -24,6 +24,7 @@ pub trait Touched {
 /// The point of a surface closest to a given one, as far as forces need it; in the frame of that.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosestPoint {
+    /// Distance from the surface, negative inside.
     pub distance: f64,
     /// Outward, away from the surface.
     pub n: Vec3,
@@ -34,16 +35,18 @@ pub struct ClosestPoint {
 /// A shape that the deck can name.
 pub type SurfaceKind<S> = Kind<MakeSurface<S>>;
 
-/// What the keys of a surface give, global at t = 0, from the centre of the body that carries it, which the ground has not.
-/// `None` where a key is wrong.
+/// Makes a shape from the keys and the centre of the body that carries it, which the ground has not; global components
+/// at t = 0. `None` where a key is wrong.
 pub type MakeSurface<S> = fn(&mut Given, Option<Vec3>) -> Option<Placed<S>>;
 
 /// A shape with its origin and axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placed<S> {
+    /// Origin of the shape, global at t = 0.
     pub center: Vec3,
     /// Columns: the shape's axes.
     pub axes: Mat3,
+    /// The shape.
     pub shape: S,
 }
 
@@ -51,7 +54,7 @@ pub struct Placed<S> {
 pub const CENTER: Key =
     Key { name: "center", form: Form::Vector, about: "The centre. Default: the centre of the body." };
 
-/// What is read from [`CENTER`].
+/// The value of the key [`CENTER`].
 pub fn center(given: &mut Given, body: Option<Vec3>) -> Option<Vec3> {
     match body {
         Some(body) if !given.has("center") && !given.is_unreadable("center") => Some(body),
@@ -59,11 +62,12 @@ pub fn center(given: &mut Given, body: Option<Vec3>) -> Option<Vec3> {
     }
 }
 
-/// Whether e is one of the axes, and whether it is normal to one, to rounding.
+/// True where e is the axis of this number, to rounding.
 pub fn along(e: &Vec3, axis: usize) -> bool {
     e[axis].abs() > 1.0 - 1e-12
 }
 
+/// True where e is normal to the axis of this number, to rounding.
 pub fn across(e: &Vec3, axis: usize) -> bool {
     e[axis].abs() < 1e-12
 }
@@ -71,7 +75,7 @@ pub fn across(e: &Vec3, axis: usize) -> bool {
 /// The closest point around a centre (or a line, with `free` the projection across it).
 pub fn round(y: &Vec3, radius: f64, free: &Mat3) -> ClosestPoint {
     let rho = y.norm();
-    // In the middle any direction leads out.
+    // Any direction leads out from the middle.
     if rho <= f64::MIN_POSITIVE {
         return ClosestPoint { distance: -radius, n: Vec3::x(), H: Mat3::zeros() };
     }
