@@ -112,6 +112,17 @@ impl PartKind {
         self == PartKind::Shell
     }
 
+    /// True for parts whose elements act while they are closed and are left out otherwise: unilateral constraints.
+    #[inline]
+    pub fn is_unilateral(self) -> bool {
+        self == PartKind::Contact
+    }
+
+    /// False for parts that are drawn with what carries them.
+    pub fn is_drawn(self) -> bool {
+        self != PartKind::Contact
+    }
+
     /// True for parts to whose nodes others can be attached.
     pub fn takes_attachments(self) -> bool {
         self == PartKind::Beam

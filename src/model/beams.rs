@@ -55,7 +55,7 @@ fn read_beam<'d>(
         cx.report.error::<()>(&at.span, "`order` can be 1, 2, 3 or 4");
     }
     let mass = chosen(&beam.mass);
-    let section = cx.sections.beam_section(owner, beam, mass, cx.report);
+    let section = cx.sections.beam_section(owner, [&beam.section, &beam.material], mass, cx.report);
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
     let orientation = cx.report.require(owner, "orientation", &beam.orientation);
     let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
@@ -228,7 +228,7 @@ fn yielding<'d>(
     };
     let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
     // A wrong section has been reported.
-    let fibres = if section { cx.sections.fibres(beam, cx.report)? } else { return None };
+    let fibres = if section { cx.sections.fibres(beam.section.as_ref()?, cx.report)? } else { return None };
     Some(Some(FibreModel { law, fibres, shear, rule, points }))
 }
 

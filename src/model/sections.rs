@@ -4,10 +4,9 @@ use super::data::MassKind;
 use super::materials::Materials;
 use super::report::{Owner, Report};
 use crate::deck::Deck;
-use crate::deck::beams::Beam;
 use crate::deck::sections as words;
-use crate::deck::words::Named;
 use crate::deck::words::kinds::{Given, OneOf};
+use crate::deck::words::{Maybe, Named};
 use crate::diagnostic::At;
 use crate::sections::{CrossSection, Fibre, Stiffness};
 use std::collections::HashMap;
@@ -30,9 +29,8 @@ impl<'a, 'd> Sections<'a, 'd> {
         Sections { table: &deck.sections, materials, known: HashMap::new(), stiffnesses: Vec::new() }
     }
 
-    /// Fibres of a beam's section, which is sound.
-    pub fn fibres(&self, beam: &'d Beam, report: &mut Report<'d>) -> Option<Vec<Fibre>> {
-        let name = beam.section.as_ref()?;
+    /// Fibres of a section, which is sound.
+    pub fn fibres(&self, name: &'d At<String>, report: &mut Report<'d>) -> Option<Vec<Fibre>> {
         let (_, section) = report.find("section", self.table, name)?;
         let counts = section.values.place("fibres");
         let numbers: Vec<usize> = section.values.numbers("fibres").iter().map(|&n| n as usize).collect();
@@ -49,34 +47,30 @@ impl<'a, 'd> Sections<'a, 'd> {
         }
     }
 
-    /// Index of the stiffness of a beam's section and material.
+    /// Index of the stiffness of a beam that names a section and a material.
     pub fn beam_section(
         &mut self,
         owner: &Owner<'d>,
-        beam: &'d Beam,
+        [section, made_of]: [&'d Maybe<String>; 2],
         mass: MassKind,
         report: &mut Report<'d>,
     ) -> Option<usize> {
-        let material = match &beam.material {
+        let material = match made_of {
             Some(name) => Some((name, self.materials.find(name, report)?)),
             None => None,
         };
-        let name = report.require(owner, "section", &beam.section)?;
+        let name = report.require(owner, "section", section)?;
         let (section_index, section) = report.find("section", self.table, name)?;
         let direct = section.kind.as_ref().is_some_and(|kind| !(kind.make.takes_material)(&section.values));
-        if direct && let Some((name, _)) = &material {
-            let message = format!(
-                "section `{}` gives stiffnesses, so {} takes no material",
-                beam.section.as_ref()?.value,
-                owner.what
-            );
-            return report.error(&name.span, message);
+        if direct && let Some((given, _)) = &material {
+            let message = format!("section `{}` gives stiffnesses, so {} takes no material", name.value, owner.what);
+            return report.error(&given.span, message);
         }
         let material = if direct { None } else { Some(material) };
         let (material_index, numbers) = match material {
             None => (None, [0.0; 3]),
             Some(None) => {
-                report.require(owner, "material", &beam.material)?;
+                report.require(owner, "material", made_of)?;
                 return None;
             }
             Some(Some((name, (index, material)))) => {

@@ -10,7 +10,7 @@
 use super::disk::{at, replace};
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, rotation};
-use crate::model::{Drawing, Model, Part, PartKind};
+use crate::model::{Drawing, Model, Part};
 use crate::solids::outline::OutlineCell;
 use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
@@ -124,7 +124,7 @@ fn face(corners: usize) -> Cell {
 
 /// Contacts are not: what carries them is.
 fn is_drawn(part: &Part) -> bool {
-    part.kind() != PartKind::Contact
+    part.kind().is_drawn()
 }
 
 /// fields.csv, in the order of [`Grid::of`].
@@ -187,8 +187,8 @@ impl Fields {
             parts: part_array,
             cells,
             count: offsets.len(),
-            before: model.has(PartKind::Shell).then(|| {
-                let others = model.parts.iter().take_while(|part| part.kind() != PartKind::Shell);
+            before: model.has_surfaces().then(|| {
+                let others = model.parts.iter().take_while(|part| !part.kind().is_surface());
                 others.map(Part::elements).sum()
             }),
             listed,

@@ -7,7 +7,7 @@ use super::folder::remove_stale;
 use super::table::{TableKind, WriteRows};
 use super::table_file::TableFile;
 use super::tables::TABLES;
-use crate::model::{Cadence, Model, PartKind};
+use crate::model::{Cadence, Model};
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
 use std::io;
@@ -101,5 +101,5 @@ pub fn wanted(model: &Model) -> Wanted {
     let expects = model.expects.iter().map(|expect| needs(expect.at));
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
-    if model.has(PartKind::Shell) { all } else { all.without(Wanted::SHELLS) }
+    if model.has_surfaces() { all } else { all.without(Wanted::SHELLS) }
 }

@@ -1,11 +1,10 @@
 //! Derived quantities, computed for output only: energies, forces of links, joints and contacts, stress resultants,
 //! strains. A step itself needs none of them.
 
-use crate::model::{Model, PartKind};
+use crate::model::Model;
 use crate::state::State;
 use crate::system::energy::{self, Energy, PartEnergy};
-use crate::system::results::{self, LinkState, SectionPoint, ShellState};
-use crate::system::{ContactState, JointState, System};
+use crate::system::{ContactState, JointState, LinkState, SectionPoint, ShellState, System, results};
 use std::ops::BitOr;
 
 /// A set of derived quantities, those that the observer needs; others are not computed.
@@ -101,7 +100,10 @@ pub struct Request<'a> {
 impl Derived {
     /// Empty quantities, with room for all contacts.
     pub fn new(model: &Model) -> Self {
-        Derived { contacts: Vec::with_capacity(model.count(PartKind::Contact)), ..Derived::default() }
+        Derived {
+            contacts: Vec::with_capacity(model.parts.iter().filter(|part| part.kind().is_unilateral()).count()),
+            ..Derived::default()
+        }
     }
 
     /// Computes what is wanted of this step and empties the rest.

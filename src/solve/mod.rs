@@ -29,8 +29,8 @@ mod start;
 mod time_stepper;
 mod workspace;
 
-pub use crate::system::results::{LinkState, SectionPoint, ShellState};
 pub use crate::system::{ContactState, JointState};
+pub use crate::system::{LinkState, SectionPoint, ShellState};
 pub use derived::{Derived, Wanted};
 pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer};

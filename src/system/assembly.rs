@@ -11,7 +11,6 @@ use super::loads::{Loading, follower_stiffness};
 use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
-use crate::model::PartKind;
 use crate::state::{Configuration, Node};
 use rayon::prelude::*;
 
@@ -368,7 +367,7 @@ impl Assembly {
                 let last = (first + CHUNK).min(block.len());
                 let Scratch { local, projections, projected, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
-                let sparse = group.kind == PartKind::Contact;
+                let sparse = group.kind.is_unilateral();
                 let inactive = |e: usize| sparse && block.is_inactive(e, now);
                 let fill = |(k, K): (usize, &mut [f64])| {
                     if !inactive(first + k) {

@@ -1,9 +1,10 @@
 //! The energies and momenta of a state.
 
 use super::equations::System;
+use super::parts::{Storage, storage};
 use super::thread_partition;
 use crate::math::Vec3;
-use crate::model::{Model, Part, PartKind};
+use crate::model::{Model, Part};
 use crate::state::{Configuration, State};
 
 /// Energies and momenta at the end of a step: the columns of energy.csv.
@@ -46,15 +47,15 @@ impl Energy {
     /// `None` at t = 0.
     pub fn of(system: &System, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
-        let stored = |of: &(dyn Fn(PartKind) -> bool + Sync)| -> f64 {
-            thread_partition::sum(&system.groups, system.splits(threads), &|group| match of(group.kind) {
+        let stored = |column: Storage| -> f64 {
+            thread_partition::sum(&system.groups, system.splits(threads), &|group| match storage(group.kind) == column {
                 true => group.block.energy(&group.share(&now)),
                 false => 0.0,
             })
         };
-        let strain = stored(&PartKind::is_deformable) + work.material.stored;
-        let links = stored(&|kind| kind == PartKind::Link);
-        let contact = if system.has_contacts() { stored(&|kind| kind == PartKind::Contact) } else { 0.0 };
+        let strain = stored(Storage::Strain) + work.material.stored;
+        let links = stored(Storage::Links);
+        let contact = if system.has_contacts() { stored(Storage::Contacts) } else { 0.0 };
         let mut kinetic = 0.0;
         let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
         for inertia in &system.inertias {

@@ -4,16 +4,16 @@ use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::loads::{Loading, load_on};
 use super::multipliers::Multipliers;
+use super::parts::links::{self, LinkElement};
 use super::scale::Scale;
 use super::thread_partition::Partition;
-use super::watched::Watched;
-use super::{build, plane, thread_partition};
+use super::{build, plane_motion, thread_partition};
 use crate::constraints::joint::Joint;
 use crate::constraints::rigid_link::{self, RigidLink};
 use crate::elements::Force;
 use crate::materials::Dissipation;
 use crate::math::{Vec3, Vec6, angular, linear, rotation};
-use crate::model::{self, Model, PartKind};
+use crate::model::{self, Model};
 use crate::state::{Configuration, Node};
 
 /// Everything that acts on the nodes: elements, masses, constraints, loads and damping. It is constant over a run.
@@ -29,7 +29,8 @@ pub struct System {
     pub rigid_links: Vec<RigidLink>,
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
     pub joints: Vec<Joint>,
-    pub(super) watched: Vec<Watched>,
+    /// The links one by one, from which their results are computed.
+    pub(super) links: Vec<LinkElement>,
     /// Index of the first group of contacts; these stand last.
     pub(super) contacts: usize,
     pub(super) loads: Vec<model::Load>,
@@ -87,10 +88,10 @@ impl System {
             model.constraints.dependents.iter().map(|r| RigidLink::new(r.node, r.master, &x, r.dofs)).collect();
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
         let (inertias, consistent) = build::masses(model, &x);
-        let plane = plane::normal(model, &inertias, &rigid_links);
-        let (groups, watched) = build::groups(model, &x, plane);
+        let plane = plane_motion::normal(model, &inertias, &rigid_links);
+        let groups = build::groups(model, &x, plane);
         let joints = build::joints(model, &x, plane);
-        let contacts = groups.iter().position(|group| group.kind == PartKind::Contact);
+        let contacts = groups.iter().position(|group| group.kind.is_unilateral());
         Ok(System {
             history: groups.last().map_or(0, |group| group.history.end),
             contacts: contacts.unwrap_or(groups.len()),
@@ -101,7 +102,7 @@ impl System {
             joints,
             gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
             plane,
-            watched,
+            links: links::elements(model, &x),
             loads: model.loading.nodal.clone(),
             pressures: model.loading.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
@@ -121,7 +122,7 @@ impl System {
             consistent: self.consistent.clone(),
             rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),
-            watched: Vec::new(),
+            links: Vec::new(),
             loads: Vec::new(),
             pressures: Vec::new(),
             nodal_damping: Vec::new(),
@@ -265,11 +266,6 @@ impl System {
             power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
         }
         power
-    }
-
-    /// True where fibres of a yielding beam with the same strain in a plane motion are merged into one.
-    pub fn merges_fibres(&self, part: &model::Beam) -> bool {
-        part.yielding.is_some() && build::in_plane(part, self.plane).is_some()
     }
 
     /// Dampers between nodes and the ground.

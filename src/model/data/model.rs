@@ -76,6 +76,11 @@ impl Model {
         self.count(kind) > 0
     }
 
+    /// True where any part is a surface.
+    pub fn has_surfaces(&self) -> bool {
+        self.parts.iter().any(|part| part.kind().is_surface())
+    }
+
     /// True where the material of any part yields.
     pub fn yields(&self) -> bool {
         self.parts.iter().any(Part::yields)

@@ -1,7 +1,6 @@
 //! layers.csv: stress through the thickness of the shells.
 
 use super::shell_order::ShellOrder;
-use crate::model::PartKind;
 use crate::output::table::TableKind;
 use crate::output::table_file::TableFile;
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit, VON_MISES};
@@ -27,7 +26,7 @@ pub static TABLE: TableKind = TableKind {
         VON_MISES,
         PLASTIC_STRAIN,
     ]],
-    wanted: |model| model.output.layers && model.has(PartKind::Shell),
+    wanted: |model| model.output.layers && model.has_surfaces(),
     needs: Wanted::SHELLS,
     every_step: false,
     rows: |model| {

@@ -1,10 +1,14 @@
 //! The plan in words, for `rdsolve check`, the log and result.json: what will be computed, what is omitted and why.
 
 mod analysis;
+mod bars;
+mod beams;
+mod contacts;
 mod explanation;
 mod omitted;
 mod redundant;
 mod scene;
+mod shells;
 mod solution;
 
 pub use explanation::Explanation;

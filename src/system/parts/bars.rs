@@ -1,0 +1,48 @@
+//! Bars in the equation of motion: their masses and blocks.
+
+use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::masses::NodalMasses;
+use crate::elements::ElementBlock;
+use crate::elements::bar::{self, YieldingBars};
+use crate::math::Mat3;
+use crate::model::{Bar, MassKind};
+use crate::sections::Stiffness;
+use crate::system::inertia::ConsistentMass;
+use crate::system::plane::Plane;
+use std::ops::Range;
+
+impl Assembled for Bar {
+    fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
+        for nodes in &self.elements {
+            let mass = self.mass_per_length * self.free * (masses.x[nodes[1]] - masses.x[nodes[0]]).norm();
+            for &node in nodes {
+                if masses.lies(self.mass, node) {
+                    masses.lumped.add(node, 0.5 * mass, &Mat3::zeros());
+                }
+            }
+            if self.mass == MassKind::Consistent {
+                masses.consistent.push(ConsistentMass::new(nodes, mass));
+            }
+        }
+    }
+
+    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
+        pieces(self.elements.len()).map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
+    }
+
+    /// A bar has no direction but that of its nodes.
+    fn stays_in(&self, _: &Plane, _: &[Stiffness]) -> bool {
+        true
+    }
+}
+
+fn block(part: &Bar, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
+    let elements = &part.elements[piece];
+    match &part.yielding {
+        None => Box::new(bar::elastic_bars(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),
+        Some(law) => {
+            let stiffness = part.axial_stiffness;
+            Box::new(YieldingBars::new(elements, stiffness, law, part.tension_only, part.free, x, beta))
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Links in the equation of motion: their blocks, and their forces for output.
+
+use super::assembled::{Assembled, NumberedBlock, Setting};
+use crate::elements::bushing::{Bushing, Bushings};
+use crate::elements::link::{self, Links};
+use crate::math::{Mat3, Vec3};
+use crate::model::{Link, LinkKind, Model};
+use crate::sections::Stiffness;
+use crate::state::Node;
+use crate::system::plane::Plane;
+
+/// The state of a link at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkState {
+    /// Elongation; of a bushing, the relative displacement along its first axis.
+    pub elongation: f64,
+    /// Rate of the elongation.
+    pub rate: f64,
+    /// Axial force, positive in tension.
+    pub force: f64,
+    /// Force that the link exerts on its first end, global components; the second end pulls on it.
+    pub f: Vec3,
+    /// Moment that the link exerts on its first end, global components.
+    pub m: Vec3,
+}
+
+/// A link as the deck lists it; the blocks that integrate links hold copies.
+pub enum LinkElement {
+    Line(link::Link),
+    Bushing(Bushing),
+}
+
+impl Assembled for Link {
+    /// The first link stands for all: they share one block for lines and one for bushings.
+    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
+        if !setting.model.each::<Link>().next().is_some_and(|first| std::ptr::eq(first, self)) {
+            return Vec::new();
+        }
+        let (mut lines, mut bushings) = (Vec::new(), Vec::new());
+        for element in elements(setting.model, setting.x) {
+            match element {
+                LinkElement::Line(line) => lines.push(line),
+                LinkElement::Bushing(bushing) => bushings.push(bushing),
+            }
+        }
+        vec![(Box::new(Links(lines)), 0), (Box::new(Bushings(bushings)), 0)]
+    }
+
+    fn stays_in(&self, plane: &Plane, _: &[Stiffness]) -> bool {
+        match &self.kind {
+            LinkKind::Line { direction, .. } => direction.is_none_or(|d| plane.holds(&d)),
+            LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {
+                let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
+                plane.keeps_apart(&turn(&k[..3])) && plane.keeps_apart(&turn(&k[3..]))
+            }),
+        }
+    }
+}
+
+/// All links one by one, in deck order.
+pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
+    let element = |part: &Link| match &part.kind {
+        LinkKind::Line { law, damping, direction, free_length } => {
+            let start = part.ends.map(|node| x[node]);
+            LinkElement::Line(link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start))
+        }
+        LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
+            nodes: part.ends,
+            axes: *axes,
+            stiffness: *stiffness,
+            damping: *damping,
+            offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
+        }),
+    };
+    model.each::<Link>().map(element).collect()
+}
+
+/// Writes the states of all links into `out`, in deck order.
+pub fn link_states(links: &[LinkElement], nodes: &[Node], out: &mut Vec<LinkState>) {
+    out.clear();
+    out.extend(links.iter().map(|link| match link {
+        LinkElement::Line(link) => {
+            let (elongation, rate, force) = link.state(nodes);
+            LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros() }
+        }
+        LinkElement::Bushing(bushing) => {
+            let (d, rate, f, m) = bushing.state(nodes);
+            let [first, second] = bushing.nodes.map(|n| &nodes[n]);
+            let B = first.R() * bushing.axes;
+            // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
+            // the first.
+            let f_global = B * f;
+            let m = B * m + (second.x - first.x).cross(&f_global);
+            LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
+        }
+    }));
+}

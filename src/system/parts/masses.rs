@@ -1,0 +1,41 @@
+//! The masses of nodes and elements while they are summed.
+
+use crate::math::Vec3;
+use crate::model::{MassKind, Model};
+use crate::system::inertia::{ConsistentMass, Lumped};
+
+/// The masses of a scene while they are summed.
+pub struct NodalMasses<'s> {
+    /// Initial positions of all nodes.
+    pub x: &'s [Vec3],
+    /// True for each node that depends on a body.
+    tied: Vec<bool>,
+    pub lumped: Lumped,
+    pub consistent: Vec<ConsistentMass>,
+}
+
+impl<'s> NodalMasses<'s> {
+    pub fn new(model: &Model, x: &'s [Vec3]) -> NodalMasses<'s> {
+        let mut tied = vec![false; x.len()];
+        for body in &model.bodies {
+            let dependents = model.constraints.dependents.iter();
+            let of_body = dependents.filter(|dependent| dependent.master == body.node);
+            of_body.for_each(|dependent| tied[dependent.node] = true);
+        }
+        NodalMasses { x, tied, lumped: Lumped::new(x.len()), consistent: Vec::new() }
+    }
+
+    /// True where a deformable part has mass at a node of its own.
+    pub fn lies(&self, kind: MassKind, node: usize) -> bool {
+        match kind {
+            MassKind::Lumped => true,
+            MassKind::FreeNodes => !self.tied[node],
+            MassKind::Consistent | MassKind::None => false,
+        }
+    }
+
+    /// True where a deformable part has rotary inertia at a node of its own.
+    pub fn turns(&self, kind: MassKind, node: usize) -> bool {
+        kind == MassKind::Consistent || self.lies(kind, node)
+    }
+}

@@ -1,0 +1,43 @@
+//! The parts of a scene in the equation of motion: a file for each kind, which answers the questions of [`Assembled`].
+
+mod assembled;
+mod bars;
+pub mod beams;
+mod contacts;
+pub mod links;
+mod masses;
+pub mod shells;
+
+pub use assembled::{Assembled, Setting};
+pub use masses::NodalMasses;
+
+use crate::model::{Part, PartKind};
+
+/// A part as what its kind answers while a system is built.
+pub fn assembled(part: &Part) -> &dyn Assembled {
+    match part {
+        Part::Beam(beam) => beam,
+        Part::Bar(bar) => bar,
+        Part::Shell(shell) => shell,
+        Part::Link(link) => link,
+        Part::Contact(contact) => contact,
+    }
+}
+
+/// The column of the table of energies to which the elements of a part add what they store.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    Strain,
+    Links,
+    Contacts,
+}
+
+/// Where parts of a kind store energy.
+#[inline]
+pub fn storage(kind: PartKind) -> Storage {
+    match kind {
+        PartKind::Beam | PartKind::Bar | PartKind::Shell => Storage::Strain,
+        PartKind::Link => Storage::Links,
+        PartKind::Contact => Storage::Contacts,
+    }
+}

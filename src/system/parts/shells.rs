@@ -1,0 +1,104 @@
+//! Shells in the equation of motion: their masses and blocks, and the resultants of their elements.
+
+use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::masses::NodalMasses;
+use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Triangles};
+use crate::elements::{ElementBlock, ShellResultants};
+use crate::math::{Mat3, Vec3};
+use crate::model::{MassKind, Model, PartType, Shell};
+use crate::sections::Stiffness;
+use crate::state::Configuration;
+use crate::system::group::Group;
+use crate::system::inertia::ConsistentMass;
+use crate::system::plane::Plane;
+use std::ops::Range;
+
+/// The state of a shell element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShellState {
+    /// The shell's index in [`Model::parts`].
+    pub part: usize,
+    /// The element's number in the deck's part.
+    pub element: usize,
+    /// Stress resultants, and the stresses of layers.
+    pub at: ShellResultants,
+}
+
+impl ShellState {
+    /// Von Mises stress in the lowest layer and in the highest.
+    pub fn outer_von_mises(&self) -> [f64; 2] {
+        let layers = self.at.layers();
+        [layers.first(), layers.last()].map(|layer| layer.map_or(0.0, |layer| layer.von_mises()))
+    }
+
+    /// Von Mises stress, the largest over the layers.
+    pub fn von_mises(&self) -> f64 {
+        self.at.layers().iter().map(|layer| layer.von_mises()).fold(0.0, f64::max)
+    }
+
+    /// Accumulated plastic strain, the largest over the layers.
+    pub fn plastic_strain(&self) -> f64 {
+        self.at.layers().iter().map(|layer| layer.plastic_strain).fold(0.0, f64::max)
+    }
+}
+
+impl Assembled for Shell {
+    fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
+        let h = self.plate.thickness;
+        for element in &self.elements {
+            let nodes = &element.nodes[..self.corners];
+            let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
+            for (&node, area) in nodes.iter().zip(shell::shares(&corners)) {
+                let mass = if masses.lies(self.mass, node) { self.density * h * area } else { 0.0 };
+                // The inertia about the normal is the same, where a director has none, so that no direction is without
+                // inertia.
+                let rotary = if masses.turns(self.mass, node) { self.density * h.powi(3) / 12.0 * area } else { 0.0 };
+                masses.lumped.add(node, mass, &(rotary * Mat3::identity()));
+            }
+            if self.mass == MassKind::Consistent {
+                masses.consistent.push(ConsistentMass::of_shell(nodes, &corners, self.density * h));
+            }
+        }
+    }
+
+    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
+        pieces(self.elements.len()).map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
+    }
+
+    /// Shells bend out of any plane they lie in.
+    fn stays_in(&self, _: &Plane, _: &[Stiffness]) -> bool {
+        self.elements.is_empty()
+    }
+}
+
+fn block(part: &Shell, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
+    let corners = part.corners;
+    let elements = part.elements[piece]
+        .iter()
+        .map(|e| shell::ShellGeometry { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
+    match (&part.yielding, corners) {
+        (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
+        (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),
+        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3>(elements, x, &part.plate, beta),
+        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 5>(elements, x, &part.plate, beta),
+    }
+}
+
+/// Writes the stress resultants of all elements of all shells into `out`, in deck order.
+pub fn shell_states(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
+    out.clear();
+    for group in groups {
+        let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
+        let now = group.share(now);
+        for e in 0..group.block.len() {
+            let element = group.first + e;
+            let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
+            let resultants = group.block.resultants(e, &shell.axis, &start[..shell.corners], &now);
+            let Some(mut at) = resultants else { continue };
+            if at.layers().is_empty() {
+                at.set_elastic_layers(shell.plate.thickness);
+            }
+            out.push(ShellState { part: group.part, element: shell.number(element), at });
+        }
+    }
+}

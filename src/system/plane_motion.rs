@@ -1,0 +1,49 @@
+//! Recognizes scenes that move in a plane.
+
+use super::inertia::Inertia;
+use super::parts::assembled;
+use super::plane::{Plane, SMALL};
+use crate::constraints::rigid_link::RigidLink;
+use crate::math::{Vec3, skew};
+use crate::model::{Joint, Loading, Model, Node};
+
+/// The global axis normal to the plane of a scene in which nothing can move out of it, unless the deck keeps
+/// out-of-plane motion.
+pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
+    if model.analysis.plane { (0..3).rev().find(|&n| is_plane(model, inertias, rigid_links, n)) } else { None }
+}
+
+fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], normal: usize) -> bool {
+    let Some(first) = model.nodes.first() else { return false };
+    let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
+    let plane = Plane { normal, size };
+    let flat = |p: &Node| (p.x[normal] - first.x[normal]).abs() <= SMALL * size;
+    let still = |p: &Node| plane.holds(&p.v) && plane.is_normal(&p.omega);
+    model.nodes.iter().all(|p| flat(p) && still(p))
+        && holds_loading(&plane, &model.loading)
+        && holds_constraints(&plane, model)
+        && inertias.iter().all(|i| plane.keeps_apart(&i.J0))
+        && model.parts.iter().all(|part| assembled(part).stays_in(&plane, &model.stiffnesses))
+        // Arms lie in the plane with the nodes, so only their skew matrices need a check.
+        && rigid_links.iter().all(|a| plane.pairs_rightly(&skew(&a.S0)) || a.S0 == Vec3::zeros())
+}
+
+/// True where no load and no ground motion drives anything out of the plane.
+fn holds_loading(plane: &Plane, loading: &Loading) -> bool {
+    loading.pressures.is_empty()
+        && loading.nodal.iter().all(|load| plane.holds(&load.force) && plane.is_normal(&load.moment))
+        && plane.holds(&loading.gravity)
+        && loading.base_accelerations.iter().all(|base| plane.holds(&base.direction))
+}
+
+/// True where no prescribed motion and no joint leads out of the plane.
+fn holds_constraints(plane: &Plane, model: &Model) -> bool {
+    let in_plane = |dof: usize| if dof < 3 { dof != plane.normal } else { dof - 3 == plane.normal };
+    let joint_holds = |joint: &Joint| {
+        let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
+        joint.equations.iter().all(|row| row.in_plane(plane.normal, &d).is_some())
+    };
+    let constraints = &model.constraints;
+    constraints.restraints.iter().all(|restraint| restraint.motion.is_none() || in_plane(restraint.dof))
+        && constraints.joints.iter().all(joint_holds)
+}
