@@ -114,7 +114,7 @@ impl Kinds for Integrator {
     type Make = MakeScheme;
 
     fn list() -> &'static [&'static SchemeKind] {
-        &SCHEMES
+        SCHEMES
     }
 }
 

@@ -47,7 +47,7 @@ impl Kinds for BodyShape {
     type Make = fn(&mut Given) -> Option<Solid>;
 
     fn list() -> &'static [&'static SolidKind] {
-        &SOLIDS
+        SOLIDS
     }
 }
 

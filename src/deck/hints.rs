@@ -4,8 +4,12 @@
 //! the table at hand, so that the same guess may mean `area` in a section and nothing elsewhere. What stands in another place of the deck has a sentence of its own.
 
 use crate::constraints::joints::JOINTS;
+use crate::elements::contact::surfaces::SURFACES;
 use crate::integrators::SCHEMES;
+use crate::materials::models::MATERIALS;
+use crate::materials::overstress::OVERSTRESSES;
 use crate::sections::SECTIONS;
+use crate::solids::SOLIDS;
 use crate::words::kinds::Kind;
 
 /// Guessed words, and ours: the first that is known where the guess stands.
@@ -254,19 +258,9 @@ const VALUES: &[Row] = &[
     (&["newton", "newton-raphson", "full-newton"], &["tangent-stiffness", "iteration"]),
     (&["modified-newton", "modified_newton"], &["step", "initial-load"]),
     (&["initial-stiffness", "elastic"], &["initial-load", "elastic"]),
-    (&["linear-elastic", "isotropic", "linear"], &["elastic"]),
-    (
-        &["plastic", "j2", "von-mises", "bilinear", "elastoplastic", "perfectly-plastic", "Steel01"],
-        &["elastic-plastic"],
-    ),
-    (&["perzyna", "viscoplastic", "rate-dependent", "cowper-symonds"], &["elastic-viscoplastic", "power"]),
     (&["pin", "pinned"], &["translations"]),
     (&["fixed", "encastre", "clamped", "fully-fixed", "built-in"], &["all"]),
     (&["simply-supported", "displacements", "xyz"], &["translations"]),
-    (&["halfspace", "half-space", "floor", "wall"], &["plane"]),
-    (&["cuboid", "cube", "block", "brick"], &["box"]),
-    (&["ball"], &["sphere"]),
-    (&["pill"], &["capsule"]),
     (&["quad", "quad4", "S4", "shell4", "mitc4"], &["quadrilateral"]),
     (&["tri", "tri3", "S3", "shell3"], &["triangle"]),
     (&["tabular", "series", "piecewise-linear", "points"], &["table"]),
@@ -303,7 +297,8 @@ fn kind(guess: &str, known: &[&str]) -> Option<&'static str> {
     fn words<M>(list: &'static [&'static Kind<M>]) -> impl Iterator<Item = Row> {
         list.iter().map(|kind| (kind.guesses, std::slice::from_ref(&kind.word)))
     }
-    let all: Vec<Row> = words(&SCHEMES).chain(words(&SECTIONS)).chain(words(&JOINTS)).collect();
+    let of_parts = words(SECTIONS).chain(words(MATERIALS)).chain(words(OVERSTRESSES)).chain(words(SOLIDS));
+    let all: Vec<Row> = words(SCHEMES).chain(words(JOINTS)).chain(words(SURFACES)).chain(of_parts).collect();
     ours(&all, guess, known)
 }
 
@@ -312,7 +307,8 @@ pub fn aliases(known: &[&str]) -> Vec<&'static str> {
     fn of<M>(list: &'static [&'static Kind<M>], known: &[&str]) -> Vec<&'static str> {
         list.iter().filter(|kind| known.contains(&kind.word)).flat_map(|kind| kind.aliases).copied().collect()
     }
-    [of(&SCHEMES, known), of(&SECTIONS, known), of(&JOINTS, known)].concat()
+    let of_parts = [of(SECTIONS, known), of(MATERIALS, known), of(OVERSTRESSES, known), of(SOLIDS, known)].concat();
+    [of(SCHEMES, known), of(JOINTS, known), of(SURFACES, known), of_parts].concat()
 }
 
 /// Our word for a guessed one among those known here.

@@ -32,6 +32,6 @@ impl Kinds for Joint {
     type Make = MakeJoint;
 
     fn list() -> &'static [&'static JointKind] {
-        &JOINTS
+        JOINTS
     }
 }

@@ -30,7 +30,7 @@ impl Kinds for Material {
     type Make = MaterialModel;
 
     fn list() -> &'static [&'static MaterialKind] {
-        &MATERIALS
+        MATERIALS
     }
 }
 
@@ -50,6 +50,6 @@ impl Kinds for Viscosity {
     type Make = fn(&mut Given) -> Option<Overstress>;
 
     fn list() -> &'static [&'static OverstressKind] {
-        &OVERSTRESSES
+        OVERSTRESSES
     }
 }

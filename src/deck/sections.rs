@@ -19,6 +19,6 @@ impl Kinds for Section {
     type Make = MakeSection;
 
     fn list() -> &'static [&'static SectionKind] {
-        &SECTIONS
+        SECTIONS
     }
 }

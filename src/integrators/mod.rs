@@ -36,7 +36,7 @@ pub fn default_scheme() -> Arc<dyn Scheme> {
 }
 
 /// All schemes; the first is taken where the deck names none.
-pub static SCHEMES: [&SchemeKind; 7] = [
+pub static SCHEMES: &[&SchemeKind] = &[
     &wilson_theta::KIND,
     &newmark::KIND,
     &hht_alpha::KIND,

@@ -5,7 +5,7 @@ use crate::words::kinds::{Form, Given, Key, Kind};
 /// A law of the overstress that the deck can name, and what its keys give; `None` where one is wrong.
 pub type OverstressKind = Kind<fn(&mut Given) -> Option<Overstress>>;
 
-pub static OVERSTRESSES: [&OverstressKind; 3] = [&POWER, &LINEAR, &EXPONENTIAL];
+pub static OVERSTRESSES: &[&OverstressKind] = &[&POWER, &LINEAR, &EXPONENTIAL];
 
 static POWER: OverstressKind = OverstressKind {
     word: "power",

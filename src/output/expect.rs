@@ -21,7 +21,7 @@ pub fn needs(at: ExpectAt) -> Wanted {
 
 /// What the tables answer about one thing.
 fn answers(at: ExpectAt) -> impl Iterator<Item = &'static Answers> {
-    let all = TABLES.into_iter().filter_map(|table| table.answers.as_ref());
+    let all = TABLES.iter().copied().filter_map(|table| table.answers.as_ref());
     all.filter(move |answers| !(answers.quantities)(at).is_empty())
 }
 

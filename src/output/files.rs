@@ -42,7 +42,7 @@ impl Files {
             let file = TableFile::open(dir, kind.file, &kind.header(), keep_to)?;
             Ok(OpenTable { kind, file, write: (kind.rows)(model) })
         };
-        let wanted = TABLES.into_iter().filter(|kind| (kind.wanted)(model));
+        let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
         let tables = wanted.map(open).collect::<io::Result<_>>()?;
         let fields = model.output.fields.map(|every| Fields::open(dir, model, every, keep_to)).transpose()?;
         Ok(Files { tables, fields, flushed: Instant::now() })
@@ -73,7 +73,7 @@ impl Observer for Files {
 
 /// The files that a run of this model writes, and when, in words.
 pub fn listed(model: &Model) -> String {
-    let wanted = || TABLES.into_iter().filter(|kind| (kind.wanted)(model));
+    let wanted = || TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
     let names = |every_step| {
         let names: Vec<&str> = wanted().filter(|kind| kind.every_step == every_step).map(|kind| kind.file).collect();
         names.join(", ")
@@ -96,7 +96,7 @@ pub fn listed(model: &Model) -> String {
 
 /// What the tables, fields and expectations of a model need to be computed.
 pub fn wanted(model: &Model) -> Wanted {
-    let tables = TABLES.into_iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS);
     let expects = model.expects.iter().map(|expect| needs(expect.at));
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);

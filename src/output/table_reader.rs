@@ -16,7 +16,7 @@ pub fn is_key(file: &str, column: &str) -> bool {
         None => {
             const OF_OTHERS: [&str; 2] = ["joint", "name"];
             let is_known = |table: &TableKind| table.columns().any(|known| known.name == column && known.is_key());
-            OF_OTHERS.contains(&column) || TABLES.into_iter().any(is_known)
+            OF_OTHERS.contains(&column) || TABLES.iter().copied().any(is_known)
         }
     }
 }

@@ -23,8 +23,8 @@ pub use fibres::{Fibre, flattened};
 pub use section::{Section, Stiffness};
 pub use section_shape::{CrossSection, SectionKind, SectionShape};
 
-pub static SECTIONS: [&SectionKind; 7] =
-    [&rectangle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
+pub static SECTIONS: &[&SectionKind] =
+    &[&rectangle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub static KIND: SolidKind = SolidKind {
     word: "box",
     aliases: &[],
-    guesses: &["cuboid", "brick", "block"],
+    guesses: &["cuboid", "cube", "block", "brick"],
     about: "A cuboid along the global axes at t = 0.",
     keys: &[Key { name: "size", form: Form::Vector, about: "Full edge lengths along the global axes at t = 0." }],
     make: read,

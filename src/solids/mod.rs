@@ -18,7 +18,7 @@ use crate::math::Mat3;
 use std::sync::Arc;
 
 /// In the order of the reference.
-pub static SOLIDS: [&SolidKind; 4] = [&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND];
+pub static SOLIDS: &[&SolidKind] = &[&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND];
 
 /// What a body is drawn as of which the deck gives no shape: the homogeneous cuboid of its mass and inertia.
 pub fn drawn_by_inertia(mass: f64, inertia: &Mat3) -> Arc<dyn SolidShape> {

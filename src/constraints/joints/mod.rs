@@ -13,7 +13,7 @@ pub mod universal;
 pub use kind::JointKind;
 
 /// All kinds of joints, in the order in which help lists them.
-pub static JOINTS: [&JointKind; 7] = [
+pub static JOINTS: &[&JointKind] = &[
     &spherical::KIND,
     &revolute::KIND,
     &prismatic::KIND,

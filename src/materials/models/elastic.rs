@@ -5,7 +5,7 @@ use super::kind::{MaterialKind, MaterialModel};
 pub static KIND: MaterialKind = MaterialKind {
     word: "elastic",
     aliases: &[],
-    guesses: &["linear", "linear-elastic"],
+    guesses: &["linear-elastic", "isotropic", "linear"],
     about: "Linear elasticity.",
     keys: &[],
     make: MaterialModel { noun: "an elastic material", law: None, is_viscous: false },

@@ -5,7 +5,7 @@ use super::kind::{MaterialKind, MaterialModel, PLASTICITY, plasticity};
 pub static KIND: MaterialKind = MaterialKind {
     word: "elastic-plastic",
     aliases: &[],
-    guesses: &["plastic", "von-mises", "j2", "bilinear"],
+    guesses: &["plastic", "j2", "von-mises", "bilinear", "elastoplastic", "perfectly-plastic", "Steel01"],
     about: "J2 (von Mises) plasticity with isotropic and kinematic hardening, rate independent.",
     keys: &PLASTICITY,
     make: MaterialModel { noun: "an elastic-plastic material", law: Some(plasticity), is_viscous: false },

@@ -8,4 +8,4 @@ pub mod kind;
 pub use kind::{MaterialKind, MaterialModel};
 
 /// In the order of the reference.
-pub static MATERIALS: [&MaterialKind; 3] = [&elastic::KIND, &elastic_plastic::KIND, &elastic_viscoplastic::KIND];
+pub static MATERIALS: &[&MaterialKind] = &[&elastic::KIND, &elastic_plastic::KIND, &elastic_viscoplastic::KIND];

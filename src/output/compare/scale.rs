@@ -10,7 +10,7 @@ fn kind(file: &str, column: &str) -> Option<&'static str> {
     let of = |table: &TableKind| table.columns().find(|known| known.answers_to(column)).map(|known| known.kind);
     match tables::of_file(file) {
         Some(table) => of(table),
-        None => TABLES.into_iter().find_map(of),
+        None => TABLES.iter().copied().find_map(of),
     }
 }
 

@@ -16,7 +16,7 @@ mod steps;
 use super::table::TableKind;
 
 /// In the order in which a reader looks for them.
-pub static TABLES: [&TableKind; 11] = [
+pub static TABLES: &[&TableKind] = &[
     &nodes::TABLE,
     &bodies::TABLE,
     &energy::TABLE,
@@ -32,7 +32,7 @@ pub static TABLES: [&TableKind; 11] = [
 
 /// The table of a file, if it is one of these.
 pub fn of_file(name: &str) -> Option<&'static TableKind> {
-    TABLES.into_iter().find(|table| table.file == name)
+    TABLES.iter().copied().find(|table| table.file == name)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::words::kinds::{Form, Given, Key};
 pub const KIND: SurfaceKind<Capsule> = SurfaceKind {
     word: "capsule",
     aliases: &[],
-    guesses: &["pill", "spherocylinder"],
+    guesses: &["pill"],
     about: "A cylinder with round ends.",
     keys: &[
         Key { name: "ends", form: Form::Vectors, about: "Two points, the ends of the line that it is round." },

@@ -8,7 +8,7 @@ use crate::words::kinds::{Form, Given, Key};
 pub const KIND: SurfaceKind<Cuboid> = SurfaceKind {
     word: "box",
     aliases: &[],
-    guesses: &["cuboid", "brick", "block"],
+    guesses: &["cuboid", "cube", "block", "brick"],
     about: "A cuboid.",
     keys: &[
         CENTER,

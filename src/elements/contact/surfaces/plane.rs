@@ -8,7 +8,7 @@ use crate::words::kinds::{Form, Key};
 pub const KIND: SurfaceKind<Plane> = SurfaceKind {
     word: "plane",
     aliases: &[],
-    guesses: &["floor", "ground", "halfspace", "half-space"],
+    guesses: &["halfspace", "half-space", "floor", "wall"],
     about: "Everything on one side is solid.",
     keys: &[
         Key { name: "point", form: Form::Vector, about: "A point of the plane." },
