@@ -165,7 +165,7 @@ impl Job<'_> {
 
     /// Those of the deck, and those of the run, which are shown.
     fn warnings(&self, run: &Run) -> Vec<String> {
-        let of_run = [start_warning(run.start_jump()), energy_warning(run.balance(), &self.loaded.model)];
+        let of_run = [start_warning(run.initial_velocity_change()), energy_warning(run.balance(), &self.loaded.model)];
         let of_run: Vec<String> = of_run.into_iter().flatten().collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));

@@ -46,7 +46,7 @@ impl RigidLink {
     /// free degrees of freedom have been advanced with its increment already. Where all six depend on the master, the
     /// increment is not written: nobody reads it.
     #[inline]
-    pub fn follow(&self, nodes: &mut [Node], increments: &mut [Increment], start: &Node) {
+    pub fn move_with_master(&self, nodes: &mut [Node], increments: &mut [Increment], start: &Node) {
         let master = &nodes[self.master];
         let Node { rotation: q, omega, alpha, .. } = *master;
         // The position follows from displacements, which have digits that positions do not: u_b = u_d + (R_d − 1) S₀.

@@ -40,7 +40,7 @@ pub fn commit(
         *old += (value - *old) / scheme.instant;
     }
     if let Some(projection) = projection {
-        projection.share_multipliers(cx, ws, state);
+        projection.distribute_multipliers(cx, ws, state);
     }
     if let Some(damping_power) = account.damping_power.filter(|_| cx.wants_forces) {
         update_reactions_and_work(cx, ws, state, scheme, dt, damping_power);

@@ -38,7 +38,7 @@ impl EnergyGrowth {
         }
         self.balance.update_work(state.work.external);
         let letting_go = || {
-            (is_watched(model) && model.parts.iter().any(Part::may_release))
+            (checks_energy_growth(model) && model.parts.iter().any(Part::may_release))
                 .then(|| Energy::of(system, state, initial, plan.threads))
         };
         self.balance.update(&energy.or_else(letting_go)?);
@@ -46,13 +46,13 @@ impl EnergyGrowth {
         // Energy that plastic flow has dissipated in excess does not move anything.
         let most = if last && generated > plastic { available } else { FAR * available };
         // A load that begins at rest moves nodes before it has done work: true growth is there in the next step too.
-        let grows = is_watched(model) && available > 0.0 && generated > most;
+        let grows = checks_energy_growth(model) && available > 0.0 && generated > most;
         let went_on = std::mem::replace(&mut self.growing, grows) || last;
         (grows && went_on).then(|| Failure::EnergyGrowth { ratio: generated / available })
     }
 }
 
 /// True where energies are summed whether the output wants them or not.
-pub fn is_watched(model: &Model) -> bool {
+pub fn checks_energy_growth(model: &Model) -> bool {
     matches!(model.solution.scheme.stepping(), Stepping::Verlet) && model.analysis.kind == AnalysisKind::Dynamic
 }

@@ -129,7 +129,7 @@ pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme:
 /// Moves dependent nodes with their masters; `start` are the nodes at the start of the step.
 pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) {
     for dependent in &cx.system.rigid_links {
-        dependent.follow(&mut ws.trial, &mut ws.increments, &start[dependent.node]);
+        dependent.move_with_master(&mut ws.trial, &mut ws.increments, &start[dependent.node]);
     }
 }
 

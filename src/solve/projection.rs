@@ -187,7 +187,7 @@ impl ConstraintProjection {
 
     /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least
     /// ones with the same forces.
-    pub fn share_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+    pub fn distribute_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         if !cx.plan.has_redundant_constraints() {
             return;
         }

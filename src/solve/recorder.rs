@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
-use super::energy_growth::{EnergyGrowth, is_watched};
+use super::energy_growth::{EnergyGrowth, checks_energy_growth};
 use super::frame::{Frame, Observer};
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
@@ -57,7 +57,7 @@ impl Recorder {
 
     /// Sums the energy at the start of the run.
     pub fn begin(&mut self, cx: &Context, state: &State) {
-        if self.wanted.has(Wanted::ENERGY) || is_watched(cx.model) {
+        if self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model) {
             self.initial_energy = Some(Energy::of(cx.system, state, None, cx.plan.threads).mechanical);
         }
     }
@@ -82,7 +82,7 @@ impl Recorder {
         // Reading the clock twice costs a twentieth of a step of two bodies.
         let began = (due || drawn || self.wanted.has(Wanted::EVERY_STEP)).then(Instant::now);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
-        let watched = if is_watched(model) { Wanted::ENERGY } else { Wanted::NOTHING };
+        let watched = if checks_energy_growth(model) { Wanted::ENERGY } else { Wanted::NOTHING };
         let request = Request { model, system, state, due, drawn, balance, threads };
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::control::Controller;
 use super::derived::Wanted;
-use super::energy_growth::is_watched;
+use super::energy_growth::checks_energy_growth;
 use super::frame::Observer;
 use super::march::March;
 use super::outcome::{Counts, Outcome};
@@ -26,7 +26,7 @@ pub struct Run<'a> {
     controller: Controller<'a>,
     recorder: Recorder,
     stop: &'a AtomicBool,
-    /// The result of [`Run::start_jump`].
+    /// The result of [`Run::initial_velocity_change`].
     velocity_change: f64,
 }
 
@@ -43,7 +43,7 @@ impl<'a> Run<'a> {
         stop: &'a AtomicBool,
     ) -> Result<Self, TooLarge> {
         let wants_energy = wanted.has(Wanted::ENERGY);
-        let wants_forces = wanted.has(Wanted::REACTIONS) || wants_energy || is_watched(model);
+        let wants_forces = wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
         let context = Context::new(model, plan, system, wants_forces, wants_energy);
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;
@@ -96,7 +96,7 @@ impl<'a> Run<'a> {
     }
 
     /// Largest change of initial velocities that the joints required, relative to the largest velocity.
-    pub fn start_jump(&self) -> f64 {
+    pub fn initial_velocity_change(&self) -> f64 {
         self.velocity_change
     }
 

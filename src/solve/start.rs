@@ -119,7 +119,7 @@ fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut
     }
     for dependent in &cx.system.rigid_links {
         let start = nodes[dependent.node];
-        dependent.follow(nodes, &mut ws.increments, &start);
+        dependent.move_with_master(nodes, &mut ws.increments, &start);
     }
 }
 

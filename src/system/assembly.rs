@@ -315,7 +315,7 @@ impl Assembly {
             diagonals,
             scatter,
             blocks,
-            threads: system.splits(threads),
+            threads: system.uses_threads(threads),
             gyroscopic: system.gyroscopic && !solver.is_symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
@@ -361,7 +361,7 @@ impl Assembly {
     ) {
         for (group, destinations) in system.groups.iter().zip(&self.groups) {
             let (block, d) = (&group.block, group.block.dofs());
-            let now = &group.share(now);
+            let now = &group.configuration(now);
             let length = (d * block.nodes(0).len()).pow(2);
             for first in (0..block.len()).step_by(CHUNK) {
                 let last = (first + CHUNK).min(block.len());

@@ -51,7 +51,7 @@ impl System {
     /// to `now`, or whose impact the step would not resolve.
     pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
         self.contact_groups()
-            .find(|(group, block)| contact::misses(block, start, &group.share(now)))
+            .find(|(group, block)| contact::misses(block, start, &group.configuration(now)))
             .map(|(group, _)| group.part)
     }
 
@@ -63,7 +63,7 @@ impl System {
             let gap = contact::least_gap(&contact.surface, contact.node, &contact.points, now.nodes);
             let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
             for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
-                let sum = contact::resultant(block, &group.share(now));
+                let sum = contact::resultant(block, &group.configuration(now));
                 state.touching += sum.touching;
                 state.f += sum.f;
                 state.m += sum.m;

@@ -49,10 +49,10 @@ impl Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
         let stored =
             |column: Storage| -> f64 {
-                thread_partition::sum(&system.groups, system.splits(threads), &|group| match storage(group.kind)
+                thread_partition::sum(&system.groups, system.uses_threads(threads), &|group| match storage(group.kind)
                     == column
                 {
-                    true => group.block.energy(&group.share(&now)),
+                    true => group.block.energy(&group.configuration(&now)),
                     false => 0.0,
                 })
             };
@@ -182,7 +182,7 @@ impl PartEnergy {
 /// hardening.
 pub fn part_energies(system: &System, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
     for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
-        let energy = group.block.energy(&group.share(now));
+        let energy = group.block.energy(&group.configuration(now));
         let part = &model.parts[group.part];
         match parts.last_mut() {
             Some(last) if last.of(model).is_one_with(part) => last.strain += energy,

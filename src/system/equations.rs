@@ -237,24 +237,24 @@ impl System {
     /// Writes the history variables at the fraction `part` of the way from the last accepted state to `now` into
     /// `history`. Returns what the plastic strains on that way have dissipated.
     pub fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64], threads: usize) -> Dissipation {
-        thread_partition::sum_with(&self.groups, history, self.splits(threads), &|group, history| {
+        thread_partition::sum_with(&self.groups, history, self.uses_threads(threads), &|group, history| {
             if group.history.is_empty() {
                 return Dissipation::default();
             }
-            group.block.update_history(&group.share(now), part, history)
+            group.block.update_history(&group.configuration(now), part, history)
         })
     }
 
     /// True where the elements are many enough for several threads to pay.
-    pub(super) fn splits(&self, threads: usize) -> bool {
+    pub(super) fn uses_threads(&self, threads: usize) -> bool {
         threads > 1 && thread_partition::is_large(&self.groups)
     }
 
     /// Power that viscous damping dissipates: dampers, nodal and Rayleigh damping.
     pub fn damping_power(&self, now: &Configuration, threads: usize) -> f64 {
         let nodes = now.nodes;
-        let mut power: f64 = thread_partition::sum(&self.groups, self.splits(threads), &|group| {
-            group.block.damping_power(&group.share(now))
+        let mut power: f64 = thread_partition::sum(&self.groups, self.uses_threads(threads), &|group| {
+            group.block.damping_power(&group.configuration(now))
         });
         if self.mass_damping > 0.0 {
             let twice = 2.0 * self.mass_damping;

@@ -22,7 +22,7 @@ pub struct Group {
 impl Group {
     /// The configuration with this group's range of the history variables alone.
     #[inline]
-    pub fn share<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
+    pub fn configuration<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
         Configuration { history: &now.history[self.history.clone()], ..*now }
     }
 }

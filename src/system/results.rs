@@ -17,7 +17,7 @@ pub fn link_states(system: &System, nodes: &[Node], out: &mut Vec<LinkState>) {
 pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>) {
     out.clear();
     for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
-        let history = group.share(now).history;
+        let history = group.configuration(now).history;
         out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, history)));
     }
 }

@@ -57,12 +57,12 @@ pub(super) fn subtract_forces(
     F: &mut [Force],
 ) {
     if partitions.is_empty() {
-        return groups.iter().for_each(|group| group.block.subtract_forces(&group.share(now), F));
+        return groups.iter().for_each(|group| group.block.subtract_forces(&group.configuration(now), F));
     }
     let run = |part: &mut Partition| {
         part.nodes.iter().for_each(|run| part.F[run.clone()].fill([0.0; 6]));
         for group in &groups[part.groups.clone()] {
-            group.block.subtract_forces(&group.share(now), &mut part.F);
+            group.block.subtract_forces(&group.configuration(now), &mut part.F);
         }
     };
     if threads {

@@ -56,7 +56,7 @@ impl Instant {
         }
         for dependent in &system.rigid_links {
             let before = start[dependent.node];
-            dependent.follow(&mut start, &mut still, &before);
+            dependent.move_with_master(&mut start, &mut still, &before);
         }
         let q = start
             .iter()
@@ -78,7 +78,7 @@ impl Instant {
             nodes[i].advance(start, &increments[i], RotationUpdate::Exponential);
         }
         for dependent in &self.system.rigid_links {
-            dependent.follow(&mut nodes, &mut increments, &self.start[dependent.node]);
+            dependent.move_with_master(&mut nodes, &mut increments, &self.start[dependent.node]);
         }
         nodes
     }

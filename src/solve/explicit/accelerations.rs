@@ -125,14 +125,14 @@ impl Accelerations {
             self.add_solution(cx, ws, joints);
         }
         // Degrees of freedom of a partly dependent node move with its master.
-        self.visit_dependent_directions(cx, ws, |missing, now| *missing = now);
+        self.visit_dependent_dofs(cx, ws, |missing, now| *missing = now);
         // The trial motion is restored.
         for &node in &cx.independent_nodes {
             ws.trial[node].a -= linear(&self.missing[node]);
             ws.trial[node].alpha -= angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
-        self.visit_dependent_directions(cx, ws, |missing, given| *missing -= given);
+        self.visit_dependent_dofs(cx, ws, |missing, given| *missing -= given);
         Ok(())
     }
 
@@ -162,7 +162,7 @@ impl Accelerations {
 
     /// Visits the dependent degrees of freedom of partly dependent nodes: the difference there, and the acceleration of
     /// the trial motion.
-    fn visit_dependent_directions(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
+    fn visit_dependent_dofs(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
         for dependent in &cx.system.rigid_links {
             let (missing, node) = (&mut self.missing[dependent.node], &ws.trial[dependent.node]);
             let now = stack(&node.a, &node.alpha);

@@ -96,9 +96,9 @@ impl CentralDifferenceStepper {
         self.critical.update_if_due(cx, ws, &mut self.accelerations, state, dt)?;
         self.check_stability(dt)?;
         let mut evaluations = self.find_accelerations(cx, ws, state, to, &scheme)?;
-        let (mut aMa, suspicious) = self.suspect(cx, ws, state, dt);
+        let (mut aMa, suspicious) = self.check_stiffening(cx, ws, state, dt);
         if suspicious {
-            self.look_closer(cx, ws, state, dt)?;
+            self.measure_critical_step(cx, ws, state, dt)?;
             // The scene has not stiffened after all; measuring has overwritten what was found.
             evaluations += self.find_accelerations(cx, ws, state, to, &scheme)?;
             aMa = aMa_of_trial(cx, ws, &mut self.accelerations);
@@ -170,7 +170,7 @@ impl CentralDifferenceStepper {
 
     /// The product aᵀMa of the accelerations found, and whether these or the motion suggest that the scene has
     /// stiffened.
-    fn suspect(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> (f64, bool) {
+    fn check_stiffening(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> (f64, bool) {
         let accelerations = &mut self.accelerations;
         let stiffened = resistance(cx, ws, accelerations, state, dt) > self.critical.known();
         let aMa = aMa_of_trial(cx, ws, accelerations);
@@ -182,7 +182,7 @@ impl CentralDifferenceStepper {
     ///
     /// # Errors
     /// [`Failure::Unstable`] where the step is too long for it.
-    fn look_closer(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Result<(), Failure> {
+    fn measure_critical_step(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Result<(), Failure> {
         for &node in &cx.independent_nodes {
             self.critical.hints[node] = change(&self.accelerations.missing, &ws.trial, state, node);
         }

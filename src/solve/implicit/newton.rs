@@ -192,7 +192,7 @@ impl Newton {
         loop {
             progress.report.residual = evaluate_residual(cx, ws, state, stage, progress.report.to);
             if !progress.report.residual.is_finite() {
-                if !self.insist(cx, ws, state, stage, &mut progress) {
+                if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                     return Err(residual::not_finite(cx, ws));
                 }
                 continue;
@@ -212,7 +212,7 @@ impl Newton {
                 Verdict::GoOn => {}
                 Verdict::Restart => self.restart(cx, ws, state, stage, &mut progress),
                 Verdict::Exhausted => {
-                    if !self.insist(cx, ws, state, stage, &mut progress) {
+                    if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                         return Err(not_converged(cx, ws, &progress.report));
                     }
                     progress.limit += cx.model.solution.iteration.limit;
@@ -352,7 +352,7 @@ impl Newton {
 
     /// Goes back to the prediction before a step is cut, to go on with a fresh matrix in every iteration; returns false
     /// if that was done already.
-    fn insist(
+    fn require_fresh_matrix(
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
@@ -360,7 +360,7 @@ impl Newton {
         stage: &Stage,
         progress: &mut Progress,
     ) -> bool {
-        let again = self.refresh.insist();
+        let again = self.refresh.require_fresh_matrix();
         if again {
             self.restart(cx, ws, state, stage, progress);
         }

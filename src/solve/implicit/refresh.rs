@@ -22,7 +22,7 @@ pub struct Refresh {
     eager: usize,
     next_eager: usize,
     /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
-    insisting: bool,
+    fresh_matrix_required: bool,
 }
 
 /// The advice after a correction.
@@ -48,14 +48,14 @@ impl Refresh {
             excess: 0,
             eager: 0,
             next_eager: 1,
-            insisting: false,
+            fresh_matrix_required: false,
         }
     }
 
     /// The moduli with which the matrix is formed.
     pub fn moduli(&self) -> Moduli {
         match self.method {
-            Method::InitialLoad if !self.insisting => Moduli::Elastic,
+            Method::InitialLoad if !self.fresh_matrix_required => Moduli::Elastic,
             _ => Moduli::Algorithmic,
         }
     }
@@ -63,7 +63,7 @@ impl Refresh {
     /// True where the matrix is to be formed before the next solution; `iteration` counts from 0.
     pub fn due(&self, iteration: usize, dt: f64) -> bool {
         // Steps of equal length differ by the rounding of their ends.
-        if self.wanted || self.insisting || self.dt.is_none_or(|of| (of - dt).abs() > 1e-9 * dt) {
+        if self.wanted || self.fresh_matrix_required || self.dt.is_none_or(|of| (of - dt).abs() > 1e-9 * dt) {
             return true;
         }
         match self.update {
@@ -91,7 +91,7 @@ impl Refresh {
         if patient && (contraction < 1.0 || fresh) {
             return Advice::GoOn;
         }
-        if !fresh && contraction > 0.5 && !self.insisting {
+        if !fresh && contraction > 0.5 && !self.fresh_matrix_required {
             self.wanted = true;
             self.eager = self.next_eager;
             self.next_eager = (2 * self.next_eager).min(64);
@@ -104,7 +104,7 @@ impl Refresh {
     /// Counts an accepted step. A matrix is worth renewing once the iterations that it has cost beyond those of a fresh
     /// one would have paid for it.
     pub fn accepted(&mut self, iterations: usize) {
-        self.insisting = false;
+        self.fresh_matrix_required = false;
         let baseline = *self.baseline.get_or_insert(iterations);
         self.excess += iterations.saturating_sub(baseline);
         self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
@@ -118,14 +118,14 @@ impl Refresh {
     /// Discards the matrix after a step that was given up: it belongs to a motion that was not taken.
     pub fn rejected(&mut self) {
         self.dt = None;
-        self.insisting = false;
+        self.fresh_matrix_required = false;
     }
 
     /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false where it had that
     /// already.
-    pub fn insist(&mut self) -> bool {
-        let more = !self.insisting && matches!(self.update, Update::Auto | Update::Step);
-        self.insisting |= more;
+    pub fn require_fresh_matrix(&mut self) -> bool {
+        let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
+        self.fresh_matrix_required |= more;
         more
     }
 }

@@ -109,7 +109,7 @@ pub fn section_points(groups: &[Group], model: &Model, now: &Configuration, out:
     let mut start = 0.0;
     for group in groups {
         let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
-        let now = group.share(now);
+        let now = group.configuration(now);
         if group.first == 0 {
             start = 0.0;
         }

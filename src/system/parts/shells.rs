@@ -89,7 +89,7 @@ pub fn shell_states(groups: &[Group], model: &Model, now: &Configuration, out: &
     out.clear();
     for group in groups {
         let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
-        let now = group.share(now);
+        let now = group.configuration(now);
         for e in 0..group.block.len() {
             let element = group.first + e;
             let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
