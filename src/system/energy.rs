@@ -47,15 +47,14 @@ impl Energy {
     /// `None` at t = 0.
     pub fn of(system: &System, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
-        let stored =
-            |column: Storage| -> f64 {
-                thread_partition::sum(&system.groups, system.uses_threads(threads), &|group| match storage(group.kind)
-                    == column
-                {
-                    true => group.block.energy(&group.configuration(&now)),
-                    false => 0.0,
-                })
-            };
+        let stored = |column: Storage| -> f64 {
+            thread_partition::sum(&system.groups, system.uses_threads(threads), &|group| match storage(group.kind)
+                == column
+            {
+                true => group.block.energy(&group.configuration(&now)),
+                false => 0.0,
+            })
+        };
         let strain = stored(Storage::Strain) + work.material.stored;
         let links = stored(Storage::Links);
         let contact = if system.has_contacts() { stored(Storage::Contacts) } else { 0.0 };

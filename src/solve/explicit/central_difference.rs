@@ -182,7 +182,13 @@ impl CentralDifferenceStepper {
     ///
     /// # Errors
     /// [`Failure::Unstable`] where the step is too long for it.
-    fn measure_critical_step(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Result<(), Failure> {
+    fn measure_critical_step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        dt: f64,
+    ) -> Result<(), Failure> {
         for &node in &cx.independent_nodes {
             self.critical.hints[node] = change(&self.accelerations.missing, &ws.trial, state, node);
         }
