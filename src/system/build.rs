@@ -1,4 +1,4 @@
-//! From the model to masses at nodes, blocks of like elements, and joints.
+//! Builds the masses of nodes, the blocks of like elements, and the joints from the model.
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};

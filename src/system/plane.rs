@@ -1,4 +1,4 @@
-//! A plane normal to a global axis, and what lies or couples in it.
+//! Planes of motion: vectors and tensors that stay in a plane normal to a global axis.
 
 use crate::math::{Mat3, Vec3};
 
@@ -7,6 +7,7 @@ pub const SMALL: f64 = 1e-12;
 
 /// A plane normal to a global axis, through the first node.
 pub struct Plane {
+    /// Index of the axis.
     pub normal: usize,
     /// Largest distance of a node from the first.
     pub size: f64,
@@ -15,7 +16,7 @@ pub struct Plane {
 impl Plane {
     /// True for a vector in the plane. It is judged by its largest entry: the norm of large numbers overflows, and nothing
     /// exceeds infinity.
-    pub fn holds(&self, v: &Vec3) -> bool {
+    pub fn contains(&self, v: &Vec3) -> bool {
         // The comparison is not reversed, so that entries that are not finite do not count as outside.
         let outside = v[self.normal].abs() > SMALL * v.amax();
         !outside
@@ -27,14 +28,14 @@ impl Plane {
     }
 
     /// True for a symmetric tensor that does not couple the normal with the plane.
-    pub fn keeps_apart(&self, J: &Mat3) -> bool {
+    pub fn decouples(&self, J: &Mat3) -> bool {
         let n = self.normal;
         !(0..3).any(|i| i != n && J[(n, i)].abs().max(J[(i, n)].abs()) > SMALL * J.amax())
     }
 
     /// False for a matrix that couples a vector in the plane with a rotation about an axis in the plane, or the normal
     /// with a rotation about it.
-    pub fn pairs_rightly(&self, K: &Mat3) -> bool {
+    pub fn decouples_rotations(&self, K: &Mat3) -> bool {
         let n = self.normal;
         !(0..3).any(|i| (0..3).any(|j| (i == n) == (j == n) && K[(i, j)].abs() > SMALL * K.amax()))
     }

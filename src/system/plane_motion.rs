@@ -18,22 +18,22 @@ fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], norm
     let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
     let plane = Plane { normal, size };
     let flat = |p: &Node| (p.x[normal] - first.x[normal]).abs() <= SMALL * size;
-    let still = |p: &Node| plane.holds(&p.v) && plane.is_normal(&p.omega);
+    let still = |p: &Node| plane.contains(&p.v) && plane.is_normal(&p.omega);
     model.nodes.iter().all(|p| flat(p) && still(p))
         && holds_loading(&plane, &model.loading)
         && holds_constraints(&plane, model)
-        && inertias.iter().all(|i| plane.keeps_apart(&i.J0))
+        && inertias.iter().all(|i| plane.decouples(&i.J0))
         && model.parts.iter().all(|part| assembled(part).stays_in(&plane, &model.stiffnesses))
         // Arms lie in the plane with the nodes, so only their skew matrices need a check.
-        && rigid_links.iter().all(|a| plane.pairs_rightly(&skew(&a.S0)) || a.S0 == Vec3::zeros())
+        && rigid_links.iter().all(|a| plane.decouples_rotations(&skew(&a.S0)) || a.S0 == Vec3::zeros())
 }
 
 /// True where no load and no ground motion drives anything out of the plane.
 fn holds_loading(plane: &Plane, loading: &Loading) -> bool {
     loading.pressures.is_empty()
-        && loading.nodal.iter().all(|load| plane.holds(&load.force) && plane.is_normal(&load.moment))
-        && plane.holds(&loading.gravity)
-        && loading.base_accelerations.iter().all(|base| plane.holds(&base.direction))
+        && loading.nodal.iter().all(|load| plane.contains(&load.force) && plane.is_normal(&load.moment))
+        && plane.contains(&loading.gravity)
+        && loading.base_accelerations.iter().all(|base| plane.contains(&base.direction))
 }
 
 /// True where no prescribed motion and no joint leads out of the plane.

@@ -1,4 +1,4 @@
-//! What every kind of part brings into the equation of motion, each in the file of its kind.
+//! The contributions of a part to the equation of motion: the interface of every kind, each in the file of its kind.
 
 use super::masses::NodalMasses;
 use crate::elements::ElementBlock;
@@ -9,21 +9,22 @@ use crate::system::plane::Plane;
 use crate::system::thread_partition::MOST_IN_GROUP;
 use std::ops::Range;
 
-/// What the blocks of a scene are made with.
+/// The data from which the blocks of a scene are made.
 pub struct Setting<'s> {
+    /// The model.
     pub model: &'s Model,
     /// Initial positions of all nodes.
     pub x: &'s [Vec3],
-    /// Stiffness-proportional damping.
+    /// Factor β of stiffness-proportional damping, time.
     pub beta: f64,
-    /// The normal of a plane motion.
+    /// Normal of a plane motion; `None` for a motion in space.
     pub plane: Option<usize>,
 }
 
 /// A block of like elements, and the number of its first element within its part.
 pub type NumberedBlock = (Box<dyn ElementBlock>, usize);
 
-/// The answers of a kind of part while a system is built.
+/// The contributions of a part while a system is built.
 pub trait Assembled {
     /// Adds the mass of the part at its nodes or over its elements; a part may have none.
     fn add_masses(&self, _stiffnesses: &[Stiffness], _masses: &mut NodalMasses) {}

@@ -16,7 +16,7 @@ impl Assembled for Bar {
         for nodes in &self.elements {
             let mass = self.mass_per_length * self.free * (masses.x[nodes[1]] - masses.x[nodes[0]]).norm();
             for &node in nodes {
-                if masses.lies(self.mass, node) {
+                if masses.has_mass(self.mass, node) {
                     masses.lumped.add(node, 0.5 * mass, &Mat3::zeros());
                 }
             }

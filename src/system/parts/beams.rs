@@ -36,8 +36,8 @@ impl Assembled for Beam {
             let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
             for (&node, w) in nodes.iter().zip(weights) {
                 let share = 0.5 * w * length;
-                let mass = if masses.lies(self.mass, node) { share * section.mass_per_length } else { 0.0 };
-                let keep = self.rotary_inertia && masses.turns(self.mass, node);
+                let mass = if masses.has_mass(self.mass, node) { share * section.mass_per_length } else { 0.0 };
+                let keep = self.rotary_inertia && masses.has_rotary_inertia(self.mass, node);
                 masses.lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
             }
             if self.mass == MassKind::Consistent {
@@ -80,7 +80,8 @@ fn block<const N: usize>(part: &Beam, piece: Range<usize>, setting: &Setting) ->
     }
 }
 
-/// Whether a plane motion bends all elements of a part along local z (true) or y (false); `None` if it does neither.
+/// True where a plane motion bends all elements of a part along local z, false where along local y; `None` if it does
+/// neither.
 fn in_plane(part: &Beam, plane: Option<usize>) -> Option<bool> {
     let normal = plane?;
     let across = |axis: usize| part.elements.iter().all(|e| e.frame[(normal, axis)].abs() > 1.0 - 1e-12);
@@ -100,7 +101,7 @@ fn section_stays_in(plane: &Plane, frame: &Mat3, C: &Stiffness) -> bool {
     // is small beside the geometric mean of the stiffnesses of forces and moments.
     let rest = turn(&C.NM);
     let paired = rest.amax() > SMALL * C.N.amax().sqrt() * C.M.amax().sqrt();
-    plane.keeps_apart(&turn(&C.N)) && plane.keeps_apart(&turn(&C.M)) && (!paired || plane.pairs_rightly(&rest))
+    plane.decouples(&turn(&C.N)) && plane.decouples(&turn(&C.M)) && (!paired || plane.decouples_rotations(&rest))
 }
 
 /// Writes the stress resultants at all integration points of all beams into `out`, in deck order.

@@ -26,7 +26,9 @@ pub struct LinkState {
 
 /// A link as the deck lists it; the blocks that integrate links hold copies.
 pub enum LinkElement {
+    /// A spring or damper along a line.
     Line(link::Link),
+    /// A bushing.
     Bushing(Bushing),
 }
 
@@ -48,10 +50,10 @@ impl Assembled for Link {
 
     fn stays_in(&self, plane: &Plane, _: &[Stiffness]) -> bool {
         match &self.kind {
-            LinkKind::Line { direction, .. } => direction.is_none_or(|d| plane.holds(&d)),
+            LinkKind::Line { direction, .. } => direction.is_none_or(|d| plane.contains(&d)),
             LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {
                 let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
-                plane.keeps_apart(&turn(&k[..3])) && plane.keeps_apart(&turn(&k[3..]))
+                plane.decouples(&turn(&k[..3])) && plane.decouples(&turn(&k[3..]))
             }),
         }
     }

@@ -10,11 +10,14 @@ pub struct NodalMasses<'s> {
     pub x: &'s [Vec3],
     /// True for each node that depends on a body.
     tied: Vec<bool>,
+    /// Lumped masses and inertias of the nodes.
     pub lumped: Lumped,
+    /// Consistent mass matrices of elements.
     pub consistent: Vec<ConsistentMass>,
 }
 
 impl<'s> NodalMasses<'s> {
+    /// No mass yet.
     pub fn new(model: &Model, x: &'s [Vec3]) -> NodalMasses<'s> {
         let mut tied = vec![false; x.len()];
         for body in &model.bodies {
@@ -26,7 +29,7 @@ impl<'s> NodalMasses<'s> {
     }
 
     /// True where a deformable part has mass at a node of its own.
-    pub fn lies(&self, kind: MassKind, node: usize) -> bool {
+    pub fn has_mass(&self, kind: MassKind, node: usize) -> bool {
         match kind {
             MassKind::Lumped => true,
             MassKind::FreeNodes => !self.tied[node],
@@ -35,7 +38,7 @@ impl<'s> NodalMasses<'s> {
     }
 
     /// True where a deformable part has rotary inertia at a node of its own.
-    pub fn turns(&self, kind: MassKind, node: usize) -> bool {
-        kind == MassKind::Consistent || self.lies(kind, node)
+    pub fn has_rotary_inertia(&self, kind: MassKind, node: usize) -> bool {
+        kind == MassKind::Consistent || self.has_mass(kind, node)
     }
 }

@@ -13,7 +13,7 @@ pub use masses::NodalMasses;
 
 use crate::model::{Part, PartKind};
 
-/// A part as what its kind answers while a system is built.
+/// A part as a contribution to the system.
 pub fn assembled(part: &Part) -> &dyn Assembled {
     match part {
         Part::Beam(beam) => beam,
@@ -27,12 +27,15 @@ pub fn assembled(part: &Part) -> &dyn Assembled {
 /// The column of the table of energies to which the elements of a part add what they store.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
+    /// Elastic energy of deformable parts.
     Strain,
+    /// Energy of links.
     Links,
+    /// Energy of contacts.
     Contacts,
 }
 
-/// Where parts of a kind store energy.
+/// The column in which parts of a kind store energy.
 #[inline]
 pub fn storage(kind: PartKind) -> Storage {
     match kind {
