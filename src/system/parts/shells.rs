@@ -52,7 +52,11 @@ impl Assembled for Shell {
                 let mass = if masses.has_mass(self.mass, node) { self.density * h * area } else { 0.0 };
                 // The inertia about the normal is the same, where a director has none, so that no direction is without
                 // inertia.
-                let rotary = if masses.has_rotary_inertia(self.mass, node) { self.density * h.powi(3) / 12.0 * area } else { 0.0 };
+                let rotary = if masses.has_rotary_inertia(self.mass, node) {
+                    self.density * h.powi(3) / 12.0 * area
+                } else {
+                    0.0
+                };
                 masses.lumped.add(node, mass, &(rotary * Mat3::identity()));
             }
             if self.mass == MassKind::Consistent {
