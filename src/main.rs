@@ -1,8 +1,7 @@
 use std::process::ExitCode;
 
-use clap::Parser;
-use rdsolve::command::{Cli, execute};
+use rdsolve::command::{execute, parse};
 
 fn main() -> ExitCode {
-    execute(Cli::parse()).into()
+    parse().map_or_else(|exit| exit, execute).into()
 }

@@ -1,5 +1,6 @@
 //! From the text of a deck to a model and a plan; whatever is wrong with it has been shown when these fail.
 
+use super::command_hint;
 use super::console::{complain, counted, show};
 use super::exit::Exit;
 use crate::diagnostic::{Diagnostic, Source};
@@ -9,6 +10,7 @@ use crate::plan::explain::redundant_constraints;
 use crate::plan::{Plan, unreachable_targets};
 use crate::system::System;
 use sha2::{Digest, Sha256};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// A deck that can be run.
@@ -43,7 +45,13 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
 fn text(path: &Path) -> Result<String, Exit> {
     let name = path.display();
     let bytes = std::fs::read(path).map_err(|error| {
-        complain(&format!("cannot read the deck `{name}`: {error}"));
+        let hint = match error.kind() {
+            ErrorKind::NotFound => command_hint(&name.to_string()),
+            ErrorKind::IsADirectory => Some("folders of results are for `report` and `compare`".to_owned()),
+            _ => None,
+        };
+        let hint = hint.map_or(String::new(), |hint| format!("\n  help: {hint}"));
+        complain(&format!("cannot read the deck `{name}`: {error}{hint}"));
         Exit::InputOutput
     })?;
     String::from_utf8(bytes).map_err(|error| {

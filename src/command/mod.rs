@@ -18,7 +18,11 @@ mod version;
 pub use exit::Exit;
 
 use arguments::{DeckArgs, RunArgs};
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
+use console::complain;
+
+use crate::names::nearest;
 
 /// Batch solver for the nonlinear dynamics of structures made of rigid bodies and deformable parts.
 #[derive(Debug, Parser)]
@@ -53,6 +57,35 @@ enum Command {
     Study(Box<study::StudyArgs>),
     /// Print the JSON Schema of the deck, for completion and checks in editors
     Schema,
+}
+
+/// Reads the command line. Help, versions and most errors are shown by clap, which ends the process.
+///
+/// # Errors
+/// [`Exit::Usage`] where the first word is no command, nor a deck; it has been said.
+pub fn parse() -> Result<Cli, Exit> {
+    let word = std::env::args().nth(1).unwrap_or_default();
+    Cli::try_parse().map_err(|error| match command_hint(&word) {
+        // To clap the word is a deck, and what follows it is one too many.
+        Some(hint) if error.kind() == ErrorKind::ArgumentConflict => {
+            complain(&format!("there is no command `{word}`\n  help: {hint}"));
+            Exit::Usage
+        }
+        _ => error.exit(),
+    })
+}
+
+/// What may be meant by a word that should be a command and is no file.
+fn command_hint(word: &str) -> Option<String> {
+    if word.contains(['.', '/', '\\']) || word.starts_with('-') {
+        return None;
+    }
+    let cli = Cli::command();
+    let names: Vec<&str> = cli.get_subcommands().map(|command| command.get_name()).collect();
+    Some(match nearest(word, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("the commands are {}; a deck is a TOML file", names.join(", ")),
+    })
 }
 
 /// Does what the command line asks for.
