@@ -180,14 +180,18 @@ impl LawReader<'_, '_> {
     /// The stiffness with which an impact lasts some steps, or why none can be chosen.
     fn chosen_stiffness(&self, meeting: &Meeting) -> Result<f64, &'static str> {
         if self.scene.analysis.kind != AnalysisKind::Dynamic {
-            return Err("in a static analysis nothing says how stiff it should be: give force over the penetration that may be");
+            return Err(
+                "in a static analysis nothing says how stiff it should be: give force over the penetration that may be",
+            );
         }
         if meeting.mean <= 0.0 {
             return Err("nothing that touches has a mass to choose it by");
         }
         match self.scene.analysis.step_length {
             StepLength::Fixed { step } => Ok(meeting.mean * (PI / (STEPS * step)).powi(2)),
-            _ => Err("an automatic time step gives no length to choose it by: m (pi / T)^2 makes impacts of a mass m last T"),
+            _ => Err(
+                "an automatic time step gives no length to choose it by: m (pi / T)^2 makes impacts of a mass m last T",
+            ),
         }
     }
 
