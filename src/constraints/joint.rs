@@ -165,8 +165,8 @@ pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = Constrain
 pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<ConstraintEquation> {
     let e = |i: usize| axes.column(i % 3).into_owned();
     let square = |i: usize, j: usize| ConstraintEquation::Perpendicular { p: e(i), s: e(j) };
-    let held: Vec<usize> = (0..3).filter(|&i| dofs[i]).collect();
-    match held.as_slice() {
+    let fixed: Vec<usize> = (0..3).filter(|&i| dofs[i]).collect();
+    match fixed.as_slice() {
         [k] => vec![square(k + 1, k + 2)],
         // The free axis of the first node stays perpendicular to the other two of the second.
         [i, j] => vec![square(3 - i - j, *i), square(3 - i - j, *j)],

@@ -98,8 +98,8 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
             report.error_with::<()>(&amplitude.span, message, "let it rise over a finite time");
         }
         // A velocity that turns leaves a motion that may not.
-        let moves = |held: &Restraint| {
-            let motion = held.motion.as_ref().filter(|motion| motion.amplitude == index);
+        let moves = |restraint: &Restraint| {
+            let motion = restraint.motion.as_ref().filter(|motion| motion.amplitude == index);
             motion.is_some_and(|motion| motion.history != History::Displacement)
         };
         let turn = amplitudes.get(index).and_then(|read| read.turn(scene.analysis.end_time));

@@ -161,8 +161,11 @@ impl<'d> Motions<'_, 'd> {
 
 /// Sets the initial velocities of restrained degrees of freedom to zero.
 fn stop_restrained(topology: &mut Topology) {
-    let rests: Vec<[usize; 2]> =
-        topology.restraints().filter(|held| held.motion.is_none()).map(|held| [held.node, held.dof]).collect();
+    let rests: Vec<[usize; 2]> = topology
+        .restraints()
+        .filter(|restraint| restraint.motion.is_none())
+        .map(|restraint| [restraint.node, restraint.dof])
+        .collect();
     for [node, dof] in rests {
         let node = &mut topology.list[node];
         match dof {

@@ -18,7 +18,7 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
     model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
     model.constraints.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
-    model.constraints.restraints.iter_mut().for_each(|held| of(&mut held.node));
+    model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
     model.loading.nodal.iter_mut().for_each(|load| of(&mut load.node));
     model.loading.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
     model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));

@@ -63,8 +63,8 @@ pub fn classify(model: &Model, system: &System) -> Vec<NodeStatus> {
             statuses[dependent.node][dof] = DofStatus::Dependent;
         }
     }
-    for held in &model.constraints.restraints {
-        statuses[held.node][held.dof] = DofStatus::Restrained;
+    for restraint in &model.constraints.restraints {
+        statuses[restraint.node][restraint.dof] = DofStatus::Restrained;
     }
     statuses
 }
@@ -151,8 +151,8 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
     for node in model.loading.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()) {
         moved[*node][..3].fill(true);
     }
-    for held in model.constraints.restraints.iter().filter(|held| held.motion.is_some()) {
-        moved[held.node][held.dof] = true;
+    for restraint in model.constraints.restraints.iter().filter(|restraint| restraint.motion.is_some()) {
+        moved[restraint.node][restraint.dof] = true;
     }
     let mut field = model.loading.gravity.map(f64::abs);
     for base in &model.loading.base_accelerations {

@@ -98,7 +98,7 @@ impl Plan {
                     .constraints
                     .restraints
                     .iter()
-                    .any(|held| (held.node, held.dof) == (node, dof) && held.motion.is_some())
+                    .any(|restraint| (restraint.node, restraint.dof) == (node, dof) && restraint.motion.is_some())
             };
             self.nodes[node][dof] == DofStatus::Unknown || driven()
         };

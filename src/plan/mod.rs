@@ -53,8 +53,8 @@ impl Plan {
             .constraints
             .restraints
             .iter()
-            .filter(|held| held.motion.is_some())
-            .for_each(|held| driven[held.node][held.dof] = true);
+            .filter(|restraint| restraint.motion.is_some())
+            .for_each(|restraint| driven[restraint.node][restraint.dof] = true);
         let count = |of: &dyn Fn(usize) -> bool| (3..6).filter(|&dof| of(dof)).count();
         let turns = |node: usize| {
             let unknown = count(&|dof| nodes[node][dof] == DofStatus::Unknown);

@@ -77,9 +77,9 @@ fn update_reactions_and_work(
     damping_power: f64,
 ) {
     let extrapolate = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
-    for (i, held) in cx.model.constraints.restraints.iter().enumerate() {
+    for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
         let old = state.reactions[i];
-        let new = extrapolate(old, -ws.forces.on_nodes[held.node][held.dof]);
+        let new = extrapolate(old, -ws.forces.on_nodes[restraint.node][restraint.dof]);
         let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
         state.work.external += 0.5 * (old + new) * moved;
         state.reactions[i] = new;

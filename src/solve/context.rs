@@ -80,7 +80,7 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
     let mut follows = vec![false; n];
     system.rigid_links.iter().filter(|dependent| dependent.rigid).for_each(|dependent| follows[dependent.node] = true);
     let mut driven = vec![false; n];
-    model.constraints.restraints.iter().for_each(|held| driven[held.node] |= held.motion.is_some());
+    model.constraints.restraints.iter().for_each(|restraint| driven[restraint.node] |= restraint.motion.is_some());
     let moves = |i: &usize| !follows[*i] && (driven[*i] || (0..6).any(|dof| plan.is_unknown(*i, dof)));
     (0..n).filter(moves).collect()
 }
@@ -93,7 +93,7 @@ fn driving(model: &Model, system: &System) -> Vec<usize> {
     for dependent in system.rigid_links.iter().rev() {
         leads[dependent.master] |= leads[dependent.node];
     }
-    let moves = |(_, held): &(usize, &Restraint)| held.motion.is_some() && leads[held.node];
+    let moves = |(_, restraint): &(usize, &Restraint)| restraint.motion.is_some() && leads[restraint.node];
     model.constraints.restraints.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
 }
 

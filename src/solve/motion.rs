@@ -103,8 +103,8 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
 /// degrees of freedom, then dependent nodes.
 pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
     differentiate(cx, ws, state, stage);
-    for (held, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant) {
-        prescribe(&mut ws.increments[held.node], held.dof, given);
+    for (restraint, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant) {
+        prescribe(&mut ws.increments[restraint.node], restraint.dof, given);
     }
     for &node in &cx.independent_nodes {
         let drift = ws.trial[node].advance(&state.nodes[node], &ws.increments[node], stage.scheme.rotation);
@@ -116,9 +116,9 @@ pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage
 /// Writes the trial motion at the end of the step from the increments, with prescribed degrees of freedom and dependent
 /// nodes.
 pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
-    for (i, held) in cx.model.constraints.restraints.iter().enumerate() {
+    for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
         let (from, to) = (&ws.prescribed.start[i], &ws.prescribed.end[i]);
-        prescribe(&mut ws.increments[held.node], held.dof, &Prescribed { u: to.u - from.u, ..*to });
+        prescribe(&mut ws.increments[restraint.node], restraint.dof, &Prescribed { u: to.u - from.u, ..*to });
     }
     for &node in &cx.independent_nodes {
         ws.trial[node].advance(&state.nodes[node], &ws.increments[node], scheme.rotation);

@@ -39,8 +39,8 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
         add_accelerations(cx, ws, &mut state, &massless);
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     }
-    for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
-        *reaction = -ws.forces.on_nodes[held.node][held.dof];
+    for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
+        *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
     }
     if cx.system.history > 0 {
         // Yielding before the start is not part of the work of the run.
@@ -82,18 +82,18 @@ fn given_state(cx: &Context) -> State {
 
 /// Adds the prescribed motion at t = 0.
 fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
-    for (held, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.start) {
-        let node = &mut state.nodes[held.node];
-        if held.dof < 3 {
-            node.x[held.dof] += given.u;
-            node.v[held.dof] = given.v;
-            node.a[held.dof] = given.a;
+    for (restraint, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.start) {
+        let node = &mut state.nodes[restraint.node];
+        if restraint.dof < 3 {
+            node.x[restraint.dof] += given.u;
+            node.v[restraint.dof] = given.v;
+            node.a[restraint.dof] = given.a;
         } else {
             let mut turn = Vec3::zeros();
-            turn[held.dof - 3] = given.u;
+            turn[restraint.dof - 3] = given.u;
             node.rotation = rotation::exp(&turn) * node.rotation;
-            node.omega[held.dof - 3] = given.v;
-            node.alpha[held.dof - 3] = given.a;
+            node.omega[restraint.dof - 3] = given.v;
+            node.alpha[restraint.dof - 3] = given.a;
         }
     }
     // Where a prescribed motion starts rotated, dependent nodes start with the components of the rotation that follow
@@ -176,8 +176,8 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     if cx.wants_forces {
         // Reactions jump by what the new accelerations leave of the new loads.
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-        for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
-            *reaction -= ws.forces.on_nodes[held.node][held.dof] - before[held.node][held.dof];
+        for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
+            *reaction -= ws.forces.on_nodes[restraint.node][restraint.dof] - before[restraint.node][restraint.dof];
         }
     }
     Ok(())

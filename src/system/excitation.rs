@@ -82,8 +82,8 @@ impl<'a> Excitation<'a> {
             let loads = model.loading.amplitudes.iter();
             excitation.loads =
                 loads.map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
-            let beyond = |held: &Restraint| {
-                let Some(motion) = &held.motion else { return Extrapolation::new(0.0, end, |_| 0.0, |_| 0.0) };
+            let beyond = |restraint: &Restraint| {
+                let Some(motion) = &restraint.motion else { return Extrapolation::new(0.0, end, |_| 0.0, |_| 0.0) };
                 let amplitude = &model.loading.amplitudes[motion.amplitude];
                 let given = |t: f64| prescribed_motion(motion, amplitude, t);
                 Extrapolation::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
@@ -145,10 +145,10 @@ impl<'a> Excitation<'a> {
         };
         let loads = model.loading.nodal.iter().map(|load| rest(load.amplitude));
         let pressures = model.loading.pressures.iter().map(|load| rest(load.amplitude));
-        let bases = model.loading.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
-        let held = model.constraints.restraints.iter().filter_map(|held| held.motion.as_ref()).map(moves);
+        let base_accelerations = model.loading.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
+        let motions = model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref()).map(moves);
         let gravity = if model.loading.gravity == Vec3::zeros() { f64::INFINITY } else { 0.0 };
-        loads.chain(pressures).chain(bases).chain(held).fold(gravity, f64::min)
+        loads.chain(pressures).chain(base_accelerations).chain(motions).fold(gravity, f64::min)
     }
 
     /// Writes the rates of the loads at time `t` into `loading`; at a kink those to its right.
@@ -175,17 +175,19 @@ impl<'a> Excitation<'a> {
     pub fn prescribed(&self, t: f64, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();
-        out.extend(self.model.constraints.restraints.iter().enumerate().map(|(i, held)| match &held.motion {
-            None => Prescribed::default(),
-            Some(motion) => {
-                let given = |t: f64| prescribed_motion(motion, &self.model.loading.amplitudes[motion.amplitude], t);
-                match self.motions.get(i) {
-                    Some(beyond) => Prescribed { u: beyond.value(t, |t| given(t).u), ..Prescribed::default() },
-                    None if dynamic => given(t),
-                    None => Prescribed { u: given(t).u, ..Prescribed::default() },
+        out.extend(self.model.constraints.restraints.iter().enumerate().map(
+            |(i, restraint)| match &restraint.motion {
+                None => Prescribed::default(),
+                Some(motion) => {
+                    let given = |t: f64| prescribed_motion(motion, &self.model.loading.amplitudes[motion.amplitude], t);
+                    match self.motions.get(i) {
+                        Some(beyond) => Prescribed { u: beyond.value(t, |t| given(t).u), ..Prescribed::default() },
+                        None if dynamic => given(t),
+                        None => Prescribed { u: given(t).u, ..Prescribed::default() },
+                    }
                 }
-            }
-        }));
+            },
+        ));
     }
 }
 

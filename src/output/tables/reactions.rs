@@ -50,9 +50,9 @@ fn of_joint(joint: &JointState) -> [f64; 6] {
 
 fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
     let Frame { model, step, state, derived, .. } = *frame;
-    model.constraints.restraints.iter().zip(frame.reactions).try_for_each(|(held, value)| {
-        let node = &model.nodes[held.node];
-        table.row(step, state.time).text(&node.label).text(DIRECTIONS[held.dof]).number(*value).end()
+    model.constraints.restraints.iter().zip(frame.reactions).try_for_each(|(restraint, value)| {
+        let node = &model.nodes[restraint.node];
+        table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value).end()
     })?;
     // A joint that holds a node to its support carries what the support does.
     model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(

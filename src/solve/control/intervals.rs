@@ -67,8 +67,12 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
     }
     if model.analysis.step_length.is_automatic() {
         // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion.
-        let motions =
-            model.constraints.restraints.iter().filter_map(|held| held.motion.as_ref()).map(|motion| motion.amplitude);
+        let motions = model
+            .constraints
+            .restraints
+            .iter()
+            .filter_map(|restraint| restraint.motion.as_ref())
+            .map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
             out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| ending(time, false, false)));
         }

@@ -59,7 +59,7 @@ impl RungeKuttaStepper {
             stages: vec![[Vec6::zeros(); 2]; tableau.stages() * cx.independent_nodes.len()],
             tableau,
             varying,
-            driven: model.constraints.restraints.iter().any(|held| held.motion.is_some()),
+            driven: model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
             work: WorkQuadrature::default(),
         })
     }
@@ -158,8 +158,8 @@ impl RungeKuttaStepper {
         joints::check(cx, ws)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         if cx.wants_forces {
-            for (reaction, held) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
-                *reaction = -ws.forces.on_nodes[held.node][held.dof];
+            for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
+                *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
             }
             self.work.add_to(&mut state.work);
         }
@@ -261,16 +261,18 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     } else {
         ws.prescribed.instant.copy_from_slice(&ws.prescribed.end);
     }
-    for (i, held) in cx.model.constraints.restraints.iter().enumerate().filter(|(_, held)| held.motion.is_some()) {
+    for (i, restraint) in
+        cx.model.constraints.restraints.iter().enumerate().filter(|(_, restraint)| restraint.motion.is_some())
+    {
         let (from, now) = (&ws.prescribed.start[i], &ws.prescribed.instant[i]);
-        let increment = &mut ws.increments[held.node];
+        let increment = &mut ws.increments[restraint.node];
         // A prescribed rotation beside free ones is integrated from its rate alone.
-        let alone = held.dof < 3 || (3..6).all(|dof| !cx.plan.is_unknown(held.node, dof));
+        let alone = restraint.dof < 3 || (3..6).all(|dof| !cx.plan.is_unknown(restraint.node, dof));
         if alone {
-            increment.q[held.dof] = now.u - from.u;
+            increment.q[restraint.dof] = now.u - from.u;
         }
-        increment.d[held.dof] = now.v;
-        increment.dd[held.dof] = now.a;
+        increment.d[restraint.dof] = now.v;
+        increment.dd[restraint.dof] = now.a;
     }
 }
 

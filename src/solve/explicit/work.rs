@@ -37,8 +37,10 @@ impl WorkQuadrature {
 
     /// Adds the contribution of the reactions at hand on prescribed degrees of freedom.
     pub fn add_reactions(&mut self, cx: &Context, ws: &Workspace, weight: f64) {
-        let held = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
-        let power = held.map(|(held, given)| -ws.forces.on_nodes[held.node][held.dof] * given.v).sum::<f64>();
+        let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
+        let power = restraints
+            .map(|(restraint, given)| -ws.forces.on_nodes[restraint.node][restraint.dof] * given.v)
+            .sum::<f64>();
         self.external += weight * power;
     }
 

@@ -79,7 +79,7 @@ impl ArcLengthConstraint {
             forces: ws.forces.clone(),
             gaps: vec![0.0; cx.system.multipliers()],
             last: vec![Vec6::zeros(); ws.increments.len()],
-            driven: cx.model.constraints.restraints.iter().any(|held| held.motion.is_some()),
+            driven: cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
             weight: cx.length * cx.length,
         }
     }
