@@ -8,18 +8,14 @@ pub mod kind;
 pub mod plane;
 pub mod sphere;
 
-pub use capsule::Capsule;
-pub use cuboid::Cuboid;
-pub use cylinder::Cylinder;
-pub use plane::Plane;
-pub use sphere::Sphere;
-
 use crate::math::Vec3;
 use kind::{ClosestPoint, Placed, SurfaceKind, Touched};
 
 /// Makes the one type that holds any of the shapes, so that none is called through a pointer, and the list of words.
 macro_rules! surfaces {
     ($($file:ident :: $Shape:ident),+ $(,)?) => {
+        $(pub use $file::$Shape;)+
+
         /// Any of the shapes.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum SurfaceShape {
@@ -71,4 +67,10 @@ macro_rules! surfaces {
     };
 }
 
-surfaces! { plane::Plane, cuboid::Cuboid, sphere::Sphere, cylinder::Cylinder, capsule::Capsule }
+surfaces! {
+    plane::Plane,
+    cuboid::Cuboid,
+    sphere::Sphere,
+    cylinder::Cylinder,
+    capsule::Capsule,
+}
