@@ -203,10 +203,10 @@ mod tests {
     /// Full shapes miss by the rule of degree three; walls by their corners, of the order of thickness over length.
     #[test]
     fn modes_are_nearly_right_by_themselves() {
-        let rectangle = |n| shear_stiffness(&super::super::rectangle::rectangle_fibres(0.1, 0.2, [n, n]));
+        let of_fibres = |n| shear_stiffness(&super::super::rectangle::rectangle_fibres(0.1, 0.2, [n, n]));
         let exact = rectangle(0.1, 0.2).unwrap();
-        close(rectangle(12)[(0, 0)], exact.shear[0], 1e-3);
-        close(rectangle(12)[(2, 2)], exact.torsion, 2e-3);
+        close(of_fibres(12)[(0, 0)], exact.shear[0], 1e-3);
+        close(of_fibres(12)[(2, 2)], exact.torsion, 2e-3);
         // Cowper's factor is the energy of the closed form; Gauss pairs meet it with their fourth order.
         for (inner, bound) in [(0.0, 1e-3), (0.05, 1e-3), (0.098, 1e-6)] {
             let shear = tube(0.1, 0.1 - inner).unwrap().shear[0];

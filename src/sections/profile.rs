@@ -98,7 +98,9 @@ pub fn thin(
 
 #[cfg(test)]
 mod tests {
-    use crate::sections::Section;
+    use crate::sections::c::channel;
+    use crate::sections::i::i_section;
+    use crate::sections::l::angle;
 
     /// Against Prandtl's problem on the sharp-cornered shapes, solved by finite differences (five points, two grids and their
     /// extrapolation; the same program gives the square's 0.140577). The junctions' bulge is what is missing.

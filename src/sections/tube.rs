@@ -121,10 +121,10 @@ mod tests {
     #[test]
     fn thick_tube_is_a_circle_less_a_circle() {
         let (outer, inner): (f64, f64) = (0.05, 0.02);
-        let tube = tube(outer, outer - inner).unwrap();
-        close(tube.area, PI * (outer.powi(2) - inner.powi(2)), 1e-14);
-        close(tube.Iy, PI / 4.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
-        close(tube.torsion, PI / 2.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
+        let thick = tube(outer, outer - inner).unwrap();
+        close(thick.area, PI * (outer.powi(2) - inner.powi(2)), 1e-14);
+        close(thick.Iy, PI / 4.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
+        close(thick.torsion, PI / 2.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
         let round = tube(outer, outer).unwrap();
         close(round.shear[0], 6.0 / 7.0 * round.area, 1e-15);
         close(round.Iz, PI / 4.0 * outer.powi(4), 1e-15);
