@@ -174,7 +174,7 @@ pub static DORMAND_PRINCE_8: Tableau = Tableau {
         (11, 0.0447106157277725905176885569043),
     ],
     errors: &[
-        // The weights are those of order 5.
+        // The differences are those to the scheme of order 5.
         &[
             (0, 0.01312004499419488073250102996),
             (5, -1.225156446376204440720569753),

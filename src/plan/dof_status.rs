@@ -94,7 +94,7 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
             acts[node].iter_mut().zip(reach).for_each(|(acts, reaches)| *acts |= reaches);
         }
     }
-    // For each node, `None` without mass, else whether it has rotary inertia.
+    // The entry of a node is `None` without mass, else it says whether there is rotary inertia.
     let mut has_mass = vec![None; n];
     system.inertias.iter().for_each(|i| has_mass[i.node] = Some(i.rotary));
     // Whatever acts on a dependent node acts on its master; a force at an arm also exerts a moment.

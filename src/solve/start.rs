@@ -96,7 +96,7 @@ fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
             node.alpha[restraint.dof - 3] = given.a;
         }
     }
-    // Where a prescribed motion starts rotated, dependent nodes start with the components of the rotation that follow
+    // A prescribed motion may start rotated; dependent nodes then start with the components of the rotation that follow
     // the master.
     for dependent in &cx.system.rigid_links {
         let turn = rotation::log(&state.nodes[dependent.master].rotation);
@@ -196,7 +196,7 @@ fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massle
         ws.r[..cx.nodal_unknowns()].fill(0.0);
         solve_accelerations(cx, ws, state);
     }
-    // After a start or a jump algorithmic accelerations equal those of equilibrium.
+    // Algorithmic accelerations equal those of equilibrium after a start or a jump.
     for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
         *acceleration = stack(&node.a, &node.alpha);
     }

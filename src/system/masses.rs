@@ -134,7 +134,7 @@ impl MassBlock {
     fn new(node: usize, free: [bool; 6], mass: f64, s0: Vec3, J0: Mat3) -> MassBlock {
         let all = |free: &[bool]| !free.contains(&false);
         let turns = free[3..].contains(&true);
-        // The inertia matrix of a node is diagonal where the node is the centre of mass.
+        // Translations and rotations are not coupled where the node is the centre of mass.
         let centred = s0.amax() == 0.0;
         let equal = J0 == Mat3::identity() * J0[(0, 0)];
         let kind = match (turns, all(&free[3..]), centred) {

@@ -37,7 +37,8 @@ pub fn number(e: f64) -> f64 {
         return 0.0;
     }
     let excess = |D: f64| D * (1.0 + e) - D.ln_1p() + (-e * D).ln_1p();
-    // Positive from 0 on, falling to −∞ at 1/e: one root. Near e = 1 rounding leaves the series.
+    // The function is positive from 0 on and falls to −∞ at 1/e, so it has one root. Near e = 1 rounding leaves the
+    // series.
     let series = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
     if series < 1e-4 {
         return series;

@@ -67,13 +67,13 @@ fn derivatives(
     let (mut F_phi, mut M_phi) = (Mat3::zeros(), Mat3::zeros());
     if let Some(friction) = friction {
         let r = point.rolling_radius;
-        let lever = r * skew(n);
+        let rolling_arm = r * skew(n);
         F_p -= friction.by_p;
-        M_p += lever * friction.by_p - r * skew(&friction.T) * H;
+        M_p += rolling_arm * friction.by_p - r * skew(&friction.T) * H;
         F_N -= friction.by_N;
-        M_N += lever * friction.by_N;
+        M_N += rolling_arm * friction.by_N;
         F_phi -= friction.by_phi;
-        M_phi += lever * friction.by_phi;
+        M_phi += rolling_arm * friction.by_phi;
     }
     // δN = by_depth δ(δ) + by_rate δ(δ̇), with δ̇ = −n·w and w = v − v_s − ω_s × d.
     let N_p = R * (-push.by_depth * n - push.by_rate * (H * R.tr_mul(w)));

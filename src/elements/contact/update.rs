@@ -22,7 +22,7 @@ pub(super) fn update_point(
     let dt = part * now.dt;
     let (d, w) = contacts.relative(point, now.nodes);
     let speed = w.norm();
-    // The time in which the point could reach the surface at twice its speed.
+    // The point could reach the surface in this time at twice its speed.
     let safe = |gap: f64| if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 };
     let far = safe(d.norm() - contacts.reach() - point.radius);
     if far > 4.0 * now.dt && now.dt > 0.0 && old.impact_speed() == 0.0 {
@@ -59,13 +59,13 @@ fn impact(contacts: &Contacts, gap: f64, rate: f64, dt: f64, old: PointHistory, 
     let touches = new.gap() <= 0.0;
     let touched = known && old.gap() <= 0.0;
     match (touches, touched) {
-        // The approach speed where the gap closed, on a straight line.
+        // The speed is that of the approach where the gap closed, on a straight line.
         (true, false) if known => {
             let closed = old.gap() / (old.gap() - gap);
             ((old.rate() + closed * (rate - old.rate())).max(0.0), 0.0)
         }
         (true, false) => (rate.max(0.0), 0.0),
-        // Faster than at the landing where something presses.
+        // The point is faster than at the landing where something presses.
         (true, true) => (old.impact_speed().max(new.rate()), old.age() + dt),
         (false, true) => (old.impact_speed(), 0.0),
         // The point touched at the instant of equilibrium: the acceleration of that is carried on.

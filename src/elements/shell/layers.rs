@@ -170,7 +170,7 @@ impl<const M: usize> ShellSection<M> for LayeredSection<M> {
         let all = self.layers.at.len() * self.layers.variables;
         for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
             let mut section = [[0.0; 3]; 2];
-            // The loss of N, NM and M: its moments with z⁰, z¹ and z².
+            // The losses of N, NM and M are its moments with z⁰, z¹ and z².
             let mut loss = [[[0.0; 3]; 3]; 3];
             let mut here = false;
             self.through(point, strain, old, |[z, w], strain, old| {

@@ -57,7 +57,7 @@ where
     let (shear, drill) = element.shear_and_drilling(&strains);
     let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
     let start = NodalVectors { x: X, turning: [element.D, [element.T[0]; N], [element.T[1]; N]] };
-    // The mean stress that is conjugate to the strain of a change of positions and directors.
+    // This mean stress is conjugate to the strain of a change of positions and directors.
     let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
         let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
         (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));

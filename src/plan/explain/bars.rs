@@ -4,6 +4,7 @@ use super::explanation::Explanation;
 use crate::model::{Bar, Model};
 use crate::system::System;
 
+/// Adds lines about bars.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for bar in model.each::<Bar>().filter(|bar| bar.yielding.is_some()) {
         text.add("yielding", format!("bar `{}`: under normal stress", bar.name));

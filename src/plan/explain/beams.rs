@@ -6,6 +6,7 @@ use crate::model::{Beam, Model};
 use crate::system::System;
 use crate::system::parts::beams::merges_fibres;
 
+/// Adds lines about beams.
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     for beam in model.each::<Beam>() {
         let Some(yielding) = &beam.yielding else { continue };

@@ -6,6 +6,7 @@ use crate::model::{Contact, Model};
 use crate::names::short;
 use crate::system::System;
 
+/// Adds lines about contacts.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for contact in model.each::<Contact>() {
         text.add("contact", contact_in_words(model, contact));

@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 pub struct Explanation {
     /// The label of each line, and its text.
     pub computed: Vec<(&'static str, String)>,
-    /// What is omitted, and why.
+    /// The omissions, and why.
     pub omitted: Vec<String>,
     /// The operations that the omissions avoid, where they can be counted.
     pub avoided: Vec<String>,

@@ -7,7 +7,7 @@ use crate::names::{joined, short};
 use crate::plan::Plan;
 use crate::system::System;
 
-/// What there is to say of the parts of each kind.
+/// The lines about the parts of each kind.
 const PARTS: [fn(&mut Explanation, &Model, &System); 4] =
     [beams::explain, bars::explain, shells::explain, contacts::explain];
 

@@ -4,6 +4,7 @@ use super::explanation::Explanation;
 use crate::model::{Model, Part, PartType, Shell};
 use crate::system::System;
 
+/// Adds lines about shells.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for part in model.parts.chunk_by(Part::is_one_with) {
         let Some(shell) = Shell::of(&part[0]) else { continue };

@@ -71,7 +71,7 @@ impl StepController for EmbeddedErrorController {
     fn restart(&mut self, _: &Context, _: &mut Workspace, _: &mut State) {}
 
     fn propose(&mut self, cx: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
-        // Where the length is below the least step, the failure of the least step says why.
+        // The length does not fall below the least step: if that fails too, its failure says why.
         Ok(self.next.max(cx.model.analysis.least_step))
     }
 
@@ -86,7 +86,7 @@ impl StepController for EmbeddedErrorController {
         self.stepper.evaluate_stages(cx, ws, state, to)?;
         let motion = self.judge(cx, ws, to - state.time)?;
         let report = self.stepper.accept(cx, ws, state, to)?;
-        // A step refused by contacts or joints has not moved anything, and errors are not relative to it.
+        // A step refused by contacts or joints has not moved anything, so its motion is no reference for errors.
         self.motion = motion;
         Ok(Some(report))
     }

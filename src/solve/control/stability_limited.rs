@@ -34,7 +34,7 @@ impl StepController for StabilityController {
 
     fn propose(&mut self, cx: &Context, ws: &mut Workspace, state: &State, left: f64) -> Result<f64, Failure> {
         let stable = self.stepper.propose(cx, ws, state, left, self.fraction)?;
-        // Where the limit is below the least step, the failure of the least step says why.
+        // The length does not fall below the least step: if that fails too, its failure says why.
         Ok(stable.min(self.longest).max(cx.model.analysis.least_step))
     }
 

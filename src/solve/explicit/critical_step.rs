@@ -182,7 +182,7 @@ impl CriticalStep {
         let nodes = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.max_spin = nodes().map(|node| node.omega.norm()).fold(self.max_spin, f64::max);
         let (rate, acceleration) = (self.max_spin, nodes().map(|node| node.alpha.norm()).fold(0.0, f64::max));
-        // The root of ω Δt + ½ α Δt² = TURN without cancellation.
+        // The step is the root of ω Δt + ½ α Δt² = TURN, written without cancellation.
         2.0 * TURN / (rate + (rate * rate + 2.0 * acceleration * TURN).sqrt())
     }
 
@@ -337,7 +337,7 @@ impl CriticalStep {
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 
-    /// Solves for accelerations by what the forces have lost since they were noted, over `small`.
+    /// Solves for accelerations with the loss of the forces since they were kept, over `small`.
     fn solve_difference(
         &self,
         cx: &Context,
@@ -352,7 +352,7 @@ impl CriticalStep {
         accelerations.solve(cx, ws, state, false)
     }
 
-    /// φ·φ, φ·ψ and ψ·ψ in the norm of the masses, φ the mode and ψ the accelerations that answer it.
+    /// The products φ·φ, φ·ψ and ψ·ψ in the norm of the masses, with φ the mode and ψ the accelerations that answer it.
     fn mass_products(&self, cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> [f64; 3] {
         let Accelerations { masses, missing, operand, .. } = accelerations;
         let (mode, answer) = (&self.mode, &*missing);

@@ -9,7 +9,7 @@ pub struct NodalMasses<'s> {
     /// Initial positions of all nodes.
     pub x: &'s [Vec3],
     /// True for each node that depends on a body.
-    tied: Vec<bool>,
+    attached: Vec<bool>,
     /// Lumped masses and inertias of the nodes.
     pub lumped: Lumped,
     /// Consistent mass matrices of elements.
@@ -19,20 +19,20 @@ pub struct NodalMasses<'s> {
 impl<'s> NodalMasses<'s> {
     /// No mass yet.
     pub fn new(model: &Model, x: &'s [Vec3]) -> NodalMasses<'s> {
-        let mut tied = vec![false; x.len()];
+        let mut attached = vec![false; x.len()];
         for body in &model.bodies {
             let dependents = model.constraints.dependents.iter();
             let of_body = dependents.filter(|dependent| dependent.master == body.node);
-            of_body.for_each(|dependent| tied[dependent.node] = true);
+            of_body.for_each(|dependent| attached[dependent.node] = true);
         }
-        NodalMasses { x, tied, lumped: Lumped::new(x.len()), consistent: Vec::new() }
+        NodalMasses { x, attached, lumped: Lumped::new(x.len()), consistent: Vec::new() }
     }
 
     /// True where a deformable part has mass at a node of its own.
     pub fn has_mass(&self, kind: MassKind, node: usize) -> bool {
         match kind {
             MassKind::Lumped => true,
-            MassKind::FreeNodes => !self.tied[node],
+            MassKind::FreeNodes => !self.attached[node],
             MassKind::Consistent | MassKind::None => false,
         }
     }

@@ -41,7 +41,7 @@ impl Touched for Cuboid {
         let side = |i: usize| Vec3::ith(i, 1f64.copysign(y[i]));
         let outside = (0..3).filter(|&i| q[i] > 0.0).count();
         if outside < 2 {
-            // One face, from out or in.
+            // One face is the nearest, from outside or inside.
             let i = q.imax();
             return ClosestPoint { distance: q[i], n: side(i), H: Mat3::zeros() };
         }

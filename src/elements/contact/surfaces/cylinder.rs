@@ -44,7 +44,7 @@ impl Touched for Cylinder {
         let around = Vec3::new(-out.y, out.x, 0.0);
         let bend = if rho > f64::MIN_POSITIVE { around * around.transpose() / rho } else { Mat3::zeros() };
         if a > 0.0 && b > 0.0 {
-            // The rim.
+            // The rim is the nearest.
             let d = a.hypot(b);
             let n = (a * out + b * end) / d;
             let across = (b * out - a * end) / d;
