@@ -32,7 +32,7 @@ pub trait PartTable {
         None
     }
 
-    /// How many elements the part is cut into; `None` where that is not for the deck to say.
+    /// How many elements the part is cut into; `None` where more of them would make it another part.
     fn elements(&self) -> Option<&At<OneOrMany<u64>>> {
         None
     }

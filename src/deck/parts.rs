@@ -41,9 +41,14 @@ impl<'d> DeckPart<'d> {
         self.name().is_some_and(|own| own.value == name)
     }
 
-    /// Its name, or `beams.0` for a part without one.
+    /// Its name, or the path of its table for a part without one.
     pub fn label(&self) -> String {
-        self.name().map_or_else(|| format!("{}.{}", self.at.kind.table(), self.at.index), |name| name.value.clone())
+        self.name().map_or_else(|| self.table_path(), |name| name.value.clone())
+    }
+
+    /// `beams.0`, as overrides name it.
+    pub fn table_path(&self) -> String {
+        format!("{}.{}", self.at.kind.table(), self.at.index)
     }
 
     /// "shell `roof`".

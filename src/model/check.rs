@@ -12,10 +12,11 @@ use std::collections::HashSet;
 
 /// Reports a deck without anything that could move.
 pub(super) fn check_content(deck: &Deck, report: &mut Report) {
-    let parts = [deck.beams.len(), deck.bars.len(), deck.shells.len(), deck.bodies.len(), deck.masses.len()];
+    let moves =
+        deck.parts().any(|part| part.at.kind.is_deformable()) || !deck.bodies.is_empty() || !deck.masses.is_empty();
     let spoiled =
         ["beams", "bars", "shells", "bodies", "masses", "links"].iter().any(|key| report.is_spoiled(&ROOT, key));
-    if parts.iter().all(|&count| count == 0) && !spoiled {
+    if !moves && !spoiled {
         let message = "the deck has nothing that could move: no beams, bars, shells, bodies or masses";
         report.push(Diagnostic::error(message));
     }

@@ -5,10 +5,7 @@ use std::collections::HashSet;
 
 /// Materials that a part of the deck names.
 pub(super) fn named_materials(deck: &Deck) -> HashSet<&str> {
-    let beams = deck.beams.iter().map(|beam| &beam.material);
-    let bars = deck.bars.iter().map(|bar| &bar.material);
-    let shells = deck.shells.iter().map(|shell| &shell.material);
-    beams.chain(bars).chain(shells).flatten().map(|name| name.as_str()).collect()
+    deck.parts().filter_map(|part| part.table.material()).map(|name| name.as_str()).collect()
 }
 
 /// Sections that a beam of the deck names.

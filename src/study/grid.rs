@@ -3,7 +3,7 @@
 
 use crate::deck::Deck;
 use crate::deck::analysis::{Analysis, Plane};
-use crate::deck::words::{Maybe, OneOrMany};
+use crate::deck::words::OneOrMany;
 use crate::diagnostic::Diagnostic;
 use crate::integrators::{Scheme, Stepping};
 use crate::model::study::{Quantity, Study, obstacle};
@@ -286,49 +286,38 @@ fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<Strin
     if factor == 1.0 {
         return Vec::new();
     }
-    let name = |kind: &str, i: usize, name: Option<&str>| name.map_or(format!("{kind}.{i}"), str::to_owned);
     let mut sets = Vec::new();
-    let mut add = |kind: &str, i: usize, label: String, group: bool, elements: &Maybe<OneOrMany<u64>>| {
-        if group {
-            let message = format!("`meshes` cannot refine `{label}`: its elements are those of the mesh file");
-            return problems.push(Diagnostic::error(message));
+    for part in deck.parts() {
+        if part.table.group().is_some() {
+            let message = format!("`meshes` cannot refine `{}`: its elements are those of the mesh file", part.label());
+            problems.push(Diagnostic::error(message));
+        } else if let Some(elements) = part.table.elements() {
+            match multiplied(elements, factor) {
+                Some(numbers) => sets.push(format!("{}.elements={numbers}", part.table_path())),
+                None => {
+                    let count: Vec<String> = elements.values.iter().map(|count| count.value.to_string()).collect();
+                    let (count, label) = (count.join(", "), part.label());
+                    let message = format!("{factor} times the {count} elements of `{label}` is no whole number");
+                    problems.push(Diagnostic::error(message));
+                }
+            }
         }
-        let one = OneOrMany { values: vec![crate::diagnostic::At { value: 1, span: 0..0 }], single: true };
-        let elements = elements.as_ref().map_or(&one, |at| &at.value);
-        let scaled = elements.values.iter().map(|count| {
-            let scaled = count.value as f64 * factor;
-            let whole = scaled.round();
-            ((scaled - whole).abs() < 1e-9 && whole >= 1.0).then_some((count.value, whole as u64))
-        });
-        let Some(scaled) = scaled.collect::<Option<Vec<_>>>() else {
-            let count = elements.values.iter().map(|count| count.value.to_string()).collect::<Vec<_>>().join(", ");
-            let message = format!("{factor} times the {count} elements of `{label}` is no whole number");
-            return problems.push(Diagnostic::error(message));
-        };
-        let numbers: Vec<String> = scaled.iter().map(|(_, whole)| whole.to_string()).collect();
-        let value = if elements.single { numbers.join("") } else { format!("[{}]", numbers.join(", ")) };
-        sets.push(format!("{kind}.{i}.elements={value}"));
-    };
-    for (i, beam) in deck.beams.iter().enumerate() {
-        let label = name("beams", i, beam.name.as_ref().or(beam.group.as_ref()).map(|name| name.as_str()));
-        add("beams", i, label, beam.group.is_some(), &beam.elements);
-    }
-    // A bar that was cut in two would be a hinge between its parts: only what is a cable already is cut further.
-    let cut = |elements: &Maybe<OneOrMany<u64>>| {
-        elements.as_ref().is_some_and(|at| at.values.iter().any(|count| count.value > 1))
-    };
-    for (i, bar) in deck.bars.iter().enumerate().filter(|(_, bar)| cut(&bar.elements)) {
-        let label = name("bars", i, bar.name.as_ref().map(|name| name.as_str()));
-        add("bars", i, label, false, &bar.elements);
-    }
-    for (i, shell) in deck.shells.iter().enumerate() {
-        let label = name("shells", i, shell.name.as_ref().or(shell.group.as_ref()).map(|name| name.as_str()));
-        add("shells", i, label, shell.group.is_some(), &shell.elements);
     }
     if sets.is_empty() && problems.is_empty() {
         problems.push(Diagnostic::error("`meshes` has nothing to refine: the deck has no elements"));
     }
     sets
+}
+
+/// Numbers of elements times a factor, as a deck writes them; `None` where one is not whole.
+fn multiplied(elements: &OneOrMany<u64>, factor: f64) -> Option<String> {
+    let whole = elements.values.iter().map(|count| {
+        let scaled = count.value as f64 * factor;
+        let whole = scaled.round();
+        ((scaled - whole).abs() < 1e-9 && whole >= 1.0).then(|| (whole as u64).to_string())
+    });
+    let numbers = whole.collect::<Option<Vec<String>>>()?;
+    Some(if elements.single { numbers.concat() } else { format!("[{}]", numbers.join(", ")) })
 }
 
 #[cfg(test)]

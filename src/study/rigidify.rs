@@ -11,6 +11,7 @@ use super::progress::StudyProgress;
 use super::run::{RunStatus, StudyRun};
 use super::run_all::program;
 use crate::deck::Deck;
+use crate::deck::parts::DeckPart;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::model::study::{Quantity, obstacle};
@@ -195,29 +196,17 @@ fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &S
 
 /// Parts that are not rigid already.
 fn candidates(deck: &Deck) -> Vec<Candidate> {
-    let rigid = |flag: &crate::deck::words::Maybe<bool>| flag.as_ref().is_some_and(|at| at.value);
     let bodies = deck.bodies.iter().filter_map(|body| body.parts.as_ref());
     let of_bodies: Vec<&str> = bodies.flat_map(|parts| &parts.values).map(|name| name.as_str()).collect();
-    let mut found = Vec::new();
-    let mut add = |kind: &'static str, table: &str, i: usize, name: Option<&str>, rigid: bool| {
-        let set = (kind != "bar").then(|| format!("{table}.{i}.rigid=true"));
-        let name = name.map_or_else(|| format!("{table}.{i}"), str::to_owned);
-        if !rigid && !of_bodies.contains(&name.as_str()) {
-            found.push(Candidate { kind, name, set });
-        }
+    let is_candidate = |part: &DeckPart| {
+        part.at.kind.is_deformable() && !part.is_rigid() && !of_bodies.contains(&part.label().as_str())
     };
-    for (i, part) in deck.beams.iter().enumerate() {
-        let name = part.name.as_ref().or(part.group.as_ref()).map(|name| name.as_str());
-        add("beam", "beams", i, name, rigid(&part.rigid));
-    }
-    for (i, part) in deck.bars.iter().enumerate() {
-        add("bar", "bars", i, part.name.as_ref().map(|name| name.as_str()), false);
-    }
-    for (i, part) in deck.shells.iter().enumerate() {
-        let name = part.name.as_ref().or(part.group.as_ref()).map(|name| name.as_str());
-        add("shell", "shells", i, name, rigid(&part.rigid));
-    }
-    found
+    let candidate = |part: DeckPart| Candidate {
+        kind: part.at.kind.word(),
+        name: part.label(),
+        set: part.table.rigid().map(|_| format!("{}.rigid=true", part.table_path())),
+    };
+    deck.parts().filter(is_candidate).map(candidate).collect()
 }
 
 /// By kind and name: the largest energy, and that over all times, each of that of all parts.

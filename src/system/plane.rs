@@ -6,14 +6,14 @@ use crate::math::{Mat3, Vec3};
 pub const SMALL: f64 = 1e-12;
 
 /// A plane normal to a global axis, through the first node.
-pub struct Plane {
+pub struct MotionPlane {
     /// Index of the axis.
     pub normal: usize,
     /// Largest distance of a node from the first.
     pub size: f64,
 }
 
-impl Plane {
+impl MotionPlane {
     /// True for a vector in the plane. It is judged by its largest entry: the norm of large numbers overflows, and nothing
     /// exceeds infinity.
     pub fn contains(&self, v: &Vec3) -> bool {

@@ -2,7 +2,7 @@
 
 use super::inertia::Inertia;
 use super::parts::assembled;
-use super::plane::{Plane, SMALL};
+use super::plane::{MotionPlane, SMALL};
 use crate::constraints::rigid_link::RigidLink;
 use crate::math::{Vec3, skew};
 use crate::model::{Joint, Loading, Model, Node};
@@ -16,7 +16,7 @@ pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) ->
 fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], normal: usize) -> bool {
     let Some(first) = model.nodes.first() else { return false };
     let size = model.nodes.iter().map(|p| (p.x - first.x).norm()).fold(0.0, f64::max);
-    let plane = Plane { normal, size };
+    let plane = MotionPlane { normal, size };
     let flat = |p: &Node| (p.x[normal] - first.x[normal]).abs() <= SMALL * size;
     let still = |p: &Node| plane.contains(&p.v) && plane.is_normal(&p.omega);
     model.nodes.iter().all(|p| flat(p) && still(p))
@@ -29,7 +29,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], norm
 }
 
 /// True where no load and no ground motion drives anything out of the plane.
-fn holds_loading(plane: &Plane, loading: &Loading) -> bool {
+fn holds_loading(plane: &MotionPlane, loading: &Loading) -> bool {
     loading.pressures.is_empty()
         && loading.nodal.iter().all(|load| plane.contains(&load.force) && plane.is_normal(&load.moment))
         && plane.contains(&loading.gravity)
@@ -37,7 +37,7 @@ fn holds_loading(plane: &Plane, loading: &Loading) -> bool {
 }
 
 /// True where no prescribed motion and no joint leads out of the plane.
-fn holds_constraints(plane: &Plane, model: &Model) -> bool {
+fn holds_constraints(plane: &MotionPlane, model: &Model) -> bool {
     let in_plane = |dof: usize| if dof < 3 { dof != plane.normal } else { dof - 3 == plane.normal };
     let joint_holds = |joint: &Joint| {
         let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;

@@ -5,7 +5,7 @@ use crate::elements::ElementBlock;
 use crate::math::Vec3;
 use crate::model::Model;
 use crate::sections::Stiffness;
-use crate::system::plane::Plane;
+use crate::system::plane::MotionPlane;
 use crate::system::thread_partition::MOST_IN_GROUP;
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ pub trait Assembled {
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock>;
 
     /// True where a motion in the plane drives nothing of the part out of it.
-    fn stays_in(&self, plane: &Plane, stiffnesses: &[Stiffness]) -> bool;
+    fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool;
 }
 
 /// Divides elements into ranges for a group each, as equal as possible.

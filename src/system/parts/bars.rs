@@ -8,7 +8,7 @@ use crate::math::Mat3;
 use crate::model::{Bar, MassKind};
 use crate::sections::Stiffness;
 use crate::system::inertia::ConsistentMass;
-use crate::system::plane::Plane;
+use crate::system::plane::MotionPlane;
 use std::ops::Range;
 
 impl Assembled for Bar {
@@ -31,7 +31,7 @@ impl Assembled for Bar {
     }
 
     /// A bar has no direction but that of its nodes.
-    fn stays_in(&self, _: &Plane, _: &[Stiffness]) -> bool {
+    fn stays_in(&self, _: &MotionPlane, _: &[Stiffness]) -> bool {
         true
     }
 }

@@ -10,7 +10,7 @@ use crate::sections::{self, Stiffness};
 use crate::state::Configuration;
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
-use crate::system::plane::{Plane, SMALL};
+use crate::system::plane::{MotionPlane, SMALL};
 use std::ops::Range;
 
 /// The state of an integration point of a beam.
@@ -56,7 +56,7 @@ impl Assembled for Beam {
         pieces(self.elements.len()).map(|piece| (block(piece.clone()), piece.start)).collect()
     }
 
-    fn stays_in(&self, plane: &Plane, stiffnesses: &[Stiffness]) -> bool {
+    fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool {
         self.elements.iter().all(|e| section_stays_in(plane, &e.frame, &stiffnesses[e.section]))
     }
 }
@@ -95,7 +95,7 @@ pub fn merges_fibres(beam: &Beam, plane: Option<usize>) -> bool {
 }
 
 /// True for a section that bending and stretching in the plane neither bend nor twist out of it.
-fn section_stays_in(plane: &Plane, frame: &Mat3, C: &Stiffness) -> bool {
+fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
     let turn = |K: &Mat3| frame * K * frame.transpose();
     // The coupling of forces and curvatures may be nothing but rounding, that of a shear centre at the centroid: it
     // is small beside the geometric mean of the stiffnesses of forces and moments.

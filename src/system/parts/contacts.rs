@@ -4,7 +4,7 @@ use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use crate::elements::contact::{ContactPoint, Contacts, MOST_NODES};
 use crate::model::Contact;
 use crate::sections::Stiffness;
-use crate::system::plane::{Plane, SMALL};
+use crate::system::plane::{MotionPlane, SMALL};
 
 impl Assembled for Contact {
     /// The blocks of points with equally many nodes, with the number of the first point among those; none for a clearance
@@ -22,7 +22,7 @@ impl Assembled for Contact {
         blocks
     }
 
-    fn stays_in(&self, plane: &Plane, _: &[Stiffness]) -> bool {
+    fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
         let center = self.surface.center[plane.normal].abs();
         center <= SMALL * plane.size && self.surface.keeps(plane.normal)
     }

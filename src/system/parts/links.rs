@@ -7,7 +7,7 @@ use crate::math::{Mat3, Vec3};
 use crate::model::{Link, LinkKind, Model};
 use crate::sections::Stiffness;
 use crate::state::Node;
-use crate::system::plane::Plane;
+use crate::system::plane::MotionPlane;
 
 /// The state of a link at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +48,7 @@ impl Assembled for Link {
         vec![(Box::new(Links(lines)), 0), (Box::new(Bushings(bushings)), 0)]
     }
 
-    fn stays_in(&self, plane: &Plane, _: &[Stiffness]) -> bool {
+    fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
         match &self.kind {
             LinkKind::Line { direction, .. } => direction.is_none_or(|d| plane.contains(&d)),
             LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {

@@ -10,7 +10,7 @@ use crate::sections::Stiffness;
 use crate::state::Configuration;
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
-use crate::system::plane::Plane;
+use crate::system::plane::MotionPlane;
 use std::ops::Range;
 
 /// The state of a shell element.
@@ -70,7 +70,7 @@ impl Assembled for Shell {
     }
 
     /// Shells bend out of any plane they lie in.
-    fn stays_in(&self, _: &Plane, _: &[Stiffness]) -> bool {
+    fn stays_in(&self, _: &MotionPlane, _: &[Stiffness]) -> bool {
         self.elements.is_empty()
     }
 }
