@@ -3,6 +3,7 @@
 /// Elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElasticConstants {
+    /// Young's modulus.
     pub E: f64,
     /// E/(2 (1 + ν)).
     pub G: f64,
@@ -11,6 +12,7 @@ pub struct ElasticConstants {
 }
 
 impl ElasticConstants {
+    /// The constants of a material with E and ν.
     pub fn new(E: f64, nu: f64) -> ElasticConstants {
         ElasticConstants { E, G: 0.5 * E / (1.0 + nu), biaxial: E / (1.0 - nu) }
     }

@@ -2,7 +2,7 @@
 
 use std::ops::{AddAssign, Mul};
 
-/// What became of the plastic work, per volume or of a whole; and of work at contacts.
+/// Energy dissipated and stored by plastic flow and at contacts, per volume or of a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dissipation {
     /// Dissipated by yielding, ∫ i dε̄ᵖ: exact where hardening is linear over the step.

@@ -52,6 +52,7 @@ impl MaterialLaw {
         }
     }
 
+    /// The elastic constants.
     pub fn elastic(&self) -> &ElasticConstants {
         &self.elastic
     }
@@ -81,7 +82,7 @@ impl MaterialLaw {
         (stress, C.unwrap_or_else(|| self.stiffness(state)))
     }
 
-    /// As [`MaterialLaw::stress_and_tangent`], with `None` for the elastic stiffness.
+    /// The stress and the tangent of [`MaterialLaw::stress_and_tangent`], with `None` for the elastic stiffness.
     #[inline]
     pub fn linearise<const N: usize, S: StressState<N>>(
         &self,
@@ -97,7 +98,7 @@ impl MaterialLaw {
             let e = S::moduli(&self.elastic);
             let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
             let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
-            // At the very onset nothing changes with the unknown yet.
+            // Nothing changes with the unknown at the very onset.
             let turn = if y.slope > 0.0 { y.turn / (y.slope * y.S) } else { 0.0 };
             let mut C = [[0.0; N]; N];
             for i in 0..N {
@@ -139,7 +140,7 @@ impl MaterialLaw {
             from
         });
         let Some(y) = answer.yielding else { return (stress, Dissipation::default()) };
-        // Of the return that part, on a straight line.
+        // That part of the return is taken on a straight line.
         let (multiplier, to) = (part * y.multiplier, from + part * (overstress - from));
         let rise = self.yielding.hardening.rise(old[N] + multiplier).0;
         let back = self.yielding.kinematic_share * (rise - self.yielding.hardening.rise(old[N]).0);

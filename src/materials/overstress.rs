@@ -5,6 +5,7 @@ use crate::words::kinds::{Form, Given, Key, Kind};
 /// A law of the overstress that the deck can name, and what its keys give; `None` where one is wrong.
 pub type OverstressKind = Kind<fn(&mut Given) -> Option<Overstress>>;
 
+/// All laws of the overstress.
 pub static OVERSTRESSES: &[&OverstressKind] = &[&POWER, &LINEAR, &EXPONENTIAL];
 
 static POWER: OverstressKind = OverstressKind {
@@ -47,6 +48,7 @@ static EXPONENTIAL: OverstressKind = OverstressKind {
 pub struct Viscosity {
     /// γ, per time.
     pub fluidity: f64,
+    /// The law φ of the overstress.
     pub overstress: Overstress,
 }
 

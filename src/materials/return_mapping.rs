@@ -13,16 +13,18 @@
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
 
-/// When and how a material yields.
+/// The yield condition of a material: hardening and viscosity.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Yielding {
+    /// Hardening by the accumulated plastic strain.
     pub hardening: Hardening,
-    /// β: how much of the hardening shifts the yield surface (Prager) instead of widening it.
+    /// β, the kinematic share of the hardening: it shifts the yield surface (Prager) instead of widening it.
     pub kinematic_share: f64,
+    /// Viscosity; `None` for a rate-independent material.
     pub viscosity: Option<Viscosity>,
 }
 
-/// What the multiplier depends on of a trial stress that yields.
+/// The numbers of a yielding trial stress on which the multiplier depends.
 pub(super) struct Trial {
     /// ρ*.
     pub rho: f64,
@@ -30,9 +32,11 @@ pub(super) struct Trial {
     pub share: [f64; 2],
     /// c of the first mode and of the others.
     pub c: [f64; 2],
-    /// State at the beginning of the step: ε̄ᵖ, its rise of the yield stress, i.
+    /// Accumulated plastic strain ε̄ᵖ at the beginning of the step.
     pub accumulated: f64,
+    /// Rise of the yield stress at the beginning of the step.
     pub rise: f64,
+    /// Radius i of the yield surface at the beginning of the step.
     pub radius: f64,
 }
 
@@ -41,6 +45,7 @@ pub(super) struct Trial {
 pub(super) struct ReturnPoint {
     /// Δλ.
     pub multiplier: f64,
+    /// Overstress v.
     pub overstress: f64,
     /// T of the first mode and of the others.
     pub T: [f64; 2],
@@ -49,8 +54,9 @@ pub(super) struct ReturnPoint {
     /// ∂Δλ − Δλ ∂S/S, where ∂ is the change per relative change of the unknown, which stays in range where Δλ, v and γ are
     /// hundreds of decades apart.
     pub turn: f64,
-    /// Σ pᵢ (ξᵢ*/Tᵢ)², and Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ.
+    /// Σ pᵢ (ξᵢ*/Tᵢ)².
     pub sum: f64,
+    /// Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ.
     pub slope: f64,
 }
 
@@ -66,7 +72,8 @@ impl ReturnPoint {
 }
 
 impl Yielding {
-    /// Where the yield condition holds at the end of the step. `last`: the overstress at its beginning.
+    /// Finds the point where the yield condition holds at the end of the step; `last` is the overstress at its
+    /// beginning.
     pub(super) fn solve(&self, trial: &Trial, dt: f64, last: f64) -> ReturnPoint {
         // Newton's first step, from Δλ = 0. A single mode with linear hardening has arrived there.
         let slope = self.hardening.rise(trial.accumulated).1;
@@ -126,10 +133,10 @@ impl Yielding {
     }
 }
 
-/// How well the yield condition holds in the end, relative to the stress; rounding leaves some 1e-15.
+/// Residual of the yield condition that ends the iteration, relative to the stress; rounding leaves some 1e-15.
 const TOLERANCE: f64 = 1e-14;
 
-/// What rounding of the unknown may leave instead, where the stress follows it steeply.
+/// Residual that rounding of the unknown may leave instead, where the stress follows it steeply.
 const STEEP: f64 = 1e-6;
 
 /// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection takes over
@@ -142,7 +149,7 @@ fn root(mut x: f64, at: impl Fn(f64) -> ReturnPoint) -> ReturnPoint {
     for _ in 0..2100 {
         let misfit = 1.0 - point.sum.sqrt();
         let step = point.sum * misfit / point.slope;
-        // Less than a few units in the last place is no step.
+        // A step of less than a few units in the last place is none.
         let moves = step.abs() > 2.0 * f64::EPSILON;
         if misfit.abs() <= if moves { TOLERANCE } else { STEEP } {
             return point;

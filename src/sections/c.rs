@@ -7,6 +7,7 @@ use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "c",
     aliases: &[],
@@ -32,11 +33,16 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     Some(CrossSection::Shape(Box::new(C { height: height?, width: width?, web: web?, flange: flange? })))
 }
 
+/// A channel section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct C {
+    /// Height along z.
     pub height: f64,
+    /// Width of the flanges along y.
     pub width: f64,
+    /// Thickness of the web.
     pub web: f64,
+    /// Thickness of the flanges.
     pub flange: f64,
 }
 

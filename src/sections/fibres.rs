@@ -33,9 +33,11 @@ use crate::math::{Mat3, Vec3};
 /// N = Σ A σ, M_y = Σ A z σ, M_z = −Σ A y σ and (Q_y, Q_z, T) = Σ A Σ_a τ_a shear[a].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fibre {
+    /// Area.
     pub area: f64,
-    /// From the centroid.
+    /// Coordinate y from the centroid.
     pub y: f64,
+    /// Coordinate z from the centroid.
     pub z: f64,
     /// Shear modes; in a full shape along y and z, in a thin wall along the wall and none.
     pub shear: [[f64; 3]; 2],

@@ -7,6 +7,7 @@ use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape}
 use crate::words::kinds::Values;
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "general",
     aliases: &[],
@@ -57,7 +58,7 @@ const STIFFNESSES: [&str; 6] = [
     "inertia_per_length",
 ];
 
-/// Whether a section gives its stiffnesses itself.
+/// True where a section gives its stiffnesses itself.
 fn is_direct(values: &Values) -> bool {
     STIFFNESSES.iter().any(|key| values.place(key).is_some())
 }
@@ -103,14 +104,18 @@ fn stiffness(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     Some(CrossSection::Stiffness(Box::new(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia))))
 }
 
+/// A section by its area, moments and shear areas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct General {
+    /// Area.
     pub area: f64,
     /// Iy, Iz.
     pub moments: [f64; 2],
+    /// Product moment ∫yz dA.
     pub Iyz: f64,
+    /// Saint-Venant torsion constant.
     pub torsion: f64,
-    /// For forces along y and z.
+    /// Shear areas for forces along y and z.
     pub shear_areas: [f64; 2],
 }
 

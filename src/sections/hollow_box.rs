@@ -8,6 +8,7 @@ use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape,
 use super::wall::Wall;
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "box",
     aliases: &[],
@@ -38,9 +39,12 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     Some(CrossSection::Shape(Box::new(HollowBox { width: width?, height: height?, web, flange })))
 }
 
+/// A rectangular hollow section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HollowBox {
+    /// Outer width along y.
     pub width: f64,
+    /// Outer height along z.
     pub height: f64,
     /// Thickness of the two walls normal to y.
     pub web: f64,

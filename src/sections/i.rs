@@ -7,6 +7,7 @@ use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, pair};
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "i",
     aliases: &[],
@@ -47,13 +48,20 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     Some(CrossSection::Shape(Box::new(shape)))
 }
 
+/// An I-section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct I {
+    /// Height along z.
     pub height: f64,
+    /// Width of the top flange.
     pub top_width: f64,
+    /// Width of the bottom flange.
     pub bottom_width: f64,
+    /// Thickness of the web.
     pub web: f64,
+    /// Thickness of the top flange.
     pub top_flange: f64,
+    /// Thickness of the bottom flange.
     pub bottom_flange: f64,
 }
 

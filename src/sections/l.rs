@@ -7,6 +7,7 @@ use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
 use crate::words::kinds::{Form, Given, Key};
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "l",
     aliases: &[],
@@ -37,11 +38,16 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     Some(CrossSection::Shape(Box::new(L { height: height?, width: width?, vertical, horizontal })))
 }
 
+/// An angle section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct L {
+    /// Height along z.
     pub height: f64,
+    /// Width along y.
     pub width: f64,
+    /// Thickness of the vertical leg.
     pub vertical: f64,
+    /// Thickness of the horizontal leg.
     pub horizontal: f64,
 }
 

@@ -23,6 +23,7 @@ pub use fibres::{Fibre, flattened};
 pub use section::{Section, Stiffness};
 pub use section_shape::{CrossSection, SectionKind, SectionShape};
 
+/// All shapes of sections, in the order of the reference.
 pub static SECTIONS: &[&SectionKind] =
     &[&rectangle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
 

@@ -15,8 +15,9 @@ use nalgebra::Vector2;
 pub struct Profile {
     /// Ends of the middle lines.
     pub points: Vec<[f64; 2]>,
+    /// The walls.
     pub walls: Vec<Wall>,
-    /// Of each wall: (y, z) of the rectangle's centre, its width, its height.
+    /// For each wall (y, z) of its rectangle's centre, its width and its height.
     pub plates: Vec<([f64; 2], f64, f64)>,
     /// The walls close one cell; otherwise they form a tree.
     pub cell: bool,
@@ -25,6 +26,7 @@ pub struct Profile {
 }
 
 impl Profile {
+    /// The geometry of the section as a whole.
     pub fn section(&self) -> Section {
         let (area, center, [Iy, Iz, Iyz]) = rectangles(&self.plates);
         let shear = shear(&self.points, &self.walls, self.cell);
@@ -60,7 +62,8 @@ impl Profile {
             for (x, w) in pairs(share.max(along.min(4))) {
                 for (x_n, w_n) in pairs(through) {
                     let at = Vector2::from(middle) + 0.5 * long * x * e;
-                    // Where the plate is longer than the middle line, in a corner, the flow is that of the line's end.
+                    // The plate may be longer than the middle line, in a corner; the flow there is that of the line's
+                    // end.
                     let s = ((at - from).dot(&e) / length).clamp(0.0, 1.0);
                     let [q_y, q_z] = [0, 1].map(|force| flow_at(shear.flows[force][k], s));
                     let offset = 0.5 * t * x_n;

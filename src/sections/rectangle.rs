@@ -7,6 +7,7 @@ use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape}
 use crate::words::kinds::{Form, Given, Key};
 use std::f64::consts::PI;
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "rectangle",
     aliases: &[],
@@ -29,9 +30,12 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     Some(CrossSection::Shape(Box::new(Rectangle { width: width?, height: height? })))
 }
 
+/// A solid rectangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rectangle {
+    /// Width along y.
     pub width: f64,
+    /// Height along z.
     pub height: f64,
 }
 

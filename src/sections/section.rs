@@ -5,6 +5,7 @@ use crate::math::Mat3;
 /// Geometry of a cross section, axes parallel to the section's y and z through the centroid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
+    /// Area.
     pub area: f64,
     /// ∫z² dA.
     pub Iy: f64,
@@ -39,14 +40,16 @@ impl Section {
     }
 }
 
-/// What a beam feels of its section, in section axes (x along the beam) about the centroid.
-/// (N, Q_y, Q_z) = N·Γ + NM·κ, (T, M_y, M_z) = NMᵀ·Γ + M·κ.
+/// The stiffness and mass of a section, in section axes (x along the beam) about the centroid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stiffness {
+    /// Stiffness of forces against Γ.
     pub N: Mat3,
+    /// Stiffness of moments against κ.
     pub M: Mat3,
     /// Nonzero where the shear centre is off the centroid.
     pub NM: Mat3,
+    /// Mass per length.
     pub mass_per_length: f64,
     /// Rotary inertia per length, about the centroid.
     pub inertia_per_length: Mat3,

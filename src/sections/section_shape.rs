@@ -8,15 +8,16 @@ use std::fmt;
 /// A shape that the deck can name.
 pub type SectionKind = Kind<MakeSection>;
 
+/// The readers of the keys of a section.
 #[derive(Debug)]
 pub struct MakeSection {
-    /// What the keys of a section give; `true` where a beam needs its mass. `None` where a key is wrong.
+    /// Reads the keys; the flag is true where a beam needs the section's mass. Returns `None` where a key is wrong.
     pub read: fn(&mut Given, bool) -> Option<CrossSection>,
-    /// Whether a beam of a section with these keys has a material.
+    /// True where a beam of a section with these keys has a material.
     pub takes_material: fn(&Values) -> bool,
 }
 
-/// What a table `[sections.x]` describes.
+/// The section that a table `[sections.x]` describes.
 pub enum CrossSection {
     Shape(Box<dyn SectionShape>),
     /// Stiffnesses and masses per length, as given.
@@ -28,13 +29,13 @@ pub trait SectionShape: fmt::Debug {
     /// Errors: dimensions that do not go together.
     fn section(&self) -> Result<Section, String>;
 
-    /// How many fibres it has where the deck does not say; `first`: where it gives only the first number.
+    /// The default numbers of fibres; `first` is given where the deck gives only the first number.
     fn default_fibres(&self, first: Option<usize>) -> Result<[usize; 2], String>;
 
     /// Fibres of which only the sum of shear modes is not yet that of the section.
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String>;
 
-    /// Half its smaller side, or its radius: how far from its axis a beam is touched.
+    /// Half its smaller side, or its radius: the distance from its axis at which a beam is in contact.
     fn half_depth(&self) -> f64;
 
     /// The section's fibres. `counts`, even numbers, may be left out: `[]`, `[first]` or `[first, second]`.

@@ -7,6 +7,7 @@ use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape,
 use crate::words::kinds::{Form, Given, Key};
 use std::f64::consts::{PI, TAU};
 
+/// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
     word: "tube",
     aliases: &[],
@@ -36,10 +37,12 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     Some(CrossSection::Shape(Box::new(Tube { radius: radius?, thickness })))
 }
 
+/// A circular tube, or a full circle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tube {
     /// The outer radius.
     pub radius: f64,
+    /// Wall thickness.
     pub thickness: f64,
 }
 

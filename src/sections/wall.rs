@@ -11,15 +11,19 @@ type Point = Vector2<f64>;
 /// A straight wall between two points (by index).
 #[derive(Clone, Copy)]
 pub struct Wall {
+    /// Indices of its end points.
     pub ends: [usize; 2],
+    /// Thickness.
     pub thickness: f64,
 }
 
 /// Answer to shear: areas [yy, zz, yz] and the shear centre, in the axes of the points.
 pub struct Shear {
+    /// Shear areas yy, zz and yz.
     pub areas: [f64; 3],
+    /// Shear centre (y, z).
     pub center: [f64; 2],
-    /// Of a unit force along y, along z, both through the shear centre.
+    /// Shear flows of a unit force along y and along z, both through the shear centre.
     pub flows: [Flow; 2],
     /// Round the cell, for a unit twist and a unit shear modulus (Bredt); 0 without a cell.
     pub circulation: f64,
@@ -76,7 +80,7 @@ struct Line {
     length: f64,
     thickness: f64,
     ends: [usize; 2],
-    /// Of a unit flow about the centroid.
+    /// The moment of a unit flow about the centroid.
     arm: f64,
 }
 

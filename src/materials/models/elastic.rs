@@ -2,6 +2,7 @@
 
 use super::kind::{MaterialKind, MaterialModel};
 
+/// The model's word, keys and law.
 pub static KIND: MaterialKind = MaterialKind {
     word: "elastic",
     aliases: &[],

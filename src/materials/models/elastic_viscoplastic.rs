@@ -2,6 +2,7 @@
 
 use super::kind::{MaterialKind, MaterialModel, PLASTICITY, plasticity};
 
+/// The model's word, keys and law.
 pub static KIND: MaterialKind = MaterialKind {
     word: "elastic-viscoplastic",
     aliases: &[],

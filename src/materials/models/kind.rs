@@ -8,12 +8,12 @@ use crate::words::kinds::{Form, Given, Key, Kind};
 /// A model of material that the deck can name.
 pub type MaterialKind = Kind<MaterialModel>;
 
-/// What a model does with its keys.
+/// The law of a model, and its words.
 #[derive(Debug)]
 pub struct MaterialModel {
-    /// As messages call a material of this model: "an elastic material".
+    /// Words for a material of this model in messages: "an elastic material".
     pub noun: &'static str,
-    /// How it yields; `None`: it does not.
+    /// Makes the law from the keys; `None` for a model that does not yield.
     pub law: Option<MakeLaw>,
     /// The overstress depends on the rate of plastic strain, as the table `viscosity` says.
     pub is_viscous: bool,

@@ -7,5 +7,5 @@ pub mod kind;
 
 pub use kind::{MaterialKind, MaterialModel};
 
-/// In the order of the reference.
+/// All models, in the order of the reference.
 pub static MATERIALS: &[&MaterialKind] = &[&elastic::KIND, &elastic_plastic::KIND, &elastic_viscoplastic::KIND];
