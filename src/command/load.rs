@@ -1,8 +1,8 @@
 //! From the text of a deck to a model and a plan; whatever is wrong with it has been shown when these fail.
 
-use super::command_hint;
 use super::console::{complain, counted, show};
 use super::exit::Exit;
+use super::hint::command_hint;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::linear::TooLarge;
 use crate::model::{self, Model};

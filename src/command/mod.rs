@@ -6,6 +6,7 @@ mod compare;
 mod console;
 mod exit;
 mod folder;
+mod hint;
 mod load;
 mod report;
 mod run;
@@ -19,10 +20,9 @@ pub use exit::Exit;
 
 use arguments::{DeckArgs, RunArgs};
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use console::complain;
-
-use crate::names::nearest;
+use hint::command_hint;
 
 /// Batch solver for the nonlinear dynamics of structures made of rigid bodies and deformable parts.
 #[derive(Debug, Parser)]
@@ -75,19 +75,6 @@ pub fn parse() -> Result<Cli, Exit> {
     })
 }
 
-/// What may be meant by a word that should be a command and is no file.
-fn command_hint(word: &str) -> Option<String> {
-    if word.contains(['.', '/', '\\']) || word.starts_with('-') {
-        return None;
-    }
-    let cli = Cli::command();
-    let names: Vec<&str> = cli.get_subcommands().map(|command| command.get_name()).collect();
-    Some(match nearest(word, names.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("the commands are {}; a deck is a TOML file", names.join(", ")),
-    })
-}
-
 /// Does what the command line asks for.
 pub fn execute(cli: Cli) -> Exit {
     let done = match (cli.command, cli.run) {
@@ -101,4 +88,17 @@ pub fn execute(cli: Cli) -> Exit {
         (None, None) => Err(Exit::Usage),
     };
     done.err().unwrap_or(Exit::Done)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn hints_know_the_commands() {
+        let cli = Cli::command();
+        let names: Vec<&str> = cli.get_subcommands().map(|command| command.get_name()).collect();
+        assert_eq!(names, hint::COMMANDS);
+    }
 }
