@@ -6,6 +6,7 @@ use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key};
 use std::sync::Arc;
 
+/// The solid's word, keys and maker.
 pub static KIND: SolidKind = SolidKind {
     word: "box",
     aliases: &[],
@@ -26,6 +27,7 @@ fn read(given: &mut Given) -> Option<Solid> {
     Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c })
 }
 
+/// A cuboid about the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidCuboid {
     /// Full edge lengths along `axes`.

@@ -7,7 +7,9 @@ use crate::math::Vec3;
 /// Faces of three or four corners, lines of two, as indices into points about the centre of mass.
 #[derive(Debug, Clone, Default)]
 pub struct ElementFaces {
+    /// Corners, in body axes.
     pub points: Vec<Vec3>,
+    /// The corners of each face.
     pub faces: Vec<Vec<usize>>,
 }
 

@@ -10,8 +10,11 @@ use std::sync::Arc;
 /// Number of points around the rim that may touch.
 const RIM: usize = 16;
 
+/// The key of the outer radius.
 pub const RADIUS: Key = Key { name: "radius", form: Form::Number, about: "Outer radius, above 0." };
+/// The key of the length.
 pub const LENGTH: Key = Key { name: "length", form: Form::Number, about: "Length along the axis, above 0." };
+/// The key of the axis.
 pub const AXIS: Key =
     Key { name: "axis", form: Form::Vector, about: "Direction of the length, global at t = 0. Any length." };
 
@@ -31,11 +34,14 @@ pub fn read(given: &mut Given, hole: fn(&mut Given, f64) -> Option<(f64, &'stati
     Some(Solid { shape: Arc::new(HollowCylinder { radius, inner_radius, length, axis }), inertia, volume })
 }
 
+/// A cylinder about the centre of mass, with a hole along its axis or without.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HollowCylinder {
+    /// Outer radius.
     pub radius: f64,
     /// 0 where it is solid.
     pub inner_radius: f64,
+    /// Length along the axis.
     pub length: f64,
     /// Of length one.
     pub axis: Vec3,

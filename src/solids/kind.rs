@@ -12,14 +12,17 @@ pub type SolidKind = Kind<fn(&mut Given) -> Option<Solid>>;
 /// A homogeneous solid.
 #[derive(Debug, Clone)]
 pub struct Solid {
+    /// What is drawn of it, and where it touches.
     pub shape: Arc<dyn SolidShape>,
     /// About the centre, per unit of mass.
     pub inertia: Mat3,
+    /// Volume.
     pub volume: f64,
 }
 
 /// What is drawn of a body and where it touches others: points about the centre of mass in body axes.
 pub trait SolidShape: fmt::Debug + Send + Sync {
+    /// What is drawn.
     fn outline(&self) -> Outline;
 
     /// `between`: how many points are asked for between corners or rims.

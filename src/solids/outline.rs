@@ -9,7 +9,9 @@ pub const AROUND: usize = 24;
 /// Points, and what is drawn between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outline {
+    /// Corners, in body axes.
     pub points: Vec<Vec3>,
+    /// Faces and solids between them.
     pub cells: Vec<OutlineCell>,
 }
 

@@ -7,6 +7,7 @@ use crate::words::kinds::{Form, Given, Key};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// The solid's word, keys and maker.
 pub static KIND: SolidKind = SolidKind {
     word: "sphere",
     aliases: &[],
@@ -22,8 +23,10 @@ fn read(given: &mut Given) -> Option<Solid> {
     Some(Solid { shape: Arc::new(SolidSphere { radius: r }), inertia, volume: 4.0 / 3.0 * PI * r * r * r })
 }
 
+/// A ball about the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidSphere {
+    /// Outer radius.
     pub radius: f64,
 }
 

@@ -4,6 +4,7 @@ use super::hollow::{self, AXIS, LENGTH, RADIUS};
 use super::kind::SolidKind;
 use crate::words::kinds::{Form, Given, Key};
 
+/// The solid's word, keys and maker.
 pub static KIND: SolidKind = SolidKind {
     word: "tube",
     aliases: &[],
