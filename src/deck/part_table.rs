@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 /// The table of a part. What a kind of part does not have is what is answered by default.
 pub trait PartTable {
+    /// The name that the table gives the part.
     fn name(&self) -> Option<&At<String>>;
 
     /// The group of the mesh that the part is made of.
@@ -28,6 +29,7 @@ pub trait PartTable {
         0
     }
 
+    /// The name of the material that it is made of.
     fn material(&self) -> Option<&At<String>> {
         None
     }

@@ -19,15 +19,20 @@ pub enum PartKind {
 /// A part by its kind and the index of its table among those of that kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartIndex {
+    /// Its kind, which says in which list of tables it stands.
     pub kind: PartKind,
+    /// Its index among the tables of that kind.
     pub index: usize,
 }
 
 /// A part of a deck, whatever its kind.
 #[derive(Clone, Copy)]
 pub struct DeckPart<'d> {
+    /// Which part of the deck it is.
     pub at: PartIndex,
+    /// Where its table stands.
     pub span: &'d Span,
+    /// Its table, which answers what depends on its kind.
     pub table: &'d dyn PartTable,
 }
 
@@ -37,6 +42,7 @@ impl<'d> DeckPart<'d> {
         self.table.name().or(self.table.group())
     }
 
+    /// True where the rest of the deck knows it by this name.
     pub fn is_named(&self, name: &str) -> bool {
         self.name().is_some_and(|own| own.value == name)
     }
@@ -68,7 +74,7 @@ impl<'d> DeckPart<'d> {
 }
 
 impl PartKind {
-    /// In their order.
+    /// All kinds in their order.
     pub const ALL: [PartKind; 5] = [PartKind::Beam, PartKind::Bar, PartKind::Shell, PartKind::Link, PartKind::Contact];
 
     /// The word for one part, in files and messages.
@@ -82,7 +88,7 @@ impl PartKind {
         }
     }
 
-    /// The tables of the deck.
+    /// The key of its tables in the deck.
     pub fn table(self) -> &'static str {
         match self {
             PartKind::Beam => "beams",

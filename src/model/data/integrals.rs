@@ -6,6 +6,7 @@ use crate::math::{Mat3, Vec3};
 #[derive(Default)]
 pub struct MassIntegrals {
     /// Mass.
+    /// Integral of the density.
     pub mass: f64,
     first: Vec3,
     second: Mat3,
@@ -31,6 +32,7 @@ impl MassIntegrals {
     }
 
     /// The centre of mass.
+    /// The centre of mass, or that of the elements where there is no mass.
     pub fn center(&self) -> Vec3 {
         if self.mass > 0.0 { self.first / self.mass } else { self.first_of_size / self.size }
     }
