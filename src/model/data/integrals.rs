@@ -5,7 +5,6 @@ use crate::math::{Mat3, Vec3};
 /// Integrals of density over elements: 1, x, x xᵀ; and the rotary inertia. Also of 1 instead of density, where there is none.
 #[derive(Default)]
 pub struct MassIntegrals {
-    /// Mass.
     /// Integral of the density.
     pub mass: f64,
     first: Vec3,
@@ -31,7 +30,6 @@ impl MassIntegrals {
         }
     }
 
-    /// The centre of mass.
     /// The centre of mass, or that of the elements where there is no mass.
     pub fn center(&self) -> Vec3 {
         if self.mass > 0.0 { self.first / self.mass } else { self.first_of_size / self.size }
