@@ -5,9 +5,9 @@ use crate::names::nearest;
 /// The commands, as they are written.
 pub const COMMANDS: [&str; 6] = ["run", "check", "compare", "report", "study", "schema"];
 
-/// What may be meant by a word that should be a command and is no file.
+/// What may be meant by a word that is neither a command nor the name of a file.
 pub fn command_hint(word: &str) -> Option<String> {
-    if word.contains(['.', '/', '\\']) || word.starts_with('-') {
+    if COMMANDS.contains(&word) || word.contains(['.', '/', '\\']) || word.starts_with('-') {
         return None;
     }
     Some(match nearest(word, COMMANDS.into_iter()) {

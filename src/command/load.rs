@@ -2,7 +2,6 @@
 
 use super::console::{complain, counted, show};
 use super::exit::Exit;
-use super::hint::command_hint;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::linear::TooLarge;
 use crate::model::{self, Model};
@@ -46,11 +45,9 @@ fn text(path: &Path) -> Result<String, Exit> {
     let name = path.display();
     let bytes = std::fs::read(path).map_err(|error| {
         let hint = match error.kind() {
-            ErrorKind::NotFound => command_hint(&name.to_string()),
-            ErrorKind::IsADirectory => Some("folders of results are for `report` and `compare`".to_owned()),
-            _ => None,
+            ErrorKind::IsADirectory => "\n  help: folders of results are for `report` and `compare`",
+            _ => "",
         };
-        let hint = hint.map_or(String::new(), |hint| format!("\n  help: {hint}"));
         complain(&format!("cannot read the deck `{name}`: {error}{hint}"));
         Exit::InputOutput
     })?;

@@ -19,6 +19,8 @@ mod version;
 pub use exit::Exit;
 
 use arguments::{DeckArgs, RunArgs};
+use std::path::Path;
+
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use console::complain;
@@ -65,14 +67,17 @@ enum Command {
 /// [`Exit::Usage`] where the first word is no command, nor a deck; it has been said.
 pub fn parse() -> Result<Cli, Exit> {
     let word = std::env::args().nth(1).unwrap_or_default();
-    Cli::try_parse().map_err(|error| match command_hint(&word) {
-        // To clap the word is a deck, and what follows it is one too many.
-        Some(hint) if error.kind() == ErrorKind::ArgumentConflict => {
-            complain(&format!("there is no command `{word}`\n  help: {hint}"));
-            Exit::Usage
-        }
-        _ => error.exit(),
-    })
+    let parsed = Cli::try_parse();
+    // To clap a word that is no command is a deck, and what follows it is one too many.
+    let may_be_misspelt = match &parsed {
+        Ok(cli) => cli.command.is_none() && !Path::new(&word).exists(),
+        Err(error) => error.kind() == ErrorKind::ArgumentConflict,
+    };
+    if may_be_misspelt && let Some(hint) = command_hint(&word) {
+        complain(&format!("there is no command `{word}`\n  help: {hint}"));
+        return Err(Exit::Usage);
+    }
+    parsed.map_err(|error| error.exit())
 }
 
 /// Does what the command line asks for.

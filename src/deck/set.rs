@@ -204,3 +204,15 @@ fn item(list: &[Spanned<DeValue>], key: &str, word: &str, place: &Span) -> Resul
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_index_may_stand_in_brackets() {
+        assert_eq!(padded(2, "loads[0].force[2]=1.0"), "  loads.0 .force.2 =1.0");
+        assert_eq!(padded(0, "sets.\"a[0]\"=b"), "sets.\"a[0]\"=\"b\"");
+        assert_eq!(padded(0, "bodies.b.velocity=[1.0]"), "bodies.b.velocity=[1.0]");
+    }
+}

@@ -7,7 +7,7 @@ use std::ops::Deref;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{F64Deserializer, I64Deserializer, MapAccessDeserializer, StrDeserializer};
-use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::diagnostic::At;
@@ -187,8 +187,14 @@ impl<'de, T: Item + Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Reader<T>(PhantomData<T>);
         impl<'de, T: Item + Deserialize<'de>> Reader<T> {
-            fn one<E: Error>(self, value: impl IntoDeserializer<'de, E>) -> Result<Vec<At<T>>, E> {
-                Ok(vec![At { value: T::deserialize(value.into_deserializer())?, span: 0..0 }])
+            /// A single value, or that it is `found`, which is not what is expected.
+            fn one<E: Error>(
+                &self,
+                value: impl IntoDeserializer<'de, E>,
+                found: Unexpected,
+            ) -> Result<(Vec<At<T>>, bool), E> {
+                let value = T::deserialize(value.into_deserializer()).map_err(|_: E| E::invalid_type(found, self))?;
+                Ok((vec![At { value, span: 0..0 }], true))
             }
         }
         impl<'de, T: Item + Deserialize<'de>> Visitor<'de> for Reader<T> {
@@ -199,15 +205,15 @@ impl<'de, T: Item + Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
             }
 
             fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
-                Ok((self.one(StrDeserializer::<E>::new(text))?, true))
+                self.one(StrDeserializer::<E>::new(text), Unexpected::Str(text))
             }
 
             fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
-                Ok((self.one(I64Deserializer::<E>::new(number))?, true))
+                self.one(I64Deserializer::<E>::new(number), Unexpected::Signed(number))
             }
 
             fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
-                Ok((self.one(F64Deserializer::<E>::new(number))?, true))
+                self.one(F64Deserializer::<E>::new(number), Unexpected::Float(number))
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
