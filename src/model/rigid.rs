@@ -54,7 +54,7 @@ impl<'d> Maker<'_, 'd> {
         let (mut nodes, mut cells) = (Vec::new(), Vec::new());
         for &part in parts {
             let entry = self.parts.entry(part)?;
-            // A part with errors has nothing to weigh.
+            // A part with errors has no mass to add.
             if entry.range.is_empty() {
                 return None;
             }

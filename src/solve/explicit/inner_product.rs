@@ -38,7 +38,7 @@ pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
         apply_mass(cx, trial, operand, &mut ws.forces, a);
         return times_applied(cx, &ws.forces, a);
     };
-    let product = |block: &MassBlock| weigh(cx, block, &trial[block.node], &a(block.node));
+    let product = |block: &MassBlock| aMa_of_block(cx, block, &trial[block.node], &a(block.node));
     masses.blocks.iter().map(product).sum()
 }
 
@@ -49,11 +49,11 @@ pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
         apply_mass(cx, nodes, &mut accelerations.operand, &mut ws.forces, a);
         return times_applied(cx, &ws.forces, a);
     };
-    let product = |block: &MassBlock| weigh(cx, block, &nodes[block.node], &a(block.node));
+    let product = |block: &MassBlock| aMa_of_block(cx, block, &nodes[block.node], &a(block.node));
     masses.blocks.iter().map(product).sum()
 }
 
-fn weigh(cx: &Context, block: &MassBlock, node: &Node, a: &Vec6) -> f64 {
+fn aMa_of_block(cx: &Context, block: &MassBlock, node: &Node, a: &Vec6) -> f64 {
     let a = cx.plan.dofs.of(block.node).mask(a);
     block.inner_product(node, &a, &a)
 }
