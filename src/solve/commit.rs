@@ -39,11 +39,14 @@ pub fn commit(
     for (old, value) in state.multipliers.iter_mut().zip(&ws.forces.multipliers.values) {
         *old += (value - *old) / scheme.instant;
     }
+    let mut reaction_changes: &[f64] = &[];
     if let Some(projection) = projection {
+        projection.carry_multipliers(&mut state.multipliers);
         projection.distribute_multipliers(cx, ws, state);
+        reaction_changes = projection.reaction_changes();
     }
     if let Some(damping_power) = account.damping_power.filter(|_| cx.wants_forces) {
-        update_reactions_and_work(cx, ws, state, scheme, dt, damping_power);
+        update_reactions_and_work(cx, ws, state, (scheme, dt), damping_power, reaction_changes);
     }
     if cx.system.history > 0 {
         std::mem::swap(&mut state.history, &mut ws.history);
@@ -72,14 +75,15 @@ fn update_reactions_and_work(
     cx: &Context,
     ws: &Workspace,
     state: &mut State,
-    scheme: &Coefficients,
-    dt: f64,
+    (scheme, dt): (&Coefficients, f64),
     damping_power: f64,
+    reaction_changes: &[f64],
 ) {
     let extrapolate = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
     for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
         let old = state.reactions[i];
-        let new = extrapolate(old, -ws.forces.on_nodes[restraint.node][restraint.dof]);
+        let at_instant = -ws.forces.on_nodes[restraint.node][restraint.dof];
+        let new = extrapolate(old, at_instant) + reaction_changes.get(i).unwrap_or(&0.0);
         let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
         state.work.external += 0.5 * (old + new) * moved;
         state.reactions[i] = new;

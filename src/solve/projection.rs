@@ -36,6 +36,18 @@ pub struct ConstraintProjection {
     diagonal: Vec<DiagonalSlot>,
     /// The slots of degrees of freedom without mass.
     massless: Vec<DiagonalSlot>,
+    change: ForceChange,
+}
+
+/// What the joints must carry in addition for the accelerations that were projected last: with M a + Gᵀλ = f before and
+/// M δa + Gᵀδλ = 0, forces and accelerations at the end of a step belong to one another, and both are of the scheme's order.
+/// Where equilibrium is written past the end, forces are carried there on a straight line, which has that order already.
+#[derive(Default)]
+struct ForceChange {
+    /// δλ, per constraint equation.
+    multipliers: Vec<f64>,
+    /// Change of the reactions −M δa − Gᵀδλ, in the order of the model's restraints; empty where forces are not wanted.
+    reactions: Vec<f64>,
 }
 
 /// A slot on the diagonal of the matrix.
@@ -66,6 +78,7 @@ impl ConstraintProjection {
             forces: Forces::new(&bare, nodes),
             loading: Loading::default(),
             r: vec![0.0; plan.dofs.unknowns()],
+            change: ForceChange { multipliers: vec![0.0; bare.multipliers()], reactions: Vec::new() },
             bare,
             matrix: LinearSystem { solver, assembly },
         })
@@ -136,20 +149,69 @@ impl ConstraintProjection {
         false
     }
 
-    /// Corrects velocities, then accelerations. The constraints are linear in them, so one correction is exact at given
-    /// positions.
+    /// Projects velocities, then accelerations, and notes what the joints carry in addition for the latter.
     fn close_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) {
-        for derivative in [1, 2] {
-            let mut last = f64::INFINITY;
-            loop {
-                let gap = self.gap(cx, ws, derivative);
-                if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
-                    break;
-                }
-                last = gap;
-                self.correct(cx, ws, state, scheme, derivative);
-            }
+        self.close_rate(cx, ws, state, scheme, dt, 1);
+        if scheme.instant != 1.0 {
+            self.close_rate(cx, ws, state, scheme, dt, 2);
+            return;
         }
+        let wants_reactions = cx.wants_forces && !cx.model.constraints.restraints.is_empty();
+        self.forces.multipliers.values.fill(0.0);
+        self.change.reactions.clear();
+        if wants_reactions {
+            self.on_restraints(cx, &ws.trial);
+        }
+        self.close_rate(cx, ws, state, scheme, dt, 2);
+        self.change.multipliers.copy_from_slice(&self.forces.multipliers.values);
+        if wants_reactions {
+            self.on_restraints(cx, &ws.trial);
+        }
+    }
+
+    /// Corrects velocities (1) or accelerations (2). The constraints are linear in them, so one correction is exact at given
+    /// positions.
+    fn close_rate(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        dt: f64,
+        derivative: usize,
+    ) {
+        let mut last = f64::INFINITY;
+        loop {
+            let gap = self.gap(cx, ws, derivative);
+            if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
+                break;
+            }
+            last = gap;
+            self.correct(cx, ws, state, scheme, derivative);
+        }
+    }
+
+    /// Reactions to inertia and joints alone: those of the first call are subtracted from those of the second.
+    fn on_restraints(&mut self, cx: &Context, nodes: &[Node]) {
+        self.bare.residual(&Configuration::of(nodes), &self.loading, &mut self.forces);
+        let restraints = &cx.model.constraints.restraints;
+        let reactions = restraints.iter().map(|held| -self.forces.on_nodes[held.node][held.dof]);
+        let change = &mut self.change.reactions;
+        if change.is_empty() {
+            change.extend(reactions);
+        } else {
+            change.iter_mut().zip(reactions).for_each(|(change, after)| *change = after - *change);
+        }
+    }
+
+    /// Adds to the multipliers what the joints carry for the accelerations projected last.
+    pub fn carry_multipliers(&self, multipliers: &mut [f64]) {
+        multipliers.iter_mut().zip(&self.change.multipliers).for_each(|(value, change)| *value += change);
+    }
+
+    /// How the reactions change with the accelerations projected last, in the order of the model's restraints.
+    pub fn reaction_changes(&self) -> &[f64] {
+        &self.change.reactions
     }
 
     /// The largest gap of the trial motion, or of its first or second derivative, relative to the reach.
@@ -163,6 +225,9 @@ impl ConstraintProjection {
     fn correct(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, derivative: usize) {
         self.r[..cx.nodal_unknowns()].fill(0.0);
         self.matrix.solve_augmented(&self.forces.multipliers, &mut self.r);
+        if derivative == 2 {
+            self.forces.multipliers.add(&self.r[cx.nodal_unknowns()..]);
+        }
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
             let increment = &mut ws.increments[node];
