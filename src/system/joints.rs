@@ -150,26 +150,33 @@ impl Diagonal {
         Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }
 
-    /// The penalty factor of an equation: the inverse of Σ g²/K over the degrees of freedom that it acts on. `None`
-    /// where none has stiffness.
-    fn stiffness(&self, G: &[Vec6; 2], projections: &[Vec<Mat6>], values: &[f64]) -> Option<f64> {
-        let mut compliance = 0.0;
+    /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
+    /// the largest K g² of translations, or of rotations for an equation between these.
+    fn stiffness(&self, G: &[Vec6; 2], rotational: bool, projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
+        let (mut compliance, mut largest) = (0.0, 0.0f64);
         for (end, node, k, slots) in &self.0 {
             let g = projections[*node][*k].tr_mul(&G[*end]);
-            for (g, slot) in g.iter().zip(slots) {
+            for (dof, (g, slot)) in g.iter().zip(slots).enumerate() {
                 let Some(slot) = slot else { continue };
                 let K = values[*slot as usize].abs();
                 if K > 0.0 {
                     compliance += g * g / K;
                 }
+                if rotational == (dof > 2) {
+                    largest = largest.max(K * g * g);
+                }
             }
         }
-        (compliance > 0.0 && compliance.is_finite()).then_some(1.0 / compliance)
+        [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
 }
 
-/// Finds the penalty factors, which rest on the matrix before any joint has added to it. An equation on which nothing acts has the
-/// factor of the stiffest other.
+/// Finds the penalty factors, which rest on the matrix before any joint has added to it.
+///
+/// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
+/// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
+/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16. An equation on which nothing acts has the
+/// largest factor.
 fn set_penalties(
     system: &System,
     nodes: &[Node],
@@ -177,24 +184,26 @@ fn set_penalties(
     multipliers: &mut Multipliers,
     values: &[f64],
 ) {
-    let mut stiffest = [0.0f64; 2];
+    let mut largest = [0.0f64; 2];
     let mut first = 0;
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.equations.iter().enumerate() {
-            let s = diagonal.stiffness(&row.gradient(a, b), projections, values).unwrap_or(0.0);
+            let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
             multipliers.penalties[first + k] = s;
-            let stiffest = &mut stiffest[usize::from(row.is_rotational())];
-            *stiffest = stiffest.max(s);
+            let largest = &mut largest[usize::from(row.is_rotational())];
+            *largest = largest.max(s).max(heaviest);
         }
         first += joint.equations.len();
     }
     let rows = system.joints.iter().flat_map(|joint| &joint.equations);
     for (s, row) in multipliers.penalties.iter_mut().zip(rows) {
-        let other = stiffest[usize::from(row.is_rotational())];
-        if *s == 0.0 {
-            *s = if other > 0.0 { other } else { 1.0 };
-        }
+        let heaviest = largest[usize::from(row.is_rotational())];
+        *s = match heaviest > 0.0 {
+            _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
+            true => heaviest,
+            false => 1.0,
+        };
     }
 }
 
