@@ -12,7 +12,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, load, plan, too_large};
 use super::signals::{end_with_input, stop_on_signals};
-use super::verdict::{End, end, energy_warning, line, start_warning};
+use super::verdict::{End, end, energy_warning, line};
 use super::version::VERSION;
 use crate::diagnostic::Diagnostic;
 use crate::model::Part;
@@ -165,8 +165,8 @@ impl Job<'_> {
 
     /// Those of the deck, and those of the run, which are shown.
     fn warnings(&self, run: &Run) -> Vec<String> {
-        let of_run = [start_warning(run.initial_velocity_change()), energy_warning(run.balance(), &self.loaded.model)];
-        let of_run: Vec<String> = of_run.into_iter().flatten().collect();
+        let of_run = run.warnings().iter().map(ToString::to_string).chain(energy_warning(run.balance(), &self.loaded.model));
+        let of_run: Vec<String> = of_run.collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }

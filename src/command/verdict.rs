@@ -77,16 +77,6 @@ fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     ))
 }
 
-/// Initial velocities that do not agree with the joints; `change` is relative to the largest.
-pub fn start_warning(change: f64) -> Option<String> {
-    // A deck gives its numbers with some digits only.
-    const ROUNDING: f64 = 1e-5;
-    (change > ROUNDING).then(|| {
-        let part = short(change);
-        format!("initial velocities violate the joints: they were corrected by up to {part} of the largest velocity")
-    })
-}
-
 /// An energy balance that no one should take on trust.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     /// Of the largest energy: schemes add next to nothing, ...

@@ -1,11 +1,15 @@
 //! Six-component bushing: springs and dampers along and about the axes of a frame that rotates with the first node.
 //!
-//! d = Bᵀ(x₂ − x₁) − d₀ and φ = log(Bᵀ R₂ A), with B = R₁ A the frame. Energy ½ d·k d + ½ φ·k_φ φ, so the force is
-//! B k d and the moment B T⁻ᵀ(φ) k_φ φ; dampers act on ḋ and on the relative angular velocity in the frame.
+//! d = Bᵀ(x₂ − x₁) − d₀ and Q = Bᵀ R₂ A, with B = R₁ A the frame. The force of the energy ½ d·k d is B k d, the moment B m(Q) that
+//! of [`super::relative_rotation`]; dampers act on ḋ and on the relative angular velocity in the frame. Where full turns count,
+//! the angle of twist at the end of the last step is the history of a bushing.
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
-use crate::math::{Mat3, Vec3, rotation, skew};
+use super::relative_rotation::{ElasticMoment, RotationalSpring};
+use crate::materials::Dissipation;
+use crate::math::{Mat3, Vec3, skew};
 use crate::state::{Configuration, Node};
+use nalgebra::Quaternion;
 
 /// One bushing between two nodes.
 #[derive(Debug, Clone)]
@@ -14,8 +18,10 @@ pub struct Bushing {
     pub nodes: [usize; 2],
     /// A: the axes as columns, global components at t = 0.
     pub axes: Mat3,
-    /// k, force per length along the axes, then k_φ, moment per radian about them.
-    pub stiffness: [f64; 6],
+    /// k, force per length along the axes.
+    pub stiffness: Vec3,
+    /// Moments about the axes.
+    pub spring: RotationalSpring,
     /// Force per velocity along the axes, then moment per angular velocity about them.
     pub damping: [f64; 6],
     /// Aᵀ(x₂ − x₁) at t = 0.
@@ -33,8 +39,8 @@ struct RelativeMotion {
     w: Vec3,
     /// d, in the frame.
     d: Vec3,
-    /// φ, in the frame.
-    phi: Vec3,
+    /// Rotation of the second node relative to the first, in the frame.
+    Q: Quaternion<f64>,
 }
 
 impl Bushing {
@@ -42,15 +48,34 @@ impl Bushing {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let B = a.R() * self.axes;
         let r = b.relative_position(a);
-        let relative = a.rotation.conjugate() * b.rotation;
         RelativeMotion {
             B,
             r,
             u: b.v - a.v - a.omega.cross(&r),
             w: b.omega - a.omega,
             d: B.tr_mul(&r) - self.offset,
-            phi: self.axes.tr_mul(&rotation::log(&relative)),
+            Q: self.relative_rotation(nodes),
         }
+    }
+
+    /// Rotation of the second node relative to the first, in the frame.
+    fn relative_rotation(&self, nodes: &[Node]) -> Quaternion<f64> {
+        let [a, b] = self.nodes.map(|n| &nodes[n]);
+        let Q = a.rotation.conjugate() * b.rotation;
+        Quaternion::from_parts(Q.w, self.axes.tr_mul(&Q.imag()))
+    }
+
+    /// True where the ends have turned against each other by so much, or from one node of `start` to the other by so much at once,
+    /// that the moment is no longer defined: near half a turn of a rotation vector or of the swing of an axis.
+    pub fn is_turned_over(&self, start: &[Node], end: &[Node]) -> bool {
+        const LIMIT: f64 = 3.0; // radians, of π
+        let (before, after) = (self.relative_rotation(start), self.relative_rotation(end));
+        if self.spring.moment(&after, 0.0).angle > LIMIT {
+            return true;
+        }
+        // Past half a turn the nearest rotation vector is that of the other way round: the sign of the quaternion tells.
+        let flips = before.coords.dot(&after.coords) * before.w * after.w < 0.0;
+        flips && matches!(self.spring, RotationalSpring::Isotropic { stiffness } if stiffness != 0.0)
     }
 
     /// The coefficients of translation and of rotation.
@@ -59,26 +84,46 @@ impl Bushing {
         (Vec3::new(a, b, c), Vec3::new(d, e, f))
     }
 
-    /// Force and moment on the second node, global components.
-    fn forces(&self, motion: &RelativeMotion) -> (Vec3, Vec3) {
-        let (k, k_phi) = Self::coefficients(&self.stiffness);
+    /// Force and moment on the second node, global components; `last`: the twist at the end of the last step.
+    fn forces(&self, motion: &RelativeMotion, last: f64) -> (Vec3, Vec3) {
         let (c, c_phi) = Self::coefficients(&self.damping);
-        let f = k.component_mul(&motion.d) + c.component_mul(&motion.B.tr_mul(&motion.u));
-        let T_inv = rotation::inverse_tangent_matrix(&motion.phi);
-        let m = T_inv.tr_mul(&k_phi.component_mul(&motion.phi)) + c_phi.component_mul(&motion.B.tr_mul(&motion.w));
+        let f = self.stiffness.component_mul(&motion.d) + c.component_mul(&motion.B.tr_mul(&motion.u));
+        let ElasticMoment { moment, .. } = self.spring.moment(&motion.Q, last);
+        let m = moment + c_phi.component_mul(&motion.B.tr_mul(&motion.w));
         (motion.B * f, motion.B * m)
     }
 
-    /// d, its rate along the first axis, force and moment on the second node; components in the frame.
-    pub fn state(&self, nodes: &[Node]) -> (Vec3, f64, Vec3, Vec3) {
+    /// d, its rate along the first axis, force and moment on the second node; components in the frame. `last`: the twist at the
+    /// end of the last step.
+    pub fn state(&self, nodes: &[Node], last: f64) -> (Vec3, f64, Vec3, Vec3) {
         let motion = self.motion(nodes);
-        let (F, M) = self.forces(&motion);
+        let (F, M) = self.forces(&motion, last);
         (motion.d, motion.B.column(0).dot(&motion.u), motion.B.tr_mul(&F), motion.B.tr_mul(&M))
     }
 }
 
 /// A group of bushings.
 pub struct Bushings(pub Vec<Bushing>);
+
+impl Bushings {
+    /// Bushings with the twist of each at the end of the last step.
+    fn with_history<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Bushing, f64)> {
+        let mut history = history.iter();
+        self.0.iter().map(move |bushing| {
+            let last = if bushing.spring.counts_turns() { history.next().copied() } else { None };
+            (bushing, last.unwrap_or(0.0))
+        })
+    }
+
+    fn last_twist(&self, e: usize, history: &[f64]) -> f64 {
+        let counts = |bushing: &Bushing| bushing.spring.counts_turns();
+        if !counts(&self.0[e]) {
+            return 0.0;
+        }
+        let place = self.0[..e].iter().filter(|bushing| counts(bushing)).count();
+        history.get(place).copied().unwrap_or(0.0)
+    }
+}
 
 impl ElementBlock for Bushings {
     fn len(&self) -> usize {
@@ -97,10 +142,23 @@ impl ElementBlock for Bushings {
         self.0.iter().any(|b| b.damping.iter().any(|&c| c > 0.0))
     }
 
+    fn history(&self) -> usize {
+        self.0.iter().filter(|bushing| bushing.spring.counts_turns()).count()
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+        let counting = self.with_history(now.history).filter(|(bushing, _)| bushing.spring.counts_turns());
+        for ((bushing, last), new) in counting.zip(new) {
+            let twist = bushing.spring.moment(&bushing.relative_rotation(now.nodes), last).twist;
+            *new = last + part * (twist - last);
+        }
+        Dissipation::default()
+    }
+
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for bushing in &self.0 {
+        for (bushing, last) in self.with_history(now.history) {
             let motion = bushing.motion(now.nodes);
-            let (f, m) = bushing.forces(&motion);
+            let (f, m) = bushing.forces(&motion, last);
             let [a, b] = bushing.nodes;
             subtract(&mut F[a], 0, &-f);
             subtract(&mut F[a], 3, &-(m + motion.r.cross(&f)));
@@ -112,20 +170,14 @@ impl ElementBlock for Bushings {
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
         let bushing = &self.0[e];
         let motion = bushing.motion(now.nodes);
-        let (F, M) = bushing.forces(&motion);
+        let last = self.last_twist(e, now.history);
+        let (F, M) = bushing.forces(&motion, last);
         let omega = now.nodes[bushing.nodes[0]].omega;
-        let (k, k_phi) = Bushing::coefficients(&bushing.stiffness);
         let (c, c_phi) = Bushing::coefficients(&bushing.damping);
         let B = motion.B;
         let global = |diagonal: &Vec3| B * Mat3::from_diagonal(diagonal) * B.transpose();
-        let (k, c, c_phi) = (global(&k), global(&c), global(&c_phi));
-        let T_inv = rotation::inverse_tangent_matrix(&motion.phi);
-        let mu = k_phi.component_mul(&motion.phi);
-        let k_phi = B
-            * (T_inv.tr_mul(&Mat3::from_diagonal(&k_phi))
-                + rotation::inverse_tangent_transpose_derivative(&motion.phi, &mu))
-            * T_inv
-            * B.transpose();
+        let (k, c, c_phi) = (global(&bushing.stiffness), global(&c), global(&c_phi));
+        let k_phi = B * bushing.spring.tangent(&motion.Q, last) * B.transpose();
         let (r, u, w) = (skew(&motion.r), skew(&motion.u), skew(&motion.w));
         // δF = F_r δr + F_1 δθ₁ with δd = Bᵀ(δr + r~ δθ₁), δḋ = Bᵀ(δu + u~ δθ₁), δu = δv₂ − δv₁ + r~ δω₁ − ω₁~ δr.
         let F_r = k + c * (rate_weight * Mat3::identity() - skew(&omega));
@@ -154,12 +206,11 @@ impl ElementBlock for Bushings {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        let energy = |b: &Bushing| {
+        let energy = |(b, last): (&Bushing, f64)| {
             let motion = b.motion(now.nodes);
-            let (k, k_phi) = Bushing::coefficients(&b.stiffness);
-            0.5 * (k.component_mul(&motion.d).dot(&motion.d) + k_phi.component_mul(&motion.phi).dot(&motion.phi))
+            0.5 * b.stiffness.component_mul(&motion.d).dot(&motion.d) + b.spring.moment(&motion.Q, last).energy
         };
-        self.0.iter().map(energy).sum()
+        self.with_history(now.history).map(energy).sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {

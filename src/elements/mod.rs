@@ -5,6 +5,7 @@ pub mod bar;
 pub mod beam;
 mod block;
 pub mod bushing;
+pub mod relative_rotation;
 pub mod contact;
 pub mod link;
 pub mod pressure;

@@ -126,7 +126,7 @@ impl Derived {
             system.joint_states(&state.nodes, &state.multipliers, &mut self.joints);
         }
         if is_wanted(Wanted::LINKS) {
-            results::link_states(system, &state.nodes, &mut self.links);
+            results::link_states(system, now, &mut self.links);
         }
         if is_wanted(Wanted::CONTACTS) {
             system.contact_states(model, now, &mut self.contacts);

@@ -24,6 +24,8 @@ pub enum Failure {
     TooManySteps { steps: usize },
     /// A step would take a point through a surface, or into an impact that it does not resolve.
     ContactNotResolved { name: String },
+    /// The ends of a bushing have turned against each other by half a turn.
+    BushingTurnedOver { name: String },
     /// A step of central differences is longer than the critical time step; `automatic` where steps find their own
     /// length.
     Unstable { dt: f64, longest: f64, automatic: bool },
@@ -135,6 +137,10 @@ impl Failure {
             Failure::ContactNotResolved { name } => format!(
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
+            ),
+            Failure::BushingTurnedOver { name } => format!(
+                "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \
+                 defined; about an axis whose stiffness differs from the other two they may turn on without limit"
             ),
             Failure::NoEquilibriumOnArc { .. } | Failure::NoLoadIncrement { .. } | Failure::TooManySteps { .. } => {
                 self.message_of_path()

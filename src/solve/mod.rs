@@ -4,6 +4,7 @@
 //! plain data; the parts of a step that all schemes share; the implicit and the explicit schemes; the controllers of
 //! the step length; the run on top.
 
+mod bushings;
 mod commit;
 mod contacts;
 mod context;
@@ -27,6 +28,7 @@ mod run;
 mod size;
 mod start;
 mod time_stepper;
+mod warning;
 mod workspace;
 
 pub use crate::system::{ContactState, JointState};
@@ -36,3 +38,4 @@ pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer};
 pub use outcome::{Counts, Outcome};
 pub use run::Run;
+pub use warning::{Warning, Warnings};

@@ -9,6 +9,7 @@ use super::march::March;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::start::start;
+use super::warning::Warnings;
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
 use crate::model::Model;
@@ -26,8 +27,6 @@ pub struct Run<'a> {
     controller: Controller<'a>,
     recorder: Recorder,
     stop: &'a AtomicBool,
-    /// The result of [`Run::initial_velocity_change`].
-    velocity_change: f64,
 }
 
 impl<'a> Run<'a> {
@@ -48,18 +47,15 @@ impl<'a> Run<'a> {
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);
-        Ok(Run { context, workspace, controller, recorder, stop, velocity_change: 0.0 })
+        Ok(Run { context, workspace, controller, recorder, stop })
     }
 
     /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
     /// not start.
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
-        let Run { context: cx, workspace: ws, controller, recorder, stop, velocity_change } = self;
+        let Run { context: cx, workspace: ws, controller, recorder, stop } = self;
         let mut state = match start(cx, ws) {
-            Ok((state, change)) => {
-                *velocity_change = change;
-                state
-            }
+            Ok(state) => state,
             Err(failure) => return (Outcome::Failed { time: 0.0, failure }, None),
         };
         recorder.begin(cx, &state);
@@ -95,9 +91,9 @@ impl<'a> Run<'a> {
         (!self.context.system.joints.is_empty()).then_some(self.workspace.joint_violation)
     }
 
-    /// Largest change of initial velocities that the joints required, relative to the largest velocity.
-    pub fn initial_velocity_change(&self) -> f64 {
-        self.velocity_change
+    /// Doubts about the results.
+    pub fn warnings(&self) -> &Warnings {
+        &self.workspace.warnings
     }
 
     /// The displacement at the end of a path that did not reach its `stop`.

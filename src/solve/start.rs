@@ -4,6 +4,7 @@
 use super::context::Context;
 use super::failure::Failure;
 use super::joints;
+use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::elements::Moduli;
 use crate::math::{Vec3, Vec6, rotation, stack};
@@ -11,12 +12,15 @@ use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::assembly::TangentWeights;
 
-/// Finds the state at t = 0. Returns it with the largest change of initial velocities that the joints required,
-/// relative to the largest velocity.
+/// The largest change of initial velocities, relative to the largest velocity, that joints may require without a word: a deck gives
+/// its numbers with some digits only.
+const DIGITS: f64 = 1e-5;
+
+/// Finds the state at t = 0; warns where initial velocities do not agree with the joints.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted, [`Failure::ConstraintsViolated`] where joints do not fit the scene.
-pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> {
+pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
     let mut state = given_state(cx);
     cx.excitation.loading(0.0, Side::After, &mut ws.loads.instant);
     cx.excitation.prescribed(0.0, &mut ws.prescribed.start);
@@ -27,13 +31,15 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
         update_history(cx, ws, &mut state);
     }
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-    let mut velocity_change = 0.0;
     if cx.is_dynamic() {
         let massless = factor_mass(cx, ws, &state.configuration())?;
         if !cx.system.joints.is_empty() {
             ws.trial.clone_from(&state.nodes);
             joints::check(cx, ws)?;
-            velocity_change = project_velocities(cx, ws, &mut state.nodes);
+            let change = project_velocities(cx, ws, &mut state.nodes);
+            if change > DIGITS {
+                ws.warnings.add(Warning::InitialVelocities { change });
+            }
             cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         }
         add_accelerations(cx, ws, &mut state, &massless);
@@ -50,7 +56,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<(State, f64), Failure> 
         state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
     }
     ws.trial.clone_from(&state.nodes);
-    Ok((state, velocity_change))
+    Ok(state)
 }
 
 /// The state as the model gives it, before prescribed motion. Omitted degrees of freedom are at rest.

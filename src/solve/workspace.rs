@@ -2,6 +2,7 @@
 
 use super::context::{self, Context};
 use super::linear_system::LinearSystem;
+use super::warning::Warnings;
 use crate::linear::TooLarge;
 use crate::state::{Increment, Node};
 use crate::system::{Forces, Loading, Prescribed};
@@ -36,6 +37,7 @@ pub struct Workspace {
     pub rotation_drift: f64,
     /// Largest gap of a joint at the end of a step, relative to `reach`, over all steps.
     pub joint_violation: f64,
+    pub warnings: Warnings,
 }
 
 /// An excitation at the three times that a step needs.
@@ -69,6 +71,7 @@ impl Workspace {
             solves: 0,
             rotation_drift: 0.0,
             joint_violation: 0.0,
+            warnings: Warnings::default(),
         })
     }
 }

@@ -29,7 +29,7 @@ impl System {
 
     /// True where any material has history variables.
     pub fn yields(&self) -> bool {
-        self.groups[..self.contacts].iter().any(|group| !group.history.is_empty())
+        self.groups.iter().any(|group| group.kind.is_deformable() && !group.history.is_empty())
     }
 
     fn contact_groups(&self) -> impl Iterator<Item = (&Group, &Contacts)> {

@@ -9,6 +9,7 @@ mod contacts;
 mod dofs;
 pub mod energy;
 mod equations;
+mod free_rotation;
 mod excitation;
 mod group;
 mod inertia;

@@ -4,12 +4,19 @@ use super::equations::System;
 use super::parts::beams::{self, SectionPoint};
 use super::parts::links::{self, LinkState};
 use super::parts::shells::{self, ShellState};
-use crate::model::Model;
+use crate::model::{Model, PartKind};
 use crate::state::{Configuration, Node};
 
 /// Writes the states of all links into `out`, in deck order.
-pub fn link_states(system: &System, nodes: &[Node], out: &mut Vec<LinkState>) {
-    links::link_states(&system.links, nodes, out);
+pub fn link_states(system: &System, now: &Configuration, out: &mut Vec<LinkState>) {
+    let groups = system.groups.iter().filter(|group| group.kind == PartKind::Link);
+    let twists = groups.flat_map(|group| group.configuration(now).history);
+    links::link_states(&system.links, now.nodes, twists, out);
+}
+
+/// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`.
+pub fn bushing_turned_over(system: &System, start: &[Node], end: &[Node]) -> Option<usize> {
+    links::turned_over(&system.links, start, end)
 }
 
 /// Writes the largest accumulated plastic strain of each element into `out`: all beams, bars and shells in deck

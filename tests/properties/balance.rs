@@ -166,7 +166,7 @@ fn bushings_tell_the_moment_at_their_first_end() {
     push(&mut m, block, Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.1, 0.2, 0.3), false, None);
     let state = run(&m).last().clone();
     let mut links = Vec::new();
-    results::link_states(&System::new(&m).unwrap(), &state.nodes, &mut links);
+    results::link_states(&System::new(&m).unwrap(), &state.configuration(), &mut links);
     let link = links[0];
     let felt = [link.f.x, link.f.y, link.f.z, link.m.x, link.m.y, link.m.z];
     for (reaction, felt) in state.reactions.iter().zip(felt) {

@@ -14,7 +14,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, excite, move_to_step_end, move_trial, predict};
 use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
-use crate::solve::{contacts, joints, residual};
+use crate::solve::{bushings, contacts, joints, residual};
 use crate::state::{Configuration, Node, State, Work};
 use crate::system::masses::{CORRECTIONS, NodeRates};
 
@@ -113,6 +113,7 @@ impl CentralDifferenceStepper {
         }
         contacts::check_passage(cx, ws, state, dt)?;
         joints::check(cx, ws)?;
+        bushings::check(cx, ws, state)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         self.critical.count(aMa);
         offset_energy(&mut state.work, aMa, dt);
@@ -141,6 +142,7 @@ impl CentralDifferenceStepper {
         let dt = to - state.time;
         excite(cx, ws, state.time, to, 1.0);
         predict(cx, ws, state, scheme);
+        self.turn_bodies(ws, state, dt);
         if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);
         }
@@ -166,6 +168,16 @@ impl CentralDifferenceStepper {
             move_to_step_end(cx, ws, state, scheme);
         }
         if self.accelerations.are_finite(cx, ws) { Ok(evaluations) } else { Err(residual::not_finite(cx, ws)) }
+    }
+
+    /// Replaces the predicted motion of bodies that turn freely.
+    fn turn_bodies(&self, ws: &mut Workspace, state: &State, dt: f64) {
+        let Some(masses) = &self.accelerations.masses else { return };
+        for block in &masses.blocks {
+            if let Some(motion) = block.drift(&state.nodes[block.node], dt) {
+                ws.increments[block.node].q = motion;
+            }
+        }
     }
 
     /// The product aᵀMa of the accelerations found, and whether these or the motion suggest that the scene has

@@ -7,7 +7,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, differentiate, move_to_step_end, move_trial, rates_of};
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::workspace::Workspace;
-use crate::solve::{contacts, joints};
+use crate::solve::{bushings, contacts, joints};
 use crate::state::{Configuration, State};
 
 /// Accepts the equilibrium that was found: the state moves to the time `to`, written once.
@@ -37,6 +37,7 @@ pub fn accept(
         contacts::check_passage(cx, ws, state, dt)?;
     }
     joints::check(cx, ws)?;
+    bushings::check(cx, ws, state)?;
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::assembled::{Assembled, NumberedBlock, Setting};
 use crate::elements::bushing::{Bushing, Bushings};
 use crate::elements::link::{self, Links};
+use crate::elements::relative_rotation::RotationalSpring;
 use crate::math::{Mat3, Vec3};
 use crate::model::{Link, LinkKind, Model};
 use crate::sections::Stiffness;
@@ -69,7 +70,8 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
         LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
             nodes: part.ends,
             axes: *axes,
-            stiffness: *stiffness,
+            stiffness: Vec3::from_column_slice(&stiffness[..3]),
+            spring: RotationalSpring::new(Vec3::from_column_slice(&stiffness[3..])),
             damping: *damping,
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
         }),
@@ -77,8 +79,20 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
     model.each::<Link>().map(element).collect()
 }
 
-/// Writes the states of all links into `out`, in deck order.
-pub fn link_states(links: &[LinkElement], nodes: &[Node], out: &mut Vec<LinkState>) {
+/// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`:
+/// its moments are no longer defined there.
+pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Option<usize> {
+    let turned = |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.is_turned_over(start, end));
+    links.iter().position(turned)
+}
+
+/// Writes the states of all links into `out`, in deck order. `twists` are the angles of the bushings that count turns.
+pub fn link_states<'t>(
+    links: &[LinkElement],
+    nodes: &[Node],
+    mut twists: impl Iterator<Item = &'t f64>,
+    out: &mut Vec<LinkState>,
+) {
     out.clear();
     out.extend(links.iter().map(|link| match link {
         LinkElement::Line(link) => {
@@ -86,7 +100,8 @@ pub fn link_states(links: &[LinkElement], nodes: &[Node], out: &mut Vec<LinkStat
             LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros() }
         }
         LinkElement::Bushing(bushing) => {
-            let (d, rate, f, m) = bushing.state(nodes);
+            let last = if bushing.spring.counts_turns() { twists.next() } else { None };
+            let (d, rate, f, m) = bushing.state(nodes, *last.unwrap_or(&0.0));
             let [first, second] = bushing.nodes.map(|n| &nodes[n]);
             let B = first.R() * bushing.axes;
             // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
