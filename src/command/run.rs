@@ -165,7 +165,8 @@ impl Job<'_> {
 
     /// Those of the deck, and those of the run, which are shown.
     fn warnings(&self, run: &Run) -> Vec<String> {
-        let of_run = run.warnings().iter().map(ToString::to_string).chain(energy_warning(run.balance(), &self.loaded.model));
+        let of_run =
+            run.warnings().iter().map(ToString::to_string).chain(energy_warning(run.balance(), &self.loaded.model));
         let of_run: Vec<String> = of_run.collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));

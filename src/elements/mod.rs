@@ -5,10 +5,10 @@ pub mod bar;
 pub mod beam;
 mod block;
 pub mod bushing;
-pub mod relative_rotation;
 pub mod contact;
 pub mod link;
 pub mod pressure;
+pub mod relative_rotation;
 mod results;
 pub mod shell;
 

@@ -82,7 +82,8 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
 /// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`:
 /// its moments are no longer defined there.
 pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Option<usize> {
-    let turned = |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.is_turned_over(start, end));
+    let turned =
+        |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.is_turned_over(start, end));
     links.iter().position(turned)
 }
 
