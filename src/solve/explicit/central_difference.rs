@@ -314,7 +314,7 @@ interval = 1.0
         let cx = Context::new(&model, &plan, &system, true, false);
         let mut ws = Workspace::new(&cx).unwrap();
         let mut stepper = CentralDifferenceStepper::new(&cx).unwrap();
-        let (mut state, _) = start(&cx, &mut ws).unwrap();
+        let mut state = start(&cx, &mut ws).unwrap();
         stepper.restart(&cx, &mut ws, &mut state);
         let mut largest = state.work.accelerations;
         for taken in 0..3 {
