@@ -8,6 +8,7 @@ use rdsolve::elements::bar::YieldingBars;
 use rdsolve::elements::beam::{BeamGeometry, Beams, FibreModel, IntegrationRule};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Link, LinkLaw, Links};
+use rdsolve::elements::relative_rotation::RotationalSpring;
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
 use rdsolve::elements::{ElementBlock, Force, Moduli};
 use rdsolve::materials::{Dissipation, Hardening, MaterialLaw as Material, Overstress, Viscosity};
@@ -116,14 +117,22 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     let table = LinkLaw::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
     add("table link", Box::new(Links(vec![link(table, None)])), &ends);
     add("bar", Box::new(rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, 1.0, &ends, 0.2)), &ends);
-    let bushing = Bushing {
-        nodes: [0, 1],
-        axes: frame,
-        stiffness: [10.0, 20.0, 30.0, 4.0, 5.0, 6.0],
-        damping: [1.0, 0.5, 0.2, 0.1, 0.3, 0.2],
-        offset: frame.tr_mul(&(ends[1] - ends[0])),
-    };
-    add("bushing", Box::new(Bushings(vec![bushing])), &ends);
+    let moments = [
+        ("bushing", Vec3::new(4.0, 5.0, 6.0)),
+        ("bushing with a free axis", Vec3::new(0.0, 5.0, 6.0)),
+        ("bushing of equal stiffness", Vec3::new(5.0, 5.0, 5.0)),
+    ];
+    for (name, stiffness) in moments {
+        let bushing = Bushing {
+            nodes: [0, 1],
+            axes: frame,
+            stiffness: Vec3::new(10.0, 20.0, 30.0),
+            spring: RotationalSpring::new(stiffness),
+            damping: [1.0, 0.5, 0.2, 0.1, 0.3, 0.2],
+            offset: frame.tr_mul(&(ends[1] - ends[0])),
+        };
+        add(name, Box::new(Bushings(vec![bushing])), &ends);
+    }
     for (name, block, x) in shells() {
         add(name, block, &x);
     }
