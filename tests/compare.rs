@@ -211,11 +211,73 @@ fn a_path_that_turns_is_matched_by_step() {
 }
 
 #[test]
-fn a_line_torn_off_is_left_out() {
+fn a_line_torn_off_is_no_agreement() {
     let root = folders();
     change(&root, "nodes.csv", |text| text[..text.len() - 6].into());
+    let said = both_ways(&root, 5, &[]);
+    assert!(said.contains("TORN nodes.csv: the last line in b is incomplete") && said.contains("41 rows matched"), "{said}");
+    assert!(!said.contains("DIFFERS") && !said.contains("MISSING"), "{said}");
+    assert!(both_ways(&root, 5, &["--quiet"]).contains("TORN"));
+    both_ways(&root, 0, &["--ignore", "nodes.csv"]);
+    // Both torn at the same byte; one that is not judged; one torn within its header.
+    let torn = fs::read(root.path().join("b/nodes.csv")).unwrap();
+    fs::write(root.path().join("a/nodes.csv"), torn).unwrap();
+    both_ways(&root, 5, &[]);
+    let root = folders();
+    change(&root, "steps.csv", |text| text[..text.len() - 1].into());
+    assert!(both_ways(&root, 5, &[]).contains("TORN steps.csv"));
+    change(&root, "steps.csv", |_| "step,ti".into());
+    let (code, _, error) = compare(root.path(), &["a", "b"]);
+    assert!(code == 6 && error.contains("steps.csv: no whole header row"), "{error}");
+}
+
+/// `contact` is an energy in energy.csv and a name in contacts.csv.
+#[test]
+fn a_column_is_a_name_where_its_table_says_so() {
+    let root = folders();
+    let energy = |kinetic: f64, contact: f64| {
+        let mut text = String::from("step,time,kinetic,contact,external\n");
+        (0..=20).for_each(|i| {
+            let t = 0.1 * i as f64;
+            text += &format!("{i},{t:?},{:?},{:?},1.0\n", kinetic + t.sin(), contact * t)
+        });
+        text
+    };
+    fs::write(root.path().join("a/energy.csv"), energy(1.0, 1.0)).unwrap();
+    fs::write(root.path().join("b/energy.csv"), energy(1.0, 1.0 + 1e-9)).unwrap();
     let said = both_ways(&root, 0, &[]);
-    assert!(said.contains("the last line in b is incomplete") && said.contains("41 rows matched"), "{said}");
+    assert!(said.contains("energy.csv: 21 rows matched") && said.contains("contact"), "{said}");
+    both_ways(&root, 0, &["--columns", "kinetic"]);
+    fs::write(root.path().join("b/energy.csv"), energy(1.0, 1.1)).unwrap();
+    both_ways(&root, 5, &[]);
+    both_ways(&root, 0, &["--columns", "kinetic"]);
+    // Tables that are not ours: leading texts are names, and a number is none whatever its column is called.
+    let probe = |shift: f64| format!("time,who,contact,node\n0.0,a,{:?},1.0\n0.0,b,2.0,1.0\n", 1.0 + shift);
+    let root = folders();
+    fs::write(root.path().join("a/probe.csv"), probe(0.0)).unwrap();
+    fs::write(root.path().join("b/probe.csv"), probe(1e-9)).unwrap();
+    assert!(both_ways(&root, 0, &[]).contains("probe.csv: 2 rows matched at 1 time"));
+    fs::write(root.path().join("b/probe.csv"), probe(0.5)).unwrap();
+    assert!(both_ways(&root, 5, &[]).contains("t = 0, a"));
+}
+
+#[test]
+fn columns_and_tables_may_be_ignored() {
+    let root = folders();
+    change(&root, "nodes.csv", |text| text.replace("foot,0.0,0.5", "foot,0.1,0.5"));
+    both_ways(&root, 5, &[]);
+    for ignored in ["ux", "nodes.csv:ux", "nodes.csv", "uy,ux"] {
+        both_ways(&root, 0, &["--ignore", ignored]);
+    }
+    both_ways(&root, 5, &["--ignore", "uy"]);
+    both_ways(&root, 0, &["--columns", "nodes.csv", "--ignore", "ux"]);
+    // A column or table of one side alone.
+    change(&root, "nodes.csv", |text| text.replace("ux,uy", "ux,rz"));
+    both_ways(&root, 0, &["--ignore", "ux,uy,rz"]);
+    fs::remove_file(root.path().join("b/steps.csv")).unwrap();
+    both_ways(&root, 0, &["--ignore", "ux,uy,rz", "--ignore", "steps.csv"]);
+    let (code, _, error) = compare(root.path(), &["a", "b", "--ignore", "uz"]);
+    assert!(code == 2 && error.contains("no column is named `uz`"), "{error}");
 }
 
 #[test]

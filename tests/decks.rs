@@ -7,30 +7,10 @@
 use crate::docs::{self, Validated};
 use crate::support;
 use rdsolve::solve::Outcome;
-use std::fs;
-use std::path::Path;
-
-/// Folders below `decks/` that hold a deck, as names for [`support::read`], sorted.
-fn names(folder: &Path, prefix: &str, found: &mut Vec<String>) {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    for entry in entries.map(Result::unwrap).filter(|entry| entry.path().is_dir()) {
-        let name = format!("{prefix}{}", entry.file_name().to_str().expect("a plain name"));
-        if entry.path().join("deck.toml").exists() {
-            found.push(name.clone());
-        }
-        names(&entry.path(), &format!("{name}/"), found);
-        if name == "tutorial" {
-            found.extend(docs::tutorial().iter().map(|deck| format!("{name}/{deck}.toml")));
-        }
-    }
-    found.sort();
-}
 
 #[test]
 fn every_deck_meets_its_values() {
-    let mut found = Vec::new();
-    names(&support::decks(), "", &mut found);
-    assert!(!found.is_empty(), "no decks");
+    let found = support::deck_names();
     let (mut misses, mut validated) = (Vec::new(), Vec::new());
     for name in &found {
         let comments = support::comments(name);

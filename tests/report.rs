@@ -1,7 +1,10 @@
 //! The page of `rdsolve report`: whole, of one piece, and nothing in it is taken for markup.
 
+use crate::support;
 use assert_cmd::Command;
 use base64::prelude::{BASE64_STANDARD, Engine};
+use rdsolve::model::Cadence;
+use rdsolve::output::report::page as page_of;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -197,4 +200,91 @@ fn nothing_is_overwritten_unasked_and_nothing_is_made_of_nothing() {
     // Names of grids stay in the folder.
     fs::write(root.path().join("r/fields.pvd"), "<DataSet timestep=\"0\" part=\"0\" file=\"../x\"/>\n").unwrap();
     said(&["report", "r", "--overwrite"], 0);
+}
+
+/// Every deck for some steps, its files in a folder, and the page of that folder: each chart can be drawn from what it carries.
+#[test]
+fn the_page_of_every_deck_shows_its_tables() {
+    /// Times, which is enough for all tables and fields to have some rows.
+    const STEPS: usize = 2;
+    let mut pages = 0;
+    for name in support::deck_names() {
+        let mut model = support::read(&name, &[]);
+        let output = &mut model.output;
+        (output.cadence, output.energy) = (Cadence::Steps(1), true);
+        (output.links, output.contacts, output.reactions, output.sections, output.parts) = (true, true, true, true, true);
+        let folder = tempfile::tempdir().unwrap();
+        support::write(&model, folder.path(), STEPS);
+        let page = page_of(folder.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        sound(&page);
+        let data = data(&page);
+        for history in data["histories"].as_array().unwrap() {
+            drawable(&name, history, folder.path());
+        }
+        moves(&name, &data["scene"]);
+        pages += 1;
+    }
+    assert!(pages > 50, "{pages}");
+}
+
+/// A history is as long as its table, has the numbers of its last row, and is not blank where the table is not.
+fn drawable(deck: &str, history: &Value, folder: &Path) {
+    let file = history["file"].as_str().unwrap();
+    let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
+    let header: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let (columns, names) = (history["columns"].as_array().unwrap(), history["names"].as_array().unwrap());
+    let (times, values) = (floats(&history["times"]), floats(&history["values"]));
+    assert!(times.iter().all(|time| time.is_finite()), "{deck}: {file}");
+    assert_eq!(values.len(), times.len() * names.len() * columns.len(), "{deck}: {file}");
+    let mut written: Vec<&str> = rows.iter().map(|row| &row[1]).collect();
+    written.dedup();
+    assert_eq!(written.len(), times.len(), "{deck}: times of {file}");
+    for key in ["kinds", "labels"] {
+        assert_eq!(history[key].as_array().unwrap().len(), columns.len(), "{deck}: {file}");
+    }
+    for (place, column) in columns.iter().enumerate() {
+        let column = column.as_str().unwrap();
+        let at = header.iter().position(|other| other == column).unwrap();
+        let numbers = rows.iter().filter(|row| row[at].parse::<f64>().is_ok_and(f64::is_finite)).count();
+        let shown = values.iter().skip(place).step_by(columns.len()).filter(|value| value.is_finite()).count();
+        // Of too many names some are left out, so there may be fewer; but all numbers or gaps alike.
+        let all = names.len() * times.len() == rows.len();
+        assert!(if all { shown == numbers } else { (shown > 0) == (numbers > 0) }, "{deck}: {file}: {column}: {shown} of {numbers}");
+    }
+    let last = &rows.last().unwrap();
+    if names.len() * times.len() == rows.len() {
+        let of_last = &values[values.len() - columns.len()..];
+        for (column, &value) in columns.iter().zip(of_last) {
+            let at = header.iter().position(|other| other == column.as_str().unwrap()).unwrap();
+            let wanted = last[at].parse::<f64>().map_or(f32::NAN, |number| number as f32);
+            assert!(value.to_bits() == wanted.to_bits() || value.is_nan() && wanted.is_nan(), "{deck}: {file}: {column}");
+        }
+    }
+}
+
+/// A scene has a place for each point at each time, and its cells name points that are there.
+fn moves(deck: &str, scene: &Value) {
+    if scene.is_null() {
+        return;
+    }
+    let (times, x0, u) = (floats(&scene["times"]), floats(&scene["x0"]), floats(&scene["u"]));
+    assert!(!times.is_empty() && !x0.is_empty() && x0.len().is_multiple_of(3), "{deck}");
+    assert_eq!(u.len(), times.len() * x0.len(), "{deck}");
+    assert!(x0.iter().chain(&u).chain(&times).all(|number| number.is_finite()), "{deck}");
+    let cells = BASE64_STANDARD.decode(scene["kinds"].as_str().unwrap()).unwrap().len();
+    let places = |key: &str| floats(&scene[key]).into_iter().map(f32::to_bits).collect::<Vec<u32>>();
+    for (key, per, of) in [("triangles", 3, "triangleCells"), ("lines", 2, "lineCells"), ("edges", 2, "")] {
+        let points = places(key);
+        assert!(points.iter().all(|&point| (point as usize) < x0.len() / 3), "{deck}: {key}");
+        if !of.is_empty() {
+            let of = places(of);
+            assert!(of.len() == points.len() / per && of.iter().all(|&cell| (cell as usize) < cells), "{deck}: {key}");
+        }
+    }
+    for field in scene["fields"].as_array().unwrap() {
+        let values = floats(&field["values"]);
+        assert_eq!(values.len(), times.len() * cells, "{deck}: {}", field["name"]);
+        assert!(values.iter().all(|value| value.is_finite()), "{deck}: {}", field["name"]);
+    }
 }

@@ -16,7 +16,7 @@ use crate::output::compare::{
 #[command(
     after_help = "Rows are matched by time (within a thousandth of a step) and name; each column is measured against its \
 range, max - min over both folders, and where it is constant against the largest number of its kind in the file. With \
-different steps or output, common times are compared. Not compared: run.log, timings, .vtu. Columns of steps.csv are shown but not \
+different steps or output, common times are compared. A table whose last line is torn does not agree. Not compared: run.log, timings, .vtu. Columns of steps.csv are shown but not \
 judged unless named: they say what a run cost.
 
 Exit codes: 0 the folders agree, 5 they do not, 6 one cannot be read, 2 usage."
@@ -36,14 +36,21 @@ pub struct CompareArgs {
     /// Compare these columns only: ux, nodes.csv, nodes.csv:ux; repeatable
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     columns: Vec<Selector>,
+    /// Leave these columns out: ux, nodes.csv, nodes.csv:ux; repeatable
+    #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
+    ignore: Vec<Selector>,
     /// Show what does not agree only
     #[arg(long)]
     quiet: bool,
 }
 
 pub fn compare(args: &CompareArgs) -> Result<(), Exit> {
-    let settings =
-        Settings { tolerances: args.tolerance.clone(), absolute: args.absolute, columns: args.columns.clone() };
+    let settings = Settings {
+        tolerances: args.tolerance.clone(),
+        absolute: args.absolute,
+        columns: args.columns.clone(),
+        ignored: args.ignore.clone(),
+    };
     let names = [&args.dir_a, &args.dir_b].map(|dir| dir.display().to_string());
     let comparison = compared([&args.dir_a, &args.dir_b], &settings).map_err(|error| {
         complain(&format!("cannot compare: {error}"));
@@ -161,8 +168,10 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
             }
         }
         for (name_of, truncated) in names.iter().zip(table.truncated) {
-            if truncated && !quiet {
-                say(format!("{name}: the last line in {name_of} is incomplete and was left out"));
+            if truncated {
+                say(format!(
+                    "TORN {name}: the last line in {name_of} is incomplete and was left out: that run was killed or its file cut short"
+                ));
             }
         }
         for (side, columns) in table.only.iter().enumerate() {
@@ -195,6 +204,9 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
             say(format!("DIFFERS result.json: status `{a}` in {} and `{b}` in {}", names[0], names[1]))
         }
         Some([a, _]) if !quiet => say(format!("result.json: status `{a}` in both")),
+        None if comparison.without_status && !quiet => {
+            say("result.json: in neither folder, so neither run is known to have come to its end".into());
+        }
         _ => {}
     }
     text

@@ -2,24 +2,11 @@
 //! killed: it is left out, and said.
 
 use super::disk::at;
-use super::table::TableKind;
-use super::tables::{self, TABLES};
+use super::tables;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
-
-/// Whether a column says what a row is about. Of a table that is not one of ours, such as that of a study, its name tells.
-pub fn is_key(file: &str, column: &str) -> bool {
-    match tables::of_file(file) {
-        Some(table) => table.columns().any(|known| known.name == column && known.is_key()),
-        None => {
-            const OF_OTHERS: [&str; 2] = ["joint", "name"];
-            let is_known = |table: &TableKind| table.columns().any(|known| known.name == column && known.is_key());
-            OF_OTHERS.contains(&column) || TABLES.iter().copied().any(is_known)
-        }
-    }
-}
 
 /// Bytes asked for at a time.
 const CHUNK: usize = 1 << 18;
@@ -30,6 +17,8 @@ pub struct TableReader {
     line: Vec<u8>,
     /// Names of the columns.
     pub header: Vec<String>,
+    /// Of each column, whether it says what a row is about.
+    keys: Vec<bool>,
     /// Rows so far, without the header.
     pub count: usize,
     /// The last line had no end; known when the rows have come to theirs.
@@ -42,10 +31,46 @@ impl TableReader {
         let file = File::open(path).map_err(|e| at(path, e))?;
         let reader = BufReader::with_capacity(CHUNK, file);
         let (path, line) = (path.to_owned(), Vec::new());
-        let mut rows = TableReader { path, reader, line, header: Vec::new(), count: 0, truncated: false };
-        rows.read()?;
+        let (header, keys) = (Vec::new(), Vec::new());
+        let mut rows = TableReader { path, reader, line, header, keys, count: 0, truncated: false };
+        if !rows.read()? {
+            let text = "no whole header row: the file was cut short";
+            return Err(at(&rows.path, io::Error::new(io::ErrorKind::InvalidData, text)));
+        }
         rows.header = fields(&rows.line).map(|field| text(field).into_owned()).collect();
+        rows.keys = rows.find_keys()?;
         Ok(rows)
+    }
+
+    /// The columns that say what a row is about: as the table's own definition has them; of a table that is not one of ours, the
+    /// leading columns behind `step` and `time` that hold text in the first row. Names of columns tell nothing: `contact` is a
+    /// name in one table and an energy in another.
+    fn find_keys(&mut self) -> io::Result<Vec<bool>> {
+        let file = self.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        if let Some(table) = tables::of_file(file) {
+            let is_key = |column: &String| table.columns().any(|known| known.is_key() && known.answers_to(column));
+            return Ok(self.header.iter().map(is_key).collect());
+        }
+        let ahead = self.reader.fill_buf().map_err(|e| at(&self.path, e))?;
+        let row = ahead.split(|&byte| byte == b'\n').next().unwrap_or_default();
+        let is_when = |column: &String| matches!(column.as_str(), "step" | "time");
+        let is_text = |field: &[u8]| !field.is_empty() && std::str::from_utf8(field).is_ok_and(|text| text.trim().parse::<f64>().is_err());
+        let mut leads = true;
+        let columns = self.header.iter().zip(fields(row).map(Some).chain(std::iter::repeat(None)));
+        Ok(columns
+            .map(|(column, field)| {
+                if is_when(column) {
+                    return false;
+                }
+                leads = leads && field.is_some_and(is_text);
+                leads
+            })
+            .collect())
+    }
+
+    /// Whether a column, given by its place, says what a row is about.
+    pub fn is_key(&self, place: usize) -> bool {
+        self.keys.get(place).copied().unwrap_or(false)
     }
 
     /// The next row, without its end; none where no whole one is left.
@@ -68,8 +93,13 @@ impl TableReader {
             }
             // A quoted name may hold line breaks.
             let open = self.line.contains(&b'"') && self.line.iter().filter(|&&byte| byte == b'"').count() % 2 == 1;
-            if !open || more == 0 {
+            if !open {
                 break;
+            }
+            if more == 0 {
+                self.truncated = true;
+                self.line.clear();
+                return Ok(false);
             }
         }
         self.line.pop();
@@ -145,6 +175,34 @@ mod tests {
         assert!(rows.truncated && rows.count == 2);
         std::fs::write(&path, "step\n").unwrap();
         assert!(!TableReader::open(&path).unwrap().truncated);
+        // Within a name of two lines, and before the header is whole.
+        std::fs::write(&path, "step,name\n0,\"a\n").unwrap();
+        let mut rows = TableReader::open(&path).unwrap();
+        assert!(rows.next().unwrap().is_none() && rows.truncated);
+        for torn in ["", "step,na"] {
+            std::fs::write(&path, torn).unwrap();
+            assert!(TableReader::open(&path).is_err_and(|error| error.to_string().contains("cut short")));
+        }
+    }
+
+    #[test]
+    fn keys_are_those_of_the_definition_or_of_the_position() {
+        let dir = tempfile::tempdir().unwrap();
+        let keys = |file: &str, text: &str| -> Vec<String> {
+            let path = dir.path().join(file);
+            std::fs::write(&path, text).unwrap();
+            let rows = TableReader::open(&path).unwrap();
+            (0..rows.header.len()).filter(|&i| rows.is_key(i)).map(|i| rows.header[i].clone()).collect()
+        };
+        // An energy, whatever contacts.csv calls by this word; also of an older version, with `total`.
+        assert!(keys("energy.csv", "step,time,kinetic,contact,total\n0,0.0,1.0,2.0,3.0\n").is_empty());
+        assert_eq!(keys("contacts.csv", "step,time,contact,touching,gap\n"), ["contact"]);
+        assert_eq!(keys("sections.csv", "step,time,beam,element,point,s\n"), ["beam", "element", "point"]);
+        // Not ours.
+        assert!(keys("probe.csv", "time,contact,node\n0.0,1.0,2.0\n").is_empty());
+        assert_eq!(keys("probe.csv", "step,time,who,where,link\n0,0.0,a,b,1.0\n"), ["who", "where"]);
+        assert_eq!(keys("probe.csv", "time,who,ux,state\n0.0,a,1.0,open\n"), ["who"]);
+        assert!(keys("probe.csv", "time,link,ux\n0.0,nan,1e3\n").is_empty());
     }
 
     #[test]

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The folder of all decks.
 pub fn decks() -> PathBuf {
@@ -24,6 +24,30 @@ pub fn decks() -> PathBuf {
 fn deck(name: &str) -> PathBuf {
     let path = decks().join(name);
     if name.ends_with(".toml") { path } else { path.join("deck.toml") }
+}
+
+/// All decks, as names for [`read`].
+pub fn deck_names() -> Vec<String> {
+    let mut found = Vec::new();
+    names(&decks(), "", &mut found);
+    assert!(!found.is_empty(), "no decks");
+    found
+}
+
+/// Folders below `decks/` that hold a deck, as names for [`read`], sorted.
+fn names(folder: &Path, prefix: &str, found: &mut Vec<String>) {
+    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    for entry in entries.map(Result::unwrap).filter(|entry| entry.path().is_dir()) {
+        let name = format!("{prefix}{}", entry.file_name().to_str().expect("a plain name"));
+        if entry.path().join("deck.toml").exists() {
+            found.push(name.clone());
+        }
+        names(&entry.path(), &format!("{name}/"), found);
+        if name == "tutorial" {
+            found.extend(crate::docs::tutorial().iter().map(|deck| format!("{name}/{deck}.toml")));
+        }
+    }
+    found.sort();
 }
 
 fn source(name: &str, sets: &[String]) -> Source {
@@ -104,6 +128,33 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
         verdicts: watchers.expectations.verdicts(),
         rows: watchers.rows,
     }
+}
+
+/// Stops a run after some steps, and writes its files until then.
+struct Writer<'s> {
+    files: Files,
+    steps: usize,
+    stop: &'s AtomicBool,
+}
+
+impl Observer for Writer<'_> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        if frame.step >= self.steps {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+        self.files.on_step(frame)
+    }
+}
+
+/// Runs a model for so many steps at most and writes what it asks for.
+pub fn write(model: &Model, folder: &Path, steps: usize) {
+    let system = System::new(model).expect("a system");
+    let plan = Plan::new(model, &system, 1);
+    let stop = AtomicBool::new(false);
+    let mut run = Run::new(model, &system, &plan, wanted(model), &stop).unwrap();
+    let mut writer = Writer { files: Files::open(folder, model, None).unwrap(), steps, stop: &stop };
+    run.run(&mut writer);
+    writer.files.finish().unwrap();
 }
 
 /// As [`run`]; the run must reach its end.

@@ -125,7 +125,7 @@ fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::R
         alone.rows += 1;
         alone.first.get_or_insert_with(|| (time, key.to_vec()));
     };
-    // What the other side lacks because its file was truncated off here is not missing.
+    // What the other side lacks because its file was cut short here is not missing: that it was is said.
     let a_truncated = a.done && a.summary.truncated;
     while b.is_in(both[1]) {
         match waiting.get_mut(b.key()).and_then(VecDeque::pop_front) {

@@ -13,7 +13,7 @@ pub use prefetch::shown;
 pub use select::{ColumnTolerance, Selector, size};
 
 use super::disk::at;
-use super::table_reader::{TableReader, fields, is_key, number};
+use super::table_reader::{TableReader, fields, number};
 use prefetch::{Pick, read};
 use std::collections::BTreeSet;
 use std::fs;
@@ -29,6 +29,21 @@ pub struct Settings {
     pub absolute: f64,
     /// Only these columns; all, where there are none.
     pub columns: Vec<Selector>,
+    /// Not these.
+    pub ignored: Vec<Selector>,
+}
+
+impl Settings {
+    /// Whether a column is compared.
+    fn takes(&self, file: &str, column: &str) -> bool {
+        let any = |of: &[Selector]| of.iter().any(|selector| selector.takes(file, column));
+        (self.columns.is_empty() || any(&self.columns)) && !any(&self.ignored)
+    }
+
+    /// All that name columns.
+    fn selectors(&self) -> impl Iterator<Item = &Selector> {
+        self.columns.iter().chain(&self.ignored).chain(self.tolerances.iter().map(|tolerance| &tolerance.of))
+    }
 }
 
 /// Where nothing else is said.
@@ -84,7 +99,8 @@ impl ComparedTable {
 
     pub fn agrees(&self) -> bool {
         let rows = !self.nothing_matched() && self.ends.is_none() && self.alone.iter().all(|alone| alone.rows == 0);
-        self.only.iter().all(Vec::is_empty) && (rows || !self.judged) && self.columns.iter().all(|column| column.passed)
+        let whole = !self.truncated.contains(&true) && self.only.iter().all(Vec::is_empty);
+        whole && (rows || !self.judged) && self.columns.iter().all(|column| column.passed)
     }
 }
 
@@ -95,6 +111,8 @@ pub struct Comparison {
     pub only: [Vec<String>; 2],
     /// Of `result.json`, as it stands there.
     pub status: Option<[String; 2]>,
+    /// Neither side has one.
+    pub without_status: bool,
     /// Selectors that take no column of either side, as written.
     pub idle: Vec<Selector>,
     /// All columns, as `nodes.csv:ux`.
@@ -121,29 +139,24 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
     let all: BTreeSet<&String> = names.iter().flatten().collect();
     let heads = |name: &str| folders.map(|folder| TableReader::open(&folder.join(name)));
     let known = columns(folders, &names)?;
-    let selectors = settings.columns.iter().chain(settings.tolerances.iter().map(|tolerance| &tolerance.of));
     let takes = |selector: &Selector| {
         *selector == Selector::default()
             || known
                 .iter()
                 .any(|known| known.split_once(':').is_some_and(|(file, column)| selector.takes(file, column)))
     };
-    let idle: Vec<Selector> = selectors.filter(|&selector| !takes(selector)).cloned().collect();
+    let idle: Vec<Selector> = settings.selectors().filter(|&selector| !takes(selector)).cloned().collect();
     if !idle.is_empty() {
-        return Ok(Comparison { tables: Vec::new(), only: Default::default(), status: None, idle, known });
+        return Ok(Comparison { tables: Vec::new(), only: Default::default(), status: None, without_status: false, idle, known });
     }
 
     let by_step = turns(folders[0])? || turns(folders[1])?;
     let mut compared = Vec::new();
     let mut only: [Vec<String>; 2] = Default::default();
-    let chosen = |file: &str, column: &str| {
-        settings.columns.is_empty() || settings.columns.iter().any(|selector| selector.takes(file, column))
-    };
+    let chosen = |file: &str, column: &str| settings.takes(file, column);
     let wanted = |name: &str| {
-        settings.columns.is_empty()
-            || known
-                .iter()
-                .any(|known| known.split_once(':').is_some_and(|(file, column)| file == name && chosen(file, column)))
+        let mut of_file = known.iter().filter_map(|known| known.split_once(':')).filter(|(file, _)| *file == name);
+        of_file.any(|(file, column)| chosen(file, column))
     };
     for &name in all.iter().filter(|name| wanted(name)) {
         match [0, 1].map(|side| names[side].contains(name)) {
@@ -154,6 +167,7 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
             [first, _] => only[usize::from(!first)].push(name.clone()),
         }
     }
+    let without_status = status == [None, None];
     let status = match status {
         [Some(a), Some(b)] => Some([a, b]),
         [None, None] => None,
@@ -162,7 +176,7 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
             None
         }
     };
-    Ok(Comparison { tables: compared, only, status, idle, known })
+    Ok(Comparison { tables: compared, only, status, without_status, idle, known })
 }
 
 /// The columns of all tables of either side, as `nodes.csv:ux`.
@@ -190,12 +204,13 @@ fn table(
         let missing = rows[side].header.iter().filter(|column| rows[1 - side].column(column).is_none());
         missing.filter(|column| chosen(name, column)).cloned().collect()
     });
-    let is_key = |column: &str| is_key(name, column);
+    // Of either side: a table of another version may have its names in another place.
+    let is_key = |column: &str| rows.iter().any(|rows| rows.column(column).is_some_and(|place| rows.is_key(place)));
     let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
     let has_time = shared.iter().any(|column| column == "time");
     let by_step = by_step && shared.iter().any(|column| column == "step");
     let [first, second] = rows.map(|rows| {
-        let pick = pick(name, &rows, &shared, &values, has_time);
+        let pick = pick(&rows, &shared, &values, has_time);
         (rows, pick)
     });
     let (joined, summaries, all_rows) = std::thread::scope(|scope| {
@@ -239,11 +254,12 @@ fn table(
 }
 
 /// Which columns of one side are read.
-fn pick(name: &str, rows: &TableReader, shared: &[String], values: &[&str], has_time: bool) -> Pick {
+fn pick(rows: &TableReader, shared: &[String], values: &[&str], has_time: bool) -> Pick {
     let place = |column: &str| rows.column(column);
     // Without a time there are no frames.
     let (step, time) = (place("step").filter(|_| has_time), place("time").filter(|_| has_time));
-    let keys = shared.iter().filter(|column| is_key(name, column)).filter_map(|column| place(column)).collect();
+    let is_value = |column: &String| matches!(column.as_str(), "step" | "time") || values.contains(&column.as_str());
+    let keys = shared.iter().filter(|column| !is_value(column)).filter_map(|column| place(column)).collect();
     Pick { step, time, keys, values: values.iter().filter_map(|column| place(column)).collect() }
 }
 

@@ -1,7 +1,7 @@
 //! What tables say over time, thinned to what a page can carry: every so many times, and of too many names some, evenly.
 
 use super::data::numbers;
-use crate::output::table_reader::{TableReader, fields, is_key, number, text};
+use crate::output::table_reader::{TableReader, fields, number, text};
 use crate::output::tables;
 use crate::quantities::Column;
 use serde_json::{Value, json};
@@ -35,8 +35,8 @@ struct Places {
 }
 
 impl Places {
-    fn of(file: &str, rows: &TableReader) -> Places {
-        let is = |place: &usize, wanted: bool| is_key(file, &rows.header[*place]) == wanted;
+    fn of(rows: &TableReader) -> Places {
+        let is = |place: &usize, wanted: bool| rows.is_key(*place) == wanted;
         let when = [rows.column("step"), rows.column("time")];
         let all = 0..rows.header.len();
         let keys = all.clone().filter(|place| is(place, true)).collect();
@@ -74,7 +74,7 @@ impl History {
     pub fn read(folder: &Path, file: &str) -> io::Result<Option<History>> {
         let path = folder.join(file);
         let mut rows = TableReader::open(&path)?;
-        let places = Places::of(file, &rows);
+        let places = Places::of(&rows);
         let Some(time) = places.when[1] else { return Ok(None) };
         let mut names: Vec<String> = Vec::new();
         let mut known: HashMap<String, usize> = HashMap::new();
@@ -152,7 +152,7 @@ impl History {
 
 /// A column as its table describes it; none of a table that is not one of ours.
 fn described(file: &str, column: &str) -> Option<Column> {
-    tables::of_file(file)?.columns().find(|known| known.name == column)
+    tables::of_file(file)?.columns().find(|known| known.answers_to(column))
 }
 
 /// A column with its unit, for an axis.

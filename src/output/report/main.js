@@ -103,10 +103,10 @@ const wordy = field => field.replaceAll("_", " ").replace("von mises", "von Mise
 
 function stage(from) {
   byId("scene").hidden = false;
-  const scene = new Scene(from), canvas = byId("stage"), overlay = byId("overlay");
-  let painter;
+  const scene = new Scene(from), overlay = byId("overlay");
+  let painter, canvas;
   try {
-    painter = new Painter(canvas, scene);
+    [painter, canvas] = painterFor(byId("stage"), scene);
   } catch (problem) {
     document.querySelector(".stage").textContent = `The scene cannot be drawn: ${problem.message}.`;
     return;

@@ -25,11 +25,12 @@ const PAGE: &str = include_str!("page.html");
 pub(crate) const STYLE: &str = include_str!("page.css");
 /// The column with what the time integration made of the energy balance.
 const BALANCE: &str = "numerical";
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 6] = [
     include_str!("data.js"),
     include_str!("plot.js"),
     include_str!("camera.js"),
     include_str!("scene.js"),
+    include_str!("flat.js"),
     include_str!("main.js"),
 ];
 

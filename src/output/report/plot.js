@@ -88,19 +88,19 @@ class Plot {
       c.globalAlpha = 1;
       return;
     }
-    c.beginPath();
-    let gap = true;
-    for (let i = 0; i < x.length; i++) {
-      if (!Number.isFinite(y[i]) || !Number.isFinite(x[i])) {
-        gap = true;
-      } else {
-        gap ? c.moveTo(X(x[i]), Y(y[i])) : c.lineTo(X(x[i]), Y(y[i]));
-        gap = false;
-      }
-    }
-    c.strokeStyle = colour;
+    c.strokeStyle = c.fillStyle = colour;
     c.lineWidth = 1.6;
+    c.beginPath();
+    const has = i => Number.isFinite(y[i]) && Number.isFinite(x[i]);
+    for (let i = 0; i < x.length; i++) if (has(i)) has(i - 1) ? c.lineTo(X(x[i]), Y(y[i])) : c.moveTo(X(x[i]), Y(y[i]));
     c.stroke();
+    // A number between gaps, or alone, has no line.
+    for (let i = 0; i < x.length; i++) {
+      if (!has(i) || has(i - 1) || has(i + 1)) continue;
+      c.beginPath();
+      c.arc(X(x[i]), Y(y[i]), 2.5, 0, 7);
+      c.fill();
+    }
   }
 
   /** Says what lies under the pointer: the point nearest to it. */
