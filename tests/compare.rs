@@ -215,7 +215,10 @@ fn a_line_torn_off_is_no_agreement() {
     let root = folders();
     change(&root, "nodes.csv", |text| text[..text.len() - 6].into());
     let said = both_ways(&root, 5, &[]);
-    assert!(said.contains("TORN nodes.csv: the last line in b is incomplete") && said.contains("41 rows matched"), "{said}");
+    assert!(
+        said.contains("TORN nodes.csv: the last line in b is incomplete") && said.contains("41 rows matched"),
+        "{said}"
+    );
     assert!(!said.contains("DIFFERS") && !said.contains("MISSING"), "{said}");
     assert!(both_ways(&root, 5, &["--quiet"]).contains("TORN"));
     both_ways(&root, 0, &["--ignore", "nodes.csv"]);

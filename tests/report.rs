@@ -212,7 +212,8 @@ fn the_page_of_every_deck_shows_its_tables() {
         let mut model = support::read(&name, &[]);
         let output = &mut model.output;
         (output.cadence, output.energy) = (Cadence::Steps(1), true);
-        (output.links, output.contacts, output.reactions, output.sections, output.parts) = (true, true, true, true, true);
+        (output.links, output.contacts, output.reactions, output.sections, output.parts) =
+            (true, true, true, true, true);
         let folder = tempfile::tempdir().unwrap();
         support::write(&model, folder.path(), STEPS);
         let page = page_of(folder.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -250,7 +251,10 @@ fn drawable(deck: &str, history: &Value, folder: &Path) {
         let shown = values.iter().skip(place).step_by(columns.len()).filter(|value| value.is_finite()).count();
         // Of too many names some are left out, so there may be fewer; but all numbers or gaps alike.
         let all = names.len() * times.len() == rows.len();
-        assert!(if all { shown == numbers } else { (shown > 0) == (numbers > 0) }, "{deck}: {file}: {column}: {shown} of {numbers}");
+        assert!(
+            if all { shown == numbers } else { (shown > 0) == (numbers > 0) },
+            "{deck}: {file}: {column}: {shown} of {numbers}"
+        );
     }
     let last = &rows.last().unwrap();
     if names.len() * times.len() == rows.len() {
@@ -258,7 +262,10 @@ fn drawable(deck: &str, history: &Value, folder: &Path) {
         for (column, &value) in columns.iter().zip(of_last) {
             let at = header.iter().position(|other| other == column.as_str().unwrap()).unwrap();
             let wanted = last[at].parse::<f64>().map_or(f32::NAN, |number| number as f32);
-            assert!(value.to_bits() == wanted.to_bits() || value.is_nan() && wanted.is_nan(), "{deck}: {file}: {column}");
+            assert!(
+                value.to_bits() == wanted.to_bits() || value.is_nan() && wanted.is_nan(),
+                "{deck}: {file}: {column}"
+            );
         }
     }
 }

@@ -54,7 +54,9 @@ impl TableReader {
         let ahead = self.reader.fill_buf().map_err(|e| at(&self.path, e))?;
         let row = ahead.split(|&byte| byte == b'\n').next().unwrap_or_default();
         let is_when = |column: &String| matches!(column.as_str(), "step" | "time");
-        let is_text = |field: &[u8]| !field.is_empty() && std::str::from_utf8(field).is_ok_and(|text| text.trim().parse::<f64>().is_err());
+        let is_text = |field: &[u8]| {
+            !field.is_empty() && std::str::from_utf8(field).is_ok_and(|text| text.trim().parse::<f64>().is_err())
+        };
         let mut leads = true;
         let columns = self.header.iter().zip(fields(row).map(Some).chain(std::iter::repeat(None)));
         Ok(columns

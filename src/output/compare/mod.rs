@@ -147,7 +147,14 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
     };
     let idle: Vec<Selector> = settings.selectors().filter(|&selector| !takes(selector)).cloned().collect();
     if !idle.is_empty() {
-        return Ok(Comparison { tables: Vec::new(), only: Default::default(), status: None, without_status: false, idle, known });
+        return Ok(Comparison {
+            tables: Vec::new(),
+            only: Default::default(),
+            status: None,
+            without_status: false,
+            idle,
+            known,
+        });
     }
 
     let by_step = turns(folders[0])? || turns(folders[1])?;
