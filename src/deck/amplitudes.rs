@@ -13,8 +13,15 @@ pub struct Amplitude {
     /// The function.
     #[schemars(required)]
     pub kind: Maybe<AmplitudeKind>,
-    /// [[time, value], ...], two or more, times not decreasing, equal ones for a jump; straight lines between them, the first and last value held before and after. (table)
+    /// [[time, value], ...], two or more, times increasing; straight lines between them, the first and last value held
+    /// before and after unless `before` and `after` say otherwise. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
+    /// What holds before the first time. Default: its value, with a warning where that is not zero and the run begins
+    /// earlier. (table)
+    pub before: Maybe<Beyond>,
+    /// What holds after the last time. Default: its value, with a warning where that is not zero and the run goes on.
+    /// (table)
+    pub after: Maybe<Beyond>,
     /// Cycles per unit of time, above 0. (sine, sine-squared)
     pub frequency: Maybe<f64>,
     /// Radians per unit of time, above 0, instead of `frequency`. (sine, sine-squared)
@@ -43,4 +50,14 @@ pub enum AmplitudeKind {
     Step,
     /// 1 at all times.
     Constant,
+}
+
+/// Beyond the ends of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Beyond {
+    /// The value at the end is held.
+    Hold,
+    /// Zero: the value jumps at the end.
+    Zero,
 }

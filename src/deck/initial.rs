@@ -6,7 +6,8 @@ use serde::Deserialize;
 use super::words::{Maybe, Names, Table, Vector};
 use crate::diagnostic::At;
 
-/// Velocities at t = 0. Of several that cover a node, the last one counts; it also replaces what a body says itself.
+/// Velocities at t = 0. Several tables may give a node different quantities; two that give it different values of the same one, or
+/// a value other than that of its body, are an error unless the later one `replaces` what the others give.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
@@ -23,6 +24,8 @@ pub struct Initial {
     /// Velocity along the normals of shells, which see the corners go round counter-clockwise, instead of
     /// `velocity`; where patches meet, along the mean of their normals.
     pub normal_velocity: Maybe<f64>,
+    /// True where this takes the place of what earlier tables, and bodies in their own, give the same nodes. Default: false.
+    pub replaces: Maybe<bool>,
     /// Factors on the velocities that vary from node to node; several multiply.
     pub profile: Maybe<Vec<At<Table<Profile>>>>,
 }

@@ -5,7 +5,7 @@ use super::values::span;
 use crate::amplitude::Amplitude;
 use crate::deck::Deck;
 use crate::deck::amplitudes as words;
-use crate::deck::words::Table;
+use crate::deck::words::{Maybe, Table};
 use crate::diagnostic::At;
 
 /// Reads `[amplitudes]`. Each gives one, also those with errors, since others refer to them by their index.
@@ -22,7 +22,7 @@ fn read_amplitude<'d>(
     let a = amplitude;
     let owner = Owner::new(format!("amplitude `{name}`"), &a.span);
     let kind = report.require(&owner, "kind", &a.kind)?.value;
-    let points = [("points", span(&a.points))];
+    let points = [("points", span(&a.points)), ("before", span(&a.before)), ("after", span(&a.after))];
     let waves = [("frequency", span(&a.frequency)), ("angular_frequency", span(&a.angular_frequency))];
     let phase = [("phase", span(&a.phase))];
     let window = [("start", span(&a.start)), ("end", span(&a.end))];
@@ -37,7 +37,7 @@ fn read_amplitude<'d>(
         words::AmplitudeKind::Table => {
             report.reject_unused("a table", &[&waves[..], &phase, &window].concat());
             let points = report.require(&owner, "points", &a.points)?;
-            report.rising("time", points).map(|points| Amplitude::Table { points })
+            report.rising("time", points).map(|points| table(a, points))
         }
         words::AmplitudeKind::Sine => {
             report.reject_unused("a sine", &points);
@@ -46,7 +46,7 @@ fn read_amplitude<'d>(
             Some(Amplitude::Sine { angular_frequency, phase, start, end })
         }
         words::AmplitudeKind::SineSquared => {
-            report.reject_unused("a sine squared", &[points, phase].concat());
+            report.reject_unused("a sine squared", &[&points[..], &phase].concat());
             let angular_frequency = angular_frequency(&owner, a, report)?;
             Some(Amplitude::SineSquared { angular_frequency, start, end })
         }
@@ -64,6 +64,18 @@ fn read_amplitude<'d>(
             Some(Amplitude::Constant)
         }
     }
+}
+
+/// A table that jumps to zero at its ends where the deck says so.
+fn table(a: &words::Amplitude, mut points: Vec<[f64; 2]>) -> Amplitude {
+    let is_zero = |beyond: &Maybe<words::Beyond>| beyond.as_ref().is_some_and(|at| at.value == words::Beyond::Zero);
+    if is_zero(&a.before) {
+        points.insert(0, [points[0][0], 0.0]);
+    }
+    if is_zero(&a.after) {
+        points.push([points[points.len() - 1][0], 0.0]);
+    }
+    Amplitude::Table { points }
 }
 
 /// Radians per time.

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::amplitude_ends::check_amplitude_ends;
 use super::amplitudes::amplitudes;
 use super::analysis::{Procedure, analysis, check_explicit};
 use super::attachments::attachments;
@@ -99,6 +100,9 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
     let study = study(&scene, &scheme, &topology.list, report);
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
+    if !report.has_errors() {
+        check_amplitude_ends(deck, &amplitudes, scene.analysis.end_time, report);
+    }
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();
     let (analysis, iteration) = lead_on(deck, scene.analysis, iteration, arc_length);

@@ -1,11 +1,12 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
 use super::data::DependentNode;
+use super::initial_given::{GivenVelocities, Giver, Quantity};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
-use super::spot::Spot;
-use super::values::{span, vec3, vec3_or_zero};
+use super::spot::{Label, Spot};
+use super::values::{flag, span, vec3, vec3_or_zero};
 use crate::amplitude::Amplitude;
 use crate::deck::initial::{Initial, Profile};
 use crate::deck::words::Table;
@@ -40,8 +41,10 @@ pub(super) fn initial<'d>(
     topology: &mut Topology,
     report: &mut Report<'d>,
 ) {
-    let mut motions = Motions { scene, amplitudes, topology, report };
-    scene.deck.initial.iter().for_each(|initial| motions.initial_motion(initial));
+    let mut motions = Motions { scene, amplitudes, topology, given: GivenVelocities::default(), report };
+    motions.of_bodies();
+    scene.deck.initial.iter().enumerate().for_each(|(index, initial)| motions.initial_motion(index, initial));
+    motions.given.report_contradictions(motions.topology, motions.report);
     stop_restrained(topology);
     move_dependents(topology);
 }
@@ -50,11 +53,30 @@ struct Motions<'a, 'd> {
     scene: &'a Scene<'d>,
     amplitudes: &'a [Amplitude],
     topology: &'a mut Topology,
+    given: GivenVelocities<'d>,
     report: &'a mut Report<'d>,
 }
 
 impl<'d> Motions<'_, 'd> {
-    fn initial_motion(&mut self, initial: &'d At<Table<Initial>>) {
+    /// The velocities that bodies have in their own tables.
+    fn of_bodies(&mut self) {
+        let scene = self.scene;
+        for (body, made) in scene.deck.bodies.iter().zip(&scene.bodies) {
+            let values = [(&body.velocity, Quantity::Velocity), (&body.angular_velocity, Quantity::AngularVelocity)];
+            for (value, quantity) in values {
+                let Some(value) = value else { continue };
+                let what = format!("the table of body `{}`", made.name);
+                self.given.begin(Giver { what, span: &value.span, replaces: false });
+                self.given.give(made.node, quantity, vec3(value), self.topology);
+                if let Some(name) = &body.name {
+                    let spot = Spot { node: made.node, name: Label::Name(name), span: &value.span, direct: true };
+                    self.given.report_dropped(&[spot], &[quantity], self.amplitudes, self.topology, self.report);
+                }
+            }
+        }
+    }
+
+    fn initial_motion(&mut self, index: usize, initial: &'d At<Table<Initial>>) {
         let owner = Owner::new("`[[initial]]`", &initial.span);
         let everything = initial.at.as_ref().is_some_and(|at| at.values.iter().any(|name| name.value == "all"));
         let spots = if everything {
@@ -62,18 +84,24 @@ impl<'d> Motions<'_, 'd> {
         } else {
             self.scene.spots(&owner, "at", &initial.at, Reach::Parts, self.report)
         };
-        for spot in spots.iter().filter(|spot| spot.direct) {
-            if let Some(master) = self.topology.master_in(spot.node, 0) {
-                let master = self.topology.label(master);
-                let message = format!("`{}` moves with `{master}`", spot.name);
-                self.report.error_with::<()>(spot.span, message, format!("give the velocity to `{master}`"));
-            }
-        }
         self.moves_by_itself(&spots);
         let nodes: Vec<usize> = match everything {
             true => (0..self.topology.list.len()).collect(),
             false => spots.iter().map(|spot| spot.node).collect(),
         };
+        self.check_keys(&owner, initial);
+        let replaces = flag(&initial.replaces, false);
+        self.given.begin(Giver { what: title(index, initial), span: owner.span, replaces });
+        self.give(initial, nodes, &spots);
+        let quantities = given(initial);
+        self.given.report_dropped(&spots, &quantities, self.amplitudes, self.topology, self.report);
+        if initial.angular_velocity.is_some() && initial.about.is_none() && self.topology.is_complete() {
+            self.given.report_without_rotation(&spots, self.topology, self.report);
+        }
+    }
+
+    /// Reports a table that gives nothing, and keys that do not go together.
+    fn check_keys(&mut self, owner: &Owner<'d>, initial: &'d At<Table<Initial>>) {
         let words = ["velocity", "angular_velocity", "normal_velocity"];
         let unread = words.iter().any(|key| self.report.is_spoiled(owner.span, key));
         let normal = initial.normal_velocity.as_ref();
@@ -87,10 +115,16 @@ impl<'d> Motions<'_, 'd> {
         } else if let (Some(_), Some(profile)) = (&initial.about, &initial.profile) {
             self.report.reject_unused("the motion of a rigid body", &[("profile", Some(&profile.span))]);
         }
+    }
+
+    /// Gives nodes the velocities of a table.
+    fn give(&mut self, initial: &'d At<Table<Initial>>, nodes: Vec<usize>, spots: &[Spot<'d>]) {
+        let normal = initial.normal_velocity.as_ref();
         let profile = initial.profile.as_ref().map_or(&[][..], |profile| &profile.value);
         let factors: Vec<Factor> = profile.iter().filter_map(|entry| self.factor(entry)).collect();
-        let normals = normal.map(|_| self.normals(&spots));
+        let normals = normal.map(|_| self.normals(spots));
         let (v, omega) = (vec3_or_zero(&initial.velocity), vec3_or_zero(&initial.angular_velocity));
+        let quantities = given(initial);
         for node in nodes {
             let x = self.topology.x(node);
             let v = match (&initial.about, &normals) {
@@ -99,13 +133,25 @@ impl<'d> Motions<'_, 'd> {
                 (None, None) => v,
             };
             let factor: f64 = factors.iter().map(|factor| factor.at(&x)).product();
-            let node = &mut self.topology.list[node];
-            (node.v, node.omega) = (factor * v, factor * omega);
+            for &quantity in &quantities {
+                let value = match quantity {
+                    Quantity::Velocity => v,
+                    Quantity::AngularVelocity => omega,
+                };
+                self.given.give(node, quantity, factor * value, self.topology);
+            }
         }
     }
 
-    /// Reports names whose nodes all depend on a node that is not named, and move with it.
+    /// Reports nodes that are named and depend on another one, and names whose nodes all depend on a node that is not named.
     fn moves_by_itself(&mut self, spots: &[Spot<'d>]) {
+        for spot in spots.iter().filter(|spot| spot.direct) {
+            if let Some(master) = self.topology.master_in(spot.node, 0) {
+                let master = self.topology.label(master);
+                let message = format!("`{}` moves with `{master}`", spot.name);
+                self.report.error_with::<()>(spot.span, message, format!("give the velocity to `{master}`"));
+            }
+        }
         let named: HashSet<usize> = spots.iter().map(|spot| spot.node).collect();
         for spots in spots.chunk_by(|a, b| a.span == b.span).filter(|spots| !spots[0].direct) {
             let masters: Option<Vec<usize>> = spots.iter().map(|spot| self.topology.master_in(spot.node, 0)).collect();
@@ -157,6 +203,23 @@ impl<'d> Motions<'_, 'd> {
         }
         normals.iter().map(|normal| normal.try_normalize(0.0).unwrap_or_default()).collect()
     }
+}
+
+/// What a table gives: the motion of a rigid body is both a velocity and an angular velocity.
+fn given(initial: &Initial) -> Vec<Quantity> {
+    let rigid = initial.about.is_some();
+    let velocity = rigid || initial.velocity.is_some() || initial.normal_velocity.is_some();
+    let angular = rigid || initial.angular_velocity.is_some();
+    let both = [(velocity, Quantity::Velocity), (angular, Quantity::AngularVelocity)];
+    both.into_iter().filter(|(is_given, _)| *is_given).map(|(_, quantity)| quantity).collect()
+}
+
+/// Words for a table in messages: "entry 2 of `[[initial]]` (at `edge`)".
+fn title(index: usize, initial: &Initial) -> String {
+    let names = initial.at.as_ref().map_or(&[][..], |at| &at.values);
+    let more = if names.len() > 1 { ", ..." } else { "" };
+    let at = names.first().map_or_else(String::new, |name| format!(" (at `{}`{more})", name.value));
+    format!("entry {} of `[[initial]]`{at}", index + 1)
 }
 
 /// Sets the initial velocities of restrained degrees of freedom to zero.

@@ -1,6 +1,7 @@
 //! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
 //! Built once from the deck, never changed; everything downstream borrows it.
 
+mod amplitude_ends;
 mod amplitudes;
 mod analysis;
 mod attachments;
@@ -20,6 +21,7 @@ mod environment;
 mod expects;
 mod groups;
 mod initial;
+mod initial_given;
 mod joints;
 mod links;
 mod loads;

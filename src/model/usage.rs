@@ -13,15 +13,21 @@ pub(super) fn named_sections(deck: &Deck) -> HashSet<&str> {
     deck.beams.iter().filter_map(|beam| beam.section.as_ref()).map(|name| name.as_str()).collect()
 }
 
-/// Amplitudes that a load or a motion of the deck names.
+/// Amplitudes that a load, a motion or a profile of the deck names.
 pub(super) fn named_amplitudes(deck: &Deck) -> HashSet<&str> {
+    let profiles = deck.initial.iter().filter_map(|initial| initial.profile.as_ref()).flat_map(|at| &at.value);
+    let profiles = profiles.filter_map(|profile| profile.amplitude.as_ref()).map(|name| name.as_str());
+    amplitudes_over_time(deck).into_iter().chain(profiles).collect()
+}
+
+/// Amplitudes that are functions of time: those of loads, motions and the ground.
+pub(super) fn amplitudes_over_time(deck: &Deck) -> HashSet<&str> {
     let loads = deck.loads.iter().map(|load| &load.amplitude);
     let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
         let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
         all.into_iter().flatten().map(|motion| &motion.amplitude)
     });
     let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
-    let profiles = deck.initial.iter().filter_map(|initial| initial.profile.as_ref()).flat_map(|at| &at.value);
     let named = loads.chain(motions).chain(ground.map(|base| &base.amplitude));
-    named.chain(profiles.map(|profile| &profile.amplitude)).flatten().map(|name| name.as_str()).collect()
+    named.flatten().map(|name| name.as_str()).collect()
 }

@@ -1,0 +1,193 @@
+//! Which table gives which node its initial velocity: one, or several that agree.
+
+use std::collections::HashMap;
+
+use super::data::{DIRECTIONS, History, Restraint};
+use super::nodes::Nodes;
+use super::report::Report;
+use super::spot::Spot;
+use crate::amplitude::Amplitude;
+use crate::diagnostic::Span;
+use crate::math::Vec3;
+use crate::names::short;
+
+/// Two values of the same velocity may differ by the rounding of formulas that give them twelve digits, and a prescribed motion from
+/// the velocity that the deck writes beside it by the rounding of six digits.
+const SAME: f64 = 1e-9;
+const AS_WRITTEN: f64 = 1e-6;
+
+/// What a table gives: a velocity or an angular velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Quantity {
+    Velocity,
+    AngularVelocity,
+}
+
+impl Quantity {
+    /// The deck's key.
+    fn word(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "velocity",
+            Quantity::AngularVelocity => "angular_velocity",
+        }
+    }
+
+    /// The first of its three degrees of freedom.
+    fn first_dof(self) -> usize {
+        match self {
+            Quantity::Velocity => 0,
+            Quantity::AngularVelocity => 3,
+        }
+    }
+}
+
+/// A table that gives velocities.
+pub(super) struct Giver<'d> {
+    /// Words for the table, such as "entry 2 of `[[initial]]`".
+    pub what: String,
+    pub span: &'d Span,
+    /// What it gives takes the place of what earlier tables give.
+    pub replaces: bool,
+}
+
+/// The velocities that tables have given so far.
+#[derive(Default)]
+pub(super) struct GivenVelocities<'d> {
+    givers: Vec<Giver<'d>>,
+    /// The value by node and quantity, and the index of the table that gave it.
+    values: HashMap<(usize, Quantity), (Vec3, usize)>,
+    /// Tables that contradict each other, the earlier one first: the first node, and how many there are.
+    contradictions: Vec<Contradiction>,
+}
+
+struct Contradiction {
+    givers: [usize; 2],
+    quantity: Quantity,
+    values: [Vec3; 2],
+    node: usize,
+    count: usize,
+}
+
+impl<'d> GivenVelocities<'d> {
+    /// Begins the next table.
+    pub fn begin(&mut self, giver: Giver<'d>) {
+        self.givers.push(giver);
+    }
+
+    /// Gives a node a velocity by the table begun last, global components.
+    pub fn give(&mut self, node: usize, quantity: Quantity, value: Vec3, nodes: &mut Nodes) {
+        let giver = self.givers.len() - 1;
+        let before = self.values.insert((node, quantity), (value, giver));
+        match quantity {
+            Quantity::Velocity => nodes.list[node].v = value,
+            Quantity::AngularVelocity => nodes.list[node].omega = value,
+        }
+        let Some((old, earlier)) = before.filter(|_| !self.givers[giver].replaces) else { return };
+        // A node that moves with another one takes that one's velocity in the end.
+        if (value - old).amax() <= SAME * value.amax().max(old.amax()) || follows(node, quantity, nodes) {
+            return;
+        }
+        let same = |c: &&mut Contradiction| c.givers == [earlier, giver] && c.quantity == quantity;
+        match self.contradictions.iter_mut().find(same) {
+            Some(contradiction) => contradiction.count += 1,
+            None => {
+                let (givers, values) = ([earlier, giver], [old, value]);
+                self.contradictions.push(Contradiction { givers, quantity, values, node, count: 1 });
+            }
+        }
+    }
+
+    /// Reports tables that give the same node different velocities.
+    pub fn report_contradictions(&self, nodes: &Nodes, report: &mut Report<'d>) {
+        for Contradiction { givers: [earlier, later], quantity, values: [old, new], node, count } in &self.contradictions
+        {
+            let (earlier, later) = (&self.givers[*earlier], &self.givers[*later]);
+            let more = match count - 1 {
+                0 => String::new(),
+                more => format!(", and {more} more of their nodes"),
+            };
+            let message = format!(
+                "`{}` is given two initial values of `{}`: {} by {}, {} by {}{more}",
+                nodes.label(*node),
+                quantity.word(),
+                components(old),
+                earlier.what,
+                components(new),
+                later.what,
+            );
+            let hint = "give it once; `replaces = true` lets this table take the place of the ones before it";
+            report.error_with::<()>(later.span, message, hint);
+        }
+    }
+
+    /// Warns of names whose nodes all get no velocity in a direction in which the table begun last gives them one: a support
+    /// holds or moves them there. A part of which the support is an end is as it should be.
+    pub fn report_dropped(
+        &self,
+        spots: &[Spot<'d>],
+        quantities: &[Quantity],
+        amplitudes: &[Amplitude],
+        nodes: &Nodes,
+        report: &mut Report<'d>,
+    ) {
+        for spots in spots.chunk_by(|a, b| a.span == b.span) {
+            for (quantity, i) in quantities.iter().flat_map(|&quantity| (0..3).map(move |i| (quantity, i))) {
+                let dof = quantity.first_dof() + i;
+                let given = |spot: &Spot| self.values.get(&(spot.node, quantity)).map_or(Vec3::zeros(), |(v, _)| *v);
+                let dropped = |spot: &Spot| {
+                    let v = given(spot);
+                    let held = nodes.restraint(spot.node, dof).filter(|_| v[i].abs() > SAME * v.amax());
+                    held.filter(|held| (v[i] - start_velocity(held, amplitudes)).abs() > AS_WRITTEN * v[i].abs())
+                };
+                let Some(held) = dropped(&spots[0]).filter(|_| spots.iter().all(|spot| dropped(spot).is_some())) else {
+                    continue;
+                };
+                let (name, word) = (&spots[0].name, quantity.word());
+                let holds = if held.motion.is_some() { "prescribes another motion" } else { "holds it at rest" };
+                let message = format!(
+                    "`{name}` does not take the {word} {} that it is given in {}: its support {holds} there",
+                    short(given(&spots[0])[i]),
+                    DIRECTIONS[dof]
+                );
+                let hint = "leave the component out, or take the direction out of the support";
+                report.warn(spots[0].span, message, hint);
+            }
+        }
+    }
+
+    /// Warns of names at which nothing takes up an angular velocity that is not zero.
+    pub fn report_without_rotation(&self, spots: &[Spot<'d>], nodes: &Nodes, report: &mut Report<'d>) {
+        for spots in spots.chunk_by(|a, b| a.span == b.span) {
+            let idle = |spot: &Spot| {
+                let omega = self.values.get(&(spot.node, Quantity::AngularVelocity)).map_or(0.0, |(w, _)| w.amax());
+                omega > 0.0 && !nodes.turns(spot.node) && (3..6).all(|dof| nodes.master_in(spot.node, dof).is_none())
+            };
+            if spots.iter().all(idle) {
+                let message = format!("`{}` does not take the angular_velocity that it is given", spots[0].name);
+                let hint = "nothing there turns: bars, springs and masses without inertia have no rotations";
+                report.warn(spots[0].span, message, hint);
+            }
+        }
+    }
+}
+
+/// True for a node whose velocity follows from that of another one.
+fn follows(node: usize, quantity: Quantity, nodes: &Nodes) -> bool {
+    nodes.master_in(node, quantity.first_dof()).is_some()
+}
+
+/// The velocity with which a restrained direction begins.
+fn start_velocity(restraint: &Restraint, amplitudes: &[Amplitude]) -> f64 {
+    restraint.motion.as_ref().map_or(0.0, |motion| {
+        let amplitude = &amplitudes[motion.amplitude];
+        match motion.history {
+            History::Displacement => motion.scale * amplitude.rate(0.0),
+            History::Velocity => motion.scale * amplitude.value(0.0),
+            History::Acceleration => 0.0,
+        }
+    })
+}
+
+fn components(v: &Vec3) -> String {
+    format!("[{}, {}, {}]", short(v.x), short(v.y), short(v.z))
+}
