@@ -35,6 +35,7 @@ use super::nodes::{Nodes, Topology};
 use super::output::{Selection, output, write_all_nodes};
 use super::part_context::PartContext;
 use super::parts::Parts;
+use super::proportions::check_proportions;
 use super::report::Report;
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
@@ -43,7 +44,9 @@ use super::shells::shells;
 use super::slivers::check_slivers;
 use super::study::study;
 use super::supports::supports;
+use super::ties::Ties;
 use super::units::check_units;
+use super::unjoined::check_unjoined;
 use super::unused::drop_unused;
 use super::values::vec3;
 use crate::deck::Deck;
@@ -102,6 +105,8 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
     if !report.has_errors() {
         check_amplitude_ends(deck, &amplitudes, scene.analysis.end_time, report);
+        check_unjoined(&scene, &topology, Ties::new(&topology, &joints, &links, &contacts), report);
+        check_proportions(&scene, &topology, report);
     }
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();

@@ -1,0 +1,67 @@
+//! Which nodes something holds together without an element between them: joints, attachments, links, contacts, the ground.
+
+use super::data::{Contact, Joint, Link};
+use super::nodes::Topology;
+use std::collections::HashSet;
+
+/// Groups of nodes whose places depend on each other.
+pub(super) struct Ties {
+    /// A node of the same group by node, and of the ground after the last node; the group's own node at the end of the chain.
+    towards: Vec<usize>,
+    /// Pairs of groups between which a link or a contact acts.
+    linked: HashSet<[usize; 2]>,
+}
+
+impl Ties {
+    pub fn new(topology: &Topology, joints: &[Joint], links: &[Link], contacts: &[Contact]) -> Self {
+        let count = topology.list.len();
+        let mut ties = Ties { towards: (0..=count).collect(), linked: HashSet::new() };
+        for dependent in topology.dependents.iter().filter(|dependent| dependent.dofs[..3] == [true; 3]) {
+            ties.join(dependent.node, dependent.master);
+        }
+        joints.iter().for_each(|joint| ties.join(joint.ends[0], joint.ends[1]));
+        for node in 0..count {
+            let rests = |dof| topology.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none());
+            if (0..3).all(rests) {
+                ties.join(node, count);
+            }
+        }
+        let touching = contacts.iter().flat_map(|contact| {
+            contact.points.iter().flat_map(|point| point.nodes()).map(|&node| [contact.node, node])
+        });
+        let pairs: Vec<[usize; 2]> = links.iter().map(|link| link.ends).chain(touching).collect();
+        for pair in pairs {
+            let groups = ties.groups(pair);
+            // What is linked to the ground is not linked to all else that rests on it.
+            if groups[1] != ties.group(count) && groups[0] != ties.group(count) {
+                ties.linked.insert(groups);
+            }
+        }
+        ties
+    }
+
+    /// True where two nodes are held together.
+    pub fn holds(&mut self, pair: [usize; 2]) -> bool {
+        let groups = self.groups(pair);
+        groups[0] == groups[1] || self.linked.contains(&groups)
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let [a, b] = [self.group(a), self.group(b)];
+        self.towards[a.max(b)] = a.min(b);
+    }
+
+    /// The groups of two nodes in order.
+    fn groups(&mut self, pair: [usize; 2]) -> [usize; 2] {
+        let [a, b] = pair.map(|node| self.group(node));
+        [a.min(b), a.max(b)]
+    }
+
+    fn group(&mut self, mut node: usize) -> usize {
+        while self.towards[node] != node {
+            self.towards[node] = self.towards[self.towards[node]];
+            node = self.towards[node];
+        }
+        node
+    }
+}

@@ -1,0 +1,235 @@
+//! Parts that touch without sharing a node: the deck draws them as one, and they move apart.
+
+use std::collections::HashMap;
+
+use super::bodies::title;
+use super::cells::Cells;
+use super::data::PartIndex;
+use super::nodes::Topology;
+use super::report::Report;
+use super::scene::Scene;
+use super::ties::Ties;
+use crate::diagnostic::Span;
+use crate::math::Vec3;
+
+/// Places are the same within this part of the median length of an element, ...
+const OF_ELEMENT: f64 = 1e-4;
+/// ... within what six digits of a coordinate leave of the size of the scene, ...
+const OF_SCENE: f64 = 2e-6;
+/// ... and never within more than this part of the shortest element.
+const OF_SHORTEST: f64 = 0.05;
+
+/// Warns once for each pair of parts that touch where nothing holds them together. The deck is sound.
+pub(super) fn check_unjoined(scene: &Scene, topology: &Topology, ties: Ties, report: &mut Report) {
+    let pieces = pieces(scene);
+    let Some(tolerance) = Tolerance::new(&pieces, topology) else { return };
+    let mut of_node: Vec<Option<PartIndex>> = vec![None; topology.list.len()];
+    for (part, nodes) in pieces.iter() {
+        nodes.iter().for_each(|&node| of_node[node] = of_node[node].or(Some(*part)));
+    }
+    let mut search = Search { scene, topology, ties, tolerance, of_node, found: Vec::new(), known: HashMap::new() };
+    search.places();
+    search.pieces(&pieces);
+    search.report(report);
+}
+
+/// The nodes of every element with its part.
+fn pieces(scene: &Scene) -> Vec<(PartIndex, Vec<usize>)> {
+    let entries = scene.parts.entries().filter(|(at, _)| at.kind.is_deformable());
+    entries.flat_map(|(at, _)| scene.parts.elements(at).into_iter().map(move |nodes| (at, nodes))).collect()
+}
+
+/// Within which places count as one, and the size of cells for elements.
+struct Tolerance {
+    same: f64,
+    cell: f64,
+    origin: Vec3,
+}
+
+impl Tolerance {
+    /// `None` for a scene without extent.
+    fn new(pieces: &[(PartIndex, Vec<usize>)], topology: &Topology) -> Option<Tolerance> {
+        let x = |node: usize| topology.x(node);
+        let mut lengths: Vec<f64> =
+            pieces.iter().flat_map(|(_, nodes)| nodes.windows(2).map(|pair| (x(pair[1]) - x(pair[0])).norm())).collect();
+        let origin = topology.list.first()?.x;
+        let (low, high) = topology.list.iter().fold((origin, origin), |(low, high), n| (low.inf(&n.x), high.sup(&n.x)));
+        let size = (high - low).amax();
+        if size.is_nan() || size <= 0.0 {
+            return None;
+        }
+        if lengths.is_empty() {
+            return Some(Tolerance { same: OF_SCENE * size, cell: size, origin: low });
+        }
+        let middle = lengths.len() / 2;
+        let median = *lengths.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        let same = (OF_ELEMENT * median).max(OF_SCENE * size).min(OF_SHORTEST * shortest);
+        (same > 0.0).then_some(Tolerance { same, cell: median.max(mean), origin: low })
+    }
+}
+
+/// Two things that touch; the first node and how many.
+struct Touch {
+    node: usize,
+    other: String,
+    /// True where the node lies between the nodes of the other.
+    between: bool,
+    count: usize,
+}
+
+struct Search<'a, 'd> {
+    scene: &'a Scene<'d>,
+    topology: &'a Topology,
+    ties: Ties,
+    tolerance: Tolerance,
+    /// A part to which each node belongs.
+    of_node: Vec<Option<PartIndex>>,
+    found: Vec<Touch>,
+    /// Index in `found` by the names of the two.
+    known: HashMap<(String, String), usize>,
+}
+
+impl Search<'_, '_> {
+    /// True for nodes that the deck or the mesh names and something acts on. Those in between are where a path is cut: two that
+    /// meet are paths that cross.
+    fn is_end(&self, node: usize) -> bool {
+        let named = self.topology.list[node].named || self.scene.names.mesh.id(node).is_some();
+        named && (0..3).any(|dof| self.topology.is_connected(node, dof))
+    }
+
+    /// Two nodes at one place.
+    fn places(&mut self) {
+        let nodes = || 0..self.topology.list.len();
+        let ends: Vec<(usize, Vec3)> =
+            nodes().filter(|&node| self.is_end(node)).map(|node| (node, self.topology.x(node))).collect();
+        let (reach, mut near) = (self.tolerance.same, Vec::new());
+        let cells = Cells::new(4.0 * reach, self.tolerance.origin, ends.into_iter());
+        for node in nodes() {
+            let is_end = self.is_end(node);
+            if !is_end && self.of_node[node].is_none() {
+                continue;
+            }
+            let (x, margin) = (self.topology.x(node), Vec3::repeat(reach));
+            near.clear();
+            cells.visit_box(&(x - margin), &(x + margin), &mut |end| near.push(end));
+            for &end in &near {
+                let once = end != node && (!is_end || end < node);
+                if once && (self.topology.x(end) - x).norm() <= reach && !self.ties.holds([end, node]) {
+                    self.meet(end, node, None);
+                }
+            }
+        }
+    }
+
+    /// Nodes on elements that are not theirs.
+    fn pieces(&mut self, pieces: &[(PartIndex, Vec<usize>)]) {
+        let nodes = 0..self.topology.list.len();
+        let ends = nodes.filter(|&node| self.is_end(node)).map(|node| (node, self.topology.x(node)));
+        let (reach, mut near) = (self.tolerance.same, Vec::new());
+        let cells = Cells::new(self.tolerance.cell, self.tolerance.origin, ends);
+        for (part, nodes) in pieces {
+            let x: Vec<Vec3> = nodes.iter().map(|&node| self.topology.x(node)).collect();
+            let simplices: Vec<Vec<Vec3>> = match part.kind.is_surface() {
+                true => (2..x.len()).map(|k| vec![x[0], x[k - 1], x[k]]).collect(),
+                false => vec![vec![x[0], x[x.len() - 1]]],
+            };
+            near.clear();
+            simplices.iter().for_each(|simplex| cells.visit_along(simplex, reach, &mut |end| near.push(end)));
+            near.sort_unstable();
+            near.dedup();
+            for &end in &near {
+                let at = self.topology.x(end);
+                let inside = || simplices.iter().any(|simplex| lies_on(&at, simplex, reach));
+                let is_node = x.iter().any(|corner| (corner - at).norm() <= reach);
+                if !is_node && inside() && !nodes.iter().any(|&node| self.ties.holds([end, node])) {
+                    self.meet(end, nodes[0], Some(*part));
+                }
+            }
+        }
+    }
+
+    /// Notes that a node touches another one, or a part between its nodes.
+    fn meet(&mut self, end: usize, node: usize, between: Option<PartIndex>) {
+        let rests = |node: usize| (0..3).all(|dof| self.topology.restraint(node, dof).is_some());
+        // What stands still at one end of a link only touches what passes there.
+        if rests(end) && self.of_node[end].is_none() {
+            return;
+        }
+        let [own, other] = [self.name(end, None), self.name(node, between)];
+        let next = self.found.len();
+        let index = *self.known.entry((own, other.clone())).or_insert(next);
+        if index == next {
+            self.found.push(Touch { node: end, other, between: between.is_some(), count: 1 });
+        } else {
+            self.found[index].count += 1;
+        }
+    }
+
+    /// "beam `a`", the part to which a node belongs; without one the body or point.
+    fn name(&self, node: usize, part: Option<PartIndex>) -> String {
+        match part.or(self.of_node[node]) {
+            Some(part) => title(self.scene.deck, part),
+            None if self.scene.bodies.iter().any(|body| body.node == node) => {
+                format!("body `{}`", self.topology.label(node))
+            }
+            None => format!("point `{}`", self.topology.label(node)),
+        }
+    }
+
+    fn report(&self, report: &mut Report) {
+        for Touch { node, other, between, count } in &self.found {
+            let (label, own) = (self.topology.label(*node), self.name(*node, None));
+            let of = if own.ends_with(&format!("`{label}`")) { String::new() } else { format!(" of {own}") };
+            let more = match count - 1 {
+                0 => String::new(),
+                more => format!(" (and {more} more)"),
+            };
+            let how = match between {
+                true => format!("lies on {other}, between its nodes"),
+                false => format!("lies at the same place as a node of {other}"),
+            };
+            let message = format!("`{label}`{of} {how}{more}, and nothing holds the two together");
+            let hint = match between {
+                true => "make it a point of the path or a node of the mesh of both, or join them with `[[joints]]`",
+                false => "name the same point in both, or join them with `[[joints]]` or `[[attachments]]`",
+            };
+            report.warn(self.place(*node), message, hint);
+        }
+    }
+
+    /// Where the deck names a node, or its part.
+    fn place(&self, node: usize) -> &Span {
+        let deck = self.scene.deck;
+        let point = deck.points.0.get(node).map(|(name, _)| &name.span);
+        let part = || self.of_node[node].and_then(|part| deck.part(part)).map(|part| part.place());
+        let body = || {
+            let index = self.scene.bodies.iter().position(|body| body.node == node)?;
+            Some(&deck.bodies.get(index)?.span)
+        };
+        point.or_else(part).or_else(body).unwrap_or(&(0..0))
+    }
+}
+
+/// True where a place lies on a segment or a triangle.
+fn lies_on(at: &Vec3, simplex: &[Vec3], reach: f64) -> bool {
+    /// Of a triangle, what rounding takes for outside.
+    const EDGE: f64 = 1e-6;
+    let from = at - simplex[0];
+    match simplex {
+        [a, b] => {
+            let along = b - a;
+            let s = from.dot(&along) / along.norm_squared();
+            (0.0..=1.0).contains(&s) && (from - s * along).norm() <= reach
+        }
+        [a, b, c] => {
+            let (u, v) = (b - a, c - a);
+            let normal = u.cross(&v);
+            let double = normal.norm_squared();
+            let (s, t) = (from.cross(&v).dot(&normal) / double, u.cross(&from).dot(&normal) / double);
+            s >= -EDGE && t >= -EDGE && s + t <= 1.0 + EDGE && from.dot(&normal).abs() <= reach * double.sqrt()
+        }
+        _ => false,
+    }
+}
