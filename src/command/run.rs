@@ -12,7 +12,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, load, plan, too_large};
 use super::signals::{end_with_input, stop_on_signals};
-use super::verdict::{End, end, energy_warning, line};
+use super::verdict::{End, end, energy_line, energy_warning, line};
 use super::version::VERSION;
 use crate::diagnostic::Diagnostic;
 use crate::model::Part;
@@ -62,11 +62,11 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
     let computed = stop_on_signals(&stop).and_then(|()| job.compute(&mut run));
-    let (end, result) = computed.map_err(|error| {
+    let (end, result, energy) = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
         Exit::InputOutput
     })?;
-    job.conclude(&end, &result)
+    job.conclude(&end, &result, energy)
 }
 
 /// The plan in lines.
@@ -112,11 +112,12 @@ impl Job<'_> {
     }
 
     /// Runs the scene and writes its files; an error is one of input/output.
-    fn compute(&self, run: &mut Run) -> io::Result<(End, RunResult)> {
+    fn compute(&self, run: &mut Run) -> io::Result<(End, RunResult, Option<String>)> {
         let model = &self.loaded.model;
         let mut log = Log::open(self.folder, false)?;
         let origin = self.origin();
         log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
+        self.loaded.warnings.iter().try_for_each(|warning| log.warn(&warning.message))?;
         let mut watchers = Watchers {
             log,
             files: Files::open(self.folder, model, None)?,
@@ -129,7 +130,12 @@ impl Job<'_> {
         watchers.progress.finish();
         watchers.files.finish()?;
 
-        let warnings = self.warnings(run);
+        let of_run = self.warnings_of(run);
+        of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
+        let of_deck = self.loaded.warnings.iter().map(|warning| warning.message.clone());
+        let warnings = of_deck.chain(of_run).collect();
+        let energy = energy_line(run.balance(), model);
+        energy.iter().try_for_each(|line| watchers.log.say(line))?;
         let expectations = watchers.expectations.verdicts();
         let end_time = state.map(|state| state.time);
         let end = end(model, run, outcome, end_time, &expectations)?;
@@ -160,26 +166,26 @@ impl Job<'_> {
             expectations,
         };
         result.write(self.folder)?;
-        Ok((end, result))
+        Ok((end, result, energy))
     }
 
-    /// Those of the deck, and those of the run, which are shown.
-    fn warnings(&self, run: &Run) -> Vec<String> {
-        let of_run =
-            run.warnings().iter().map(ToString::to_string).chain(energy_warning(run.balance(), &self.loaded.model));
-        let of_run: Vec<String> = of_run.collect();
+    /// The warnings of a run, which are shown.
+    fn warnings_of(&self, run: &Run) -> Vec<String> {
+        let doubts = run.warnings().iter().map(ToString::to_string);
+        let of_run: Vec<String> = doubts.chain(energy_warning(run.balance(), &self.loaded.model)).collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }
-        self.loaded.warnings.iter().map(|warning| warning.message.clone()).chain(of_run).collect()
+        of_run
     }
 
     /// Says how the run ended: failures on standard error, the verdicts and the folder on standard output.
-    fn conclude(&self, end: &End, result: &RunResult) -> Result<(), Exit> {
+    fn conclude(&self, end: &End, result: &RunResult, energy: Option<String>) -> Result<(), Exit> {
         let told = result.expectations.iter().filter(|verdict| !self.quiet || !verdict.passed);
         let mut text: String = told.map(|verdict| format!("{}\n", line(verdict))).collect();
         if !self.quiet {
             let RunResult { timings, counts, .. } = result;
+            text.extend(energy.map(|line| format!("{line}\n")));
             text += &format!(
                 "{} steps, {} iterations, {} factorizations; time stepping {:.4} s of {:.4} s; results in {}\n",
                 counts.steps,

@@ -1,6 +1,6 @@
 //! How a run ended, in words: its status, its warnings, its expectations.
 
-use crate::model::{ArcLength, DIRECTIONS, Model, StepLength};
+use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 use crate::names::{instant, short, to_digits};
 use crate::output::expect::Verdict;
 use crate::output::result_json::Status;
@@ -77,20 +77,39 @@ fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     ))
 }
 
+/// What the time integration took from the energy of the motion or added to it, in a line; `None` where nothing moves.
+pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
+    let motion = balance.motion();
+    if model.analysis.kind != AnalysisKind::Dynamic {
+        return None;
+    }
+    if !model.output.energy {
+        return Some("numerical dissipation: not measured, for `energy` of `[output]` is false".to_owned());
+    }
+    if motion <= 0.0 {
+        return None;
+    }
+    let percent = |energy: f64| format!("{} % of the energy of the motion", to_digits(100.0 * energy / motion, 2));
+    Some(if balance.generated > balance.dissipated {
+        format!("numerical growth of energy: {}", percent(balance.generated))
+    } else {
+        format!("numerical dissipation: {}", percent(balance.dissipated))
+    })
+}
+
 /// An energy balance that no one should take on trust.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
-    /// Of the largest energy: schemes add next to nothing, ...
-    const GROWTH: f64 = 0.02;
-    /// ... and may dissipate what no step resolves.
-    const DISSIPATION: f64 = 0.2;
-    let part = |energy: f64| format!("{:.0} % of the largest energy", 100.0 * energy / balance.peak);
+    /// Of the energy of the motion: more is seen in the results.
+    const SEEN: f64 = 0.02;
+    let motion = balance.motion();
+    let part = |energy: f64| format!("{} % of the energy of the motion", to_digits(100.0 * energy / motion, 2));
     let shorter = match model.analysis.step_length {
         StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
         StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
     };
     let remedy = format!("see `numerical` in energy.csv, and try {shorter}");
-    if balance.generated > GROWTH * balance.peak {
+    if balance.generated > SEEN * motion {
         let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
         // strain that comes out wrong by it: no motion is made.
@@ -102,7 +121,7 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         } else {
             format!("energy growth: the time integration has added {part}; {remedy}")
         })
-    } else if balance.dissipated > DISSIPATION * balance.peak {
+    } else if balance.dissipated > SEEN * motion {
         Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.dissipated)))
     } else {
         None

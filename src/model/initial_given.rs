@@ -189,5 +189,5 @@ fn start_velocity(restraint: &Restraint, amplitudes: &[Amplitude]) -> f64 {
 }
 
 fn components(v: &Vec3) -> String {
-    format!("[{}, {}, {}]", short(v.x), short(v.y), short(v.z))
+    format!("[{}, {}, {}]", short(v.x + 0.0), short(v.y + 0.0), short(v.z + 0.0))
 }

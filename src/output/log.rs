@@ -32,6 +32,11 @@ impl Log {
         let text = format!("{}\n", text.trim_end());
         self.file.write_all(text.as_bytes()).map_err(|e| at(&self.path, e))
     }
+
+    /// A doubt about the deck or its results.
+    pub fn warn(&mut self, message: &str) -> io::Result<()> {
+        self.say(&format!("warning: {message}"))
+    }
 }
 
 impl Observer for Log {
