@@ -75,12 +75,14 @@ impl<T: JsonSchema> JsonSchema for At<T> {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Severity {
     /// The deck cannot be run.
     Error,
     /// It can, but perhaps not as it was meant.
     Warning,
+    /// It can, and something is taken as it was most likely meant.
+    Note,
 }
 
 /// A line of a file that the deck names.
@@ -136,6 +138,10 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(message) }
     }
 
+    pub fn note(message: impl Into<String>) -> Self {
+        Diagnostic { severity: Severity::Note, ..Diagnostic::error(message) }
+    }
+
     pub fn at(mut self, place: &Span) -> Self {
         self.place = Some(place.clone());
         self
@@ -156,11 +162,16 @@ impl Diagnostic {
         self.severity == Severity::Error
     }
 
+    pub fn is_warning(&self) -> bool {
+        self.severity == Severity::Warning
+    }
+
     /// As text: message, file:line:column, the line, the caret.
     pub fn draw(&self, source: &Source, styled: bool) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
+            Severity::Note => Level::NOTE,
         };
         let title = level.primary_title(self.message.as_str());
         let mut hints = self.hints.iter().map(String::as_str);

@@ -67,7 +67,7 @@ fn conclude(problems: &[Diagnostic], source: &Source) -> Exit {
         complain(&format!("the options have {}", counted(errors.len(), "error")));
         return Exit::Usage;
     }
-    let warnings = problems.len() - errors.len();
+    let warnings = problems.iter().filter(|problem| problem.is_warning()).count();
     let besides = if warnings > 0 { format!(" and {}", counted(warnings, "warning")) } else { String::new() };
     complain(&format!("`{}` has {}{besides}", source.path, counted(errors.len(), "error")));
     Exit::DeckInvalid

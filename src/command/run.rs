@@ -117,7 +117,7 @@ impl Job<'_> {
         let mut log = Log::open(self.folder, false)?;
         let origin = self.origin();
         log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
-        self.loaded.warnings.iter().try_for_each(|warning| log.warn(&warning.message))?;
+        self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
         let mut watchers = Watchers {
             log,
             files: Files::open(self.folder, model, None)?,
@@ -132,8 +132,7 @@ impl Job<'_> {
 
         let of_run = self.warnings_of(run);
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
-        let of_deck = self.loaded.warnings.iter().map(|warning| warning.message.clone());
-        let warnings = of_deck.chain(of_run).collect();
+        let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
         let energy = energy_line(run.balance(), model);
         energy.iter().try_for_each(|line| watchers.log.say(line))?;
         let expectations = watchers.expectations.verdicts();
@@ -167,6 +166,11 @@ impl Job<'_> {
         };
         result.write(self.folder)?;
         Ok((end, result, energy))
+    }
+
+    /// What was said about the deck; notes aside.
+    fn warnings_of_deck(&self) -> impl Iterator<Item = &str> {
+        self.loaded.warnings.iter().filter(|said| said.is_warning()).map(|warning| warning.message.as_str())
     }
 
     /// The warnings of a run, which are shown.

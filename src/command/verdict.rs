@@ -90,26 +90,29 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
         return None;
     }
     let percent = |energy: f64| format!("{} % of the energy of the motion", to_digits(100.0 * energy / motion, 2));
-    Some(if balance.generated > balance.dissipated {
-        format!("numerical growth of energy: {}", percent(balance.generated))
+    Some(if balance.lost() < 0.0 {
+        format!("numerical growth of energy: {}", percent(-balance.lost()))
     } else {
-        format!("numerical dissipation: {}", percent(balance.dissipated))
+        format!("numerical dissipation: {}", percent(balance.lost()))
     })
 }
 
 /// An energy balance that no one should take on trust.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
-    /// Of the energy of the motion: more is seen in the results.
+    /// More is seen in the results: of the energy of the motion at the end, ...
     const SEEN: f64 = 0.02;
+    /// ... and of the largest energy on the way, where an impact takes and gives back some within a step.
+    const ON_THE_WAY: f64 = 0.2;
     let motion = balance.motion();
-    let part = |energy: f64| format!("{} % of the energy of the motion", to_digits(100.0 * energy / motion, 2));
+    let percent = |energy: f64, of: f64| to_digits(100.0 * energy / of, 2);
+    let part = |energy: f64| format!("{} % of the largest energy", percent(energy, balance.peak));
     let shorter = match model.analysis.step_length {
         StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
         StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
     };
     let remedy = format!("see `numerical` in energy.csv, and try {shorter}");
-    if balance.generated > SEEN * motion {
+    if balance.generated > SEEN * balance.peak {
         let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
         // strain that comes out wrong by it: no motion is made.
@@ -121,7 +124,12 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         } else {
             format!("energy growth: the time integration has added {part}; {remedy}")
         })
-    } else if balance.dissipated > SEEN * motion {
+    } else if balance.lost() > SEEN * motion {
+        let lost = percent(balance.lost(), motion);
+        Some(format!(
+            "numerical dissipation: the time integration has removed {lost} % of the energy of the motion; {remedy}"
+        ))
+    } else if balance.dissipated > ON_THE_WAY * balance.peak {
         Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.dissipated)))
     } else {
         None

@@ -36,25 +36,31 @@ impl Cells {
         }
     }
 
-    /// Calls `visit` with points that may lie within `reach` of a segment or triangle, some of them more than once. What is long
-    /// is halved first, so that its box holds few cells.
+    /// Calls `visit` with points that may lie within `reach` of a segment or a face of three or four corners, some of them more
+    /// than once. What is large is cut first, so that its box holds few cells.
     pub fn visit_along(&self, corners: &[Vec3], reach: f64, visit: &mut impl FnMut(usize)) {
-        /// The box of a piece has at most so many cells along an axis; halving 60 times reaches rounding.
-        const CELLS: f64 = 3.0;
+        if self.visit_if_small(corners, reach, visit) {
+            return;
+        }
+        match corners {
+            [a, b, c, d] => [[*a, *b, *c], [*a, *c, *d]].iter().for_each(|half| self.visit_halves(half, reach, visit)),
+            _ => self.visit_halves(corners, reach, visit),
+        }
+    }
+
+    /// Halves a segment or triangle at the middle of its longest side until its pieces are small.
+    fn visit_halves(&self, corners: &[Vec3], reach: f64, visit: &mut impl FnMut(usize)) {
+        /// So many bring any length to rounding.
         const HALVINGS: usize = 60;
         let mut pieces = vec![(corners.to_vec(), 0)];
         while let Some((corners, halvings)) = pieces.pop() {
-            let (mut low, mut high) = (corners[0], corners[0]);
-            corners.iter().for_each(|x| (low, high) = (low.inf(x), high.sup(x)));
-            if (high - low).amax() <= CELLS * self.size || halvings == HALVINGS {
-                let margin = Vec3::repeat(reach);
-                self.visit_box(&(low - margin), &(high + margin), visit);
+            if self.visit_if_small(&corners, reach, visit) || halvings == HALVINGS {
                 continue;
             }
             let n = corners.len();
-            let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
+            let sides = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
             let length = |&(a, b): &(usize, usize)| (corners[a] - corners[b]).norm();
-            let Some((a, b)) = pairs.max_by(|p, q| length(p).total_cmp(&length(q))) else { continue };
+            let Some((a, b)) = sides.max_by(|p, q| length(p).total_cmp(&length(q))) else { continue };
             let middle = 0.5 * (corners[a] + corners[b]);
             for end in [a, b] {
                 let mut half = corners.clone();
@@ -62,6 +68,20 @@ impl Cells {
                 pieces.push((half, halvings + 1));
             }
         }
+    }
+
+    /// Visits the box of corners where it holds few cells, and tells whether it does.
+    fn visit_if_small(&self, corners: &[Vec3], reach: f64, visit: &mut impl FnMut(usize)) -> bool {
+        /// Cells along an axis.
+        const CELLS: f64 = 3.0;
+        let (mut low, mut high) = (corners[0], corners[0]);
+        corners.iter().for_each(|x| (low, high) = (low.inf(x), high.sup(x)));
+        let small = (high - low).amax() <= CELLS * self.size;
+        if small {
+            let margin = Vec3::repeat(reach);
+            self.visit_box(&(low - margin), &(high + margin), visit);
+        }
+        small
     }
 }
 
@@ -76,7 +96,9 @@ mod tests {
         let cells = Cells::new(1.0, Vec3::zeros(), grid.clone());
         let segment = [Vec3::new(0.0, 0.0, 3.0), Vec3::new(99.0, 99.0, 3.0)];
         let mut met = std::collections::HashSet::new();
-        cells.visit_along(&segment, 1e-6, &mut |point| drop(met.insert(point)));
+        cells.visit_along(&segment, 1e-6, &mut |point| {
+            met.insert(point);
+        });
         let on = |x: &Vec3| x.x == x.y && x.z == 3.0;
         assert!(grid.filter(|(_, x)| on(x)).all(|(point, _)| met.contains(&point)));
         assert!(met.len() < 3000, "{}", met.len());

@@ -8,6 +8,7 @@ use super::scene::Scene;
 use crate::constraints::joint::{ConstraintEquation, rotations, translations};
 use crate::constraints::joints::JointKind;
 use crate::deck::Deck;
+use crate::diagnostic::Diagnostic;
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
 
@@ -57,16 +58,33 @@ fn joint_equations<'d>(
         let message = format!("the ends of {} lie at the same place, so there is no distance", owner.what);
         return report.error_with(owner.span, message, "a \"spherical\" joint holds two points together");
     }
-    // The bound is of the scene's size, wherever it lies, and of what rounding of coordinates leaves.
-    let first = nodes.x(ends[0]);
-    let far = |reach: f64, node: &Node| reach.max((node.x - first).amax());
-    let size = nodes.list.iter().fold(0.0, far);
-    if kind.make.ends_meet && d.amax() > (1e-6 * size).max(4.0 * f64::EPSILON * first.amax()) {
-        let message = format!("the ends of {} must lie at the same place", owner.what);
-        let far = format!("they are {} apart; a body's `point` in `to` may be left out", short(d.norm()));
-        return report.error_with(owner.span, message, far);
+    if kind.make.ends_meet && is_rounded(owner, ends.map(|end| nodes.x(end)), nodes, report)? {
+        let message = format!("the ends of {} are {} apart, as rounded coordinates are", owner.what, short(d.norm()));
+        let hint = "they are joined as they are; a body's `point` in `to` may be left out";
+        report.push(Diagnostic::note(message).at(owner.span).hint(hint));
     }
     Some((kind.make.equations)(axes, &d))
+}
+
+/// How far the ends of a joint that meet are apart: `true` where as far as coordinates of six digits are, `false` where no
+/// farther than rounding. Farther is an error.
+fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &mut Report<'d>) -> Option<bool> {
+    /// Half a unit of the sixth digit of either end, of the coordinates themselves ...
+    const SIX_DIGITS: f64 = 1e-5;
+    /// ... but of a scene far from the origin no more than this part of its size.
+    const MOST: f64 = 1e-4;
+    /// Of the scene's size: what is computed rather than written is nearer.
+    const COMPUTED: f64 = 1e-9;
+    let far = |reach: f64, node: &Node| reach.max((node.x - a).amax());
+    let size = nodes.list.iter().fold(0.0, far);
+    let (gap, rounding) = ((a - b).amax(), 4.0 * f64::EPSILON * a.amax());
+    let written = (SIX_DIGITS * a.amax().max(b.amax())).clamp(1e-6 * size, MOST * size);
+    if gap > written.max(rounding) {
+        let message = format!("the ends of {} must lie at the same place", owner.what);
+        let far = format!("they are {} apart; a body's `point` in `to` may be left out", short((a - b).norm()));
+        return report.error_with(owner.span, message, far);
+    }
+    Some(gap > rounding.max(COMPUTED * size))
 }
 
 /// Reports joints of the deck between things that cannot move against each other. The deck is sound otherwise.

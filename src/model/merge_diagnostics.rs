@@ -29,14 +29,14 @@ pub(super) fn merge_diagnostics(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
 }
 
 /// Equal for messages that are put together: place, severity, words before and after the name, hints.
-type Sameness = (usize, usize, bool, String, String, Vec<String>);
+type Sameness = (usize, usize, Severity, String, String, Vec<String>);
 
 fn split(problem: &Diagnostic) -> (Option<Sameness>, String) {
     let parts = || {
         let (before, rest) = problem.message.split_once('`')?;
         let (name, after) = rest.split_once('`')?;
         let place = problem.place.as_ref().filter(|_| problem.excerpt.is_none())?;
-        let severe = problem.severity == Severity::Error;
+        let severe = problem.severity;
         // The name may stand in what follows again.
         let plain = |text: &str| text.replace(&format!("`{name}`"), "``");
         let hints = problem.hints.iter().map(|hint| plain(hint)).collect();

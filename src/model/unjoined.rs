@@ -66,7 +66,7 @@ impl Tolerance {
         let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
         let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         let same = (OF_ELEMENT * median).max(OF_SCENE * size).min(OF_SHORTEST * shortest);
-        (same > 0.0).then_some(Tolerance { same, cell: median.max(mean), origin: low })
+        (same > 0.0).then_some(Tolerance { same, cell: 1.5 * median.max(mean), origin: low })
     }
 }
 
@@ -87,8 +87,8 @@ struct Search<'a, 'd> {
     /// A part to which each node belongs.
     of_node: Vec<Option<PartIndex>>,
     found: Vec<Touch>,
-    /// Index in `found` by the names of the two.
-    known: HashMap<(String, String), usize>,
+    /// Index in `found` by the names of the two and whether they meet between nodes.
+    known: HashMap<(String, bool, String), usize>,
 }
 
 impl Search<'_, '_> {
@@ -130,20 +130,26 @@ impl Search<'_, '_> {
         let (reach, mut near) = (self.tolerance.same, Vec::new());
         let cells = Cells::new(self.tolerance.cell, self.tolerance.origin, ends);
         for (part, nodes) in pieces {
-            let x: Vec<Vec3> = nodes.iter().map(|&node| self.topology.x(node)).collect();
-            let simplices: Vec<Vec<Vec3>> = match part.kind.is_surface() {
-                true => (2..x.len()).map(|k| vec![x[0], x[k - 1], x[k]]).collect(),
-                false => vec![vec![x[0], x[x.len() - 1]]],
-            };
+            // The inner nodes of a beam's element lie on the line of its ends.
+            let surface = part.kind.is_surface();
+            let corners = if surface { nodes.clone() } else { vec![nodes[0], nodes[nodes.len() - 1]] };
+            let x: Vec<Vec3> = corners.iter().map(|&node| self.topology.x(node)).collect();
             near.clear();
-            simplices.iter().for_each(|simplex| cells.visit_along(simplex, reach, &mut |end| near.push(end)));
+            cells.visit_along(&x, reach, &mut |end| {
+                if !nodes.contains(&end) {
+                    near.push(end);
+                }
+            });
             near.sort_unstable();
             near.dedup();
             for &end in &near {
                 let at = self.topology.x(end);
-                let inside = || simplices.iter().any(|simplex| lies_on(&at, simplex, reach));
-                let is_node = x.iter().any(|corner| (corner - at).norm() <= reach);
-                if !is_node && inside() && !nodes.iter().any(|&node| self.ties.holds([end, node])) {
+                let inside = match x[..] {
+                    [a, b, c, d] => lies_on(&at, &[a, b, c], reach) || lies_on(&at, &[a, c, d], reach),
+                    _ => lies_on(&at, &x, reach),
+                };
+                let is_node = || nodes.iter().any(|&node| (self.topology.x(node) - at).norm() <= reach);
+                if inside && !is_node() && !nodes.iter().any(|&node| self.ties.holds([end, node])) {
                     self.meet(end, nodes[0], Some(*part));
                 }
             }
@@ -157,9 +163,16 @@ impl Search<'_, '_> {
         if rests(end) && self.of_node[end].is_none() {
             return;
         }
-        let [own, other] = [self.name(end, None), self.name(node, between)];
+        let own = self.name(end, None);
+        let other = match (between, self.of_node[node]) {
+            (Some(_), _) => self.name(node, between),
+            (None, Some(_)) if self.is_end(node) => format!("`{}` of {}", self.topology.label(node), self.name(node, None)),
+            (None, Some(_)) => format!("a node of {}", self.name(node, None)),
+            (None, None) => self.name(node, None),
+        };
         let next = self.found.len();
-        let index = *self.known.entry((own, other.clone())).or_insert(next);
+        let pair = (own, between.is_some(), self.name(node, between));
+        let index = *self.known.entry(pair).or_insert(next);
         if index == next {
             self.found.push(Touch { node: end, other, between: between.is_some(), count: 1 });
         } else {
@@ -188,7 +201,7 @@ impl Search<'_, '_> {
             };
             let how = match between {
                 true => format!("lies on {other}, between its nodes"),
-                false => format!("lies at the same place as a node of {other}"),
+                false => format!("lies at the same place as {other}"),
             };
             let message = format!("`{label}`{of} {how}{more}, and nothing holds the two together");
             let hint = match between {
