@@ -99,7 +99,8 @@ impl<'d> GivenVelocities<'d> {
 
     /// Reports tables that give the same node different velocities.
     pub fn report_contradictions(&self, nodes: &Nodes, report: &mut Report<'d>) {
-        for Contradiction { givers: [earlier, later], quantity, values: [old, new], node, count } in &self.contradictions
+        for Contradiction { givers: [earlier, later], quantity, values: [old, new], node, count } in
+            &self.contradictions
         {
             let (earlier, later) = (&self.givers[*earlier], &self.givers[*later]);
             let more = match count - 1 {

@@ -50,8 +50,10 @@ impl Tolerance {
     /// `None` for a scene without extent.
     fn new(pieces: &[(PartIndex, Vec<usize>)], topology: &Topology) -> Option<Tolerance> {
         let x = |node: usize| topology.x(node);
-        let mut lengths: Vec<f64> =
-            pieces.iter().flat_map(|(_, nodes)| nodes.windows(2).map(|pair| (x(pair[1]) - x(pair[0])).norm())).collect();
+        let mut lengths: Vec<f64> = pieces
+            .iter()
+            .flat_map(|(_, nodes)| nodes.windows(2).map(|pair| (x(pair[1]) - x(pair[0])).norm()))
+            .collect();
         let origin = topology.list.first()?.x;
         let (low, high) = topology.list.iter().fold((origin, origin), |(low, high), n| (low.inf(&n.x), high.sup(&n.x)));
         let size = (high - low).amax();
@@ -166,7 +168,9 @@ impl Search<'_, '_> {
         let own = self.name(end, None);
         let other = match (between, self.of_node[node]) {
             (Some(_), _) => self.name(node, between),
-            (None, Some(_)) if self.is_end(node) => format!("`{}` of {}", self.topology.label(node), self.name(node, None)),
+            (None, Some(_)) if self.is_end(node) => {
+                format!("`{}` of {}", self.topology.label(node), self.name(node, None))
+            }
             (None, Some(_)) => format!("a node of {}", self.name(node, None)),
             (None, None) => self.name(node, None),
         };
