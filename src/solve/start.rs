@@ -216,7 +216,6 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
     ws.matrix.solve_augmented(multipliers, &mut ws.r);
     ws.solves += 1;
     multipliers.add(&ws.r[cx.nodal_unknowns()..]);
-    state.multipliers.copy_from_slice(&multipliers.values);
     for (node, rows) in state.nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
         for dof in 0..3 {
             if let Some(row) = rows.get(dof) {
@@ -228,6 +227,10 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
         }
     }
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
+    let multipliers = &mut ws.forces.multipliers;
+    cx.system.gaps(&state.nodes, 2, &mut multipliers.gaps);
+    multipliers.add_gaps();
+    state.multipliers.copy_from_slice(&multipliers.values);
 }
 
 /// Forms and factorizes M. Returns the rows without mass, whose accelerations stay.

@@ -48,4 +48,13 @@ impl Multipliers {
             *value += s * r;
         }
     }
+
+    /// Updates λ ← λ + s c with the gaps c that a solution has left: the penalty carries them, and equilibrium holds with the
+    /// sum. An iteration finds it in its next residual; a single solution must take it in.
+    #[inline]
+    pub fn add_gaps(&mut self) {
+        for ((value, s), c) in self.values.iter_mut().zip(&self.penalties).zip(&self.gaps) {
+            *value += s * c;
+        }
+    }
 }
