@@ -1,0 +1,272 @@
+//! What a deck says against itself or hardly means: it is said, and sound decks hear nothing.
+
+use assert_cmd::Command;
+use rdsolve::diagnostic::{Severity, Source};
+use rdsolve::model::{self, Model};
+
+const OPENING: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = 0.01
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+[sections.square]
+shape = "rectangle"
+width = 0.05
+height = 0.05
+"#;
+
+fn read(rest: &str) -> (Option<Model>, Vec<(Severity, String)>) {
+    let (model, said) = model::read(&Source::new("deck.toml", OPENING.to_owned() + rest, &[]));
+    (model, said.into_iter().map(|said| (said.severity, said.message)).collect())
+}
+
+/// What is said, without what is said of errors that follow.
+#[track_caller]
+fn says(rest: &str, severity: Severity, words: &[&str]) {
+    let (_, said) = read(rest);
+    let has = |(of, message): &(Severity, String)| *of == severity && words.iter().all(|word| message.contains(word));
+    assert!(said.iter().any(has), "{words:?} not in {said:#?}");
+}
+
+#[track_caller]
+fn is_silent(rest: &str) -> Model {
+    let (model, said) = read(rest);
+    assert!(said.is_empty(), "{said:#?}");
+    model.unwrap()
+}
+
+fn beam(name: &str, path: &str, elements: usize) -> String {
+    format!(
+        "[[beams]]\nname = \"{name}\"\npath = [{path}]\nelements = {elements}\nmaterial = \"steel\"\n\
+         section = \"square\"\norientation = [0.0, 1.0, 0.3]\n"
+    )
+}
+
+const BALL: &str = r#"
+[[bodies]]
+name = "ball"
+center = [0.0, 5.0, 0.0]
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+"#;
+
+fn initial(at: &str, rest: &str) -> String {
+    format!("[[initial]]\nat = \"{at}\"\n{rest}\n")
+}
+
+#[test]
+fn initial_velocities_that_contradict_each_other_are_an_error() {
+    let two = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [2.0, 0.0, 0.0]\n".to_owned()
+        + &beam("l", "\"a\", \"b\"", 4)
+        + &beam("r", "\"b\", \"c\"", 4);
+    let up = initial("l", "velocity = [0.0, 0.0, 1.0]");
+    says(
+        &(two.clone() + &up + &initial("r", "velocity = [0.0, 0.0, 2.0]")),
+        Severity::Error,
+        &["`b` is given two", "entry 1", "entry 2", "`velocity`"],
+    );
+    says(&(two.clone() + &up + &initial("all", "velocity = [0.0, 0.0, 2.0]")), Severity::Error, &["and 4 more"]);
+    let spinning = BALL.to_owned() + "angular_velocity = [0.0, 0.0, 1.0]\n";
+    says(
+        &(spinning.clone() + &initial("ball", "angular_velocity = [0.0, 0.0, 2.0]")),
+        Severity::Error,
+        &["body `ball`", "entry 1"],
+    );
+    // The motion of a rigid body is an angular velocity too, of zero where it says none.
+    says(
+        &(spinning + &initial("ball", "velocity = [1.0, 0.0, 0.0]\nabout = [0.0, 0.0, 0.0]")),
+        Severity::Error,
+        &["`angular_velocity`"],
+    );
+    is_silent(&(two.clone() + &up + &initial("r", "velocity = [0.0, 0.0, 1.0]")));
+    let model = is_silent(&(two + &up + &initial("r", "velocity = [0.0, 0.0, 2.0]\nreplaces = true")));
+    assert_eq!(model.nodes[1].v.z, 2.0);
+}
+
+#[test]
+fn initial_velocities_of_different_quantities_combine() {
+    let profile = "[amplitudes.there]\nkind = \"table\"\npoints = [[0.0, 0.0], [10.0, 1.0]]\n";
+    let spinning = BALL.to_owned() + "angular_velocity = [0.0, 0.0, 1.0]\n";
+    let with = "velocity = [4.0, 0.0, 0.0]\nprofile = [{ amplitude = \"there\", direction = [0.0, 1.0, 0.0] }]";
+    let model = is_silent(&(spinning + profile + &initial("ball", with)));
+    let ball = &model.nodes[0];
+    assert_eq!((ball.v.x, ball.omega.z), (2.0, 1.0));
+}
+
+#[test]
+fn initial_velocities_that_nothing_takes_are_said() {
+    let held = BALL.to_owned() + "velocity = [1.0, 0.0, 2.0]\n[[supports]]\nat = \"ball\"\nfix = [\"ux\"]\n";
+    says(&held, Severity::Warning, &["`ball`", "ux", "rest"]);
+    let moved = |speed: f64| {
+        format!(
+            "{BALL}[amplitudes.go]\nkind = \"constant\"\n[[supports]]\nat = \"ball\"\n\
+             motion = {{ ux = {{ amplitude = \"go\", scale = 3.0, history = \"velocity\" }} }}\n{}",
+            initial("ball", &format!("velocity = [{speed:?}, 0.0, 0.0]"))
+        )
+    };
+    says(&moved(1.0), Severity::Warning, &["`ball`", "ux", "another motion"]);
+    is_silent(&moved(3.0));
+    let bar = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[masses]]\nat = \"b\"\nmass = 1.0\n\
+               [[links]]\nname = \"spring\"\nfrom = { node = \"a\" }\nto = { node = \"b\" }\nstiffness = 10.0\n\
+               [[supports]]\nat = \"a\"\nfix = \"translations\"\n";
+    says(&(bar.to_owned() + &initial("b", "angular_velocity = [0.0, 0.0, 1.0]")), Severity::Warning, &["`b`"]);
+    // A whole part whose support rests is as it should be.
+    let beam = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n"
+        .to_owned()
+        + &beam("l", "\"a\", \"b\"", 4);
+    is_silent(&(beam + &initial("l", "velocity = [0.0, 0.0, 1.0]")));
+}
+
+#[test]
+fn tables_that_do_not_reach_the_ends_of_the_run_say_what_holds() {
+    let pushed = |points: &str, more: &str| {
+        format!(
+            "{BALL}[amplitudes.push]\nkind = \"table\"\npoints = {points}\n{more}\n\
+             [[loads]]\nat = \"ball\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"push\"\n"
+        )
+    };
+    says(&pushed("[[0.0, 0.0], [0.5, 2.0]]", ""), Severity::Warning, &["`push` ends at 0.5", "last value, 2"]);
+    says(&pushed("[[0.5, 2.0], [1.0, 0.0]]", ""), Severity::Warning, &["`push` begins at 0.5", "first value, 2"]);
+    is_silent(&pushed("[[0.0, 2.0], [0.5, 0.0]]", ""));
+    is_silent(&pushed("[[0.0, 2.0], [0.9999999, 3.0]]", ""));
+    let held = is_silent(&pushed("[[0.0, 0.0], [0.5, 2.0]]", "after = \"hold\""));
+    assert_eq!(held.loading.amplitudes[0].value(0.7), 2.0);
+    let ended = is_silent(&pushed("[[0.2, 1.0], [0.5, 2.0]]", "after = \"zero\"\nbefore = \"zero\""));
+    let value = |t: f64| ended.loading.amplitudes[0].value(t);
+    assert_eq!([value(0.1), value(0.2), value(0.35), value(0.7)], [0.0, 1.0, 1.5, 0.0]);
+    let late = pushed("[[0.0, 0.0], [1.0, 2.0]]", "").replace("points = [[0.0, 0.0], [1.0, 2.0]]", "start = 2.0");
+    says(&late.replace("\"table\"", "\"step\""), Severity::Warning, &["`push` is zero to the end"]);
+}
+
+const CORNER: &str = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nb2 = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\n";
+
+#[test]
+fn parts_that_touch_without_sharing_a_node_are_said() {
+    let apart = CORNER.to_owned() + &beam("l", "\"a\", \"b\"", 4) + &beam("r", "\"b2\", \"c\"", 4);
+    says(&apart, Severity::Warning, &["`b` of beam `l`", "`b2` of beam `r`"]);
+    let joint = "[[joints]]\nname = \"pin\"\nkind = \"spherical\"\nfrom = { node = \"b\" }\nto = { node = \"b2\" }\n";
+    is_silent(&(apart.clone() + joint));
+    let spring = "[[links]]\nname = \"pad\"\nfrom = { node = \"b\" }\nto = { node = \"b2\" }\n\
+                  bushing = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3]\n";
+    is_silent(&(apart.clone() + spring));
+    is_silent(&apart.replace("b2 = [1.0, 0.0, 0.0]", "b2 = [1.0, 0.0, 0.01]"));
+    // At mid-span, between nodes and on one.
+    for elements in [3, 4] {
+        let tee = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nm = [0.5, 0.0, 0.0]\nc = [0.5, 1.0, 0.0]\n"
+            .to_owned()
+            + &beam("l", "\"a\", \"b\"", elements)
+            + &beam("post", "\"m\", \"c\"", 4);
+        says(&tee, Severity::Warning, &["`m` of beam `post`", "beam `l`"]);
+    }
+    let plates = |more: &str| {
+        let shell = |name: &str, corners: &str| {
+            format!(
+                "[[shells]]\nname = \"{name}\"\ncorners = [{corners}]\nelements = [5, 5]\nmaterial = \"steel\"\n\
+                 thickness = 0.01\n"
+            )
+        };
+        "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nb2 = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\n\
+         c2 = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]\ne = [2.0, 0.0, 0.0]\nf = [2.0, 1.0, 0.0]\n\
+         g = [0.41, 0.33, 0.0]\nh = [0.41, 0.33, 1.0]\n"
+            .to_owned()
+            + &shell("left", "\"a\", \"b\", \"c\", \"d\"")
+            + &shell("right", "\"b2\", \"e\", \"f\", \"c2\"")
+            + more
+            + &beam("post", "\"g\", \"h\"", 2)
+    };
+    says(&plates(""), Severity::Warning, &["shell `left`", "`b2` of shell `right`"]);
+    says(&plates(""), Severity::Warning, &["`g` of beam `post`", "shell `left`"]);
+    // Bodies that only pass, and rest on the same ground, are none of it.
+    let body = BALL.replace("[0.0, 5.0, 0.0]", "[1.0, 0.0, 0.0]");
+    let tip = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n".to_owned() + &beam("l", "\"a\", \"b\"", 4) + &body;
+    says(&tip, Severity::Warning, &["body `ball`"]);
+    is_silent(&(tip + "[[attachments]]\nbody = \"ball\"\nnodes = [\"b\"]\n"));
+}
+
+#[test]
+fn sections_and_thicknesses_that_do_not_go_with_lengths_are_said() {
+    let one = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n".to_owned() + &beam("l", "\"a\", \"b\"", 4);
+    is_silent(&one);
+    let (_, said) = model::read(&Source::new("deck.toml", OPENING.replace("0.05", "50.0") + &one, &[]));
+    assert!(said.iter().any(|said| said.message.contains("about 50 deep, and the beam is 1 long")), "{said:?}");
+    let general = |moments: &str, torsion: &str| {
+        format!(
+            "[sections.given]\nshape = \"general\"\narea = 1e-2\nmoments = {moments}\ntorsion_constant = {torsion}\n\
+             shear_areas = [1e-2, 1e-2]\n{}",
+            one.replace("\"square\"", "\"given\"")
+        )
+    };
+    let sections = |text: String| {
+        let text = OPENING.split("[sections.square]").next().unwrap().to_owned() + &text;
+        model::read(&Source::new("deck.toml", text, &[])).1.into_iter().map(|said| said.message).collect::<Vec<_>>()
+    };
+    // A circle has 7.96e-6, the least of all; a flat strip of the same area far more about one axis than that.
+    assert!(sections(general("[7.96e-6, 7.96e-6]", "1.59e-5")).is_empty());
+    assert!(sections(general("[1e-7, 1e-3]", "4e-7")).is_empty());
+    assert!(sections(general("[1e-6, 1e-6]", "1e-6"))[0].contains("too small"));
+    assert!(sections(general("[1e-7, 1e-4]", "4e-7"))[0].contains("too small"));
+    assert!(sections(general("[1e-5, 1e-5]", "3e-5"))[0].contains("`torsion_constant`"));
+    let plate = "[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\nc = [2.0, 0.1, 0.0]\nd = [0.0, 0.1, 0.0]\n\
+                 [[shells]]\nname = \"strip\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [20, 1]\n\
+                 material = \"steel\"\nthickness = 0.2\n";
+    says(plate, Severity::Warning, &["shell `strip` is 0.2 thick", "0.0999 wide"]);
+    is_silent_about("thick", &plate.replace("thickness = 0.2", "thickness = 0.01"));
+}
+
+#[track_caller]
+fn is_silent_about(word: &str, rest: &str) {
+    let (_, said) = read(rest);
+    assert!(said.iter().all(|(_, message)| !message.contains(word)), "{said:#?}");
+}
+
+#[test]
+fn ends_apart_by_rounding_are_joined_with_a_note() {
+    let pair = |x: &str| {
+        format!(
+            "{BALL}[[bodies]]\nname = \"arm\"\ncenter = [0.0, 3.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+             [[joints]]\nname = \"pin\"\nkind = \"spherical\"\nfrom = {{ body = \"ball\", point = [0.0, 3.66667, 0.0] }}\n\
+             to = {{ body = \"arm\", point = [0.0, {x}, 0.0] }}\n"
+        )
+    };
+    is_silent(&pair("3.66667"));
+    says(&pair("3.66666"), Severity::Note, &["joint `pin`", "1e-5 apart"]);
+    says(&pair("3.667"), Severity::Error, &["joint `pin`", "same place"]);
+}
+
+/// Two masses on a spring that fly at a hundred times the speed of their vibration.
+fn flying(time_step: f64) -> String {
+    format!(
+        "[analysis]\nkind = \"dynamic\"\nend_time = 20.0\ntime_step = {time_step}\n\
+         [integrator]\nscheme = \"wilson-theta\"\n\
+         [points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n\
+         [[masses]]\nat = \"a\"\nmass = 1.0\n[[masses]]\nat = \"b\"\nmass = 1.0\n\
+         [[links]]\nname = \"spring\"\nfrom = {{ node = \"a\" }}\nto = {{ node = \"b\" }}\nstiffness = 20.0\n\
+         [[initial]]\nat = \"a\"\nvelocity = [99.0, 0.0, 0.0]\n[[initial]]\nat = \"b\"\nvelocity = [101.0, 0.0, 0.0]\n"
+    )
+}
+
+/// The vibration is a ten-thousandth of the energy: it may die away within 1e-4 of all.
+#[test]
+fn dissipation_is_measured_against_the_motion() {
+    for (time_step, warned) in [(0.1, true), (0.002, false)] {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("deck.toml"), flying(time_step)).unwrap();
+        let run =
+            Command::cargo_bin("rdsolve").unwrap().current_dir(&folder).args(["run", "deck.toml"]).assert().code(0);
+        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+        let (out, err) = (text(&run.get_output().stdout), text(&run.get_output().stderr));
+        let results = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).find(|path| path.is_dir());
+        let log = std::fs::read_to_string(results.unwrap().join("run.log")).unwrap();
+        for said in [&out, &log] {
+            assert!(said.contains("numerical dissipation: "), "{said}");
+        }
+        for said in [&err, &log] {
+            assert_eq!(said.contains("warning: numerical dissipation"), warned, "{time_step}: {said}");
+        }
+    }
+}
