@@ -38,7 +38,8 @@ pub struct Link {
     /// [[elongation, force], ...], two or more, elongations increasing; tension positive. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
     /// Six stiffnesses [x, y, z, about x, about y, about z] in the frame of the first end, force per length and
-    /// moment per radian, instead of a law.
+    /// moment per radian, instead of a law. About an axis whose stiffness differs from the other two, or else the softest,
+    /// the ends may turn without limit and full turns count; about others a run ends at half a turn.
     pub bushing: Maybe<Numbers<6>>,
     /// Six damping values of the bushing, force per velocity and moment per angular velocity. Default: 0.
     pub bushing_damping: Maybe<Numbers<6>>,

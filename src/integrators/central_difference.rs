@@ -2,8 +2,10 @@
 //! with the mass alone, velocities by the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping,
 //! periods shortened; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2, see [`super::stability_limit`].
 //! Momenta of what moves freely are kept.
-//! A rotation by Δt ω + ½ Δt² α is not the same from its end backwards: a body that spins under moments gains or loses energy
-//! steadily, by the third power of the step.
+//! A body that turns freely follows its angular momentum: exactly where two of its principal inertias agree, otherwise with an
+//! energy that swings by the square of the step. Where masses are coupled or directions restrained, a rotation by
+//! Δt ω + ½ Δt² α is not the same from its end backwards: such a body gains or loses energy steadily, by the third power of the
+//! step.
 //!
 //! Forces that depend on velocities meet the predicted ones, v + Δt a, which costs no order; the limit becomes
 //! ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1.
