@@ -22,7 +22,9 @@ height = 0.05
 
 fn read(rest: &str) -> (Option<Model>, Vec<(Severity, String)>) {
     let (model, said) = model::read(&Source::new("deck.toml", OPENING.to_owned() + rest, &[]));
-    (model, said.into_iter().map(|said| (said.severity, said.message)).collect())
+    // Not every scene has something of steel.
+    let said = said.into_iter().filter(|said| !said.message.starts_with("nothing uses"));
+    (model, said.map(|said| (said.severity, said.message)).collect())
 }
 
 /// What is said, without what is said of errors that follow.
@@ -70,7 +72,7 @@ fn initial_velocities_that_contradict_each_other_are_an_error() {
         Severity::Error,
         &["`b` is given two", "entry 1", "entry 2", "`velocity`"],
     );
-    says(&(two.clone() + &up + &initial("all", "velocity = [0.0, 0.0, 2.0]")), Severity::Error, &["and 4 more"]);
+    says(&(two.clone() + &up + &initial("all", "velocity = [0.0, 0.0, 2.0]")), Severity::Error, &["and 12 more"]);
     let spinning = BALL.to_owned() + "angular_velocity = [0.0, 0.0, 1.0]\n";
     says(
         &(spinning.clone() + &initial("ball", "angular_velocity = [0.0, 0.0, 2.0]")),
@@ -207,14 +209,14 @@ fn sections_and_thicknesses_that_do_not_go_with_lengths_are_said() {
     };
     // A circle has 7.96e-6, the least of all; a flat strip of the same area far more about one axis than that.
     assert!(sections(general("[7.96e-6, 7.96e-6]", "1.59e-5")).is_empty());
-    assert!(sections(general("[1e-7, 1e-3]", "4e-7")).is_empty());
+    assert!(sections(general("[1e-6, 1e-4]", "4e-6")).is_empty());
     assert!(sections(general("[1e-6, 1e-6]", "1e-6"))[0].contains("too small"));
     assert!(sections(general("[1e-7, 1e-4]", "4e-7"))[0].contains("too small"));
     assert!(sections(general("[1e-5, 1e-5]", "3e-5"))[0].contains("`torsion_constant`"));
     let plate = "[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\nc = [2.0, 0.1, 0.0]\nd = [0.0, 0.1, 0.0]\n\
                  [[shells]]\nname = \"strip\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [20, 1]\n\
                  material = \"steel\"\nthickness = 0.2\n";
-    says(plate, Severity::Warning, &["shell `strip` is 0.2 thick", "0.0999 wide"]);
+    says(plate, Severity::Warning, &["shell `strip` is 0.2 thick", "0.09988 wide"]);
     is_silent_about("thick", &plate.replace("thickness = 0.2", "thickness = 0.01"));
 }
 
