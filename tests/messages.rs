@@ -782,7 +782,7 @@ fn contacts() {
         portal_and(&format!("[[contacts]]\nname = \"touch\"\nsurface = {{ {surface} }}\n{more}"))
     };
     let plane = r#"shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0]"#;
-    assert_eq!(contact(plane, "with = \"portal\"\nradius = 0.0"), "");
+    assert_eq!(contact(plane, "with = \"portal\"\nradius = 0.0\nstiffness = 1e5"), "");
     let numbers = "with = [\"portel\", \"bumper\"]\nstiffness = -1.0\nfriction = -0.1\nrestitution = 1.5\ndamping = 1.0\nradius = -1.0";
     assert_snapshot!("contact_numbers", contact(plane, numbers));
     let box_on = r#"shape = "box", body = "block", size = [1.0, 0.0, 1.0], radius = 1.0, normal = [1.0, 0.0, 0.0]"#;

@@ -22,15 +22,15 @@ pub struct Contact {
     /// The surface that is touched.
     #[schemars(required)]
     pub surface: Maybe<OneOf<Surface>>,
-    /// What touches it, by name: points, bodies (corners of a box, rims of a cylinder, a sphere as it is),
-    /// sets, groups of the mesh, beams, bars, shells.
+    /// What touches it, by name: points, bodies (corners of a box, on a box its edges and faces too; rims of a
+    /// cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells.
     #[schemars(required)]
     pub with: Maybe<Names>,
     /// Contact radius: the distance from a point at which it touches, 0 or more. Default: half the thickness of
     /// shells, half the smaller side of a beam's section, the radius of a sphere; else 0.
     pub radius: Maybe<f64>,
     /// Penalty stiffness, force per penetration of each point, also for friction. 0: a clearance monitor,
-    /// nothing acts. Default in dynamics: such that an impact lasts 20 steps.
+    /// nothing acts. Default in dynamics: by material, size, weight and speed of what touches; `check` says it.
     pub stiffness: Maybe<f64>,
     /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1. Default: 1, nothing is
     /// lost. For a restitution of 0 give `damping`.

@@ -8,9 +8,10 @@ use super::scene::Scene;
 use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, MOST_NODES};
+use crate::elements::contact::{ContactPoint, MOST_NODES, Toucher, TouchingBox};
+use crate::math::Vec3;
 use crate::solids::Touching;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Largest number of points between two nodes; more are taken for a typing error.
 const MOST_POINTS: usize = 100;
@@ -37,15 +38,21 @@ pub(super) fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
     }
 }
 
-/// Finds the points of one contact.
+/// Finds the points and boxes of one contact.
 pub(super) struct Finder<'a, 'd> {
     pub scene: &'a Scene<'d>,
     pub topology: &'a mut Topology,
     pub report: &'a mut Report<'d>,
+    /// The node that carries the surface, where that is a box: bodies that are boxes touch it with their edges and faces too.
+    pub on_box: Option<usize>,
+    /// The boxes found.
+    pub boxes: Vec<TouchingBox>,
+    /// The shapes of all that was found.
+    pub touchers: BTreeSet<Toucher>,
 }
 
 impl<'d> Finder<'_, 'd> {
-    /// All points that may touch, each once.
+    /// All points that may touch, each once; boxes are left in `boxes`.
     pub fn touching(
         &mut self,
         owner: &Owner<'d>,
@@ -89,6 +96,8 @@ impl<'d> Finder<'_, 'd> {
         if !sound {
             return None;
         }
+        let inflated = given.unwrap_or(0.0);
+        self.boxes.iter_mut().for_each(|one| one.half.add_scalar_mut(inflated));
         let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
     }
@@ -114,9 +123,12 @@ impl<'d> Finder<'_, 'd> {
             let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
             return self.report.error(&at.span, message);
         }
-        let mut found = Vec::new();
+        let (mut found, boxes) = (Vec::new(), self.boxes.len());
         for place in self.scene.names.leaves(place) {
             self.touches_of(place, name, between, at, &mut found);
+        }
+        if found.is_empty() && self.boxes.len() > boxes {
+            return Some(found);
         }
         if found.is_empty() {
             // A part with errors of its own has no nodes, and these have been said.
@@ -128,7 +140,7 @@ impl<'d> Finder<'_, 'd> {
         if let Some(body) = carrier.map(|carrier| self.topology.root(carrier)) {
             found.retain(|touch| touch.nodes.iter().any(|&(node, _)| self.topology.root(node) != body));
         }
-        if found.is_empty() {
+        if found.is_empty() && self.boxes.len() == boxes {
             let message = format!("`{}` belongs to the body whose surface it would touch", at.value);
             return self.report.error_with(&at.span, message, "a body does not touch itself");
         }
@@ -148,6 +160,11 @@ impl<'d> Finder<'_, 'd> {
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        self.touchers.insert(match place {
+            Place::Body(body) => self.toucher_of_body(body),
+            Place::Part(_) | Place::Edge(..) => Toucher::Nodes,
+            _ => Toucher::Ball,
+        });
         match place {
             Place::Body(body) => self.touches_of_body(body, name, between, at, found),
             Place::Part(part) => {
@@ -164,6 +181,17 @@ impl<'d> Finder<'_, 'd> {
         }
     }
 
+    fn toucher_of_body(&self, body: usize) -> Toucher {
+        let shape = &self.scene.bodies[body].shape;
+        let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+        match shape.touching(0) {
+            Touching::Nodes => Toucher::Nodes,
+            Touching::Points(_) if is_drawn && shape.as_box().is_some() => Toucher::Box,
+            Touching::Points(_) if is_drawn => Toucher::Rims,
+            Touching::Points(_) | Touching::Ball(_) => Toucher::Ball,
+        }
+    }
+
     fn contact_radius(&self, part: PartIndex) -> f64 {
         self.scene.parts.entry(part).map_or(0.0, |entry| entry.contact_radius)
     }
@@ -172,6 +200,14 @@ impl<'d> Finder<'_, 'd> {
     fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+        if let (Some(carrier), Some(size), true) = (self.on_box, shape.as_box(), is_drawn)
+            && self.topology.root(carrier) != self.topology.root(node)
+        {
+            if self.boxes.iter().all(|one| one.node != node) {
+                self.boxes.push(TouchingBox { node, half: Vec3::from(size) * 0.5 });
+            }
+            return;
+        }
         let corners = match shape.touching(between) {
             Touching::Nodes => {
                 let dependents: HashMap<usize, usize> =

@@ -67,6 +67,10 @@ impl SolidShape for SolidCuboid {
         Outline { points, cells: vec![OutlineCell::Hexahedron] }
     }
 
+    fn as_box(&self) -> Option<[f64; 3]> {
+        (self.axes == Mat3::identity()).then_some(self.size)
+    }
+
     /// Corners, and as many points as asked for between them, on edges and faces.
     fn touching(&self, between: usize) -> Touching {
         let n = between + 1;

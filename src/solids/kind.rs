@@ -27,6 +27,11 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
 
     /// `between`: how many points are asked for between corners or rims.
     fn touching(&self, between: usize) -> Touching;
+
+    /// Full edge lengths of a box along the axes of its body, where it is one.
+    fn as_box(&self) -> Option<[f64; 3]> {
+        None
+    }
 }
 
 /// Where a body touches a surface.

@@ -1,9 +1,7 @@
 //! What falls, flies and lands: restitution, energies, momenta, and surfaces that hold whatever the step.
 
 use super::go;
-use crate::support::read_deck as read;
 use crate::support::slope;
-use rdsolve::model::Contact;
 use rdsolve::solve::Frame;
 
 /// A ball of radius 0.1 and mass 2 at a height above a floor.
@@ -223,14 +221,4 @@ fn a_ball_on_a_free_plate_of_shells() {
     assert!(last[0] > -0.5 && most > 1e-3 && drift < 1e-7, "{last:?} {most} {drift}");
     // Modes of the mesh that 2e-5 does not resolve are damped; nothing is gained.
     assert!(last[2] > -0.005 && last[2] < 0.1, "{last:?}");
-}
-
-/// Chosen by mass and time step, an impact lasts 20 steps: half a period of k/m.
-#[test]
-fn a_stiffness_left_open_suits_the_step() {
-    let model = read(&ball(0.01, -4.0, 0.0, 1e-3, 0.1, ""));
-    let contact = model.each::<Contact>().next().unwrap();
-    let law = contact.law.expect("a law");
-    let half_period = std::f64::consts::PI / (law.stiffness / 2.0).sqrt();
-    assert!((half_period - 0.02).abs() < 1e-12 && contact.chosen, "{half_period}");
 }

@@ -1,9 +1,11 @@
 //! Unilateral contact against closed forms.
 
+mod boxes;
 mod edges;
 mod element;
 mod impact;
 mod rubbing;
+mod stiffness;
 
 use crate::support::{Done, read_deck, run_to_the_end};
 use rdsolve::solve::Frame;

@@ -99,7 +99,9 @@ pub fn model() -> Model {
                 },
                 points: vec![],
                 law: None,
-                chosen: false,
+                chosen: None,
+                boxes: Vec::new(),
+                touchers: Default::default(),
             }),
         ],
         constraints: Constraints {

@@ -17,7 +17,7 @@ const IMPACT_SPEED: usize = 4;
 const AGE: usize = 5;
 const DAMPING_POWER: usize = 6;
 /// Here friction begins.
-const FRICTION_FORCE: usize = 7;
+pub(super) const FRICTION_FORCE: usize = 7;
 const ANCHOR: usize = 8;
 /// Here the rotations of nodes begin, four numbers each.
 const ROTATIONS: usize = 11;
@@ -27,6 +27,16 @@ const ROTATIONS: usize = 11;
 pub(super) struct PointHistory<'a>(&'a [f64]);
 
 impl<'a> PointHistory<'a> {
+    /// A view of a range of the history.
+    pub fn new(numbers: &'a [f64]) -> Self {
+        PointHistory(numbers)
+    }
+
+    /// All of its numbers.
+    pub fn numbers(self) -> &'a [f64] {
+        self.0
+    }
+
     /// Time after the last state before which the point cannot reach the surface and is not looked at.
     #[inline]
     pub fn safe_time(self) -> f64 {
@@ -131,6 +141,11 @@ impl<'a> PointHistoryMut<'a> {
     /// Sets |T|.
     pub fn set_friction_force(&mut self, force: f64) {
         self.0[FRICTION_FORCE] = force;
+    }
+
+    /// All of its numbers.
+    pub fn numbers(&mut self) -> &mut [f64] {
+        self.0
     }
 
     /// Sets the anchor, in the frame of the surface.

@@ -16,9 +16,10 @@
 //! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
 //! keep what a point remembers of the way it came; `block` is what the equations see; `steps` bounds the steps; `resultant`
-//! sums what is shown.
+//! sums what is shown. `boxes` are what two boxes do to each other.
 
 mod block;
+pub mod boxes;
 mod force;
 pub mod friction;
 mod history;
@@ -33,11 +34,13 @@ pub mod surfaces;
 mod tangent;
 mod update;
 
+pub use boxes::{BoxPairs, TouchingBox};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
 pub use point::{ContactPoint, MOST_NODES};
-pub use resultant::{Resultant, least_gap, resultant};
+pub use resultant::{Resultant, least_gap, pair_gap, pair_resultant, resultant};
 pub use steps::{longest_step, misses};
 pub use surface::Surface;
 pub use surfaces::SurfaceShape;
 pub use surfaces::kind::ClosestPoint;
+pub use surfaces::sight::Toucher;

@@ -1,5 +1,6 @@
 //! The results of a contact for output: the resultant of its points and its least gap.
 
+use super::boxes::{BoxPairs, BoxPose, TouchingBox};
 use super::force::touch;
 use super::kinematics::Contacts;
 use super::point::ContactPoint;
@@ -43,4 +44,28 @@ pub fn least_gap(surface: &Surface, carrier: usize, points: &[ContactPoint], nod
     let gap =
         |point: &ContactPoint| surface.distance(&R.tr_mul(&point.relative_position(carrier, nodes))) - point.radius;
     points.iter().map(gap).fold(f64::INFINITY, f64::min)
+}
+
+/// The resultant of the forces of all pairs of boxes on the box that is touched; each that touches counts once.
+pub fn pair_resultant(pairs: &BoxPairs, now: &Configuration) -> Resultant {
+    let mut sum = Resultant::default();
+    for (at, acting) in (0..pairs.boxes.len()).filter_map(|e| pairs.touch(e, now)) {
+        let (f, m) = at.global(&acting.W);
+        sum.touching += 1;
+        sum.f -= f;
+        sum.m -= m + at.d.cross(&f);
+    }
+    sum
+}
+
+/// Least distance of boxes from a box; infinite where there are none.
+pub fn pair_gap(surface: &Surface, carrier: usize, boxes: &[TouchingBox], nodes: &[Node]) -> f64 {
+    let Some(other) = surface.as_box() else { return f64::INFINITY };
+    let (carrier, R) = (&nodes[carrier], nodes[carrier].R());
+    let gap = |one: &TouchingBox| {
+        let y = surface.axes.tr_mul(&(R.tr_mul(&nodes[one.node].relative_position(carrier)) - surface.center));
+        let Q = (R * surface.axes).tr_mul(&nodes[one.node].R());
+        BoxPose { y, Q, own: one.half, other }.distance()
+    };
+    boxes.iter().map(gap).fold(f64::INFINITY, f64::min)
 }

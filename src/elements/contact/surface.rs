@@ -39,6 +39,16 @@ impl Surface {
         self.shape.reach()
     }
 
+    /// The smallest dimension; infinite for a plane.
+    pub fn least(&self) -> f64 {
+        self.shape.least()
+    }
+
+    /// Half the edges, where it is a box.
+    pub fn as_box(&self) -> Option<Vec3> {
+        self.shape.as_box()
+    }
+
     /// True when a point in the plane through the shape's origin normal to a global axis feels no force out of that plane.
     pub fn keeps(&self, axis: usize) -> bool {
         self.shape.keeps(&(self.axes.transpose() * Vec3::ith(axis, 1.0)))

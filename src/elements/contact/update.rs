@@ -42,7 +42,7 @@ pub(super) fn update_point(
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let end_gap = if known { toward(old.gap(), gap) } else { gap - rate * beyond };
     new.set_motion(end_gap, toward(old.rate(), rate), safe(end_gap));
-    new.set_impact(impact(contacts, gap, rate, dt, old, new.read()));
+    new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
     let power = if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 };
     new.set_damping_power(toward(old.damping_power(), power));
     spent.impact = 0.5 * dt * (old.damping_power() + new.read().damping_power());
@@ -54,7 +54,13 @@ pub(super) fn update_point(
 
 /// The impact speed and the age to come. `gap` and `rate` are those at the instant of equilibrium; `new` has those at the end
 /// of the step.
-fn impact(contacts: &Contacts, gap: f64, rate: f64, dt: f64, old: PointHistory, new: PointHistory) -> (f64, f64) {
+pub(super) fn impact(
+    duration: f64,
+    (gap, rate): (f64, f64),
+    dt: f64,
+    old: PointHistory,
+    new: PointHistory,
+) -> (f64, f64) {
     let known = old.is_known();
     let touches = new.gap() <= 0.0;
     let touched = known && old.gap() <= 0.0;
@@ -71,7 +77,7 @@ fn impact(contacts: &Contacts, gap: f64, rate: f64, dt: f64, old: PointHistory, 
         // The point touched at the instant of equilibrium: the acceleration of that is carried on.
         (false, false) if gap <= 0.0 => (old.rate().max(rate).max(0.0), 0.0),
         // The impact is over for good once the acceleration it leaves to the scheme is gone.
-        (false, false) if old.age() + dt < contacts.law.duration => (old.impact_speed(), old.age() + dt),
+        (false, false) if old.age() + dt < duration => (old.impact_speed(), old.age() + dt),
         (false, false) => (0.0, 0.0),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::integrals::{MassIntegrals, along};
 use super::node::Node;
-use super::part_answers::{Drawing, NodeWeights, PartAnswers};
+use super::part_answers::{Drawing, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::materials::MaterialLaw;
 use crate::math::{Mat3, Vec3};
@@ -60,6 +60,10 @@ impl PartAnswers for Bar {
     fn element_mass(&self, element: usize, nodes: &[Node], _: &[Stiffness]) -> f64 {
         let [start, end] = self.elements[element].map(|node| nodes[node].x);
         self.mass_per_length * (start - end).norm()
+    }
+
+    fn stretching(&self, nodes: &[Node], _: &[Stiffness]) -> Option<f64> {
+        Some(self.axial_stiffness / extent(self.elements.iter().flatten(), nodes))
     }
 
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {

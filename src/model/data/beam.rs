@@ -2,7 +2,7 @@
 
 use super::integrals::{MassIntegrals, along};
 use super::node::Node;
-use super::part_answers::{Drawing, NodeWeights, PartAnswers};
+use super::part_answers::{Drawing, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::elements::beam::FibreModel;
 use crate::math::{Mat3, Vec3, quadrature};
@@ -69,6 +69,11 @@ impl PartAnswers for Beam {
     fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {
         let [start, end] = self.elements[element].ends(self.order).map(|node| nodes[node].x);
         stiffnesses[self.elements[element].section].mass_per_length * (start - end).norm()
+    }
+
+    fn stretching(&self, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
+        let axial = self.elements.iter().map(|element| stiffnesses[element.section].N[(0, 0)]).reduce(f64::min)?;
+        Some(axial / extent(self.elements.iter().flat_map(|e| &e.nodes[..=self.order]), nodes))
     }
 
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {

@@ -1,8 +1,9 @@
 //! Contacts: points against a surface.
 
 use super::part_answers::PartAnswers;
-use crate::elements::contact::{ContactLaw, ContactPoint, Surface};
+use crate::elements::contact::{ContactLaw, ContactPoint, Surface, Toucher, TouchingBox};
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column};
+use std::collections::BTreeSet;
 
 /// Points against a surface.
 #[derive(Debug, Clone)]
@@ -15,10 +16,14 @@ pub struct Contact {
     pub surface: Surface,
     /// The points.
     pub points: Vec<ContactPoint>,
+    /// Boxes that touch the surface, which is a box then, with their corners, edges and faces.
+    pub boxes: Vec<TouchingBox>,
+    /// The shapes of all that touches, by which `check` says what is not seen.
+    pub touchers: BTreeSet<Toucher>,
     /// The contact law; `None` for a clearance monitor, which exerts no force.
     pub law: Option<ContactLaw>,
-    /// True where the deck leaves the stiffness to the program.
-    pub chosen: bool,
+    /// By what the stiffness was chosen, where the deck leaves it to the program.
+    pub chosen: Option<String>,
 }
 
 impl PartAnswers for Contact {
@@ -29,16 +34,20 @@ impl PartAnswers for Contact {
     }
 
     fn elements(&self) -> usize {
-        self.points.len()
+        self.points.len() + self.boxes.len()
     }
 
     fn nodes(&self, element: usize) -> &[usize] {
-        self.points[element].nodes()
+        match element.checked_sub(self.points.len()) {
+            Some(of_boxes) => std::slice::from_ref(&self.boxes[of_boxes].node),
+            None => self.points[element].nodes(),
+        }
     }
 
     fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
         visit(&mut self.node);
-        self.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(visit);
+        self.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(&mut *visit);
+        self.boxes.iter_mut().for_each(|one| visit(&mut one.node));
     }
 
     fn may_stiffen(&self) -> bool {

@@ -59,7 +59,7 @@ impl Part {
         self.kind() == other.kind() && self.name() == other.name()
     }
 
-    /// Number of elements; a link is one, and so is each point of a contact.
+    /// Number of elements; a link is one, and so is each point and each box of a contact.
     pub fn elements(&self) -> usize {
         ask!(self, elements)
     }
@@ -102,6 +102,12 @@ impl Part {
     /// The mass of an element at t = 0, whether or not the deck asks to keep it.
     pub fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {
         ask!(self, element_mass element, nodes, stiffnesses)
+    }
+
+    /// The stiffness against stretching of the whole part, E A over its extent at t = 0, E times the thickness of a shell; `None`
+    /// for what has none.
+    pub fn stretching(&self, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
+        ask!(self, stretching nodes, stiffnesses)
     }
 
     /// How an element is drawn; `None` for a contact, whose surface and points are drawn with what carries them.

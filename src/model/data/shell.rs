@@ -85,6 +85,10 @@ impl PartAnswers for Shell {
         self.density * self.plate.thickness * (0.5 * twice)
     }
 
+    fn stretching(&self, _: &[Node], _: &[Stiffness]) -> Option<f64> {
+        Some(self.plate.E * self.plate.thickness)
+    }
+
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
         Some(Drawing::Face { corners: self.nodes(element) })
     }

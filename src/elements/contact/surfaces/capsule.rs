@@ -57,6 +57,10 @@ impl Touched for Capsule {
         self.radius + self.half
     }
 
+    fn least(&self) -> f64 {
+        2.0 * self.radius
+    }
+
     fn keeps(&self, e: &Vec3) -> bool {
         across(e, 2) || along(e, 2)
     }

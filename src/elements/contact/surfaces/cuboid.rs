@@ -66,6 +66,10 @@ impl Touched for Cuboid {
         Vec3::from(self.half).norm()
     }
 
+    fn least(&self) -> f64 {
+        2.0 * Vec3::from(self.half).min()
+    }
+
     /// Inside, the nearest face must not be one of the two that lie along the plane.
     fn keeps(&self, e: &Vec3) -> bool {
         (0..3).any(|i| along(e, i) && (0..3).any(|j| j != i && self.half[j] < self.half[i]))

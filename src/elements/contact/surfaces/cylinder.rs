@@ -66,6 +66,10 @@ impl Touched for Cylinder {
         self.radius.hypot(self.half)
     }
 
+    fn least(&self) -> f64 {
+        2.0 * self.radius.min(self.half)
+    }
+
     fn keeps(&self, e: &Vec3) -> bool {
         across(e, 2) || along(e, 2) && self.half > self.radius
     }

@@ -17,6 +17,9 @@ pub trait Touched {
     /// Radius of a ball about the origin that holds it; infinite where none does.
     fn reach(&self) -> f64;
 
+    /// The smallest dimension; infinite where there is none.
+    fn least(&self) -> f64;
+
     /// True when a point in the plane through the origin normal to the unit vector e feels no force out of that plane.
     fn keeps(&self, e: &Vec3) -> bool;
 }

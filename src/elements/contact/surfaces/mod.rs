@@ -6,6 +6,7 @@ pub mod cuboid;
 pub mod cylinder;
 pub mod kind;
 pub mod plane;
+pub mod sight;
 pub mod sphere;
 
 use crate::math::Vec3;
@@ -29,6 +30,11 @@ macro_rules! surfaces {
         })),+];
 
         impl SurfaceShape {
+            /// Half the edges, where it is a box.
+            pub fn as_box(&self) -> Option<Vec3> {
+                if let SurfaceShape::Cuboid(cuboid) = self { Some(cuboid.half.into()) } else { None }
+            }
+
             /// The deck's word for it.
             pub fn word(&self) -> &'static str {
                 match self {
@@ -55,6 +61,12 @@ macro_rules! surfaces {
             fn reach(&self) -> f64 {
                 match self {
                     $(SurfaceShape::$Shape(shape) => shape.reach()),+
+                }
+            }
+
+            fn least(&self) -> f64 {
+                match self {
+                    $(SurfaceShape::$Shape(shape) => shape.least()),+
                 }
             }
 

@@ -39,6 +39,10 @@ impl Touched for Plane {
         f64::INFINITY
     }
 
+    fn least(&self) -> f64 {
+        f64::INFINITY
+    }
+
     fn keeps(&self, e: &Vec3) -> bool {
         across(e, 2)
     }

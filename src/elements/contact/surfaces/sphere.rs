@@ -39,6 +39,10 @@ impl Touched for Sphere {
         self.radius
     }
 
+    fn least(&self) -> f64 {
+        2.0 * self.radius
+    }
+
     fn keeps(&self, _: &Vec3) -> bool {
         true
     }

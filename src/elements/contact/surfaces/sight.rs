@@ -1,0 +1,56 @@
+//! What a pair of shapes does not see of each other: for whatever touches, against each surface. `check` says it of every contact.
+
+use super::SurfaceShape;
+
+/// The shape of what touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Toucher {
+    /// A sphere, or a point with its contact radius.
+    Ball,
+    /// A body that is a box.
+    Box,
+    /// A body that is a cylinder or a tube: points of its rims.
+    Rims,
+    /// Nodes of a part or of a body of rigid parts, and places between them that are asked for.
+    Nodes,
+}
+
+impl Toucher {
+    /// All of them.
+    pub const ALL: [Toucher; 4] = [Toucher::Ball, Toucher::Box, Toucher::Rims, Toucher::Nodes];
+
+    /// What of the one and of the surface is not seen; `None` where they see each other in full.
+    pub fn unseen(self, surface: &SurfaceShape) -> Option<&'static str> {
+        match (self, surface) {
+            (Toucher::Ball, _) => None,
+            // A box touches a plane with its corners, whatever else lies on it, and a box with all of both.
+            (Toucher::Box, SurfaceShape::Plane(_) | SurfaceShape::Cuboid(_)) => None,
+            (Toucher::Box, SurfaceShape::Sphere(_) | SurfaceShape::Cylinder(_) | SurfaceShape::Capsule(_)) => {
+                Some("edges and faces of the box between its points")
+            }
+            (Toucher::Rims, SurfaceShape::Plane(_)) => Some("the rim between its points"),
+            (
+                Toucher::Rims,
+                SurfaceShape::Cuboid(_)
+                | SurfaceShape::Sphere(_)
+                | SurfaceShape::Cylinder(_)
+                | SurfaceShape::Capsule(_),
+            ) => Some("ends and side of the cylinder between its points"),
+            (Toucher::Nodes, SurfaceShape::Plane(_)) => Some("what bends between nodes"),
+            (
+                Toucher::Nodes,
+                SurfaceShape::Cuboid(_)
+                | SurfaceShape::Sphere(_)
+                | SurfaceShape::Cylinder(_)
+                | SurfaceShape::Capsule(_),
+            ) => Some("what lies between nodes"),
+        }
+    }
+
+    /// True where a body as a whole may pass the surface unseen, and not only sink in a little further than it should.
+    pub fn may_pass(self, surface: &SurfaceShape) -> bool {
+        matches!(self, Toucher::Box | Toucher::Rims)
+            && self.unseen(surface).is_some()
+            && !matches!(surface, SurfaceShape::Plane(_))
+    }
+}

@@ -1,0 +1,199 @@
+//! The numbers of a contact law, from the deck and the masses that meet.
+
+use super::contact_stiffness::{ChosenStiffness, Meets};
+use super::data::{AnalysisKind, Mass, StepLength};
+use super::nodes::Topology;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use crate::deck::contacts as words;
+use crate::elements::contact::restitution::{self, Loss};
+use crate::elements::contact::{ContactLaw, ContactPoint, MOST_NODES, Surface, TouchingBox};
+use crate::math::Vec3;
+use crate::names::short;
+use std::f64::consts::{PI, TAU};
+
+/// Fraction of 1/√(k/m) that a step of an impact may reach ahead: an impact then takes nine steps or more.
+const RESOLUTION: f64 = 0.5;
+/// Steps that an impact should last where nothing cuts them, by the chapter on contact stiffness.
+const STEPS: f64 = 10.0;
+
+/// Reads the numbers of a contact law.
+pub(super) struct LawReader<'a, 'd> {
+    pub scene: &'a Scene<'d>,
+    /// Point masses of the deck.
+    pub masses: &'a [Mass],
+    /// For each node the mass that it moves.
+    pub at_nodes: &'a [f64],
+    pub gravity: Vec3,
+    pub topology: &'a Topology,
+}
+
+/// The masses that meet at the points of a contact.
+struct Meeting {
+    /// The largest mass that takes part in an impact.
+    mean: f64,
+    /// The least such mass, with the rotation of bodies.
+    least: f64,
+    /// True where only bodies and point masses are in contact.
+    rigid: bool,
+}
+
+impl LawReader<'_, '_> {
+    /// The law, and why its stiffness was chosen where the deck leaves it open.
+    pub fn contact_law(
+        &self,
+        owner: &Owner,
+        contact: &words::Contact,
+        (carrier, surface): (usize, &Surface),
+        touching: (&[ContactPoint], &[TouchingBox]),
+        report: &mut Report,
+    ) -> Option<(ContactLaw, Option<String>)> {
+        if report.is_spoiled(owner.span, "stiffness") {
+            return None;
+        }
+        let (points, levers) = with_boxes(touching);
+        let meeting = self.meeting(carrier, &points, &levers);
+        let chosen = match &contact.stiffness {
+            Some(_) => None,
+            None => match self.chosen_stiffness(&meeting, (carrier, surface), &points) {
+                Ok(chosen) => Some(chosen),
+                Err(hint) => return report.error_with(owner.span, format!("{} needs `stiffness`", owner.what), hint),
+            },
+        };
+        let given = contact.stiffness.as_ref().map(|at| at.value);
+        let stiffness = given.or(chosen.as_ref().map(|chosen| chosen.stiffness))?;
+        if chosen.is_some() {
+            self.check_step(owner, &meeting, stiffness, report);
+        }
+        Some((self.law(contact, &meeting, stiffness), chosen.map(|chosen| chosen.reason)))
+    }
+
+    fn law(&self, contact: &words::Contact, meeting: &Meeting, stiffness: f64) -> ContactLaw {
+        let dynamic = self.scene.analysis.kind == AnalysisKind::Dynamic;
+        let mass = if meeting.least.is_finite() { meeting.least } else { meeting.mean };
+        let frequency = if mass > 0.0 { (stiffness / mass).sqrt() } else { f64::INFINITY };
+        let first = self.topology.x(0);
+        let extent = self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max);
+        // An approach that sinks in no deeper than the weight does is no impact. Where there is no weight, a trace of length.
+        let floor = (self.gravity.norm() / frequency).max(if mass > 0.0 { 1e-7 * extent * frequency } else { 0.0 });
+        let loss = match (&contact.restitution, &contact.damping) {
+            (Some(at), _) if at.value < 1.0 => Loss::Restitution { number: restitution::number(at.value), floor },
+            (_, Some(at)) if at.value > 0.0 => Loss::Damping(at.value),
+            _ => Loss::None,
+        };
+        let resolved = dynamic && meeting.rigid && frequency.is_finite();
+        ContactLaw {
+            stiffness,
+            loss,
+            friction: contact.friction.as_ref().map_or(0.0, |at| at.value),
+            floor,
+            resolution: if resolved { RESOLUTION / frequency } else { f64::INFINITY },
+            duration: TAU / frequency,
+            near: 0.01 * extent,
+            dynamic,
+        }
+    }
+
+    /// Warns where nothing cuts steps that are too long for an impact on the stiffness that was chosen.
+    fn check_step(&self, owner: &Owner, meeting: &Meeting, stiffness: f64, report: &mut Report) {
+        let StepLength::Fixed { step } = self.scene.analysis.step_length else { return };
+        let impact = PI * (meeting.least / stiffness).sqrt();
+        if meeting.rigid || !impact.is_finite() || step * STEPS <= impact {
+            return;
+        }
+        let message = format!(
+            "the step is too long for the stiffness chosen for {}, {}: an impact of one node lasts {}",
+            owner.what,
+            short(stiffness),
+            short(impact)
+        );
+        let hint = format!(
+            "give a `time_step` of {} or less, or a `stiffness` of {} or less",
+            short(impact / STEPS),
+            short(meeting.least * (PI / (STEPS * step)).powi(2))
+        );
+        report.warn(owner.span, message, hint);
+    }
+
+    /// The penetration under gravity, where the largest mass in contact rests on one point.
+    pub fn depth_at_rest(&self, carrier: usize, touching: (&[ContactPoint], &[TouchingBox]), stiffness: f64) -> f64 {
+        let (points, levers) = with_boxes(touching);
+        self.gravity.norm() * self.meeting(carrier, &points, &levers).mean / stiffness
+    }
+
+    /// The stiffness by what touches, or why none can be chosen.
+    fn chosen_stiffness(
+        &self,
+        meeting: &Meeting,
+        surface: (usize, &Surface),
+        points: &[ContactPoint],
+    ) -> Result<ChosenStiffness, &'static str> {
+        if self.scene.analysis.kind != AnalysisKind::Dynamic {
+            return Err(
+                "in a static analysis nothing says how stiff it should be: give force over the penetration that may be",
+            );
+        }
+        if meeting.mean <= 0.0 {
+            return Err("nothing that touches has a mass to choose it by");
+        }
+        let gravity = self.gravity.norm();
+        Ok(Meets { scene: self.scene, topology: self.topology, gravity, surface, points }.stiffness(meeting.mean))
+    }
+
+    /// The mass that resists a motion of a node. Dependent nodes have that of what they depend on.
+    fn mass(&self, node: usize) -> f64 {
+        let root = self.topology.root(node);
+        let restrained = (0..3).all(|dof| self.topology.restraint(root, dof).is_some());
+        if restrained { f64::INFINITY } else { self.at_nodes.get(root).copied().unwrap_or(0.0) }
+    }
+
+    fn meeting(&self, carrier: usize, points: &[ContactPoint], levers: &[f64]) -> Meeting {
+        let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
+        let other = if on_ground { f64::INFINITY } else { self.mass(carrier) };
+        let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, true);
+        for (point, &lever) in points.iter().zip(levers) {
+            let own: f64 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w.abs() * self.mass(node)).sum();
+            let reduced = 1.0 / (1.0 / own + 1.0 / other);
+            let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
+            rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
+            // More than the node's own mass takes part in an impact of a body on a deformable part.
+            let taken = if is_body || !other.is_finite() { reduced } else { (own * other).sqrt() };
+            mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
+            least = if reduced > 0.0 { least.min(1.0 / (1.0 / reduced + self.ease(point, lever))) } else { least };
+        }
+        Meeting { mean, least, rigid }
+    }
+
+    /// True where point masses are more than half of the mass at a node.
+    fn is_weighted(&self, node: usize) -> bool {
+        let own: f64 = self.masses.iter().filter(|mass| mass.node == node).map(|mass| mass.mass).sum();
+        own > 0.5 * self.at_nodes.get(node).copied().unwrap_or(0.0)
+    }
+
+    /// The compliance r²/J by which a body is easier to move at a point, or at a lever from it, than at its centre.
+    fn ease(&self, point: &ContactPoint, lever: f64) -> f64 {
+        let root = self.topology.root(point.nodes[0]);
+        let body = self.scene.bodies.iter().find(|body| body.node == root);
+        body.map_or(0.0, |body| {
+            let r = (self.topology.x(point.nodes[0]) - self.topology.x(root)).norm() + lever;
+            if body.inertia.trace() > 0.0 { 3.0 * r * r / body.inertia.trace() } else { 0.0 }
+        })
+    }
+
+    /// True for the node of a body or a point mass that belongs to no deformable part.
+    fn is_lump(&self, node: usize) -> bool {
+        self.scene.bodies.iter().any(|body| body.node == node)
+            || self.masses.iter().any(|mass| mass.node == node) && !self.scene.parts.has_node(node)
+    }
+}
+
+/// Points, with a ball within each box for the box itself, and how far beyond the point it may be touched.
+fn with_boxes((points, boxes): (&[ContactPoint], &[TouchingBox])) -> (Vec<ContactPoint>, Vec<f64>) {
+    let ball = |one: &TouchingBox| {
+        let (nodes, mut weights) = ([one.node; MOST_NODES], [0.0; MOST_NODES]);
+        weights[0] = 1.0;
+        ContactPoint { nodes, weights, count: 1, radius: one.half.min(), rolling_radius: 0.0 }
+    };
+    let levers = points.iter().map(|_| 0.0).chain(boxes.iter().map(|one| one.half.norm())).collect();
+    (points.iter().cloned().chain(boxes.iter().map(ball)).collect(), levers)
+}

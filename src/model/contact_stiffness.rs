@@ -1,0 +1,133 @@
+//! The penalty stiffness where the deck leaves it open: by the material and size of what touches, by weight and by speed. It does
+//! not depend on the time step, so that results converge with it.
+
+use super::nodes::Topology;
+use super::scene::Scene;
+use super::values::vec3;
+use crate::elements::contact::{ContactPoint, Surface};
+use crate::math::Vec3;
+use crate::names::short;
+use std::collections::HashSet;
+
+/// The part of the size of what touches that weight on one point presses it in: nobody sees it.
+const SUNK: f64 = 1e-3;
+/// The part of the size that an impact presses in: it is over before anything has turned, and steps can follow it.
+const STRUCK: f64 = 1e-2;
+
+/// A stiffness and why it is that.
+pub(super) struct ChosenStiffness {
+    pub stiffness: f64,
+    pub reason: String,
+}
+
+/// What meets in a contact.
+pub(super) struct Meets<'a, 'd> {
+    pub scene: &'a Scene<'d>,
+    pub topology: &'a Topology,
+    /// Its magnitude.
+    pub gravity: f64,
+    /// The node that carries the surface, and the surface.
+    pub surface: (usize, &'a Surface),
+    pub points: &'a [ContactPoint],
+}
+
+impl Meets<'_, '_> {
+    /// The stiffness for the mass that meets: the largest that material, weight and speed ask for.
+    pub fn stiffness(&self, mass: f64) -> ChosenStiffness {
+        let (size, speed) = (self.size(), self.speed());
+        let mut choices = Vec::new();
+        match self.softest_part() {
+            Some((stiffness, part)) => choices.push((stiffness, format!("E A over the extent of `{part}`"))),
+            None if speed > 0.0 => {
+                let depth = format!("an impact at {} presses {} in", short(speed), short(STRUCK * size));
+                choices.push((mass * (speed / (STRUCK * size)).powi(2), depth));
+            }
+            None => {}
+        }
+        if self.gravity > 0.0 {
+            let depth = format!("a weight of {} presses {} in", short(mass * self.gravity), short(SUNK * size));
+            choices.push((mass * self.gravity / (SUNK * size), depth));
+        }
+        if choices.is_empty() {
+            let pace = self.extent() / self.scene.analysis.end_time;
+            let reason = format!(
+                "nothing moves at t = 0; at {}, the scene in the run, {} deep",
+                short(pace),
+                short(STRUCK * size)
+            );
+            choices.push((mass * (pace / (STRUCK * size)).powi(2), reason));
+        }
+        let largest = choices.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        let (stiffness, reason) = largest.unwrap_or_default();
+        ChosenStiffness { stiffness, reason }
+    }
+
+    /// The least stiffness of the deformable parts that touch, by their names.
+    fn softest_part(&self) -> Option<(f64, &str)> {
+        let touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();
+        let parts = self.scene.parts.list.iter().filter(|part| {
+            (0..part.elements()).flat_map(|element| part.nodes(element)).any(|node| touching.contains(node))
+        });
+        let stiffness = |part: &super::data::Part| part.stretching(&self.topology.list, &self.scene.parts.stiffnesses);
+        parts.filter_map(|part| Some((stiffness(part)?, part.name()))).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The smallest dimension of what touches and of what is touched; that of the scene where neither has one.
+    fn size(&self) -> f64 {
+        let body = |point: &ContactPoint| {
+            let root = self.topology.root(point.nodes[0]);
+            let body = self.scene.bodies.iter().find(|body| body.node == root)?;
+            let points = body.shape.outline().points;
+            let width = |i: usize| {
+                let side = points.iter().map(|p| p[i]);
+                side.clone().fold(f64::NEG_INFINITY, f64::max) - side.fold(f64::INFINITY, f64::min)
+            };
+            Some((0..3).map(width).fold(f64::INFINITY, f64::min)).filter(|width| *width > 0.0)
+        };
+        let of_point = |point: &ContactPoint| match point.radius {
+            radius if radius > 0.0 => 2.0 * radius,
+            _ => body(point).unwrap_or(f64::INFINITY),
+        };
+        let points = self.points.iter().map(of_point).fold(f64::INFINITY, f64::min);
+        let size = points.min(self.surface.1.least());
+        if size.is_finite() { size } else { self.extent() }
+    }
+
+    /// The largest extent of the scene; of one point, a length of one.
+    fn extent(&self) -> f64 {
+        let first = self.topology.x(0);
+        let extent = self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max);
+        if extent > 0.0 { extent } else { 1.0 }
+    }
+
+    /// The speed of the impact to come, as far as the deck says: velocities at t = 0, and the fall through the gap.
+    fn speed(&self) -> f64 {
+        let (carrier, surface) = self.surface;
+        let center = self.topology.x(carrier);
+        let velocity = |x: &Vec3, node: usize| {
+            let root = &self.topology.list[self.topology.root(node)];
+            root.v + root.omega.cross(&(x - root.x))
+        };
+        let (mut fastest, mut gap) = (0.0f64, f64::INFINITY);
+        for point in self.points {
+            let parts = || point.nodes().iter().zip(point.weights);
+            let x: Vec3 = parts().map(|(&node, w)| w * self.topology.x(node)).sum();
+            let v: Vec3 = parts().map(|(&node, w)| w * velocity(&x, node)).sum();
+            fastest = fastest.max((v - velocity(&x, carrier)).norm());
+            gap = gap.min(surface.distance(&(x - center)) - point.radius);
+        }
+        let fall = if gap.is_finite() { 2.0 * self.gravity * gap.max(0.0) } else { 0.0 };
+        let thrown = fastest + self.given_speed();
+        (thrown * thrown + fall).sqrt()
+    }
+
+    /// The largest velocity that tables of initial motion give.
+    fn given_speed(&self) -> f64 {
+        let of = |table: &crate::deck::initial::Initial| {
+            let v = table.velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
+            let turning = table.angular_velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
+            v + table.normal_velocity.as_ref().map_or(0.0, |at| at.value.abs()) + turning * self.size()
+        };
+        self.scene.deck.initial.iter().map(|table| of(table)).fold(0.0, f64::max)
+    }
+}
