@@ -33,6 +33,7 @@ mod resultants;
 mod safety_cab;
 mod schemes;
 mod shells;
+mod statics;
 mod study;
 mod turning;
 

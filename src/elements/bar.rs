@@ -141,6 +141,10 @@ struct Tension {
 }
 
 impl ElementBlock for YieldingBars {
+    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
+        !self.tension_only && self.strain(e, before).e.dot(&self.strain(e, now).e) < 0.0
+    }
+
     fn len(&self) -> usize {
         self.elements.len()
     }

@@ -3,7 +3,7 @@
 use super::results::{IntegrationPoint, ShellResultants};
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 use std::any::Any;
 
 /// Generalised force on a node: force and moment, global components.
@@ -80,6 +80,11 @@ pub trait ElementBlock: Send + Sync {
     }
     /// True where element `e` has neither force nor tangent in this configuration.
     fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
+        false
+    }
+    /// True where element `e` has passed through zero length or area, or stands against its own sections, so that it is no longer what
+    /// it models. `before`: the nodes at the start of the step.
+    fn is_turned_over(&self, _e: usize, _before: &[Node], _now: &[Node]) -> bool {
         false
     }
     /// The block itself where its type does more than this trait says: contacts, which limit the step.

@@ -194,6 +194,14 @@ impl ElementBlock for Links {
         self.0.iter().any(|l| l.damping > 0.0)
     }
 
+    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
+        let link = &self.0[e];
+        let line = link.line(now);
+        // A link that pulls at every length, or is slack, may pass through itself.
+        let pushes = link.law.force(line.delta - line.length).0 < 0.0;
+        link.direction.is_none() && pushes && link.line(before).e.dot(&line.e) < 0.0
+    }
+
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for link in &self.0 {
             let line = link.line(now.nodes);

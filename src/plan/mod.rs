@@ -7,6 +7,7 @@ pub mod explain;
 pub mod explicit;
 mod redundant_constraints;
 mod savings;
+mod sideways;
 mod unreachable_targets;
 
 use crate::linear::{self, Solver, Structure, TooLarge};
@@ -14,6 +15,7 @@ use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{self, Assembly};
 use crate::system::{DofMap, NodeRows, System};
 use dof_status::DofStatus;
+pub use sideways::Sideways;
 pub use unreachable_targets::unreachable_targets;
 
 /// The decisions about a model. They are constant over a run.

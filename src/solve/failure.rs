@@ -8,8 +8,9 @@ use std::fmt;
 /// A step that was given up.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Failure {
-    /// The matrix has a vanishing pivot at this degree of freedom.
-    Singular { label: String, direction: &'static str },
+    /// Nothing resists at this degree of freedom: a pivot vanishes, or a motion strains no element. `open`: a part there that would
+    /// resist, but is open or slack.
+    Singular { label: String, direction: &'static str, open: Option<String> },
     /// The iteration did not converge.
     NotConverged { iterations: usize, largest: Vec<NamedResidual> },
     /// Joints could not be closed at the end of a step.
@@ -31,8 +32,14 @@ pub enum Failure {
     Unstable { dt: f64, longest: f64, automatic: bool },
     /// Central differences have generated this multiple of the available energy.
     EnergyGrowth { ratio: f64 },
-    /// A step rotates something too far.
+    /// A step of an explicit scheme rotates something too far.
     RotationTooLarge { dt: f64 },
+    /// A load step turns a node too far.
+    LoadStepTurns { label: String, angle: f64 },
+    /// An element of this part has passed through zero length or area, or has turned over.
+    TurnedOver { name: String },
+    /// The work of a load step is not what has been stored and dissipated: its ends do not lie on one path of equilibria.
+    EquilibriumJumps { label: String, direction: &'static str, work: f64, stored: f64 },
     /// The error of a step is larger than what is allowed.
     ErrorTooLarge { dt: f64 },
     /// The motion left the range of numbers.
@@ -51,9 +58,14 @@ pub struct NamedResidual {
 }
 
 impl Failure {
-    pub(super) fn singular(model: &Model, plan: &Plan, system: &System, row: usize) -> Failure {
+    pub(super) fn singular(model: &Model, plan: &Plan, system: &System, row: usize, open: Option<String>) -> Failure {
         let (label, direction) = name(model, plan, system, row);
-        Failure::Singular { label, direction }
+        Failure::Singular { label, direction, open }
+    }
+
+    /// A motion that nothing resists, by the node and the degree of freedom that it moves most.
+    pub(super) fn mechanism(model: &Model, (node, dof): (usize, usize), open: Option<String>) -> Failure {
+        Failure::Singular { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof], open }
     }
 }
 
@@ -119,10 +131,15 @@ impl Failure {
     /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
     fn message(&self) -> String {
         match self {
-            Failure::Singular { label, direction } => format!(
-                "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
-                 a mechanism, a bifurcation, or a motion beyond what the model can bear)"
-            ),
+            Failure::Singular { label, direction, open } => {
+                let open = open.as_ref().map_or_else(String::new, |name| {
+                    format!("; `{name}` is open or slack there: close it, or hold the node by a soft spring until it closes")
+                });
+                format!(
+                    "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
+                     a mechanism, a bifurcation, or a motion beyond what the model can bear){open}"
+                )
+            }
             Failure::NotConverged { iterations, .. } => {
                 format!("no convergence in {iterations} iterations; the largest unbalanced forces are")
             }
@@ -142,9 +159,12 @@ impl Failure {
                 "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \
                  defined; about an axis whose stiffness differs from the other two they may turn on without limit"
             ),
-            Failure::NoEquilibriumOnArc { .. } | Failure::NoLoadIncrement { .. } | Failure::TooManySteps { .. } => {
-                self.message_of_path()
-            }
+            Failure::NoEquilibriumOnArc { .. }
+            | Failure::NoLoadIncrement { .. }
+            | Failure::TooManySteps { .. }
+            | Failure::LoadStepTurns { .. }
+            | Failure::TurnedOver { .. }
+            | Failure::EquilibriumJumps { .. } => self.message_of_path(),
             _ => self.message_of_length(),
         }
     }
@@ -154,6 +174,20 @@ impl Failure {
         match self {
             Failure::NoLoadIncrement { time } => format!(
                 "no load or prescribed motion changes with the time at t = {time}: nothing leads on along the path"
+            ),
+            Failure::LoadStepTurns { label, angle } => format!(
+                "a load step turns `{label}` by {angle:.1} radians, too far to follow: shorter steps do not help, the \
+                 equilibrium jumps (a mechanism, or snap-through); a dynamic analysis shows the motion"
+            ),
+            Failure::TurnedOver { name } => format!(
+                "an element of `{name}` is turned over or compressed through zero length, where it is no longer what it \
+                 models: it has collapsed under the loads, or the step jumped to another equilibrium (see `control` = \
+                 \"arc-length\", or a dynamic analysis)"
+            ),
+            Failure::EquilibriumJumps { label, direction, work, stored } => format!(
+                "the equilibrium jumps (snap-through, buckling or a mechanism): loads do {work:.3e} of work in a step that \
+                 stores and dissipates {stored:.3e}, however short it is; `{label}` moves most, in direction {direction} \
+                 (`control` = \"arc-length\" follows the path, a dynamic analysis shows the motion)"
             ),
             Failure::TooManySteps { steps } => format!(
                 "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"

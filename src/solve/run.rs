@@ -12,7 +12,7 @@ use super::start::start;
 use super::warning::Warnings;
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
-use crate::model::Model;
+use crate::model::{AnalysisKind, Model};
 use crate::plan::Plan;
 use crate::state::State;
 use crate::system::System;
@@ -42,7 +42,9 @@ impl<'a> Run<'a> {
         stop: &'a AtomicBool,
     ) -> Result<Self, TooLarge> {
         let wants_energy = wanted.has(Wanted::ENERGY);
-        let wants_forces = wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
+        // Load steps are judged by their work.
+        let is_static = model.analysis.kind == AnalysisKind::Static;
+        let wants_forces = is_static || wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
         let context = Context::new(model, plan, system, wants_forces, wants_energy);
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;

@@ -9,11 +9,56 @@ use std::mem::discriminant;
 pub enum Warning {
     /// Initial velocities do not agree with the joints; the largest change over the largest velocity.
     InitialVelocities { change: f64 },
+    /// A load step ended where rounding leaves this residual, relative to the forces.
+    Unbalanced { residual: f64 },
+    /// Load control has passed a load at which the equilibrium becomes unstable.
+    Unstable(Instability),
+    /// The same out of the plane of a plane motion.
+    UnstableOutOfPlane(Instability),
+}
+
+/// Where and how an equilibrium becomes unstable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instability {
+    /// Time at which the first mode buckles, estimated between the ends of a step.
+    pub time: f64,
+    /// Number of unstable modes at the end of that step.
+    pub modes: usize,
+    /// Time at the end of that step.
+    pub seen: f64,
+    /// The node that the mode moves most, and the direction.
+    pub label: String,
+    pub direction: &'static str,
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
+            Warning::Unstable(Instability { time, modes, seen, label, direction }) => write!(
+                f,
+                "the equilibrium is unstable from t = {} on, where the structure buckles: the mode moves `{label}` most, in \
+                 direction {direction} (negative eigenvalues of the tangent: {modes}, at t = {}). What follows is not what a \
+                 structure does; follow the path that buckles by a small load or an offset in that direction, with `control` = \
+                 \"arc-length\" where the load falls",
+                short(*time),
+                short(*seen)
+            ),
+            Warning::UnstableOutOfPlane(Instability { time, modes, seen, label, direction }) => write!(
+                f,
+                "the structure buckles out of its plane at t = {}: the mode moves `{label}` most, in direction {direction} \
+                 (negative eigenvalues of the tangent out of the plane: {modes}, at t = {}). What follows holds only where \
+                 something keeps it in its plane; give a small load or an offset in that direction to follow the motion out of \
+                 it, or hold it there",
+                short(*time),
+                short(*seen)
+            ),
+            Warning::Unbalanced { residual } => write!(
+                f,
+                "a load step ends with unbalanced forces of {} of the largest: displacements are so small that rounding hides \
+                 what is missing, and reactions and stresses are no better; larger loads, or a scene nearer to the origin, \
+                 keep their digits",
+                short(*residual)
+            ),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);
                 write!(

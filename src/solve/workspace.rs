@@ -27,6 +27,8 @@ pub struct Workspace {
     /// Largest coordinate of a node at the start of the step, counted from the first node at t = 0. The rounding of
     /// distances is measured by it.
     pub reach: f64,
+    /// Time and stored energy at the end of the last load step of a static analysis.
+    pub stored: Option<(f64, f64)>,
     /// The matrix of the step: its tangent, or that of masses and joints.
     pub matrix: LinearSystem,
     /// Number of factorizations so far.
@@ -66,6 +68,7 @@ impl Workspace {
             loads: AtTimes::default(),
             prescribed: AtTimes::default(),
             reach: cx.length,
+            stored: None,
             matrix: LinearSystem { solver, assembly },
             factorizations: 0,
             solves: 0,

@@ -83,12 +83,27 @@ impl System {
     /// # Errors
     /// The rigid links form a cycle, which [`crate::model`] excludes.
     pub fn new(model: &Model) -> Result<System, String> {
+        Self::with(model, plane_motion::normal)
+    }
+
+    /// The system with all directions, whether or not the scene moves in a plane.
+    ///
+    /// # Errors
+    /// As for [`System::new`].
+    pub fn in_space(model: &Model) -> Result<System, String> {
+        Self::with(model, |_, _, _| None)
+    }
+
+    fn with(
+        model: &Model,
+        normal: impl Fn(&Model, &[Inertia], &[RigidLink]) -> Option<usize>,
+    ) -> Result<System, String> {
         let x: Vec<Vec3> = model.nodes.iter().map(|n| n.x).collect();
         let rigid_links =
             model.constraints.dependents.iter().map(|r| RigidLink::new(r.node, r.master, &x, r.dofs)).collect();
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
         let (inertias, consistent) = build::masses(model, &x);
-        let plane = plane_motion::normal(model, &inertias, &rigid_links);
+        let plane = normal(model, &inertias, &rigid_links);
         let groups = build::groups(model, &x, plane);
         let joints = build::joints(model, &x, plane);
         let contacts = groups.iter().position(|group| group.kind.is_unilateral());
@@ -232,6 +247,53 @@ impl System {
             work += load.faces.iter().map(|face| face.work([*p0, *p1], from.0, to.0)).sum::<f64>();
         }
         work
+    }
+
+    /// What loads and weight do in a load step between two configurations: their work by the mean of their values at its ends, the sum
+    /// of its terms without signs, and ½ Σ |Δf| |Δq|, by which it may depart from the work along a path on which both grow.
+    pub fn load_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> [f64; 3] {
+        let mut sums = [self.external_work(from, to), 0.0, 0.0];
+        let mut add = |old: Vec3, new: Vec3, moved: Vec3| {
+            sums[1] += 0.5 * (old.norm() + new.norm()) * moved.norm();
+            sums[2] += 0.5 * (new - old).norm() * moved.norm();
+        };
+        let moved = |node: usize| to.0[node].relative_position(&from.0[node]);
+        for inertia in &self.inertias {
+            add(inertia.mass * from.1.field, inertia.mass * to.1.field, moved(inertia.node));
+        }
+        for (a, _, m) in self.consistent.iter().flat_map(ConsistentMass::pairs) {
+            add(m * from.1.field, m * to.1.field, moved(a));
+        }
+        for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
+            let (a, b) = (&from.0[load.node], &to.0[load.node]);
+            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
+            add(f_a, f_b, moved(load.node));
+            add(m_a, m_b, rotation::log(&(b.rotation * a.rotation.conjugate())));
+        }
+        for (load, (p0, p1)) in self.pressures.iter().zip(from.1.pressures.iter().zip(&to.1.pressures)) {
+            for face in &load.faces {
+                let areas = [from.0, to.0].map(|nodes| face.areas(|node| nodes[node].x));
+                for (k, &node) in face.nodes().iter().enumerate() {
+                    add(*p0 * areas[0][k], *p1 * areas[1][k], moved(node));
+                }
+            }
+        }
+        sums
+    }
+
+    /// True where the loads have a potential, so that the tangent is symmetric and its eigenvalues tell of stability: none follows a node,
+    /// and moments act about the `normal` of a plane motion alone, since moments about axes fixed in space do work that depends on the
+    /// order of rotations. Pressure counts as if all edges were held.
+    pub fn loads_have_potential(&self, normal: Option<usize>) -> bool {
+        let about_normal = |m: &Vec3| (0..3).all(|i| m[i] == 0.0 || normal == Some(i));
+        self.loads.iter().all(|load| !load.follower && about_normal(&load.moment))
+    }
+
+    /// Energy that elements store.
+    pub fn stored_energy(&self, now: &Configuration, threads: usize) -> f64 {
+        thread_partition::sum(&self.groups, self.uses_threads(threads), &|group| {
+            group.block.energy(&group.configuration(now))
+        })
     }
 
     /// Writes the history variables at the fraction `part` of the way from the last accepted state to `now` into

@@ -8,7 +8,7 @@ use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::elements::results::IntegrationPoint;
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 
 impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     fn len(&self) -> usize {
@@ -70,6 +70,14 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
                 subtract(f, 3, &(0.5 * times_conjugate(&gradient[a], &q[a]).1));
             }
         }
+    }
+
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let element = &self.elements[e];
+        let motion = self.gather(element, now);
+        // The axis opposes the normals of its sections: Rᵀr′·t ≤ 0.
+        let along = |g| self.interpolate(element, g, &motion).gamma.dot(&element.tangent) + 1.0;
+        (0..self.integration_points()).any(|g| along(g) <= 0.0)
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {

@@ -9,7 +9,7 @@ use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::elements::results::ShellResultants;
 use crate::materials::Dissipation;
 use crate::math::Vec3;
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 
 impl<K, const N: usize, const V: usize, const M: usize, S> ElementBlock for Shells<K, N, V, M, S>
 where
@@ -58,6 +58,15 @@ where
                 subtract(f, 3, &moment);
             }
         }
+    }
+
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let motion = self.elements[e].gather(now);
+        // The normal at a corner opposes the director there.
+        (0..N).any(|a| {
+            let side = |b: usize| motion.x[b % N] - motion.x[a];
+            side(a + 1).cross(&side(a + N - 1)).dot(&motion.turning[0][a]) <= 0.0
+        })
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {

@@ -1,6 +1,7 @@
 //! The end of an implicit step: from the instant where equilibrium is written to the end of the step, onto the
 //! constraints, into the state.
 
+use super::jump;
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -14,7 +15,7 @@ use crate::state::{Configuration, State};
 ///
 /// # Errors
 /// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, [`Failure::ContactNotResolved`] where something would have gone
-/// through a surface there; `state` is untouched.
+/// through a surface there, [`Failure::EquilibriumJumps`] where a load step does not end on the path that it began on; `state` is untouched.
 pub fn accept(
     cx: &Context,
     ws: &mut Workspace,
@@ -38,6 +39,7 @@ pub fn accept(
     }
     joints::check(cx, ws)?;
     bushings::check(cx, ws, state)?;
+    jump::check_work(cx, ws, state, &account.dissipated, to)?;
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())
 }

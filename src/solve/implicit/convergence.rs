@@ -23,6 +23,8 @@ pub struct Judgement {
     pub contraction: f64,
     /// True where there was a correction before.
     pub seen: bool,
+    /// Ratio of the residual alone.
+    residual_contraction: f64,
     /// Estimated remaining error or residual, the larger, relative.
     left: f64,
     tolerance: f64,
@@ -41,16 +43,16 @@ impl Convergence {
 
     /// Judges a correction of this relative size, which answered this relative residual.
     pub fn judge(&mut self, size: f64, residual: f64) -> Judgement {
-        let contraction = match self.last {
-            _ if self.exact => 0.0,
-            None => 0.5,
-            Some(last) => (size / last.size).max(residual / last.residual),
+        let (contraction, residual_contraction) = match self.last {
+            _ if self.exact => (0.0, 0.0),
+            None => (0.5, 0.5),
+            Some(last) => ((size / last.size).max(residual / last.residual), residual / last.residual),
         };
         // The corrections to come are a geometric series; the next residual contracts likewise.
         let error = contraction / (1.0 - contraction) * size;
         let left = error.max(contraction * residual);
         let seen = self.last.replace(Correction { size, residual }).is_some();
-        Judgement { contraction, seen, left, tolerance: self.tolerance }
+        Judgement { contraction, residual_contraction, seen, left, tolerance: self.tolerance }
     }
 }
 
@@ -63,6 +65,11 @@ impl Judgement {
     /// True where the iteration contracts slowly or not at all: only rounding may be left.
     pub fn stalled(&self) -> bool {
         self.contraction > 0.5
+    }
+
+    /// True where the residual still falls, whatever the corrections do.
+    pub fn residual_falls(&self) -> bool {
+        self.residual_contraction <= 0.5
     }
 
     /// Number of iterations still needed at this rate.

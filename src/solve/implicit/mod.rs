@@ -6,9 +6,13 @@ mod arc_length;
 mod composite;
 mod convergence;
 mod correction;
+mod jump;
 mod line_search;
+mod mechanism;
+mod mode;
 mod newton;
 mod refresh;
+mod stability;
 mod stepper;
 
 pub use arc_length::{ArcLengthConstraint, Condition, StepMotion};

@@ -6,8 +6,11 @@ use super::anderson::Anderson;
 use super::arc_length::{ArcLengthConstraint, Condition};
 use super::convergence::{Convergence, Judgement};
 use super::correction::{correct, is_rounding, relative, size_of_correction};
+use super::jump;
 use super::line_search::LineSearch;
+use super::mechanism;
 use super::refresh::{Advice, Refresh};
+use super::stability::Stability;
 use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
@@ -18,6 +21,7 @@ use crate::solve::motion::{self, Stage};
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
+use crate::solve::warning::Warning;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, State};
@@ -33,6 +37,10 @@ pub struct Newton {
     pub projection: Option<ConstraintProjection>,
     /// The factor of the mass in the matrix at hand.
     pub mass_weight: f64,
+    /// True once the first matrix of the run has been searched for mechanisms.
+    searched: bool,
+    /// The watch over the stability of equilibria in statics.
+    stability: Option<Stability>,
 }
 
 /// The progress of the iteration of a step.
@@ -102,6 +110,8 @@ impl Newton {
             line_search: searches.then(line_search),
             projection: ConstraintProjection::for_motion(cx)?,
             mass_weight: 0.0,
+            searched: false,
+            stability: Stability::for_statics(cx)?,
         })
     }
 
@@ -144,7 +154,13 @@ impl Newton {
         stage: &Stage,
         to: f64,
     ) -> Result<(), Failure> {
+        let from = state.time;
         let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to);
+        if let (Ok(()), Some(stability)) = (&accepted, &mut self.stability)
+            && stability.check(cx, ws, state, from)
+        {
+            self.discard_matrix();
+        }
         if matches!(accepted, Err(Failure::ConstraintsViolated { .. })) {
             self.discard_matrix();
         }
@@ -171,6 +187,7 @@ impl Newton {
         constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
         let found = self.iterate(cx, ws, state, stage, to, constraint);
+        let found = found.and_then(|report| jump::check_motion(cx, ws, state, report.to).map(|()| report));
         match &found {
             Ok(report) => self.refresh.accepted(report.iterations),
             Err(_) => self.discard_matrix(),
@@ -277,9 +294,22 @@ impl Newton {
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             ws.factorizations += 1;
             match matrix.solver.factor() {
-                Ok(()) => return Ok(()),
+                Ok(()) if self.searched => return Ok(()),
+                Ok(()) => {
+                    let (solver, dofs) = (&mut matrix.solver, &cx.plan.dofs);
+                    let mechanism = mechanism::find(cx.system, dofs, solver, &now, weights, cx.length);
+                    self.searched = mechanism.is_none();
+                    return mechanism.map_or(Ok(()), |place| {
+                        let open = mechanism::open_part(cx.model, cx.system, &now, place.0);
+                        Err(Failure::mechanism(cx.model, place, open))
+                    });
+                }
                 Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => moduli = Moduli::Elastic,
-                Err(singular) => return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row)),
+                Err(singular) => {
+                    let place = cx.plan.dofs.nodal_dofs().get(singular.row);
+                    let open = place.and_then(|&(node, _)| mechanism::open_part(cx.model, cx.system, &now, node));
+                    return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row, open));
+                }
             }
         }
     }
@@ -397,7 +427,7 @@ fn matrix_key(scheme: &Coefficients, dt: f64) -> f64 {
 /// left.
 fn has_converged(
     cx: &Context,
-    ws: &Workspace,
+    ws: &mut Workspace,
     correction: Size,
     fresh: bool,
     residual: f64,
@@ -405,8 +435,19 @@ fn has_converged(
 ) -> bool {
     let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.solution.iteration.tolerance;
     let rounding = judgement.stalled() && is_rounding(cx, ws, correction, fresh && sure);
-    rounding || sure && judgement.converged()
+    if sure && judgement.converged() {
+        return true;
+    }
+    // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
+    let precise = cx.is_dynamic() || residual <= UNBALANCED * cx.model.solution.iteration.tolerance;
+    if rounding && !precise && !judgement.residual_falls() {
+        ws.warnings.add(Warning::Unbalanced { residual });
+    }
+    rounding && (precise || !judgement.residual_falls())
 }
+
+/// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
+const UNBALANCED: f64 = 1e3;
 
 fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport) -> Failure {
     // Forces balance while the joints are open: the constraints contradict each other.

@@ -1,0 +1,49 @@
+//! What a plane motion leaves out: the motion out of the plane, in which a structure that is compressed in its plane may buckle.
+
+use super::Plan;
+use crate::linear::{Factorization, Solver, TooLarge};
+use crate::model::Model;
+use crate::system::assembly::Assembly;
+use crate::system::{DofMap, System};
+
+/// The equations of the motion out of the plane. While the scene is plane they do not couple with those in the plane.
+pub struct Sideways {
+    /// The system with all directions.
+    pub system: System,
+    /// The unknowns out of the plane alone.
+    pub dofs: DofMap,
+    pub solver: Solver,
+    pub assembly: Assembly,
+}
+
+impl Sideways {
+    /// The equations that the plan leaves out; `None` where it leaves out nothing that deforms, and where there are joints,
+    /// whose forces out of the plane are not known, materials that yield, or loads without a potential.
+    ///
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn new(model: &Model, plane: &System, plan: &Plan) -> Result<Option<Sideways>, TooLarge> {
+        let deforms = plane.groups.iter().any(|group| group.kind.is_deformable());
+        if plane.plane.is_none() || !deforms || !plane.joints.is_empty() {
+            return Ok(None);
+        }
+        let Ok(system) = System::in_space(model) else { return Ok(None) };
+        // Sections that yield have fewer points in a plane, so that their history is not that of a motion in space.
+        if system.history != plane.history || !system.loads_have_potential(None) {
+            return Ok(None);
+        }
+        let statuses = super::dof_status::classify(model, &system);
+        let unknown = statuses.iter().enumerate().map(|(node, status)| {
+            let left_out = |dof: usize| status[dof] == super::DofStatus::Unknown && !plan.is_unknown(node, dof);
+            std::array::from_fn(left_out)
+        });
+        let dofs = DofMap::new(unknown, &[]);
+        if dofs.unknowns() == 0 {
+            return Ok(None);
+        }
+        let structure = super::structure(&system, &dofs);
+        let solver = Solver::new(&structure, Factorization::choose(&structure), plan.threads)?;
+        let assembly = Assembly::new(&system, &dofs, &solver, plan.threads);
+        Ok(Some(Sideways { system, dofs, solver, assembly }))
+    }
+}

@@ -1,0 +1,127 @@
+//! Load steps that do not end on the path of equilibria that they began on. Newton's method finds an equilibrium, not the one that the
+//! loads lead to: a long step may end with a structure turned inside out, and where a path ends at a limit point the next equilibrium is
+//! far away. Such steps are cut, or end the run.
+
+use crate::materials::Dissipation;
+use crate::math::{angular, linear};
+use crate::model::DIRECTIONS;
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::workspace::Workspace;
+use crate::state::{Configuration, State};
+
+/// Largest rotation of a node in a load step, in radians. Below it the chord of a turning element keeps a positive part along its old
+/// direction with room to spare, and the work of moments follows from the rotation vector of the step alone.
+const LARGEST_TURN: f64 = 1.25;
+/// Work within this part of all work done, for either sign, is not missed: a step has its own error, and equilibrium its tolerance.
+const ACCURACY: f64 = 1e-3;
+/// Part of ½ |Δf| |Δq| by which the work of loads that grow by Δf may depart from that of their mean. Where forces grow with the n-th power
+/// of displacements it is (n − 1)/(n + 1): nothing in a linear step, one half for a slack string, which is cubic. Where a gap closes, or a
+/// structure yields, it is more in a long step and less in a shorter one; where the equilibrium jumps it is nearly all, or more.
+const CURVED: f64 = 0.6;
+
+/// Motions below this part of the model's length are no jumps; their energy may be rounding.
+const STILL: f64 = 1e-6;
+
+/// Refuses a load step that turns a node too far or an element over.
+///
+/// # Errors
+/// [`Failure::LoadStepTurns`], [`Failure::TurnedOver`].
+pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Result<(), Failure> {
+    if cx.is_dynamic() || cx.plan.linear {
+        return Ok(());
+    }
+    for &node in &cx.independent_nodes {
+        let turn = angular(&cx.plan.dofs.of(node).mask(&ws.increments[node].q)).norm();
+        if turn > LARGEST_TURN && to > state.time {
+            return Err(Failure::LoadStepTurns { label: cx.model.nodes[node].label.clone(), angle: turn });
+        }
+    }
+    for group in &cx.system.groups {
+        let over = |&e: &usize| group.block.is_turned_over(e, &state.nodes, &ws.trial);
+        if let Some(e) = (0..group.block.len()).find(over) {
+            // Links share a group, one element each.
+            let part = if group.kind.is_deformable() { group.part } else { group.part + e };
+            return Err(Failure::TurnedOver { name: cx.model.parts[part].name().to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a load step whose work is neither stored nor dissipated. The trial motion is that of the end of the step.
+///
+/// # Errors
+/// [`Failure::EquilibriumJumps`].
+pub fn check_work(
+    cx: &Context,
+    ws: &mut Workspace,
+    state: &State,
+    dissipated: &Dissipation,
+    to: f64,
+) -> Result<(), Failure> {
+    if cx.is_dynamic() || cx.plan.linear || cx.model.analysis.step_length.is_arc_length() || to <= state.time {
+        return Ok(());
+    }
+    let end = Configuration { nodes: &ws.trial, history: &ws.history, dt: 0.0 };
+    let before = match ws.stored {
+        Some((time, energy)) if time == state.time => energy,
+        _ => cx.system.stored_energy(&state.configuration(), cx.plan.threads),
+    };
+    let after = cx.system.stored_energy(&end, cx.plan.threads);
+    let Dissipation { plastic, viscous, stored, friction, impact } = *dissipated;
+    let taken = after - before + plastic + viscous + stored + friction + impact;
+    let loads = cx.system.load_work((&state.nodes, &ws.loads.start), (&ws.trial, &ws.loads.end));
+    let [mut work, mut gross, mut spread] = loads;
+    for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
+        let (old, new) = (state.reactions[i], -ws.forces.on_nodes[restraint.node][restraint.dof]);
+        let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
+        work += 0.5 * (old + new) * moved;
+        gross += 0.5 * (old.abs() + new.abs()) * moved.abs();
+        spread += 0.5 * (new - old).abs() * moved.abs();
+    }
+    let allowed = CURVED * spread + ACCURACY * (gross + before.abs().min(after.abs()) * f64::EPSILON.sqrt());
+    let missed = (work - taken).abs();
+    // Loads that act at once, at t = 0 or at a jump, do work before they are in equilibrium.
+    if missed > allowed {
+        let (size, place) = largest_motion(cx, ws);
+        if size > STILL * cx.length && missed > allowed + unbalanced_work(cx, ws, state) {
+            return Err(failure(cx, place, work, taken));
+        }
+    }
+    ws.stored = Some((to, after));
+    Ok(())
+}
+
+/// Work that the unbalanced forces at the start of the step would do in its motion.
+fn unbalanced_work(cx: &Context, ws: &mut Workspace, state: &State) -> f64 {
+    // The step ends by its own forces, which are kept.
+    let mut forces = ws.forces.clone();
+    forces.multipliers.values.copy_from_slice(&state.multipliers);
+    cx.system.residual(&state.configuration(), &ws.loads.start, &mut forces);
+    let work = |&node: &usize| {
+        let q = cx.plan.dofs.of(node).mask(&ws.increments[node].q);
+        (0..6).map(|i| (forces.on_nodes[node][i] * q[i]).abs()).sum::<f64>()
+    };
+    cx.independent_nodes.iter().map(work).sum()
+}
+
+/// The largest motion of the step, rotations over a thousandth of the model's length, with its node and degree of freedom: rotations tell
+/// where hardly anything moves, for at the end of a lever they move more than that.
+fn largest_motion(cx: &Context, ws: &Workspace) -> (f64, (usize, usize)) {
+    let (mut largest, mut place) = (0.0, (0, 0));
+    for &node in &cx.independent_nodes {
+        let q = cx.plan.dofs.of(node).mask(&ws.increments[node].q);
+        let turn = angular(&q) * (1e-3 * cx.length);
+        for (dof, size) in linear(&q).iter().chain(turn.iter()).map(|q| q.abs()).enumerate() {
+            if size > largest {
+                (largest, place) = (size, (node, dof));
+            }
+        }
+    }
+    (largest, place)
+}
+
+fn failure(cx: &Context, (node, dof): (usize, usize), work: f64, stored: f64) -> Failure {
+    let label = cx.model.nodes.get(node).map_or_else(String::new, |node| node.label.clone());
+    Failure::EquilibriumJumps { label, direction: DIRECTIONS[dof], work, stored }
+}

@@ -1,0 +1,113 @@
+//! Mechanisms: motions that nothing resists. Rounding may leave a pivot of any size where an exact one would be zero, so the matrix is
+//! not asked but the elements: a motion is a mechanism where it strains none of them.
+
+use super::mode::Mode;
+use crate::elements::Moduli;
+use crate::linear::Solver;
+use crate::math::Vec6;
+use crate::model::{Model, PartKind};
+use crate::state::Configuration;
+use crate::system::assembly::TangentWeights;
+use crate::system::{DofMap, System};
+
+/// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred
+/// times the rounding of the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.
+const ENERGY: f64 = 1e-14;
+/// And it is one where forces on no element exceed this part of their terms. The mode has rounding of its own, amplified by the condition
+/// of what is not the mechanism; a cantilever of 1000 elements, which hardly bends any of them, leaves 1e-4.
+const FORCE: f64 = 1e-6;
+/// Motions below this part of the largest are taken for rounding of the mode.
+const MOVING: f64 = 1e-4;
+
+/// The node and degree of freedom that a mechanism moves most; `None` where elements or, in dynamics, masses resist every motion.
+/// The matrix that `solver` has factored is that of `now`.
+pub fn find(
+    system: &System,
+    dofs: &DofMap,
+    solver: &mut Solver,
+    now: &Configuration,
+    weights: TangentWeights,
+    length: f64,
+) -> Option<(usize, usize)> {
+    let mode = Mode::softest(solver, dofs, length)?;
+    let mut motions = mode.motions(dofs);
+    system.project(now.nodes, &mut motions);
+    let resisted = weights.acceleration > 0.0 && moves_mass(system, &motions, length)
+        || strains_elements(system, now, weights, &motions, length);
+    if resisted { None } else { mode.largest(dofs) }
+}
+
+/// True where a mass moves, or a damper of a node.
+fn moves_mass(system: &System, motions: &[Vec6], length: f64) -> bool {
+    let translates = |node: usize| (0..3).any(|i| motions[node][i].abs() > MOVING);
+    let turns = |node: usize| (3..6).any(|i| motions[node][i].abs() * length > MOVING);
+    system.inertias.iter().any(|i| translates(i.node) && i.mass > 0.0 || i.rotary && turns(i.node))
+        || system.consistent_masses().iter().any(|mass| mass.pairs().any(|(a, _, m)| m > 0.0 && translates(a)))
+        || system.nodal_damping().iter().any(|damping| translates(damping.node) || turns(damping.node))
+}
+
+/// True where elements are strained, by their energy or by the forces on one of them.
+fn strains_elements(
+    system: &System,
+    now: &Configuration,
+    weights: TangentWeights,
+    motions: &[Vec6],
+    length: f64,
+) -> bool {
+    let (mut energy, mut terms) = (0.0, 0.0);
+    let mut K = Vec::new();
+    let mut largest: f64 = 0.0;
+    for group in &system.groups {
+        let (block, d, now) = (&group.block, group.block.dofs(), &group.configuration(now));
+        for e in (0..block.len()).filter(|&e| !(group.kind.is_unilateral() && block.is_inactive(e, now))) {
+            let nodes = block.nodes(e);
+            let n = d * nodes.len();
+            K.clear();
+            K.resize(n * n, 0.0);
+            block.tangent(e, now, weights.rate, weights.moduli, &mut K);
+            // Translation as a whole strains no element; without it motions have the digits of strains.
+            let common = if group.kind.is_unilateral() { Vec6::zeros() } else { motions[nodes[0]] };
+            let whole = |j: usize| motions[nodes[j / d]][j % d];
+            let own = |j: usize| if j % d < 3 { whole(j) - common[j % d] } else { whole(j) };
+            let floor = |j: usize| if j % d < 3 { MOVING } else { MOVING / length };
+            for (i, row) in K.chunks(n).enumerate() {
+                let sum = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k * of(j)).sum::<f64>();
+                let size = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k.abs() * of(j)).sum::<f64>();
+                let force = sum(&own);
+                let size_of_force = size(&|j| own(j).abs().max(floor(j)));
+                if size_of_force > 0.0 {
+                    largest = largest.max(force.abs() / size_of_force);
+                }
+                energy += own(i) * force;
+                terms += whole(i).abs() * size(&|j| whole(j).abs());
+            }
+        }
+    }
+    energy.abs() > ENERGY * terms || largest > FORCE
+}
+
+/// The name of a part at a node, or at a node that follows it, which neither pushes nor pulls as it lies: a link whose gap is open, a rope
+/// that is slack, a contact that does not touch.
+pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usize) -> Option<String> {
+    let follows = |of: usize| system.rigid_links.iter().any(|link| link.node == of && link.master == node);
+    let mut K = Vec::new();
+    system.groups.iter().find_map(|group| {
+        let (block, now) = (&group.block, &group.configuration(now));
+        let mut is_open = |&e: &usize| {
+            let nodes = block.nodes(e);
+            if !nodes.iter().any(|&of| of == node || follows(of)) {
+                return false;
+            }
+            K.clear();
+            K.resize((block.dofs() * nodes.len()).pow(2), 0.0);
+            if !block.is_inactive(e, now) {
+                block.tangent(e, now, 0.0, Moduli::Algorithmic, &mut K);
+            }
+            K.iter().all(|&k| k == 0.0)
+        };
+        let e = (0..block.len()).find(|e| is_open(e))?;
+        // Links share a group, one element each.
+        let part = if group.kind == PartKind::Link { group.part + e } else { group.part };
+        model.parts.get(part).map(|part| part.name().to_owned())
+    })
+}

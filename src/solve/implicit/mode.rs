@@ -1,0 +1,61 @@
+//! The softest mode of a matrix by inverse iteration, and the place where it moves most.
+
+use crate::linear::Solver;
+use crate::math::Vec6;
+use crate::system::DofMap;
+
+/// A mode by unknown, multipliers included; its largest translation, or rotation times the model's length, is 1.
+pub struct Mode {
+    values: Vec<f64>,
+}
+
+/// Number of inverse iterations. Each multiplies the share of the softest mode by the ratio of the next stiffness to its own, which is
+/// 1e6 and more at a singularity, and 2 at least where one mode buckles before the next.
+const ITERATIONS: usize = 6;
+/// A mode is one of rotations where its largest translation is below this part of a rotation times the model's length: an element
+/// that only turns about its own axis.
+const ROTATIONAL: f64 = 1e-3;
+
+impl Mode {
+    /// The mode of the matrix factored last whose stiffness is nearest to zero; `None` where numbers do not hold it. `length` weighs
+    /// rotations against translations.
+    pub fn softest(solver: &mut Solver, dofs: &DofMap, length: f64) -> Option<Mode> {
+        let weight = |dof: usize| if dof < 3 { 1.0 } else { length };
+        // Multiples of the golden ratio, modulo 1, follow no mode of a structure, and are the same in every run.
+        let scattered = |i: usize| (0.618_033_988_749_895 * (i + 1) as f64).fract() - 0.5;
+        let mut values: Vec<f64> = (0..dofs.unknowns()).map(scattered).collect();
+        for _ in 0..ITERATIONS {
+            for (value, &(_, dof)) in values.iter_mut().zip(dofs.nodal_dofs()) {
+                *value *= weight(dof) * weight(dof);
+            }
+            values[dofs.nodal_dofs().len()..].fill(0.0);
+            solver.solve(&mut values);
+            let sizes = values.iter().zip(dofs.nodal_dofs()).map(|(value, &(_, dof))| weight(dof) * value.abs());
+            let size = sizes.fold(0.0, f64::max);
+            if !(size > 0.0 && size.is_finite()) || values.iter().any(|value| value.is_nan()) {
+                return None;
+            }
+            values.iter_mut().for_each(|value| *value /= size);
+        }
+        Some(Mode { values })
+    }
+
+    /// The motion of each node; nodes that follow others stand still.
+    pub fn motions(&self, dofs: &DofMap) -> Vec<Vec6> {
+        dofs.each_node().iter().map(|rows| rows.gather(&self.values)).collect()
+    }
+
+    /// Node and degree of freedom of the largest translation, or of the largest rotation where hardly anything moves but turns.
+    pub fn largest(&self, dofs: &DofMap) -> Option<(usize, usize)> {
+        let largest = |from: usize, to: usize| {
+            let entries = self.values.iter().zip(dofs.nodal_dofs()).filter(|(_, (_, dof))| (from..to).contains(dof));
+            // The first of equals, so that rounding of symmetric modes does not choose.
+            entries.fold((0.0, None), |(size, at), (value, &place)| match value.abs() > size * (1.0 + 1e-6) {
+                true => (value.abs(), Some(place)),
+                false => (size, at),
+            })
+        };
+        let (translation, place) = largest(0, 3);
+        if translation >= ROTATIONAL { place } else { largest(3, 6).1.or(place) }
+    }
+}
