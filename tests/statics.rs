@@ -92,9 +92,14 @@ fn columns_above_their_buckling_load_are_warned_of() {
         let (_, outcome, _, warnings) = run(&column(1000.0, step, axis, control));
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
         let [text] = &warnings[..] else { panic!("{axis} {step} {control}: {warnings:?}") };
-        let time: f64 = text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap();
+        let time: f64 =
+            text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap();
         assert!((1000.0 * time / weak - 1.0).abs() < 2e-3, "{text}");
-        assert!(text.contains(if axis.starts_with("[1") { "`b` most, in direction uy" } else { "`b` most, in direction ux" }));
+        assert!(text.contains(if axis.starts_with("[1") {
+            "`b` most, in direction uy"
+        } else {
+            "`b` most, in direction ux"
+        }));
     }
     for axis in ["[0.0, 1.0, 0.0]", "[1.0, 0.0, 0.0]"] {
         assert_eq!(run(&column(160.0, 0.1, axis, "")).3, Vec::<String>::new());
@@ -199,4 +204,46 @@ fn a_cantilever_rolled_up_in_one_step_keeps_its_balance() {
     // Twenty elements turn by 18 degrees each: 1e-5 of the energy.
     assert!((work - 1.0).abs() < 1e-3, "{work}");
     assert!(state.nodes[node(&model, "b")].x.norm() < 1e-3, "{:?}", state.nodes[node(&model, "b")].x);
+}
+
+#[test]
+fn tiny_loads_keep_their_digits_or_say_so() {
+    let shell = |load: f64| {
+        head(1.0, "").replace("width = 0.03", "width = 0.05")
+            + &format!(
+                r#"
+[points]
+a = [0.0, 0.0, 0.0]
+b = [0.8, 0.6, 0.0]
+c = [0.8, 0.6, 1.0]
+d = [0.0, 0.0, 1.0]
+[[shells]]
+name = "s"
+corners = ["a", "b", "c", "d"]
+elements = [4, 4]
+thickness = 0.002
+material = "steel"
+[[supports]]
+at = "s.edge1"
+fix = "all"
+[[loads]]
+at = "d"
+force = [{:?}, {:?}, 0.0]
+"#,
+                0.6 * load,
+                -0.8 * load
+            )
+    };
+    let deflection = |load: f64| {
+        let (model, outcome, state, warnings) = run(&shell(load));
+        assert!(matches!(outcome, Outcome::Done), "{load:e}: {outcome:?}");
+        (state.nodes[node(&model, "d")].moved(&model.nodes[node(&model, "d")].x).y / load, warnings)
+    };
+    // Strains of 1e-9 have seven digits, of 1e-15 hardly one.
+    let (exact, none) = deflection(1e-3);
+    assert!(none.is_empty(), "{none:?}");
+    let (u, warnings) = deflection(1e-9);
+    assert!((u / exact - 1.0).abs() < 1e-5 || !warnings.is_empty(), "{u} {exact}");
+    let (_, warnings) = deflection(1e-12);
+    assert!(warnings.len() == 1 && warnings[0].contains("rounding hides"), "{warnings:?}");
 }

@@ -133,7 +133,9 @@ impl Failure {
         match self {
             Failure::Singular { label, direction, open } => {
                 let open = open.as_ref().map_or_else(String::new, |name| {
-                    format!("; `{name}` is open or slack there: close it, or hold the node by a soft spring until it closes")
+                    format!(
+                        "; `{name}` is open or slack there: close it, or hold the node by a soft spring until it closes"
+                    )
                 });
                 format!(
                     "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \

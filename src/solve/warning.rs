@@ -54,9 +54,9 @@ impl fmt::Display for Warning {
             ),
             Warning::Unbalanced { residual } => write!(
                 f,
-                "a load step ends with unbalanced forces of {} of the largest: displacements are so small that rounding hides \
-                 what is missing, and reactions and stresses are no better; larger loads, or a scene nearer to the origin, \
-                 keep their digits",
+                "a load step ends with unbalanced forces of {} of the largest: displacements are so small, or \
+                 stiffnesses so far apart, that rounding hides what is missing, and reactions and stresses are no better; \
+                 larger loads, or stiffnesses nearer to each other, keep their digits",
                 short(*residual)
             ),
             Warning::InitialVelocities { change } => {

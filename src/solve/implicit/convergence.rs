@@ -6,6 +6,8 @@ pub struct Convergence {
     /// True where the scene is linear: one correction is exact.
     exact: bool,
     last: Option<Correction>,
+    /// Number of corrections in a row whose residual was not half of that before.
+    stagnant: usize,
 }
 
 /// The size of a correction relative to the motion of the step, and the residual that it answers relative to the
@@ -23,8 +25,8 @@ pub struct Judgement {
     pub contraction: f64,
     /// True where there was a correction before.
     pub seen: bool,
-    /// Ratio of the residual alone.
-    residual_contraction: f64,
+    /// Number of corrections in a row whose residual did not fall.
+    stagnant: usize,
     /// Estimated remaining error or residual, the larger, relative.
     left: f64,
     tolerance: f64,
@@ -33,26 +35,30 @@ pub struct Judgement {
 impl Convergence {
     /// A criterion with a relative tolerance.
     pub fn new(tolerance: f64, exact: bool) -> Self {
-        Convergence { tolerance, exact, last: None }
+        Convergence { tolerance, exact, last: None, stagnant: 0 }
     }
 
     /// Forgets the corrections so far, after a return to the prediction.
     pub fn forget(&mut self) {
-        self.last = None;
+        (self.last, self.stagnant) = (None, 0);
     }
 
     /// Judges a correction of this relative size, which answered this relative residual.
     pub fn judge(&mut self, size: f64, residual: f64) -> Judgement {
-        let (contraction, residual_contraction) = match self.last {
-            _ if self.exact => (0.0, 0.0),
-            None => (0.5, 0.5),
-            Some(last) => ((size / last.size).max(residual / last.residual), residual / last.residual),
+        let contraction = match self.last {
+            _ if self.exact => 0.0,
+            None => 0.5,
+            Some(last) => (size / last.size).max(residual / last.residual),
+        };
+        self.stagnant = match self.last {
+            Some(last) if residual > 0.5 * last.residual => self.stagnant + 1,
+            _ => 0,
         };
         // The corrections to come are a geometric series; the next residual contracts likewise.
         let error = contraction / (1.0 - contraction) * size;
         let left = error.max(contraction * residual);
         let seen = self.last.replace(Correction { size, residual }).is_some();
-        Judgement { contraction, residual_contraction, seen, left, tolerance: self.tolerance }
+        Judgement { contraction, stagnant: self.stagnant, seen, left, tolerance: self.tolerance }
     }
 }
 
@@ -67,9 +73,10 @@ impl Judgement {
         self.contraction > 0.5
     }
 
-    /// True where the residual still falls, whatever the corrections do.
-    pub fn residual_falls(&self) -> bool {
-        self.residual_contraction <= 0.5
+    /// True where the residual has not fallen for so long that it will not: the first correction of a step may well raise it, where
+    /// rotations stretch what they should only bend.
+    pub fn is_stagnant(&self) -> bool {
+        self.stagnant >= 3
     }
 
     /// Number of iterations still needed at this rate.

@@ -72,7 +72,8 @@ fn strains_elements(
             let floor = |j: usize| if j % d < 3 { MOVING } else { MOVING / length };
             for (i, row) in K.chunks(n).enumerate() {
                 let sum = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k * of(j)).sum::<f64>();
-                let size = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k.abs() * of(j)).sum::<f64>();
+                let size =
+                    |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k.abs() * of(j)).sum::<f64>();
                 let force = sum(&own);
                 let size_of_force = size(&|j| own(j).abs().max(floor(j)));
                 if size_of_force > 0.0 {

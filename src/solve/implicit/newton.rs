@@ -364,7 +364,7 @@ impl Newton {
         let fresh = report.factorizations > 0;
         let judgement = convergence.judge(size, report.residual);
         if *time_error <= cx.model.solution.iteration.tolerance
-            && has_converged(cx, ws, correction, fresh, report.residual, &judgement)
+            && has_converged(cx, ws, correction, (fresh, report.iterations >= *limit), report.residual, &judgement)
         {
             return Ok(Verdict::Converged);
         }
@@ -429,7 +429,7 @@ fn has_converged(
     cx: &Context,
     ws: &mut Workspace,
     correction: Size,
-    fresh: bool,
+    (fresh, last): (bool, bool),
     residual: f64,
     judgement: &Judgement,
 ) -> bool {
@@ -440,10 +440,11 @@ fn has_converged(
     }
     // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
     let precise = cx.is_dynamic() || residual <= UNBALANCED * cx.model.solution.iteration.tolerance;
-    if rounding && !precise && !judgement.residual_falls() {
+    if rounding && !precise && (last || judgement.is_stagnant()) {
         ws.warnings.add(Warning::Unbalanced { residual });
+        return true;
     }
-    rounding && (precise || !judgement.residual_falls())
+    rounding && precise
 }
 
 /// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
