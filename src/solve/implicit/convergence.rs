@@ -6,7 +6,7 @@ pub struct Convergence {
     /// True where the scene is linear: one correction is exact.
     exact: bool,
     last: Option<Correction>,
-    /// Number of corrections in a row whose residual was not half of that before.
+    /// Number of corrections whose residual was not half of that before.
     stagnant: usize,
 }
 
@@ -25,7 +25,7 @@ pub struct Judgement {
     pub contraction: f64,
     /// True where there was a correction before.
     pub seen: bool,
-    /// Number of corrections in a row whose residual did not fall.
+    /// Number of corrections whose residual did not fall.
     stagnant: usize,
     /// Estimated remaining error or residual, the larger, relative.
     left: f64,
@@ -52,7 +52,8 @@ impl Convergence {
         };
         self.stagnant = match self.last {
             Some(last) if residual > 0.5 * last.residual => self.stagnant + 1,
-            _ => 0,
+            // Rounding may halve it by chance.
+            _ => self.stagnant,
         };
         // The corrections to come are a geometric series; the next residual contracts likewise.
         let error = contraction / (1.0 - contraction) * size;
@@ -73,7 +74,7 @@ impl Judgement {
         self.contraction > 0.5
     }
 
-    /// True where the residual has not fallen for so long that it will not: the first correction of a step may well raise it, where
+    /// True where the residual has so often not fallen that it will not: the first correction of a step may well raise it, where
     /// rotations stretch what they should only bend.
     pub fn is_stagnant(&self) -> bool {
         self.stagnant >= 3

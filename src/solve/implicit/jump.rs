@@ -21,7 +21,7 @@ const ACCURACY: f64 = 1e-3;
 const CURVED: f64 = 0.6;
 
 /// Motions below this part of the model's length are no jumps; their energy may be rounding.
-const STILL: f64 = 1e-6;
+const STILL: f64 = 1e-3;
 
 /// Refuses a load step that turns a node too far or an element over.
 ///

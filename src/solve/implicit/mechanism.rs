@@ -19,7 +19,7 @@ const FORCE: f64 = 1e-6;
 /// Motions below this part of the largest are taken for rounding of the mode.
 const MOVING: f64 = 1e-4;
 
-/// The node and degree of freedom that a mechanism moves most; `None` where elements or, in dynamics, masses resist every motion.
+/// The node and degree of freedom that a mechanism moves most; `None` where elements resist every motion.
 /// The matrix that `solver` has factored is that of `now`.
 pub fn find(
     system: &System,
@@ -32,18 +32,8 @@ pub fn find(
     let mode = Mode::softest(solver, dofs, length)?;
     let mut motions = mode.motions(dofs);
     system.project(now.nodes, &mut motions);
-    let resisted = weights.acceleration > 0.0 && moves_mass(system, &motions, length)
-        || strains_elements(system, now, weights, &motions, length);
+    let resisted = strains_elements(system, now, weights, &motions, length);
     if resisted { None } else { mode.largest(dofs) }
-}
-
-/// True where a mass moves, or a damper of a node.
-fn moves_mass(system: &System, motions: &[Vec6], length: f64) -> bool {
-    let translates = |node: usize| (0..3).any(|i| motions[node][i].abs() > MOVING);
-    let turns = |node: usize| (3..6).any(|i| motions[node][i].abs() * length > MOVING);
-    system.inertias.iter().any(|i| translates(i.node) && i.mass > 0.0 || i.rotary && turns(i.node))
-        || system.consistent_masses().iter().any(|mass| mass.pairs().any(|(a, _, m)| m > 0.0 && translates(a)))
-        || system.nodal_damping().iter().any(|damping| translates(damping.node) || turns(damping.node))
 }
 
 /// True where elements are strained, by their energy or by the forces on one of them.

@@ -294,7 +294,7 @@ impl Newton {
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             ws.factorizations += 1;
             match matrix.solver.factor() {
-                Ok(()) if self.searched => return Ok(()),
+                Ok(()) if self.searched || cx.is_dynamic() => return Ok(()),
                 Ok(()) => {
                     let (solver, dofs) = (&mut matrix.solver, &cx.plan.dofs);
                     let mechanism = mechanism::find(cx.system, dofs, solver, &now, weights, cx.length);
