@@ -434,13 +434,14 @@ fn has_converged(
     judgement: &Judgement,
 ) -> bool {
     let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.solution.iteration.tolerance;
-    let rounding = judgement.stalled() && is_rounding(cx, ws, correction, fresh && sure);
+    let small = is_rounding(cx, ws, correction, fresh && sure);
+    let rounding = judgement.stalled() && small;
     if sure && judgement.converged() {
         return true;
     }
     // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
     let precise = cx.is_dynamic() || residual <= UNBALANCED * cx.model.solution.iteration.tolerance;
-    if rounding && !precise && (last || judgement.is_stagnant()) {
+    if small && !precise && (last || rounding && judgement.is_stagnant()) {
         ws.warnings.add(Warning::Unbalanced { residual });
         return true;
     }
