@@ -103,10 +103,7 @@ const WIDEST: usize = 160;
 impl Excerpt {
     /// `columns` of the bytes of a line, which may be of any length and no text.
     pub fn new(path: String, line: usize, bytes: &[u8], columns: Range<usize>) -> Self {
-        let lossy = |bytes: &[u8]| -> String {
-            let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
-            String::from_utf8_lossy(bytes).chars().map(plain).collect()
-        };
+        let lossy = |bytes: &[u8]| plain(&String::from_utf8_lossy(bytes)).replace('\n', "\u{fffd}");
         let end = columns.end.min(bytes.len()).min(WIDEST);
         let start = columns.start.min(end);
         // Bytes that are no text grow when they are replaced.
@@ -115,6 +112,15 @@ impl Excerpt {
         let rest = lossy(&bytes[end..bytes.len().min(end.max(WIDEST))]);
         Excerpt { path, line, text: before + &meant + &rest, columns }
     }
+}
+
+/// A text for a terminal, which takes some characters for commands: all that control it or turn the direction of writing become
+/// U+FFFD; line ends and tabs stay.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    let is_command = |c: char| {
+        (c.is_control() && c != '\n' && c != '\t') || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if text.contains(is_command) { Cow::Owned(text.replace(is_command, "\u{fffd}")) } else { Cow::Borrowed(text) }
 }
 
 /// One thing to say about a deck.
@@ -173,22 +179,37 @@ impl Diagnostic {
             Severity::Warning => Level::WARNING,
             Severity::Note => Level::NOTE,
         };
-        let title = level.primary_title(self.message.as_str());
-        let mut hints = self.hints.iter().map(String::as_str);
+        let title = level.primary_title(plain(&self.message));
+        let mut hints = self.hints.iter().map(|hint| plain(hint));
         let mut group = Group::with_title(title);
         if let Some(Excerpt { path, line, text, columns }) = self.excerpt.as_deref() {
             let mark = AnnotationKind::Primary.span(columns.clone()).label(hints.next());
-            let snippet = Snippet::source(text.as_str()).path(path.as_str()).line_start(*line);
+            let snippet = Snippet::source(text.as_str()).path(plain(path)).line_start(*line);
             group = group.element(snippet.annotation(mark));
         } else if let Some(place) = &self.place {
             let (name, text, range) = source.locate(place);
+            let (line, text, range) = lines(text, range);
             let mark = AnnotationKind::Primary.span(range).label(hints.next());
-            group = group.element(Snippet::source(text).path(name).annotation(mark));
+            group = group.element(Snippet::source(text).path(plain(name)).line_start(line).annotation(mark));
         }
         let group = group.elements(hints.map(|hint| Level::HELP.message(hint)));
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
         renderer.render(&[group]).to_string()
     }
+}
+
+/// Texts up to this are handed over whole.
+const SHORT: usize = 1 << 14;
+
+/// The lines of a range and the number of the first: a renderer that gets a long text goes through all of it, every time.
+fn lines(text: &str, range: Range<usize>) -> (usize, &str, Range<usize>) {
+    if text.len() <= SHORT || range.start >= text.len() {
+        return (1, text, range);
+    }
+    let begin = text[..range.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = text[range.end..].find('\n').map_or(text.len(), |newline| range.end + newline + 1);
+    let line = text.as_bytes()[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1;
+    (line, &text[begin..end], range.start - begin..range.end - begin)
 }
 
 /// The deck's text and the `--set` arguments.

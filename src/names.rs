@@ -3,14 +3,22 @@
 /// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters, or in two
 /// if there are no more.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let lower = word.to_lowercase();
+    let (lower, length) = (word.to_lowercase(), word.chars().count());
     let edits = |candidate: &str| strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
-    let near = |candidate: &str| match word.chars().count().max(candidate.chars().count()) {
-        0 | 1 => false,
-        2 => edits(candidate) <= 1,
-        letters => edits(candidate) <= letters / 3,
+    let distance = |candidate: &str| {
+        let letters = candidate.chars().count();
+        let most = match length.max(letters) {
+            0 | 1 => return None,
+            2 => 1,
+            letters => letters / 3,
+        };
+        // Each letter more is an edit.
+        let edits = (length.abs_diff(letters) <= most).then(|| edits(candidate)).filter(|edits| *edits <= most)?;
+        Some(edits)
     };
-    candidates.into_iter().filter(|c| *c != word && near(c)).min_by_key(|c| edits(c))
+    let others = candidates.into_iter().filter(|candidate| *candidate != word);
+    let near = others.filter_map(|candidate| distance(candidate).map(|edits| (edits, candidate)));
+    near.min_by_key(|(edits, _)| *edits).map(|(_, candidate)| candidate)
 }
 
 /// "`a`, `b`, `c`".

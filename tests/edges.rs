@@ -410,16 +410,3 @@ fn folders_that_cannot_be_written_are_named() {
     assert_eq!(code, 0, "{said}");
     assert_eq!(std::fs::read_to_string(folder.join("thesis.txt")).unwrap(), "mine");
 }
-
-/// A device without room stands in for a full disk.
-#[test]
-#[cfg(target_os = "linux")]
-fn a_full_disk_is_named() {
-    let dir = tempfile::tempdir().unwrap();
-    let (deck, folder) = (dir.path().join("deck.toml"), dir.path().join("out"));
-    std::fs::write(&deck, format!("{STATIC}{}{CLAMP}{}", strip(""), pull(-1.0))).unwrap();
-    std::fs::create_dir(&folder).unwrap();
-    std::os::unix::fs::symlink("/dev/full", folder.join("nodes.csv")).unwrap();
-    let (code, said) = wait(command(&deck, &folder).arg("--overwrite").spawn().unwrap());
-    assert!(code == 6 && said.contains("nodes.csv"), "{code} {said}");
-}

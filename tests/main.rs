@@ -15,6 +15,8 @@ mod elements;
 mod explicit;
 mod extreme;
 mod joint_forces;
+mod folders;
+mod foreign_input;
 mod joints;
 mod left_out;
 mod linear;

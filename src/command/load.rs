@@ -9,8 +9,9 @@ use crate::plan::explain::redundant_constraints;
 use crate::plan::{Plan, unreachable_targets};
 use crate::system::System;
 use sha2::{Digest, Sha256};
-use std::io::ErrorKind;
-use std::path::Path;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
 
 /// A deck that can be run.
 #[derive(Debug)]
@@ -22,6 +23,17 @@ pub struct Loaded {
     pub sets: Vec<String>,
     /// SHA-256 of the text, the `--set` arguments and the mesh, in hexadecimal.
     pub hash: String,
+}
+
+impl Loaded {
+    /// Files that the deck is read from.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let deck = PathBuf::from(&self.source.path);
+        let mesh = self.model.origin.mesh.as_ref().map(|mesh| PathBuf::from(&mesh.path));
+        let reference = self.model.study.as_ref().and_then(|study| study.reference.as_ref());
+        let reference = reference.map(|reference| deck.with_file_name(reference));
+        [Some(deck), mesh, reference].into_iter().flatten().collect()
+    }
 }
 
 /// Reads a deck and builds its model. The last of the overrides stand for `options`, by name: if all that is wrong stands there,
@@ -40,10 +52,20 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
     }
 }
 
+/// Bytes of a deck at most: some millions of entries.
+const LARGEST: u64 = 512 << 20;
+
 /// The text of a deck.
 fn text(path: &Path) -> Result<String, Exit> {
     let name = path.display();
-    let bytes = std::fs::read(path).map_err(|error| {
+    let mut bytes = Vec::new();
+    // A pipe is welcome, a device without end is not.
+    let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
+    let judged = read.and_then(|_| match bytes.len() as u64 > LARGEST {
+        true => Err(std::io::Error::other(format!("it has more than {} MB", LARGEST >> 20))),
+        false => Ok(()),
+    });
+    judged.map_err(|error| {
         let hint = match error.kind() {
             ErrorKind::IsADirectory => "\n  help: folders of results are for `report` and `compare`",
             _ => "",

@@ -82,6 +82,7 @@ pub fn parse() -> Result<Cli, Exit> {
 
 /// Does what the command line asks for.
 pub fn execute(cli: Cli) -> Exit {
+    signals::survive_file_limits();
     let done = match (cli.command, cli.run) {
         (Some(Command::Run(args)), _) | (None, Some(args)) => run::run(&args),
         (Some(Command::Check(args)), _) => check::check(&args),

@@ -20,7 +20,7 @@ use crate::output::expect::Expectations;
 use crate::output::log::Log;
 use crate::output::progress::Progress;
 use crate::output::result_json::{ReportedCounts, RunOrigin, RunResult, Sizes, Status, Timings, peak_memory_bytes};
-use crate::output::{Files, listed, wanted};
+use crate::output::{Files, claim, listed, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
 use crate::solve::{Frame, Observer, Run};
@@ -55,6 +55,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let job = Job {
         loaded: &loaded,
         folder: &folder,
+        overwrite: args.overwrite,
         quiet: args.quiet,
         began,
         plan: explained(&loaded, &plan, &system),
@@ -91,6 +92,7 @@ fn sizes(loaded: &Loaded, unknowns: usize, multipliers: usize) -> Sizes {
 struct Job<'a> {
     loaded: &'a Loaded,
     folder: &'a Path,
+    overwrite: bool,
     quiet: bool,
     began: Instant,
     /// In words.
@@ -114,6 +116,7 @@ impl Job<'_> {
     /// Runs the scene and writes its files; an error is one of input/output.
     fn compute(&self, run: &mut Run) -> io::Result<(End, RunResult, Option<String>)> {
         let model = &self.loaded.model;
+        let _lock = claim(self.folder, self.overwrite, model, &self.loaded.files())?;
         let mut log = Log::open(self.folder, false)?;
         let origin = self.origin();
         log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;

@@ -15,10 +15,24 @@ pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
         signal_hook::flag::register(signal, Arc::clone(flag))?;
     }
     #[cfg(unix)]
-    if !is_ignored(signal_hook::consts::SIGHUP) {
-        signal_hook::flag::register(signal_hook::consts::SIGHUP, Arc::clone(flag))?;
+    {
+        use signal_hook::consts::{SIGHUP, SIGXCPU};
+        if !is_ignored(SIGHUP) {
+            signal_hook::flag::register(SIGHUP, Arc::clone(flag))?;
+        }
+        // The soft limit on processor time (`ulimit -t`): some seconds are left.
+        signal_hook::flag::register(SIGXCPU, Arc::clone(flag))?;
     }
     Ok(())
+}
+
+/// A file that reaches a limit (`ulimit -f`) is an error of writing, not the end of the process.
+pub fn survive_file_limits() {
+    #[cfg(unix)]
+    {
+        // A signal that is caught does nothing more; where it cannot be caught all is as before.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    }
 }
 
 /// As `nohup` asks for; also where nobody tells, so that nothing is caught that was to be ignored.

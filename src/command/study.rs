@@ -14,6 +14,7 @@ use super::load::load;
 use super::signals::stop_on_signals;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::Model;
+use crate::output::FolderLock;
 use crate::plan::Plan;
 use crate::study::{Options, RunStatus, StudyFault, rigidify, study as studied, text};
 use crate::system::System;
@@ -122,6 +123,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     let stop = Arc::new(AtomicBool::new(false));
     stop_on_signals(&stop).map_err(|error| exit(error.into(), &loaded.source))?;
     let (model, options) = (&loaded.model, args.options(&folder));
+    let _lock = lock(&folder).map_err(|error| exit(error.into(), &loaded.source))?;
     let found = if args.rigidify {
         let advice = rigidify(model, &deck, &options, &stop);
         advice.map(|advice| (advice.text(), advice.stopped, advice.base.status == RunStatus::Done))
@@ -143,6 +145,12 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         return Err(Exit::NotConverged);
     }
     Ok(())
+}
+
+/// Two studies in one folder would take each other's runs.
+fn lock(folder: &Path) -> std::io::Result<FolderLock> {
+    std::fs::create_dir_all(folder)?;
+    FolderLock::take(folder)
 }
 
 /// Says why there is no study.

@@ -7,6 +7,7 @@
 mod abaqus;
 mod data;
 mod draft;
+mod file;
 mod gmsh;
 mod ids;
 mod normals;
@@ -15,6 +16,7 @@ pub mod text;
 use crate::diagnostic::Diagnostic;
 pub use data::{CellShape, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
 use draft::Draft;
+pub use file::read_regular;
 pub use normals::{FOLD, normals};
 use text::Text;
 

@@ -99,9 +99,12 @@ impl<'d> Expects<'_, 'd> {
                 )
             }
             None => {
-                let mut known = self.scene.names.known(|_| true);
-                known.push("energy");
-                known.sort_unstable();
+                let known = || {
+                    let mut known = self.scene.names.known(|_| true);
+                    known.push("energy");
+                    known.sort_unstable();
+                    known
+                };
                 self.scene.names.unknown("point, body, part or link", name, known, self.report)
             }
         }

@@ -27,7 +27,7 @@ impl Input {
         let Some(file) = deck.mesh.as_ref().and_then(|mesh| mesh.file.as_ref()) else { return (None, Vec::new()) };
         let path = folder.join(&file.value);
         let path = path.display().to_string();
-        let bytes = match std::fs::read(&path) {
+        let bytes = match mesh::read_regular(Path::new(&path)) {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = format!("cannot read the mesh `{path}`: {error}");

@@ -26,6 +26,9 @@ pub(super) struct Names<'d> {
     body_of: HashMap<PartIndex, usize>,
 }
 
+/// Sets that contain themselves, of which it is said: each takes a walk through all that it contains.
+const CIRCLES: usize = 50;
+
 impl<'d> Names<'d> {
     /// Declares all names of a deck, then checks what sets are made of.
     pub fn declare(deck: &'d Deck, bodies: &Bodies<'d>, mesh: MeshNodes<'d>, report: &mut Report<'d>) -> Self {
@@ -112,27 +115,59 @@ impl<'d> Names<'d> {
 
     /// Reports members of sets that stand for nothing, and sets that hold themselves.
     fn check_sets(&self, report: &mut Report<'d>) {
+        let entangled = self.entangled();
+        let mut said = 0;
         for (index, (name, members)) in self.deck.sets.0.iter().enumerate() {
             for member in &members.values {
                 self.find(member, report);
             }
-            if self.holds_itself(index) {
+            if said < CIRCLES && entangled[index] && self.holds_itself(index) {
+                said += 1;
                 report.error::<()>(&name.span, format!("set `{}` contains itself", name.value));
             }
         }
     }
 
+    /// The sets within a set.
+    fn inner_sets(&self, set: usize) -> impl Iterator<Item = usize> {
+        self.deck.sets.0[set].1.values.iter().filter_map(|member| match self.places.get(member.as_str()) {
+            Some((Place::Set(inner), _)) => Some(*inner),
+            _ => None,
+        })
+    }
+
+    /// For each set, whether it contains itself or one that does: what is left when sets without inner sets are taken away, and
+    /// then those that have no others, until none is.
+    fn entangled(&self) -> Vec<bool> {
+        let count = self.deck.sets.0.len();
+        let (mut inner, mut outer) = (vec![0_usize; count], vec![Vec::new(); count]);
+        for set in 0..count {
+            for other in self.inner_sets(set) {
+                inner[set] += 1;
+                outer[other].push(set);
+            }
+        }
+        let mut free: Vec<usize> = (0..count).filter(|&set| inner[set] == 0).collect();
+        while let Some(set) = free.pop() {
+            for &holder in &outer[set] {
+                inner[holder] -= 1;
+                if inner[holder] == 0 {
+                    free.push(holder);
+                }
+            }
+        }
+        inner.into_iter().map(|left| left > 0).collect()
+    }
+
     fn holds_itself(&self, set: usize) -> bool {
-        let (mut todo, mut seen) = (vec![set], vec![false; self.deck.sets.0.len()]);
+        let (mut todo, mut seen) = (vec![set], HashSet::new());
         while let Some(index) = todo.pop() {
-            for member in &self.deck.sets.0[index].1.values {
-                match self.places.get(member.as_str()) {
-                    Some((Place::Set(inner), _)) if *inner == set => return true,
-                    Some((Place::Set(inner), _)) if !seen[*inner] => {
-                        seen[*inner] = true;
-                        todo.push(*inner);
-                    }
-                    _ => {}
+            for inner in self.inner_sets(index) {
+                if inner == set {
+                    return true;
+                }
+                if seen.insert(inner) {
+                    todo.push(inner);
                 }
             }
         }
@@ -194,20 +229,30 @@ impl<'d> Names<'d> {
     /// What a name stands for; a name that stands for nothing is an error.
     pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
         self.place(name)
-            .or_else(|| self.unknown("point, body, set or part", name, self.known(Place::has_nodes), report))
+            .or_else(|| self.unknown("point, body, set or part", name, || self.known(Place::has_nodes), report))
     }
 
     /// [`Names::find`] in a list of points, bodies and sets.
     pub fn find_nodes(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
         self.place(name)
-            .or_else(|| self.unknown("point, body or set", name, self.known(|place| !self.is_part(place)), report))
+            .or_else(|| self.unknown("point, body or set", name, || self.known(|place| !self.is_part(place)), report))
     }
 
     /// Reports a name that stands for nothing where nodes are wanted.
-    pub fn unknown<T>(&self, what: &str, name: &At<String>, known: Vec<&str>, report: &mut Report<'d>) -> Option<T> {
+    pub fn unknown<'n, T>(
+        &self,
+        what: &str,
+        name: &At<String>,
+        known: impl FnOnce() -> Vec<&'n str>,
+        report: &mut Report<'d>,
+    ) -> Option<T> {
         report.lose_connections();
         // It may be a group of a mesh that could not be read.
-        if self.mesh.is_lost { None } else { report.unknown(what, name, known.into_iter()) }
+        if self.mesh.is_lost {
+            return None;
+        }
+        let known = if report.may_search() { known() } else { Vec::new() };
+        report.unknown(what, name, known.into_iter())
     }
 
     /// Whether a place is no list of nodes.
@@ -235,7 +280,7 @@ impl<'d> Names<'d> {
                 let message = format!("`{key}` takes points, and `{}` is {}", name.value, place.kind());
                 report.error(&name.span, message)
             }
-            None => self.unknown("point", name, self.deck.points.names().collect(), report),
+            None => self.unknown("point", name, || self.deck.points.names().collect(), report),
         }
     }
 

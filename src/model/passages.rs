@@ -31,7 +31,7 @@ pub(super) fn passage<'d>(
             let message = format!("{what} takes a point or body, and `{}` is {}", name.value, place.kind());
             return report.error(&name.span, message);
         }
-        None => return scene.names.unknown("point or body", name, scene.names.known(|_| true), report),
+        None => return scene.names.unknown("point or body", name, || scene.names.known(|_| true), report),
     };
     let (quantity, value) = (quantity?, value?);
     let (dof, word) = match quantity.value {

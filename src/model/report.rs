@@ -30,13 +30,18 @@ pub(super) struct Report<'d> {
     /// False once something failed to say which nodes it connects. A point that nothing seems to be connected to may then be
     /// connected by that, and is no error of its own.
     connections_known: bool,
+    /// Names that may still be compared with misspelt ones.
+    searches: usize,
 }
+
+/// Names that are compared with misspelt ones in all: of thousands of unknown names only some are shown.
+const SEARCHES: usize = 1_000_000;
 
 impl<'d> Report<'d> {
     pub fn new(deck: &'d Deck) -> Self {
         let is_table = |table: &Option<Span>| table.as_ref().is_none_or(|table| *table == ROOT);
         let connections_known = !deck.spoiled.iter().any(|entry| is_table(&entry.table));
-        Report { deck, problems: Vec::new(), connections_known }
+        Report { deck, problems: Vec::new(), connections_known, searches: SEARCHES }
     }
 
     /// Reports an error and returns `None`, so that `return report.error(…)` leaves a table that cannot go on.
@@ -221,6 +226,11 @@ impl<'d> Report<'d> {
         }
     }
 
+    /// Whether another unknown name is compared with those that are known.
+    pub fn may_search(&self) -> bool {
+        self.searches > 0
+    }
+
     /// Reports a name that stands for nothing, with the nearest of those that are known. What could not be read may have this
     /// name, so then nothing is said.
     pub fn unknown<'n, T>(
@@ -229,14 +239,19 @@ impl<'d> Report<'d> {
         name: &At<String>,
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Option<T> {
+        if !self.may_search() {
+            return self.error(&name.span, format!("no {what} is named `{}`", name.value));
+        }
+        let count = known.clone().count();
+        self.searches = self.searches.saturating_sub(count);
         if self.deck.spoiled.iter().any(|entry| entry.key == name.value) {
             return None;
         }
         let message = format!("no {what} is named `{}`", name.value);
         match nearest(name, known.clone()) {
             Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
-            None if known.clone().next().is_none() => self.error_with(&name.span, message, "the deck has none"),
-            None if known.clone().count() <= 8 => {
+            None if count == 0 => self.error_with(&name.span, message, "the deck has none"),
+            None if count <= 8 => {
                 self.error_with(&name.span, message, format!("known: {}", quoted(known)))
             }
             None => self.error(&name.span, message),

@@ -148,7 +148,7 @@ impl<'d> Reader<'_, 'd> {
                 return self.report.error_with(&word.span, message, "quantities are at points and bodies");
             }
             None => {
-                let known = self.scene.names.known(|place| matches!(place, Place::Point(_) | Place::Body(_)));
+                let known = || self.scene.names.known(|place| matches!(place, Place::Point(_) | Place::Body(_)));
                 return self.scene.names.unknown("point or body", &name, known, self.report);
             }
         };

@@ -7,7 +7,8 @@
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
 //! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
-use super::disk::{at, replace};
+use super::disk::{at, create, replace};
+use super::run_list::RunList;
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::{Drawing, Model, Part};
@@ -16,7 +17,7 @@ use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// A drawn point: fixed to a node, `arm` and `axes` (columns) as they are at t = 0.
@@ -142,11 +143,22 @@ fn names(model: &Model) -> csv::Result<Vec<u8>> {
 
 /// Whether a file of this name is one of these.
 pub fn is_file(name: &str) -> bool {
-    ["fields.csv", "fields.pvd"].contains(&name) || (name.starts_with("fields_") && name.ends_with(".vtu"))
+    LISTS.contains(&name) || is_grid(name)
+}
+
+/// The files that are written however many grids there are.
+pub const LISTS: [&str; 2] = ["fields.csv", "fields.pvd"];
+
+/// Whether a file of this name is the grid of a step.
+pub fn is_grid(name: &str) -> bool {
+    let step = name.strip_prefix("fields_").and_then(|rest| rest.strip_suffix(".vtu"));
+    step.is_some_and(|step| step.len() >= 6 && step.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 pub struct Fields {
     dir: PathBuf,
+    /// Of the files of this run: each grid is one more.
+    list: RunList,
     every: usize,
     places: Vec<Place>,
     /// What is the same in every grid: the opening of its one piece, the parts of its cells, the cells.
@@ -181,6 +193,7 @@ impl Fields {
         };
         Ok(Fields {
             dir: dir.into(),
+            list: RunList::open(dir)?,
             every,
             places,
             piece,
@@ -256,7 +269,8 @@ impl Fields {
 
         let name = format!("fields_{:06}.vtu", frame.step);
         let path = self.dir.join(&name);
-        fs::write(&path, text.as_bytes()).map_err(|e| at(&path, e))?;
+        self.list.note(&name)?;
+        create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
         let _ = writeln!(self.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
         let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.listed);
         replace(&self.dir.join("fields.pvd"), list.as_bytes())

@@ -2,8 +2,7 @@
 
 use super::disk::at;
 use super::expect::needs;
-use super::fields::Fields;
-use super::folder::remove_stale;
+use super::fields::{Fields, LISTS};
 use super::table::{TableKind, WriteRows};
 use super::table_file::TableFile;
 use super::tables::TABLES;
@@ -35,9 +34,6 @@ impl Files {
     /// Creates the folder and its files; with `keep_to`, goes on with those of a run interrupted after that step.
     pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Files> {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
-        if keep_to.is_none() {
-            remove_stale(dir)?;
-        }
         let open = |kind: &'static TableKind| {
             let file = TableFile::open(dir, kind.file, &kind.header(), keep_to)?;
             Ok(OpenTable { kind, file, write: (kind.rows)(model) })
@@ -49,10 +45,19 @@ impl Files {
     }
 
     /// Hands over the rows still waiting: at the end of a run, and before a checkpoint.
+    ///
+    /// # Errors
+    /// A table cannot grow, or is no longer what this run has written.
     pub fn finish(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
-        self.tables.iter_mut().try_for_each(|table| table.file.flush())
+        self.tables.iter_mut().try_for_each(|table| table.file.flush().and_then(|()| table.file.verify()))
     }
+}
+
+/// Names of the tables and lists that a run of this model writes; grids come with the steps.
+pub fn names(model: &Model) -> Vec<&'static str> {
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file);
+    tables.chain(model.output.fields.iter().flat_map(|_| LISTS)).collect()
 }
 
 impl Observer for Files {

@@ -1,40 +1,120 @@
-//! The output folder as a whole: which files in it are those of a run, and how they are taken away.
+//! The output folder as a whole: who may write there, which files in it are those of a run, and how they are taken away.
 
 use super::disk::{UNFINISHED, at};
+use super::files::names;
+use super::lock::{self, FolderLock};
+use super::run_list::{self, RunList, foreign};
 use super::{fields, log, result_json, tables};
+use crate::model::Model;
+use std::collections::HashSet;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Removes results of an earlier run, so that none of them is taken for one of this; other files stay.
-pub fn remove_stale(dir: &Path) -> io::Result<()> {
-    remove(dir, &is_result)
+/// Makes a folder ready for a run: it is made where there is none, locked, and what an older run has written there goes, so that
+/// nothing of it is taken for a result of this one. Anything else stays: other files, what links lead to, and the files `read` by
+/// the run, such as its deck.
+///
+/// # Errors
+/// Another run writes there; without `overwrite`, the folder holds files; a file that no run has written, or that this run reads,
+/// is in the way. Then nothing has gone.
+pub fn claim(dir: &Path, overwrite: bool, model: &Model, read: &[PathBuf]) -> io::Result<FolderLock> {
+    fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
+    let lock = FolderLock::take(dir)?;
+    let files = entries(dir)?;
+    if !overwrite && files.iter().any(|name| name != lock::NAME) {
+        return Err(at(dir, io::Error::new(io::ErrorKind::AlreadyExists, "the folder holds files already")));
+    }
+    let older = ours(dir, &files)?;
+    let mut written = names(model);
+    written.extend([log::NAME, result_json::NAME]);
+    let in_the_way = |name: &&String| {
+        let is_next = written.contains(&name.as_str()) || (model.output.fields.is_some() && fields::is_grid(name));
+        is_next && !older.contains(*name)
+    };
+    if let Some(name) = files.iter().find(in_the_way) {
+        return Err(foreign(&dir.join(name)));
+    }
+    let read: Vec<PathBuf> = read.iter().flat_map(|path| [place(path), path.canonicalize().ok()]).flatten().collect();
+    let is_read = |name: &&String| place(&dir.join(name)).is_some_and(|path| read.contains(&path));
+    if let Some(name) = older.iter().find(is_read) {
+        let text = "this run reads it, so --overwrite leaves it: name another folder with -o";
+        return Err(at(&dir.join(name), io::Error::new(io::ErrorKind::AlreadyExists, text)));
+    }
+    take_away(dir, &files, &older)?;
+    let mut list = RunList::open(dir)?;
+    written.iter().try_for_each(|name| list.note(name))?;
+    Ok(lock)
 }
 
-fn is_result(name: &str) -> bool {
-    tables::of_file(name).is_some() || fields::is_file(name) || name == result_json::NAME
+/// Names of everything in a folder.
+fn entries(dir: &Path) -> io::Result<Vec<String>> {
+    let entries = fs::read_dir(dir).map_err(|e| at(dir, e))?;
+    let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_str().map(str::to_owned));
+    let names: io::Result<Vec<Option<String>>> = entries.map(name).collect();
+    Ok(names.map_err(|e| at(dir, e))?.into_iter().flatten().collect())
+}
+
+/// A path whose folder is free of links; the file itself may be one.
+fn place(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Some(folder.canonicalize().ok()?.join(path.file_name()?))
+}
+
+/// Of the files of a folder those that a run has written: as its list says, with what it left unfinished; of an earlier version
+/// without a list, by their names, where its log or its result shows that it was one.
+fn ours(dir: &Path, files: &[String]) -> io::Result<HashSet<String>> {
+    if let Some(listed) = run_list::read(dir)? {
+        let unfinished: Vec<String> = listed.iter().map(|name| format!("{name}{UNFINISHED}")).collect();
+        return Ok(listed.into_iter().chain(unfinished).collect());
+    }
+    let is_file = |name: &&String| fs::symlink_metadata(dir.join(name)).is_ok_and(|found| found.is_file());
+    let without_list = || files.iter().filter(|name| is_of_a_run(name)).filter(is_file).cloned().collect();
+    Ok(if is_of_earlier_version(dir) { without_list() } else { HashSet::new() })
+}
+
+fn is_of_earlier_version(dir: &Path) -> bool {
+    let text = |name: &str| fs::read_to_string(dir.join(name)).unwrap_or_default();
+    let has_log = text(log::NAME).lines().next().is_some_and(|line| line.starts_with("rdsolve ") && line.contains(", deck "));
+    let result: serde_json::Value = serde_json::from_str(&text(result_json::NAME)).unwrap_or_default();
+    has_log || result["deck_hash"].is_string() && result["exit_code"].is_u64()
+}
+
+/// Removes files of a run: the result first, so that it never stands beside tables that are not its own, and the list last.
+fn take_away(dir: &Path, files: &[String], ours: &HashSet<String>) -> io::Result<()> {
+    let remove = |name: &str| {
+        let path = dir.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            removed => removed.map_err(|error| at(&path, error)),
+        }
+    };
+    let there = || files.iter().filter(|name| ours.contains(*name)).map(String::as_str);
+    there().filter(|name| *name == result_json::NAME).try_for_each(remove)?;
+    there().filter(|name| *name != result_json::NAME).try_for_each(remove)?;
+    remove(run_list::NAME)
 }
 
 /// A file that a run writes, whole or not.
 fn is_of_a_run(name: &str) -> bool {
-    name == log::NAME || is_result(name.strip_suffix(UNFINISHED).unwrap_or(name))
+    let whole = name.strip_suffix(UNFINISHED).unwrap_or(name);
+    let is_result = tables::of_file(whole).is_some() || fields::is_file(whole) || whole == result_json::NAME;
+    is_result || [log::NAME, run_list::NAME, lock::NAME].contains(&name)
 }
 
 /// Removes what an earlier run has left, and its folder unless something else is in it.
 pub fn remove_run(dir: &Path) -> io::Result<()> {
-    remove(dir, &is_of_a_run)?;
+    let files = entries(dir)?;
+    let mut ours = ours(dir, &files)?;
+    // Of a run that was killed.
+    ours.insert(lock::NAME.to_owned());
+    take_away(dir, &files, &ours)?;
     remove_empty(dir)
 }
 
 /// True where a folder holds files of a run.
 pub fn holds_run(dir: &Path) -> io::Result<bool> {
-    for entry in fs::read_dir(dir).map_err(|e| at(dir, e))? {
-        let entry = entry.map_err(|e| at(dir, e))?;
-        if entry.file_name().to_str().is_some_and(is_of_a_run) {
-            return Ok(true);
-        }
-    }
-    Ok(false)
+    Ok(entries(dir)?.iter().any(|name| is_of_a_run(name)))
 }
 
 /// Removes a folder with nothing in it.
@@ -58,21 +138,4 @@ pub fn remove(dir: &Path, is_ours: &dyn Fn(&str) -> bool) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_results_of_an_earlier_run_go() {
-        let dir = tempfile::tempdir().unwrap();
-        for name in ["links.csv", "fields.csv", "fields_000010.vtu", "result.json", "notes.txt", "my_nodes.csv"] {
-            fs::write(dir.path().join(name), "old").unwrap();
-        }
-        remove_stale(dir.path()).unwrap();
-        let mut left: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
-        left.sort();
-        assert_eq!(left, ["my_nodes.csv", "notes.txt"]);
-    }
 }

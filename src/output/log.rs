@@ -1,6 +1,7 @@
 //! run.log: what happened, in plain lines. Timings are welcome here, as they are not in the tables.
 
-use super::disk::at;
+use super::disk::{at, create};
+use crate::diagnostic::plain;
 use crate::names::instant;
 use crate::solve::{Frame, Observer};
 use std::fs::{File, OpenOptions};
@@ -21,15 +22,14 @@ impl Log {
     /// A new log, or the old one continued.
     pub fn open(dir: &Path, resume: bool) -> io::Result<Log> {
         let path = dir.join(NAME);
-        let mut options = OpenOptions::new();
-        options.create(true).write(true).append(resume).truncate(!resume);
-        let file = std::fs::create_dir_all(dir).and_then(|()| options.open(&path)).map_err(|e| at(&path, e))?;
+        let open = |()| if resume { OpenOptions::new().create(true).append(true).open(&path) } else { create(&path) };
+        let file = std::fs::create_dir_all(dir).and_then(open).map_err(|e| at(&path, e))?;
         Ok(Log { path, file, path_before: None })
     }
 
     /// One or more lines; the last may do without its line break.
     pub fn say(&mut self, text: &str) -> io::Result<()> {
-        let text = format!("{}\n", text.trim_end());
+        let text = format!("{}\n", plain(text.trim_end()));
         self.file.write_all(text.as_bytes()).map_err(|e| at(&self.path, e))
     }
 

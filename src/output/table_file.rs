@@ -1,19 +1,25 @@
 //! A comma separated file that grows by whole rows, without allocating.
 //!
-//! Rows collect in memory and reach the file complete, so a killed run leaves no half row; numbers are the shortest text
-//! that reads back to the same double. The csv crate is for readers: its writer hands over whatever fills its buffer.
+//! Rows collect in memory and reach the file complete: where the file can grow no more it is cut back to its last whole row, and
+//! of a run that is killed a row is torn only where it crosses a page of the file at that very moment, which readers say. Numbers
+//! are the shortest text that reads back to the same double. The csv crate is for readers: its writer hands over whatever fills
+//! its buffer.
 
-use super::disk::at;
+use super::disk::{at, create, is_same};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// Bytes of finished rows that are not left waiting for the next flush.
 const ENOUGH: usize = 1 << 16;
+/// Bytes that the operating system takes at a time, whatever is killed meanwhile.
+const PAGE: usize = 1 << 12;
 
 pub struct TableFile {
     path: PathBuf,
     file: File,
+    /// Bytes in the file: whole rows.
+    written: u64,
     rows: Vec<u8>,
     digits: ryu::Buffer,
 }
@@ -23,11 +29,16 @@ impl TableFile {
     pub fn open(dir: &Path, name: &str, header: &str, keep_to: Option<usize>) -> io::Result<TableFile> {
         let path = dir.join(name);
         let file = match keep_to {
-            None => File::create(&path).and_then(|mut file| writeln!(file, "{header}").map(|()| file)),
+            None => create(&path).map(|file| (file, 0)),
             Some(step) => reopen(&path, step),
         };
-        let file = file.map_err(|e| at(&path, e))?;
-        Ok(TableFile { path, file, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new() })
+        let (file, written) = file.map_err(|e| at(&path, e))?;
+        let mut table = TableFile { path, file, written, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new() };
+        if keep_to.is_none() {
+            let _ = writeln!(table.rows, "{header}");
+            table.flush()?;
+        }
+        Ok(table)
     }
 
     /// Begins a row with the two columns that every table has.
@@ -74,16 +85,55 @@ impl TableFile {
         if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
     }
 
-    /// Hands the finished rows to the file.
+    /// Hands the finished rows to the file, in pieces that end with a row and, but for a row that crosses one, within a page.
+    ///
+    /// # Errors
+    /// The file cannot grow; it then ends with its last whole row, and the rows are lost.
     pub fn flush(&mut self) -> io::Result<()> {
-        let written = self.file.write_all(&self.rows);
+        // Cut short by somebody, the file would have a hole.
+        if self.file.metadata().map_err(|error| at(&self.path, error))?.len() != self.written {
+            self.rows.clear();
+            return Err(self.spoiled());
+        }
+        let mut from = 0;
+        let mut done = Ok(());
+        while from < self.rows.len() && done.is_ok() {
+            let rest = &self.rows[from..];
+            let room = PAGE - (self.written as usize) % PAGE;
+            let within = rest[..room.min(rest.len())].iter().rposition(|&byte| byte == b'\n');
+            let length = within.or_else(|| rest.iter().position(|&byte| byte == b'\n')).map_or(rest.len(), |end| end + 1);
+            done = self.file.write_all(&rest[..length]);
+            if done.is_ok() {
+                (self.written, from) = (self.written + length as u64, from + length);
+            } else {
+                // There is room for a shorter file.
+                let _ = self.file.set_len(self.written);
+            }
+        }
         self.rows.clear();
-        written.map_err(|e| at(&self.path, e))
+        done.map_err(|e| at(&self.path, e))
+    }
+
+    /// Whether the file still stands under its name and holds what was written, nothing more.
+    ///
+    /// # Errors
+    /// Somebody has taken it away, put another in its place or written to it.
+    pub fn verify(&self) -> io::Result<()> {
+        let length = self.file.metadata().map_err(|error| at(&self.path, error))?.len();
+        if is_same(&self.file, &self.path) && length == self.written {
+            return Ok(());
+        }
+        Err(self.spoiled())
+    }
+
+    fn spoiled(&self) -> io::Error {
+        let what = "the table was taken away, replaced or changed while the run was writing it; its results are lost";
+        at(&self.path, io::Error::new(io::ErrorKind::NotFound, what))
     }
 }
 
 /// Opens a table for more rows, without what was written after `step`.
-fn reopen(path: &Path, step: usize) -> io::Result<File> {
+fn reopen(path: &Path, step: usize) -> io::Result<(File, u64)> {
     let mut file = OpenOptions::new().read(true).write(true).open(path)?;
     let (mut end, mut line) = (0, Vec::new());
     let mut reader = BufReader::new(&file);
@@ -100,7 +150,7 @@ fn reopen(path: &Path, step: usize) -> io::Result<File> {
     }
     file.set_len(end)?;
     file.seek(io::SeekFrom::End(0))?;
-    Ok(file)
+    Ok((file, end))
 }
 
 #[cfg(test)]
@@ -170,12 +220,63 @@ mod tests {
         if !Path::new("/dev/full").exists() {
             return;
         }
-        let mut table = TableFile::open(Path::new("/dev"), "null", "step,time", None).unwrap();
+        let dir = tempfile::tempdir().unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time", None).unwrap();
         table.path = PathBuf::from("/dev/full");
         table.file = OpenOptions::new().write(true).open(&table.path).unwrap();
+        table.written = 0;
         table.row(0, 0.0).end().unwrap();
         let error = table.flush().unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-        assert!(error.to_string().starts_with("/dev/full: "), "{error}");
+        assert!(error.to_string().starts_with("/dev/full: ") && error.to_string().contains("make room"), "{error}");
+    }
+
+    #[test]
+    fn a_table_that_is_gone_or_changed_is_an_error() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("t.csv");
+        let table = || {
+            let mut table = TableFile::open(dir.path(), "t.csv", "step,time", None).unwrap();
+            table.row(0, 0.0).end().unwrap();
+            table.flush().and_then(|()| table.verify()).unwrap();
+            table
+        };
+        let spoil: [&dyn Fn(); 4] = [
+            &|| std::fs::remove_file(&path).unwrap(),
+            &|| std::fs::rename(&path, dir.path().join("elsewhere")).unwrap(),
+            &|| std::fs::write(&path, "step").unwrap(),
+            &|| OpenOptions::new().append(true).open(&path).unwrap().write_all(b"9,9.0\n").unwrap(),
+        ];
+        for spoil in spoil {
+            let table = table();
+            spoil();
+            let error = table.verify().unwrap_err();
+            assert!(error.to_string().contains("t.csv: the table was taken away"), "{error}");
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_a_link_leads_to_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(dir.path().join("mine"), "kept").unwrap();
+        std::os::unix::fs::symlink("mine", dir.path().join("t.csv")).unwrap();
+        TableFile::open(dir.path(), "t.csv", "step,time", None).unwrap();
+        assert_eq!(std::fs::read_to_string(dir.path().join("mine")).unwrap(), "kept");
+        assert_eq!(std::fs::read_to_string(dir.path().join("t.csv")).unwrap(), "step,time\n");
+    }
+
+    #[test]
+    fn rows_longer_and_shorter_than_a_page_arrive_whole() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name", None).unwrap();
+        let mut random = SmallRng::seed_from_u64(9);
+        let lengths: Vec<usize> = (0..300).map(|_| (random.next_u64() % 6000) as usize).collect();
+        for (step, length) in lengths.iter().enumerate() {
+            table.row(step, 0.0).text(&"x".repeat(*length)).end().unwrap();
+        }
+        table.flush().and_then(|()| table.verify()).unwrap();
+        let rows = read(&dir.path().join("t.csv"));
+        assert!(rows.len() == 301 && rows[1..].iter().zip(&lengths).all(|(row, length)| row[2].len() == *length));
     }
 }

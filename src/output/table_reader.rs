@@ -28,6 +28,9 @@ pub struct TableReader {
 impl TableReader {
     /// Opens a table and reads its header.
     pub fn open(path: &Path) -> io::Result<TableReader> {
+        if !std::fs::metadata(path).map_err(|e| at(path, e))?.is_file() {
+            return Err(at(path, io::Error::new(io::ErrorKind::InvalidData, "not a regular file, so no table")));
+        }
         let file = File::open(path).map_err(|e| at(path, e))?;
         let reader = BufReader::with_capacity(CHUNK, file);
         let (path, line) = (path.to_owned(), Vec::new());

@@ -1,11 +1,11 @@
 //! The file that a deck names as the reference of its study, read with all of its faults told at once.
 
 use crate::diagnostic::{Diagnostic, Span};
+use crate::mesh::read_regular;
 use crate::mesh::text::{Text, TextLine};
 use crate::model::Model;
 use crate::model::study::{Quantity, Study};
 use crate::names::{nearest, quoted};
-use std::fs;
 use std::path::Path;
 
 /// The values of a file.
@@ -70,7 +70,7 @@ pub fn read(
         None => list,
     };
     let error = |text: String| Diagnostic::error(format!("the reference `{file}` {text}"));
-    let bytes = match fs::read(&path) {
+    let bytes = match read_regular(&path) {
         Ok(bytes) => bytes,
         Err(fault) => return Err(placed(vec![error(format!("cannot be read: {fault}"))])),
     };
