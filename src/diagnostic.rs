@@ -123,6 +123,21 @@ pub fn plain(text: &str) -> Cow<'_, str> {
     if text.contains(is_command) { Cow::Owned(text.replace(is_command, "\u{fffd}")) } else { Cow::Borrowed(text) }
 }
 
+/// [`plain`] for a text in which places are marked: each character becomes one of as many bytes. The renderer shows those of one
+/// byte as pictures.
+fn in_place(text: &str) -> Cow<'_, str> {
+    let is_command = |c: char| matches!(c, '\u{80}'..='\u{9f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    if !text.contains(is_command) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| match c {
+        c if !is_command(c) => c,
+        c if c.len_utf8() == 2 => '\u{bf}',
+        _ => '\u{fffd}',
+    };
+    Cow::Owned(text.chars().map(shown).collect())
+}
+
 /// One thing to say about a deck.
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
@@ -190,7 +205,7 @@ impl Diagnostic {
             let (name, text, range) = source.locate(place);
             let (line, text, range) = lines(text, range);
             let mark = AnnotationKind::Primary.span(range).label(hints.next());
-            group = group.element(Snippet::source(text).path(plain(name)).line_start(line).annotation(mark));
+            group = group.element(Snippet::source(in_place(text)).path(plain(name)).line_start(line).annotation(mark));
         }
         let group = group.elements(hints.map(|hint| Level::HELP.message(hint)));
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };

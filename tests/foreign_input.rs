@@ -33,7 +33,7 @@ fn long_decks_are_read_in_seconds() {
         ("circle", 3, format!("{BALL}[sets]\n{}", list(&|i| format!("s{i} = [\"s{}\"]\n", (i + 1) % MANY)))),
         // Names that stand for nothing: in one list, in lists of their own, near to names that do.
         ("words", 3, format!("{BALL}[sets]\na = [\n{}]\n", list(&|i| format!("\"q{i}\",\n")))),
-        ("lists", 3, format!("{BALL}{}", list(&|i| format!("[[attachments]]\nbody = \"bal\"\nnodes = [\"q{i}\"]\n")))),
+        ("lists", 3, format!("{BALL}{}", list(&|i| format!("[[attachments]]\nbody = \"ball\"\nnodes = [\"q{i}\"]\n")))),
         ("near", 3, format!("{points}{BALL}[sets]\na = [{}]\n", list(&|i| format!("\"q{i}\",")))),
     ];
     let dir = tempfile::tempdir().unwrap();
