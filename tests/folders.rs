@@ -81,7 +81,10 @@ fn a_folder_is_one_runs_at_a_time() {
     let desk = Desk::new();
     let first = desk.begin();
     let (code, said) = desk.run(&["x.toml", "-o", "out", "--overwrite"]);
-    assert!(code == 6 && said.contains(&format!("another run writes there: process {} on ", first.id())), "{code} {said}");
+    assert!(
+        code == 6 && said.contains(&format!("another run writes there: process {} on ", first.id())),
+        "{code} {said}"
+    );
     assert!(said.contains("begun 2") && said.contains("-o"), "{said}");
     let (code, said) = desk.run(&["study", "x.toml", "-o", "out", "--overwrite", "--time-steps", "1e-3"]);
     assert!(code == 6 && said.contains("another run writes there"), "{code} {said}");
@@ -105,7 +108,12 @@ fn of_many_at_once_the_tables_are_those_of_one() {
     let children: Vec<(usize, Child)> = (1..=12)
         .map(|mass| {
             let set = format!("bodies.ball.mass={mass}");
-            (mass, desk.command(&["x.toml", "-o", "out", "--overwrite", "--set", &set, "--set", "analysis.end_time=0.5"]).spawn().unwrap())
+            (
+                mass,
+                desk.command(&["x.toml", "-o", "out", "--overwrite", "--set", &set, "--set", "analysis.end_time=0.5"])
+                    .spawn()
+                    .unwrap(),
+            )
         })
         .collect();
     let ends: Vec<(usize, i32, String)> = children
@@ -250,7 +258,10 @@ fn a_file_that_cannot_grow_ends_the_run_with_whole_rows() {
     for name in ["bodies.csv", "energy.csv", "steps.csv"] {
         assert!(fs::read_to_string(desk.at("out").join(name)).unwrap().ends_with('\n'), "{name}");
     }
-    let long = fs::metadata(desk.at("out/bodies.csv")).unwrap().len().max(fs::metadata(desk.at("out/steps.csv")).unwrap().len());
+    let long = fs::metadata(desk.at("out/bodies.csv"))
+        .unwrap()
+        .len()
+        .max(fs::metadata(desk.at("out/steps.csv")).unwrap().len());
     assert!(long > 10_000, "{long}");
     // The page of a report, and a limit that not even the log fits in.
     let script = "ulimit -f 8 && exec \"$0\" report out";

@@ -26,10 +26,17 @@ fn long_decks_are_read_in_seconds() {
     let decks = [
         // Sets side by side, in a chain, and in a circle.
         ("sets", 0, format!("{BALL}[sets]\n{}", list(&|i| format!("s{i} = [\"ball\"]\n")))),
-        ("chain", 0, format!("{BALL}[sets]\n{}", list(&|i| match i {
-            0 => "s0 = [\"ball\"]\n".into(),
-            _ => format!("s{i} = [\"s{}\"]\n", i - 1),
-        }))),
+        (
+            "chain",
+            0,
+            format!(
+                "{BALL}[sets]\n{}",
+                list(&|i| match i {
+                    0 => "s0 = [\"ball\"]\n".into(),
+                    _ => format!("s{i} = [\"s{}\"]\n", i - 1),
+                })
+            ),
+        ),
         ("circle", 3, format!("{BALL}[sets]\n{}", list(&|i| format!("s{i} = [\"s{}\"]\n", (i + 1) % MANY)))),
         // Names that stand for nothing: in one list, in lists of their own, near to names that do.
         ("words", 3, format!("{BALL}[sets]\na = [\n{}]\n", list(&|i| format!("\"q{i}\",\n")))),
@@ -77,14 +84,18 @@ fn no_message_commands_a_terminal() {
         assert!(code == 3 && is_plain(&out) && is_plain(&said), "{number}: {code} {said:?}");
     }
     // A sound deck with such names: what is printed, the log and the comparison.
-    let title = format!("title = \"{written}\"\n{HEAD}{ball}[[expect]]\nat = \"{written}\"\nquantity = \"x\"\ntime = 0.01\nvalue = 1.0\ntolerance = 0.1\n");
+    let title = format!(
+        "title = \"{written}\"\n{HEAD}{ball}[[expect]]\nat = \"{written}\"\nquantity = \"x\"\ntime = 0.01\nvalue = 1.0\ntolerance = 0.1\n"
+    );
     fs::write(dir.path().join(format!("{evil}.toml")), title).unwrap();
     let (deck, folder) = (format!("{evil}.toml"), format!("{evil}.out"));
     let (code, out, said) = rdsolve(dir.path(), &[&deck]);
     assert!(code == 5 && is_plain(&out) && is_plain(&said), "{code} {out:?} {said:?}");
     let log = fs::read_to_string(dir.path().join(&folder).join("run.log")).unwrap();
     assert!(is_plain(&log), "{log:?}");
-    for arguments in [&["check", &deck][..], &["compare", &folder, &folder], &["report", &folder], &["check", "none\u{1b}[2J.toml"]] {
+    for arguments in
+        [&["check", &deck][..], &["compare", &folder, &folder], &["report", &folder], &["check", "none\u{1b}[2J.toml"]]
+    {
         let (_, out, said) = rdsolve(dir.path(), arguments);
         assert!(is_plain(&out) && is_plain(&said), "{arguments:?} {out:?} {said:?}");
     }
@@ -101,7 +112,12 @@ fn a_file_is_judged_before_it_is_read() {
     assert!(Command::new("mkfifo").arg(dir.path().join("pipe.msh")).status().unwrap().success());
     std::os::unix::fs::symlink("/dev/zero", dir.path().join("zero.msh")).unwrap();
     std::os::unix::fs::symlink("/dev/zero", dir.path().join("zero.inp")).unwrap();
-    let wanted = [("folder.msh", "it is a folder"), ("pipe.msh", "not a regular file"), ("zero.msh", "not a regular file"), ("zero.inp", "not a regular file")];
+    let wanted = [
+        ("folder.msh", "it is a folder"),
+        ("pipe.msh", "not a regular file"),
+        ("zero.msh", "not a regular file"),
+        ("zero.inp", "not a regular file"),
+    ];
     for (file, words) in wanted {
         fs::write(dir.path().join("x.toml"), format!("{HEAD}{BALL}[mesh]\nfile = \"{file}\"\n")).unwrap();
         let began = Instant::now();
@@ -110,7 +126,11 @@ fn a_file_is_judged_before_it_is_read() {
         assert!(began.elapsed() < Duration::from_secs(5));
     }
     // A reference of a study, and a table of a folder of results.
-    fs::write(dir.path().join("x.toml"), format!("{HEAD}{BALL}[study]\nreference = \"pipe.msh\"\ntime_steps = [1e-3]\n")).unwrap();
+    fs::write(
+        dir.path().join("x.toml"),
+        format!("{HEAD}{BALL}[study]\nreference = \"pipe.msh\"\ntime_steps = [1e-3]\n"),
+    )
+    .unwrap();
     let (code, _, said) = rdsolve(dir.path(), &["study", "x.toml"]);
     assert!(code == 3 && said.contains("not a regular file"), "{code} {said}");
     fs::create_dir(dir.path().join("out")).unwrap();

@@ -22,7 +22,11 @@ pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
         return wrong("it is a device or a pipe, not a regular file".into());
     }
     if found.len() > LARGEST {
-        return wrong(format!("it has {:.1} GB, more than {} GB are not read", found.len() as f64 / 1e9, LARGEST >> 30));
+        return wrong(format!(
+            "it has {:.1} GB, more than {} GB are not read",
+            found.len() as f64 / 1e9,
+            LARGEST >> 30
+        ));
     }
     let mut bytes = Vec::with_capacity(found.len() as usize);
     // It may grow meanwhile.

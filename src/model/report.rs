@@ -251,9 +251,7 @@ impl<'d> Report<'d> {
         match nearest(name, known.clone()) {
             Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
             None if count == 0 => self.error_with(&name.span, message, "the deck has none"),
-            None if count <= 8 => {
-                self.error_with(&name.span, message, format!("known: {}", quoted(known)))
-            }
+            None if count <= 8 => self.error_with(&name.span, message, format!("known: {}", quoted(known))),
             None => self.error(&name.span, message),
         }
     }

@@ -8,7 +8,9 @@ use std::path::Path;
 /// The error with the file it is about, and for a file that cannot grow with what to do.
 pub fn at(path: &Path, error: io::Error) -> io::Error {
     let remedy = match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "\n  help: make room, or name another folder with -o",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "\n  help: make room, or name another folder with -o"
+        }
         io::ErrorKind::FileTooLarge => {
             "\n  help: raise the limit on the size of files (`ulimit -f`), or write less: `[output] interval`, `every`"
         }

@@ -75,7 +75,8 @@ fn ours(dir: &Path, files: &[String]) -> io::Result<HashSet<String>> {
 
 fn is_of_earlier_version(dir: &Path) -> bool {
     let text = |name: &str| fs::read_to_string(dir.join(name)).unwrap_or_default();
-    let has_log = text(log::NAME).lines().next().is_some_and(|line| line.starts_with("rdsolve ") && line.contains(", deck "));
+    let has_log =
+        text(log::NAME).lines().next().is_some_and(|line| line.starts_with("rdsolve ") && line.contains(", deck "));
     let result: serde_json::Value = serde_json::from_str(&text(result_json::NAME)).unwrap_or_default();
     has_log || result["deck_hash"].is_string() && result["exit_code"].is_u64()
 }

@@ -47,7 +47,8 @@ impl Holder {
 
     /// None of a text that is not whole.
     fn read(text: &str) -> Option<Holder> {
-        let entry = |key: &str| text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(' ')).map(str::to_owned);
+        let entry =
+            |key: &str| text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(' ')).map(str::to_owned);
         Some(Holder {
             host: entry("host")?,
             process: entry("process")?.parse().ok()?,
@@ -99,10 +100,13 @@ impl FolderLock {
                 continue;
             }
             let older = holder(&mut file);
-            if let Some(older) = older.filter(|older| if locked { older.host != this.host } else { older.may_live(&this) }) {
+            if let Some(older) =
+                older.filter(|older| if locked { older.host != this.host } else { older.may_live(&this) })
+            {
                 return Err(busy(dir, &path, Some(&older)));
             }
-            let write = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(this.text().as_bytes()));
+            let write =
+                file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(this.text().as_bytes()));
             write.map_err(|error| at(&path, error))?;
             return Ok(FolderLock { path, _file: file });
         }
@@ -166,7 +170,8 @@ mod tests {
         assert!(!dir.path().join(NAME).exists());
         // Left by a process of this host that is gone: the system holds nothing.
         let this = Holder::this();
-        for left in [this.text(), String::new(), "host ".into(), Holder { boot: "other".into(), ..this.clone() }.text()] {
+        for left in [this.text(), String::new(), "host ".into(), Holder { boot: "other".into(), ..this.clone() }.text()]
+        {
             fs::write(dir.path().join(NAME), left).unwrap();
             drop(FolderLock::take(dir.path()).unwrap());
         }

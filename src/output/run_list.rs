@@ -75,6 +75,8 @@ pub fn foreign(path: &Path) -> io::Error {
     let path = path.display();
     io::Error::new(
         io::ErrorKind::AlreadyExists,
-        format!("`{path}` was not written by a run there, so --overwrite leaves it: move it, or name another folder with -o"),
+        format!(
+            "`{path}` was not written by a run there, so --overwrite leaves it: move it, or name another folder with -o"
+        ),
     )
 }

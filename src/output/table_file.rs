@@ -33,7 +33,8 @@ impl TableFile {
             Some(step) => reopen(&path, step),
         };
         let (file, written) = file.map_err(|e| at(&path, e))?;
-        let mut table = TableFile { path, file, written, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new() };
+        let mut table =
+            TableFile { path, file, written, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new() };
         if keep_to.is_none() {
             let _ = writeln!(table.rows, "{header}");
             table.flush()?;
@@ -101,7 +102,8 @@ impl TableFile {
             let rest = &self.rows[from..];
             let room = PAGE - (self.written as usize) % PAGE;
             let within = rest[..room.min(rest.len())].iter().rposition(|&byte| byte == b'\n');
-            let length = within.or_else(|| rest.iter().position(|&byte| byte == b'\n')).map_or(rest.len(), |end| end + 1);
+            let length =
+                within.or_else(|| rest.iter().position(|&byte| byte == b'\n')).map_or(rest.len(), |end| end + 1);
             done = self.file.write_all(&rest[..length]);
             if done.is_ok() {
                 (self.written, from) = (self.written + length as u64, from + length);
