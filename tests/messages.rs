@@ -798,7 +798,7 @@ fn contacts() {
     assert_snapshot!("contact_zone", contact(plane, "with = \"portal\"\nstiffness = 0.0\nfriction = 0.1"));
     assert_snapshot!("contact_missing", portal_and("[[contacts]]\n[[contacts]]\nname = \"b\"\nsurface = {}"));
     let inside = r#"shape = "sphere", center = [0.0, 0.0, 2.0], radius = 0.1"#;
-    assert_snapshot!("contact_closed", contact(inside, "with = \"portal\""));
+    assert_snapshot!("contact_closed", contact(inside, "with = \"portal\"\nstiffness = 1e5"));
     let bounds = "[[expect]]\nat = \"block\"\nquantity = \"ux\"\nat_least = 0.0\nat_most = 1.0\n\
                   [[expect]]\nat = \"block\"\nquantity = \"ux\"\nat_least = 0.0\nvalue = 1.0\ntolerance = 0.1";
     assert_snapshot!("expect_bounds", portal_and(bounds));
