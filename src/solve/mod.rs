@@ -4,7 +4,6 @@
 //! plain data; the parts of a step that all schemes share; the implicit and the explicit schemes; the controllers of
 //! the step length; the run on top.
 
-mod bushings;
 mod commit;
 mod contacts;
 mod context;
@@ -17,6 +16,7 @@ mod frame;
 mod implicit;
 mod joints;
 mod linear_system;
+mod links;
 mod march;
 mod motion;
 mod outcome;

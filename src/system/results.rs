@@ -4,14 +4,12 @@ use super::equations::System;
 use super::parts::beams::{self, SectionPoint};
 use super::parts::links::{self, LinkState};
 use super::parts::shells::{self, ShellState};
-use crate::model::{Model, PartKind};
+use crate::model::Model;
 use crate::state::{Configuration, Node};
 
 /// Writes the states of all links into `out`, in deck order.
 pub fn link_states(system: &System, now: &Configuration, out: &mut Vec<LinkState>) {
-    let groups = system.groups.iter().filter(|group| group.kind == PartKind::Link);
-    let twists = groups.flat_map(|group| group.configuration(now).history);
-    links::link_states(&system.links, now.nodes, twists, out);
+    links::link_states(&system.links, &system.groups, now, out);
 }
 
 /// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`.

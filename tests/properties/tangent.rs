@@ -26,6 +26,8 @@ struct Instant {
     start: Vec<Node>,
     /// (Δu, Θ) since then.
     q: Vec<Vec6>,
+    /// Twists of bushings that count turns: none so far.
+    history: Vec<f64>,
 }
 
 impl Instant {
@@ -65,7 +67,12 @@ impl Instant {
                 None => scheme.predict(&stack(&n.v, &n.omega), &stack(&n.a, &n.alpha), &Vec6::zeros()),
             })
             .collect();
-        Instant { system, plan, loading, scheme, start, q }
+        let history = vec![0.0; system.history];
+        Instant { system, plan, loading, scheme, start, q, history }
+    }
+
+    fn configuration<'a>(&'a self, nodes: &'a [Node]) -> Configuration<'a> {
+        Configuration { history: &self.history, ..Configuration::of(nodes) }
     }
 
     fn nodes(&self, q: &[Vec6]) -> Vec<Node> {
@@ -86,7 +93,7 @@ impl Instant {
     fn residual(&self, q: &[Vec6]) -> Vec<f64> {
         let nodes = self.nodes(q);
         let mut forces = Forces::new(&self.system, nodes.len());
-        self.system.residual(&Configuration::of(&nodes), &self.loading, &mut forces);
+        self.system.residual(&self.configuration(&nodes), &self.loading, &mut forces);
         self.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
     }
 
@@ -121,11 +128,11 @@ impl Instant {
         self.plan.kind = kind;
         let nodes = self.nodes(&self.q);
         let mut forces = Forces::new(&self.system, nodes.len());
-        self.system.residual(&Configuration::of(&nodes), &self.loading, &mut forces);
+        self.system.residual(&self.configuration(&nodes), &self.loading, &mut forces);
         let (mut solver, mut assembly) = self.plan.build(&self.system).unwrap();
         let (rate, acceleration) = self.scheme.weights();
         let weights = TangentWeights { stiffness: true, rate, acceleration, moduli: Moduli::Algorithmic };
-        assembly.tangent(&self.system, &Configuration::of(&nodes), &self.loading, &mut forces, weights, &mut solver);
+        assembly.tangent(&self.system, &self.configuration(&nodes), &self.loading, &mut forces, weights, &mut solver);
         let n = self.plan.dofs.unknowns();
         DMatrix::from_fn(n, n, |i, j| solver.slot(i, j).map_or(0.0, |slot| solver.values()[slot]))
     }

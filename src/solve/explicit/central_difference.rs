@@ -14,7 +14,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, excite, move_to_step_end, move_trial, predict};
 use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
-use crate::solve::{bushings, contacts, joints, residual};
+use crate::solve::{contacts, joints, links, residual};
 use crate::state::{Configuration, Node, State, Work};
 use crate::system::masses::{CORRECTIONS, NodeRates};
 
@@ -113,7 +113,7 @@ impl CentralDifferenceStepper {
         }
         contacts::check_passage(cx, ws, state, dt)?;
         joints::check(cx, ws)?;
-        bushings::check(cx, ws, state)?;
+        links::check(cx, ws, state)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         self.critical.count(aMa);
         offset_energy(&mut state.work, aMa, dt);

@@ -14,7 +14,7 @@ use crate::solve::motion::{excite, measure_reach, rates_of, update_dependent_nod
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
-use crate::solve::{bushings, contacts, joints, residual};
+use crate::solve::{contacts, joints, links, residual};
 use crate::state::{Configuration, Increment, Node, State};
 use crate::system::Side;
 use crate::system::masses::NodeRates;
@@ -156,7 +156,7 @@ impl RungeKuttaStepper {
         }
         contacts::check_passage(cx, ws, state, dt)?;
         joints::check(cx, ws)?;
-        bushings::check(cx, ws, state)?;
+        links::check(cx, ws, state)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         if cx.wants_forces {
             for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {

@@ -8,7 +8,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, differentiate, move_to_step_end, move_trial, rates_of};
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::workspace::Workspace;
-use crate::solve::{bushings, contacts, joints};
+use crate::solve::{contacts, joints, links};
 use crate::state::{Configuration, State};
 
 /// Accepts the equilibrium that was found: the state moves to the time `to`, written once.
@@ -38,7 +38,7 @@ pub fn accept(
         contacts::check_passage(cx, ws, state, dt)?;
     }
     joints::check(cx, ws)?;
-    bushings::check(cx, ws, state)?;
+    links::check(cx, ws, state)?;
     jump::check_work(cx, ws, state, &account.dissipated, to)?;
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())

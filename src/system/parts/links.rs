@@ -5,9 +5,10 @@ use crate::elements::bushing::{Bushing, Bushings};
 use crate::elements::link::{self, Links};
 use crate::elements::relative_rotation::RotationalSpring;
 use crate::math::{Mat3, Vec3};
-use crate::model::{Link, LinkKind, Model};
+use crate::model::{Link, LinkKind, Model, PartKind};
 use crate::sections::Stiffness;
-use crate::state::Node;
+use crate::state::{Configuration, Node};
+use crate::system::group::Group;
 use crate::system::plane::MotionPlane;
 
 /// The state of a link at the end of a step.
@@ -87,14 +88,12 @@ pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Optio
     links.iter().position(turned)
 }
 
-/// Writes the states of all links into `out`, in deck order. `twists` are the angles of the bushings that count turns.
-pub fn link_states<'t>(
-    links: &[LinkElement],
-    nodes: &[Node],
-    mut twists: impl Iterator<Item = &'t f64>,
-    out: &mut Vec<LinkState>,
-) {
+/// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
+pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration, out: &mut Vec<LinkState>) {
     out.clear();
+    let nodes = now.nodes;
+    let own = groups.iter().filter(|group| group.kind == PartKind::Link);
+    let mut twists = own.flat_map(|group| group.configuration(now).history);
     out.extend(links.iter().map(|link| match link {
         LinkElement::Line(link) => {
             let (elongation, rate, force) = link.state(nodes);
