@@ -216,13 +216,10 @@ fn table(
     let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
     let has_time = shared.iter().any(|column| column == "time");
     let by_step = by_step && shared.iter().any(|column| column == "step");
-    let [first, second] = rows.map(|rows| {
-        let pick = pick(&rows, &shared, &values, has_time);
-        (rows, pick)
-    });
+    let [first, second] = rows.map(|rows| (pick(&rows, &shared, &values, has_time), rows));
     let (joined, summaries, all_rows) = std::thread::scope(|scope| {
-        let (a, _) = read(scope, first.0, first.1);
-        let (b, _) = read(scope, second.0, second.1);
+        let (a, _) = read(scope, first.1, first.0);
+        let (b, _) = read(scope, second.1, second.0);
         let mut sides = [a, b];
         let joined = join::join(&mut sides, values.len(), by_step)?;
         let all_rows = [sides[0].rows, sides[1].rows];
