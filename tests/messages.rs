@@ -526,7 +526,7 @@ fn loads_and_values() {
     assert_snapshot!(
         "initial_profile",
         portal_and(
-            "[[initial]]\nat = \"block\"\nvelocity = [1.0, 0.0, 0.0]\nprofile = [\n  {},\n
+            "[[initial]]\nat = \"block\"\nvelocity = [1.0, 0.0, 0.0]\nreplaces = true\nprofile = [\n  {},\n
   { amplitude = \"wave\", direction = [0.0, 0.0, 0.0] },\n
   { amplitude = \"wave\", direction = [1.0, 0.0, 0.0], axis = [-2.0, 0.0, 0.0] },\n]"
         )

@@ -1,7 +1,7 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
 use super::data::DependentNode;
-use super::initial_given::{GivenVelocities, Giver, Quantity};
+use super::initial_given::{GivenVelocities, Giver, InitialQuantity};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -62,7 +62,10 @@ impl<'d> Motions<'_, 'd> {
     fn of_bodies(&mut self) {
         let scene = self.scene;
         for (body, made) in scene.deck.bodies.iter().zip(&scene.bodies) {
-            let values = [(&body.velocity, Quantity::Velocity), (&body.angular_velocity, Quantity::AngularVelocity)];
+            let values = [
+                (&body.velocity, InitialQuantity::Velocity),
+                (&body.angular_velocity, InitialQuantity::AngularVelocity),
+            ];
             for (value, quantity) in values {
                 let Some(value) = value else { continue };
                 let what = format!("the table of body `{}`", made.name);
@@ -135,8 +138,8 @@ impl<'d> Motions<'_, 'd> {
             let factor: f64 = factors.iter().map(|factor| factor.at(&x)).product();
             for &quantity in &quantities {
                 let value = match quantity {
-                    Quantity::Velocity => v,
-                    Quantity::AngularVelocity => omega,
+                    InitialQuantity::Velocity => v,
+                    InitialQuantity::AngularVelocity => omega,
                 };
                 self.given.give(node, quantity, factor * value, self.topology);
             }
@@ -206,11 +209,11 @@ impl<'d> Motions<'_, 'd> {
 }
 
 /// What a table gives: the motion of a rigid body is both a velocity and an angular velocity.
-fn given(initial: &Initial) -> Vec<Quantity> {
+fn given(initial: &Initial) -> Vec<InitialQuantity> {
     let rigid = initial.about.is_some();
     let velocity = rigid || initial.velocity.is_some() || initial.normal_velocity.is_some();
     let angular = rigid || initial.angular_velocity.is_some();
-    let both = [(velocity, Quantity::Velocity), (angular, Quantity::AngularVelocity)];
+    let both = [(velocity, InitialQuantity::Velocity), (angular, InitialQuantity::AngularVelocity)];
     both.into_iter().filter(|(is_given, _)| *is_given).map(|(_, quantity)| quantity).collect()
 }
 

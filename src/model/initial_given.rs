@@ -18,25 +18,25 @@ const AS_WRITTEN: f64 = 1e-6;
 
 /// What a table gives: a velocity or an angular velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Quantity {
+pub(super) enum InitialQuantity {
     Velocity,
     AngularVelocity,
 }
 
-impl Quantity {
+impl InitialQuantity {
     /// The deck's key.
     fn word(self) -> &'static str {
         match self {
-            Quantity::Velocity => "velocity",
-            Quantity::AngularVelocity => "angular_velocity",
+            InitialQuantity::Velocity => "velocity",
+            InitialQuantity::AngularVelocity => "angular_velocity",
         }
     }
 
     /// The first of its three degrees of freedom.
     fn first_dof(self) -> usize {
         match self {
-            Quantity::Velocity => 0,
-            Quantity::AngularVelocity => 3,
+            InitialQuantity::Velocity => 0,
+            InitialQuantity::AngularVelocity => 3,
         }
     }
 }
@@ -55,14 +55,14 @@ pub(super) struct Giver<'d> {
 pub(super) struct GivenVelocities<'d> {
     givers: Vec<Giver<'d>>,
     /// The value by node and quantity, and the index of the table that gave it.
-    values: HashMap<(usize, Quantity), (Vec3, usize)>,
+    values: HashMap<(usize, InitialQuantity), (Vec3, usize)>,
     /// Tables that contradict each other, the earlier one first: the first node, and how many there are.
     contradictions: Vec<Contradiction>,
 }
 
 struct Contradiction {
     givers: [usize; 2],
-    quantity: Quantity,
+    quantity: InitialQuantity,
     values: [Vec3; 2],
     node: usize,
     count: usize,
@@ -75,12 +75,12 @@ impl<'d> GivenVelocities<'d> {
     }
 
     /// Gives a node a velocity by the table begun last, global components.
-    pub fn give(&mut self, node: usize, quantity: Quantity, value: Vec3, nodes: &mut Nodes) {
+    pub fn give(&mut self, node: usize, quantity: InitialQuantity, value: Vec3, nodes: &mut Nodes) {
         let giver = self.givers.len() - 1;
         let before = self.values.insert((node, quantity), (value, giver));
         match quantity {
-            Quantity::Velocity => nodes.list[node].v = value,
-            Quantity::AngularVelocity => nodes.list[node].omega = value,
+            InitialQuantity::Velocity => nodes.list[node].v = value,
+            InitialQuantity::AngularVelocity => nodes.list[node].omega = value,
         }
         let Some((old, earlier)) = before.filter(|_| !self.givers[giver].replaces) else { return };
         // A node that moves with another one takes that one's velocity in the end.
@@ -126,7 +126,7 @@ impl<'d> GivenVelocities<'d> {
     pub fn report_dropped(
         &self,
         spots: &[Spot<'d>],
-        quantities: &[Quantity],
+        quantities: &[InitialQuantity],
         amplitudes: &[Amplitude],
         nodes: &Nodes,
         report: &mut Report<'d>,
@@ -160,7 +160,8 @@ impl<'d> GivenVelocities<'d> {
     pub fn report_without_rotation(&self, spots: &[Spot<'d>], nodes: &Nodes, report: &mut Report<'d>) {
         for spots in spots.chunk_by(|a, b| a.span == b.span) {
             let idle = |spot: &Spot| {
-                let omega = self.values.get(&(spot.node, Quantity::AngularVelocity)).map_or(0.0, |(w, _)| w.amax());
+                let omega =
+                    self.values.get(&(spot.node, InitialQuantity::AngularVelocity)).map_or(0.0, |(w, _)| w.amax());
                 omega > 0.0 && !nodes.turns(spot.node) && (3..6).all(|dof| nodes.master_in(spot.node, dof).is_none())
             };
             if spots.iter().all(idle) {
@@ -173,7 +174,7 @@ impl<'d> GivenVelocities<'d> {
 }
 
 /// True for a node whose velocity follows from that of another one.
-fn follows(node: usize, quantity: Quantity, nodes: &Nodes) -> bool {
+fn follows(node: usize, quantity: InitialQuantity, nodes: &Nodes) -> bool {
     nodes.master_in(node, quantity.first_dof()).is_some()
 }
 

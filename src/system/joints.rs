@@ -171,12 +171,15 @@ impl Diagonal {
     }
 }
 
+/// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
+const MODERATE: f64 = 1e4;
+
 /// Finds the penalty factors, which rest on the matrix before any joint has added to it.
 ///
 /// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
 /// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
-/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16. An equation on which nothing acts has the
-/// largest factor.
+/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
+/// An equation on which nothing acts has the largest factor.
 fn set_penalties(
     system: &System,
     nodes: &[Node],
@@ -200,6 +203,7 @@ fn set_penalties(
     for (s, row) in multipliers.penalties.iter_mut().zip(rows) {
         let heaviest = largest[usize::from(row.is_rotational())];
         *s = match heaviest > 0.0 {
+            _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
             _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
             true => heaviest,
             false => 1.0,

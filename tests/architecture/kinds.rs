@@ -12,12 +12,12 @@ const PARTS: [&str; 5] = ["Beam", "Bar", "Shell", "Link", "Contact"];
 const STRANGERS: usize = 6;
 
 /// Kinds of parts that more files name.
-const WELL_KNOWN: Known = &[];
+const WELL_KNOWN: Known = &[("Beam", 7), ("Link", 8)];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
 const CATALOGUES: [(&str, &[&str]); 7] = [
     ("constraints/joints", &["kind"]),
-    ("elements/contact/surfaces", &["kind"]),
+    ("elements/contact/surfaces", &["kind", "sight"]),
     (
         "integrators",
         &["alpha_family", "coefficients", "load_steps", "scheme", "spectrum", "stability_limit", "tableau"],

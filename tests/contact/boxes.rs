@@ -221,6 +221,7 @@ fn resting(center: [f64; 3], size: [f64; 3], surface: &str, more: &str) -> Strin
         r#"
         analysis = {{ kind = "dynamic", end_time = 0.5, time_step = 1e-3 }}
         environment = {{ gravity = [0.0, 0.0, -10.0] }}
+        output = {{ contacts = true }}
         bodies = [{{ name = "box", center = {center:?}, shape = {{ kind = "box", size = {size:?} }}, mass = 2.0 }}]
         [[contacts]]
         name = "seat"
@@ -296,7 +297,7 @@ fn a_stack_of_equal_boxes_stands() {
     };
     for friction in ["", "friction = 0.3\n"] {
         let text = [
-            "analysis = { kind = \"dynamic\", end_time = 1.0, time_step = 2e-3 }\nenvironment = { gravity = [0.0, 0.0, -10.0] }\n",
+            "analysis = { kind = \"dynamic\", end_time = 1.0, time_step = 2e-3 }\nenvironment = { gravity = [0.0, 0.0, -10.0] }\noutput = { contacts = true }\n",
             &body("a", 0.1), &body("b", 0.3), &body("c", 0.5),
             &seam("floor", "center = [0.0, 0.0, -0.1]", "a"), friction,
             &seam("ab", "body = \"a\"", "b"), friction,

@@ -101,8 +101,8 @@ fn static_reactions_balance_the_loads() {
         let is_fixed = |link: &Link| matches!(link.kind, LinkKind::Line { direction: Some(_), .. });
         m.parts.retain(|part| !Link::of(part).is_some_and(is_fixed));
         // Far from buckling.
-        m.loading.nodal.iter_mut().for_each(|load| (load.force, load.moment) = (load.force * 0.3, load.moment * 0.3));
-        m.loading.gravity *= 0.3;
+        m.loading.nodal.iter_mut().for_each(|load| (load.force, load.moment) = (load.force * 0.15, load.moment * 0.15));
+        m.loading.gravity *= 0.15;
         let record = run(&m);
         let state = record.last();
         let (mut force, mut moment, mut size) = (Vec3::zeros(), Vec3::zeros(), 0.0f64);

@@ -4,7 +4,7 @@
 use super::mode::Mode;
 use crate::elements::Moduli;
 use crate::linear::Solver;
-use crate::math::Vec6;
+use crate::math::{Vec6, angular, linear};
 use crate::model::{Model, PartKind};
 use crate::state::Configuration;
 use crate::system::assembly::TangentWeights;
@@ -32,8 +32,23 @@ pub fn find(
     let mode = Mode::softest(solver, dofs, length)?;
     let mut motions = mode.motions(dofs);
     system.project(now.nodes, &mut motions);
-    let resisted = strains_elements(system, now, weights, &motions, length);
+    let resisted =
+        opens_joints(system, now, &motions, length) || strains_elements(system, now, weights, &motions, length);
     if resisted { None } else { mode.largest(dofs) }
+}
+
+/// True where a joint resists the motion, which it does where its constraint equations would be violated.
+fn opens_joints(system: &System, now: &Configuration, motions: &[Vec6], length: f64) -> bool {
+    let size = |motion: &Vec6| linear(motion).amax().max(length * angular(motion).amax());
+    system.joints.iter().any(|joint| {
+        let [a, b] = joint.nodes;
+        joint.equations.iter().any(|equation| {
+            let [Ga, Gb] = equation.gradient(&now.nodes[a], &now.nodes[b]);
+            let gap = Ga.dot(&motions[a]) + Gb.dot(&motions[b]);
+            let lever = if equation.is_rotational() { length } else { 1.0 };
+            gap.abs() * lever > MOVING * size(&motions[a]).max(size(&motions[b])).max(MOVING)
+        })
+    })
 }
 
 /// True where elements are strained, by their energy or by the forces on one of them.

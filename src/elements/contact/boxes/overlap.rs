@@ -13,7 +13,7 @@ const MOST: usize = 48;
 
 /// A face of the common solid.
 #[derive(Clone, Copy)]
-pub struct Face {
+pub struct ClippedFace {
     corners: [Vec3; CORNERS],
     count: usize,
     /// Unit normal, outward.
@@ -24,7 +24,7 @@ pub struct Face {
 
 /// The faces of the common solid.
 pub struct Faces {
-    list: [Face; MOST],
+    list: [ClippedFace; MOST],
     count: usize,
 }
 
@@ -53,7 +53,7 @@ impl Faces {
     /// Those of a box, from its eight corners, so that neighbours share theirs to the last bit.
     fn of_box(center: &Vec3, axes: &Mat3, half: &Vec3) -> Faces {
         let corners: [Vec3; 8] = std::array::from_fn(|k| center + axes * corner(k).component_mul(half));
-        let empty = Face { corners: [Vec3::zeros(); CORNERS], count: 0, normal: Vec3::zeros(), moves: false };
+        let empty = ClippedFace { corners: [Vec3::zeros(); CORNERS], count: 0, normal: Vec3::zeros(), moves: false };
         let mut faces = Faces { list: [empty; MOST], count: 6 };
         for k in 0..3 {
             let (i, j) = (1 << ((k + 1) % 3), 1 << ((k + 2) % 3));
@@ -101,7 +101,7 @@ impl Faces {
     }
 }
 
-impl Face {
+impl ClippedFace {
     /// Keeps what lies below the plane n · x = `at`; tells of each edge that the plane then needs, as it goes around there.
     fn cut(&mut self, n: &Vec3, at: f64, edge: &mut dyn FnMut([Vec3; 2])) {
         let old = self.corners;
@@ -175,7 +175,7 @@ impl Face {
 
 impl Faces {
     /// Those of the solid.
-    pub fn iter(&self) -> impl Iterator<Item = &Face> {
+    pub fn iter(&self) -> impl Iterator<Item = &ClippedFace> {
         self.list[..self.count].iter()
     }
 
@@ -185,7 +185,7 @@ impl Faces {
         let corners = || self.iter().flat_map(|face| &face.corners[..face.count]);
         let middle: Vec3 = corners().sum::<Vec3>() / corners().count().max(1) as f64;
         let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Mat3::zeros());
-        for triangle in self.iter().flat_map(Face::triangles) {
+        for triangle in self.iter().flat_map(ClippedFace::triangles) {
             let [a, b, c] = triangle.map(|x| x - middle);
             let part = a.dot(&b.cross(&c)) / 6.0;
             let sum = a + b + c;
