@@ -139,7 +139,8 @@ fn of_many_at_once_the_tables_are_those_of_one() {
 #[test]
 #[cfg(unix)]
 fn a_run_whose_tables_go_says_so() {
-    let spoil: [(&str, &dyn Fn(&Path)); 4] = [
+    type Spoil<'s> = (&'s str, &'s dyn Fn(&Path));
+    let spoil: [Spoil; 4] = [
         ("bodies.csv", &|out| fs::remove_file(out.join("bodies.csv")).unwrap()),
         ("energy.csv", &|out| fs::write(out.join("energy.csv"), "mine\n").unwrap()),
         ("steps.csv", &|out| fs::rename(out.join("bodies.csv"), out.join("steps.csv")).unwrap()),

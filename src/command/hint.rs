@@ -10,7 +10,7 @@ pub fn command_hint(word: &str) -> Option<String> {
     if COMMANDS.contains(&word) || word.contains(['.', '/', '\\']) || word.starts_with('-') {
         return None;
     }
-    Some(match nearest(word, COMMANDS.into_iter()) {
+    Some(match nearest(word, COMMANDS) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("the commands are {}; a deck is a TOML file", COMMANDS.join(", ")),
     })
