@@ -68,14 +68,7 @@ impl Bushing {
     /// True where the ends have turned against each other by so much, or from one node of `start` to the other by so much at once,
     /// that the moment is no longer defined: near half a turn of a rotation vector or of the swing of an axis.
     pub fn is_turned_over(&self, start: &[Node], end: &[Node]) -> bool {
-        const LIMIT: f64 = 3.0; // radians, of π
-        let (before, after) = (self.relative_rotation(start), self.relative_rotation(end));
-        if self.spring.moment(&after, 0.0).angle > LIMIT {
-            return true;
-        }
-        // Past half a turn the nearest rotation vector is that of the other way round: the sign of the quaternion tells.
-        let flips = before.coords.dot(&after.coords) * before.w * after.w < 0.0;
-        flips && matches!(self.spring, RotationalSpring::Isotropic { stiffness } if stiffness != 0.0)
+        self.spring.is_turned_over(&self.relative_rotation(start), &self.relative_rotation(end))
     }
 
     /// The coefficients of translation and of rotation.
@@ -221,5 +214,38 @@ impl ElementBlock for Bushings {
             c.component_mul(&u).dot(&u) + c_phi.component_mul(&w).dot(&w)
         };
         self.0.iter().map(power).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rotation;
+
+    #[test]
+    fn only_what_resists_rotation_can_be_turned_over() {
+        let nodes = |angle: f64| {
+            let mut nodes = [Node::at_rest(Vec3::zeros()); 2];
+            nodes[1].rotation = rotation::exp(&Vec3::new(0.0, 0.0, angle));
+            nodes
+        };
+        let turns = |stiffness: Vec3, angles: [f64; 2]| {
+            let bushing = Bushing {
+                nodes: [0, 1],
+                axes: Mat3::identity(),
+                stiffness: Vec3::repeat(1.0),
+                spring: RotationalSpring::new(stiffness),
+                damping: [0.0; 6],
+                offset: Vec3::zeros(),
+            };
+            bushing.is_turned_over(&nodes(angles[0]), &nodes(angles[1]))
+        };
+        for angles in [[2.9, 3.1], [2.9, 3.6]] {
+            assert!(!turns(Vec3::zeros(), angles), "nothing resists");
+            assert!(!turns(Vec3::new(1.0, 1.0, 0.0), angles), "a free axis");
+            assert!(!turns(Vec3::new(1.0, 1.0, 5.0), angles), "full turns count");
+            assert!(turns(Vec3::repeat(1.0), angles), "a rotation vector");
+            assert!(turns(Vec3::new(0.0, 1.0, 1.0), angles), "the swing of another axis");
+        }
     }
 }

@@ -49,6 +49,22 @@ impl RotationalSpring {
         RotationalSpring::AboutAxis { axis, stiffness }
     }
 
+    /// True where a rotation from `before` to `after` ends near half a turn, of the rotation vector or of the swing, or has
+    /// passed it: the moment is not defined there, and goes the other way round beyond. Without stiffness there is none.
+    pub fn is_turned_over(&self, before: &Quaternion<f64>, after: &Quaternion<f64>) -> bool {
+        const LIMIT: f64 = 3.0; // radians, of π
+        let passed = match *self {
+            RotationalSpring::Isotropic { stiffness: 0.0 } => return false,
+            // The nearest rotation vector is that of the other way round: the sign of the quaternion tells.
+            RotationalSpring::Isotropic { .. } => before.coords.dot(&after.coords) * before.w * after.w < 0.0,
+            RotationalSpring::AboutAxis { axis, .. } => {
+                let [from, to] = [before, after].map(|Q| Swing::of(Q, axis));
+                from.c < 0.0 && to.c < 0.0 && from.s.dot(&to.s) < 0.0
+            }
+        };
+        passed || self.moment(after, 0.0).angle > LIMIT
+    }
+
     /// The stiffness about the axis of twist: where there is some, full turns count.
     pub fn counts_turns(&self) -> bool {
         matches!(self, RotationalSpring::AboutAxis { axis, stiffness } if stiffness[*axis] != 0.0)
