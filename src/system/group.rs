@@ -1,7 +1,7 @@
 //! Blocks of like elements, each with the part that it belongs to.
 
 use crate::elements::ElementBlock;
-use crate::model::PartKind;
+use crate::model::{Model, Part, PartKind};
 use crate::state::Configuration;
 use std::ops::Range;
 
@@ -24,5 +24,17 @@ impl Group {
     #[inline]
     pub fn configuration<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
         Configuration { history: &now.history[self.history.clone()], ..*now }
+    }
+
+    /// The part of element `e`. Springs share one group and bushings another, so a link is known by its ends.
+    pub fn part_of<'m>(&self, e: usize, model: &'m Model) -> &'m Part {
+        let parts = &model.parts[self.part..];
+        let own = |part: &&Part| part.kind() == self.kind && part.nodes(0) == self.block.nodes(e);
+        let first = &parts[0];
+        if self.kind.is_deformable() || self.kind.is_unilateral() {
+            first
+        } else {
+            parts.iter().find(own).unwrap_or(first)
+        }
     }
 }

@@ -40,9 +40,7 @@ pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Res
     for group in &cx.system.groups {
         let over = |&e: &usize| group.block.is_turned_over(e, &state.nodes, &ws.trial);
         if let Some(e) = (0..group.block.len()).find(over) {
-            // Links share a group, one element each.
-            let part = if group.kind.is_deformable() { group.part } else { group.part + e };
-            return Err(Failure::TurnedOver { name: cx.model.parts[part].name().to_owned() });
+            return Err(Failure::TurnedOver { name: group.part_of(e, cx.model).name().to_owned() });
         }
     }
     Ok(())

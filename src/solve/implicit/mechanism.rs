@@ -5,7 +5,7 @@ use super::mode::Mode;
 use crate::elements::Moduli;
 use crate::linear::Solver;
 use crate::math::{Vec6, angular, linear};
-use crate::model::{Model, PartKind};
+use crate::model::Model;
 use crate::state::Configuration;
 use crate::system::assembly::TangentWeights;
 use crate::system::{DofMap, System};
@@ -112,8 +112,6 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
             K.iter().all(|&k| k == 0.0)
         };
         let e = (0..block.len()).find(|e| is_open(e))?;
-        // Links share a group, one element each.
-        let part = if group.kind == PartKind::Link { group.part + e } else { group.part };
-        model.parts.get(part).map(|part| part.name().to_owned())
+        Some(group.part_of(e, model).name().to_owned())
     })
 }
