@@ -3,7 +3,7 @@
 use clap::Args;
 use std::path::PathBuf;
 
-/// More threads gain nothing, and thousands cannot be had.
+/// The largest number that `--threads` takes: more threads gain nothing, and the system refuses to start thousands of them.
 pub const MAX_THREADS: i64 = 64;
 
 #[derive(Debug, Args)]
@@ -18,7 +18,7 @@ pub struct DeckArgs {
 
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    // As in `DeckArgs`: clap does not find a group within an optional group.
+    // The entries of `DeckArgs` are repeated, for clap does not find a group within an optional group.
     /// The deck, a TOML file
     pub deck: PathBuf,
     /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value;

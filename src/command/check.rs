@@ -7,6 +7,10 @@ use super::load::{load, plan, too_large};
 use crate::output::listed;
 use crate::plan::explain::explain_costs;
 
+/// Prints the plan of a deck, with what it costs, on standard output; diagnostics go to standard error.
+///
+/// # Errors
+/// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
 pub fn check(args: &DeckArgs) -> Result<(), Exit> {
     let loaded = load(&args.deck, &args.sets, Vec::new())?;
     show(&loaded.warnings, &loaded.source);

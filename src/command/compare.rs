@@ -44,6 +44,11 @@ pub struct CompareArgs {
     quiet: bool,
 }
 
+/// Compares two folders of results column by column and prints the differences.
+///
+/// # Errors
+/// [`Exit::CheckFailed`] where they do not agree, [`Exit::Usage`] where an option names no column, [`Exit::InputOutput`] where
+/// a folder cannot be read; the reason has been shown.
 pub fn compare(args: &CompareArgs) -> Result<(), Exit> {
     let settings = Settings {
         tolerances: args.tolerance.clone(),
@@ -71,6 +76,7 @@ pub fn compare(args: &CompareArgs) -> Result<(), Exit> {
     }
 }
 
+/// Says that an option names no column of either folder, with the nearest name that there is.
 fn unknown(selector: &Selector, comparison: &Comparison) {
     let (file, column) = (selector.file.as_deref(), selector.column.as_deref());
     let parts = comparison.known.iter().filter_map(|known| known.split_once(':'));
@@ -91,9 +97,10 @@ fn unknown(selector: &Selector, comparison: &Comparison) {
     }
 }
 
+/// The header of the printed table.
 const HEAD: [&str; 7] = ["file", "column", "relative", "absolute", "where", "tolerance", "verdict"];
 
-/// One line for each column that differs, and one for the others of its file.
+/// The printed table: it has one line for each column that differs, and one for the others of the same file.
 fn table(comparison: &Comparison, quiet: bool) -> String {
     let mut lines: Vec<[String; 7]> = Vec::new();
     for table in &comparison.tables {
@@ -125,6 +132,7 @@ fn table(comparison: &Comparison, quiet: bool) -> String {
     lines.iter().map(row).collect()
 }
 
+/// The cells of a column's line, in the order of [`HEAD`].
 fn line(table: &ComparedTable, column: &ComparedColumn) -> [String; 7] {
     let verdict = match (column.judged, column.passed) {
         (false, _) => "not judged",
@@ -143,14 +151,15 @@ fn line(table: &ComparedTable, column: &ComparedColumn) -> [String; 7] {
     [table.name.clone(), column.name.clone(), relative, absolute, place, tolerance, verdict.into()]
 }
 
+/// The time of a row and the name of the thing that it is about.
 fn place(time: f64, key: &[u8]) -> String {
     let name = shown(key);
-    // Sums of steps have digits that say nothing.
+    // A time is a sum of steps, whose last digits are rounding and say nothing.
     let time: f64 = format!("{time:.9e}").parse().unwrap_or(time);
     if name.is_empty() { format!("t = {time}") } else { format!("t = {time}, {name}") }
 }
 
-/// What a table of columns does not show: matched rows, and what only one side has.
+/// Lines on what a table of columns does not show: how many rows were matched, and what only one side has.
 fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String {
     let mut text = String::new();
     let mut say = |line: String| text += &format!("{line}\n");

@@ -4,7 +4,10 @@ use super::exit::Exit;
 use crate::diagnostic::{Diagnostic, Severity, Source, plain};
 use std::io::{IsTerminal, Write};
 
-/// Results for a script, on standard output. A reader that has gone away is no fault.
+/// Writes results for a script to standard output. A reader that has gone away is no fault.
+///
+/// # Errors
+/// [`Exit::InputOutput`] where standard output cannot be written; the reason has been shown.
 pub fn print(text: &str) -> Result<(), Exit> {
     match std::io::stdout().lock().write_all(plain(text).as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
@@ -15,10 +18,11 @@ pub fn print(text: &str) -> Result<(), Exit> {
     }
 }
 
-/// Errors that are shown, and warnings: nobody reads on, and a deck of a million lines may have as many.
+/// The number of errors, and of warnings, that are shown: nobody reads on, and a deck of a million lines may have as many.
 const SHOWN: usize = 50;
 
-/// Draws diagnostics on standard error; of very many the first of each severity, and how many more there are.
+/// Draws diagnostics on standard error. Where there are very many, it draws the first of each severity and says how many more
+/// there are.
 pub fn show(problems: &[Diagnostic], source: &Source) {
     let mut counts = [0_usize; 2];
     for problem in problems {
@@ -35,27 +39,28 @@ pub fn show(problems: &[Diagnostic], source: &Source) {
     }
 }
 
-/// An error that has no place in a deck.
+/// Writes an error that has no place in a deck to standard error.
 pub fn complain(message: &str) {
     let (bold, normal) = if is_styled() { ("\u{1b}[1m\u{1b}[91m", "\u{1b}[0m") } else { ("", "") };
     write(&format!("{bold}error{normal}: {}", plain(message)));
 }
 
-/// One line on standard error.
+/// Writes a line to standard error.
 pub fn say(line: &str) {
     write(&plain(line));
 }
 
-/// A line as it is, with what styles it; there is nowhere to report that it cannot be written.
+/// Writes a line as it is, styling included, to standard error; there is nowhere to report that it cannot be written.
 fn write(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// "1 error", "2 errors".
+/// A number with its noun in the singular or the plural: "1 error", "2 errors".
 pub fn counted(number: usize, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
+/// Whether bold and colours are shown: on a terminal, unless the user objects by `NO_COLOR` (no-color.org).
 fn is_styled() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }

@@ -1,20 +1,25 @@
-//! How the program ends.
+//! The exit codes of the program.
 
 use std::process::ExitCode;
 
+/// The way in which the program ends; the numbers are the exit codes that scripts rely on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
+    /// What the command line asks for has been done.
     Done = 0,
-    /// A fault of the program itself.
+    /// The program itself has a fault, or lacks the memory for the solver.
     Internal = 1,
+    /// The command line makes no sense, or a folder with files in it may not be overwritten.
     Usage = 2,
+    /// The deck has errors, which have been shown.
     DeckInvalid = 3,
-    /// Results are valid up to the time named.
+    /// No step could be taken any more; results are valid up to the time named.
     NotConverged = 4,
-    /// A comparison or an expected value failed.
+    /// A comparison failed, or an expected value was missed.
     CheckFailed = 5,
+    /// A file could not be read or written.
     InputOutput = 6,
-    /// By a signal.
+    /// A signal has stopped the run, whose files are whole up to then (`EX_TEMPFAIL` of sysexits.h).
     Stopped = 75,
 }
 

@@ -4,7 +4,8 @@ use super::console::{complain, say};
 use super::exit::Exit;
 use std::path::{Path, PathBuf};
 
-/// A folder named after a deck, whose last extension alone goes: `a.v1.toml` and `a.v2.toml` are two.
+/// A folder of the current folder that is named after a deck. Only the last extension is replaced, so that `a.v1.toml` and
+/// `a.v2.toml` have a folder each.
 pub fn named_after(deck: &Path, extension: &str) -> PathBuf {
     let mut name = deck.file_stem().unwrap_or_default().to_owned();
     name.push(".");
@@ -13,6 +14,9 @@ pub fn named_after(deck: &Path, extension: &str) -> PathBuf {
 }
 
 /// Makes sure that a folder is new, or empty, or given up by `--overwrite`.
+///
+/// # Errors
+/// [`Exit::Usage`] where it holds files, [`Exit::InputOutput`] where it cannot be read; the reason has been shown.
 pub fn require_free(folder: &Path, overwrite: bool) -> Result<(), Exit> {
     let entries = match std::fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_some(),

@@ -1,11 +1,11 @@
-//! What may be meant by a word that is neither a command nor a deck.
+//! Hints for a first word that is neither a command nor a deck.
 
 use crate::names::nearest;
 
 /// The commands, as they are written.
 pub const COMMANDS: [&str; 6] = ["run", "check", "compare", "report", "study", "schema"];
 
-/// What may be meant by a word that is neither a command nor the name of a file.
+/// The hint for a word that is neither a command nor looks like the name of a file; `None` for any other word.
 pub fn command_hint(word: &str) -> Option<String> {
     if COMMANDS.contains(&word) || word.contains(['.', '/', '\\']) || word.starts_with('-') {
         return None;

@@ -1,4 +1,4 @@
-//! From the text of a deck to a model and a plan; whatever is wrong with it has been shown when these fail.
+//! The way from the text of a deck to a model and a plan. Where it fails, whatever is wrong has been shown.
 
 use super::console::{complain, counted, show};
 use super::exit::Exit;
@@ -16,17 +16,20 @@ use std::path::{Path, PathBuf};
 /// A deck that can be run.
 #[derive(Debug)]
 pub struct Loaded {
+    /// The scene that the deck describes.
     pub model: Model,
+    /// The warnings and notes about the deck, in the order in which they are shown.
     pub warnings: Vec<Diagnostic>,
+    /// The texts that the places of diagnostics refer to.
     pub source: Source,
-    /// As they were given: `KEY=VALUE`.
+    /// The `--set` arguments as they were given: `KEY=VALUE`.
     pub sets: Vec<String>,
     /// SHA-256 of the text, the `--set` arguments and the mesh, in hexadecimal.
     pub hash: String,
 }
 
 impl Loaded {
-    /// Files that the deck is read from.
+    /// The files that the deck is read from: the deck itself, its mesh, and the reference of its study.
     pub fn files(&self) -> Vec<PathBuf> {
         let deck = PathBuf::from(&self.source.path);
         let mesh = self.model.origin.mesh.as_ref().map(|mesh| PathBuf::from(&mesh.path));
@@ -38,6 +41,9 @@ impl Loaded {
 
 /// Reads a deck and builds its model. The last of the overrides stand for `options`, by name: if all that is wrong stands there,
 /// the usage is wrong.
+///
+/// # Errors
+/// [`Exit::InputOutput`] where the deck cannot be read, [`Exit::DeckInvalid`] or [`Exit::Usage`] where it has errors.
 pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded, Exit> {
     let source = Source::new(path.display().to_string(), text(path)?, sets).with_options(options);
     match model::read(&source) {
@@ -52,14 +58,14 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
     }
 }
 
-/// Bytes of a deck at most: some millions of entries.
+/// The largest number of bytes of a deck, enough for some millions of entries.
 const LARGEST: u64 = 512 << 20;
 
 /// The text of a deck.
 fn text(path: &Path) -> Result<String, Exit> {
     let name = path.display();
     let mut bytes = Vec::new();
-    // A pipe is welcome, a device without end is not.
+    // The length is bounded while reading, for a pipe has none to ask for and a device may have no end.
     let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
     let judged = read.and_then(|_| match bytes.len() as u64 > LARGEST {
         true => Err(std::io::Error::other(format!("it has more than {} MB", LARGEST >> 20))),
@@ -95,7 +101,10 @@ fn conclude(problems: &[Diagnostic], source: &Source) -> Exit {
     Exit::DeckInvalid
 }
 
-/// The system and the plan of a deck, and what the plan warns of. If that fails, it has been said.
+/// The system and the plan of a deck for a number of threads, and what the plan warns of.
+///
+/// # Errors
+/// [`Exit::DeckInvalid`] where the scene cannot be computed as the deck asks; the reason has been shown.
 pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Exit> {
     let system = System::new(&loaded.model).map_err(|error| {
         complain(&error);
@@ -114,17 +123,18 @@ pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagno
     Ok((system, plan, warnings))
 }
 
-/// What the plan has found out about a sound model, as warnings.
+/// Warnings about a sound model that only its plan can tell.
 fn plan_warnings(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic> {
     redundant_constraints(plan, model, system).into_iter().map(Diagnostic::warning).collect()
 }
 
-/// There is no memory for the solver.
+/// Says that there is no memory for the matrix of the solver.
 pub fn too_large(error: TooLarge) -> Exit {
     complain(&error.to_string());
     Exit::Internal
 }
 
+/// SHA-256 of all that the model is read from, in hexadecimal digits.
 fn hash(source: &Source, sets: &[String], model: &Model) -> String {
     let mut hasher = Sha256::new();
     hasher.update(&source.text);

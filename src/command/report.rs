@@ -30,6 +30,11 @@ pub struct ReportArgs {
     quiet: bool,
 }
 
+/// Writes the HTML file of a folder of results.
+///
+/// # Errors
+/// [`Exit::Usage`] where the file is there already, [`Exit::InputOutput`] where results cannot be read or the file cannot be
+/// written; the reason has been shown.
 pub fn report(args: &ReportArgs) -> Result<(), Exit> {
     let fault = |what: String| {
         complain(&what);
@@ -63,7 +68,7 @@ pub fn report(args: &ReportArgs) -> Result<(), Exit> {
     if args.quiet { Ok(()) } else { print(&format!("{name}, {:.1} MB\n", page.len() as f64 / 1e6)) }
 }
 
-/// `cab.out` becomes `cab.html`; dots within a name stay.
+/// The file that is written where the user names none: `cab.out` becomes `cab.html`, and dots within a name stay.
 fn default(args: &ReportArgs) -> std::io::Result<PathBuf> {
     let folder = args.dir.canonicalize()?;
     let name = folder.file_name().map_or("report".into(), |name| name.to_string_lossy().into_owned());

@@ -1,4 +1,4 @@
-//! `rdsolve run deck.toml`: read, plan, march, write.
+//! `rdsolve run deck.toml`: reads a deck, plans the computation, steps through it and writes the results.
 
 use std::io;
 use std::path::Path;
@@ -27,6 +27,10 @@ use crate::solve::{Frame, Observer, Run};
 use crate::study::LIFELINE;
 use crate::system::System;
 
+/// Runs a deck.
+///
+/// # Errors
+/// The exit code of every run that is not done ([`Exit`]); the reason has been shown.
 pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let began = Instant::now();
     if std::env::var_os(LIFELINE).is_some() {
@@ -37,7 +41,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     require_free(&folder, args.overwrite)?;
     let threads = args.threads.map_or_else(available_threads, usize::from);
     if threads > 1 {
-        // As many as asked for; where the pool is there already, as many as it has.
+        // Where the pool is there already, its threads serve: results do not depend on their number.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     }
     let read_s = began.elapsed().as_secs_f64();
@@ -70,38 +74,40 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     job.conclude(&end, &result, energy)
 }
 
-/// The plan in lines.
+/// The plan in the lines that `check` prints.
 fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Vec<String> {
     let mut text = explain(plan, &loaded.model, system);
     text.computed.push(("output", listed(&loaded.model)));
     text.to_string().lines().map(str::to_owned).collect()
 }
 
-/// All cores, as far as `--threads` goes.
+/// The number of threads without `--threads`: all cores, but no more than that option takes.
 fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS as usize)
 }
 
+/// The sizes of the scene for the result.
 fn sizes(loaded: &Loaded, unknowns: usize, multipliers: usize) -> Sizes {
     let model = &loaded.model;
     let elements = model.parts.iter().filter(|part| part.kind().is_deformable()).map(Part::elements).sum();
     Sizes { nodes: model.nodes.len(), bodies: model.bodies.len(), elements, unknowns, multipliers }
 }
 
-/// One run and what is known of it before it begins.
+/// One run with all that is known of it before it begins.
 struct Job<'a> {
     loaded: &'a Loaded,
     folder: &'a Path,
     overwrite: bool,
     quiet: bool,
     began: Instant,
-    /// In words.
+    /// The plan in words, line by line.
     plan: Vec<String>,
     sizes: Sizes,
     timings: Timings,
 }
 
 impl Job<'_> {
+    /// The deck and the program that the results will come from.
     fn origin(&self) -> RunOrigin {
         let Loaded { model, source, sets, hash, .. } = self.loaded;
         RunOrigin {
@@ -171,12 +177,12 @@ impl Job<'_> {
         Ok((end, result, energy))
     }
 
-    /// What was said about the deck; notes aside.
+    /// The warnings about the deck. Notes are left out, for they doubt nothing.
     fn warnings_of_deck(&self) -> impl Iterator<Item = &str> {
         self.loaded.warnings.iter().filter(|said| said.is_warning()).map(|warning| warning.message.as_str())
     }
 
-    /// The warnings of a run, which are shown.
+    /// The warnings about the results of a run, after showing them.
     fn warnings_of(&self, run: &Run) -> Vec<String> {
         let doubts = run.warnings().iter().map(ToString::to_string);
         let of_run: Vec<String> = doubts.chain(energy_warning(run.balance(), &self.loaded.model)).collect();
@@ -221,6 +227,7 @@ impl Job<'_> {
     }
 }
 
+/// The counts of the solver that the result reports.
 fn counts(run: &Run) -> ReportedCounts {
     let counts = run.counts();
     ReportedCounts {
@@ -232,7 +239,7 @@ fn counts(run: &Run) -> ReportedCounts {
     }
 }
 
-/// Everyone who watches the run, one after the other.
+/// All who watch the run, in the order in which a step is shown to them.
 struct Watchers {
     log: Log,
     files: Files,

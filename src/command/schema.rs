@@ -6,6 +6,10 @@ use super::console::print;
 use super::exit::Exit;
 use crate::deck::{Deck, aliases};
 
+/// Prints the JSON Schema of the deck on standard output.
+///
+/// # Errors
+/// [`Exit::InputOutput`] where standard output cannot be written.
 pub fn schema() -> Result<(), Exit> {
     let mut schema = schemars::schema_for!(Deck).to_value();
     aliases::describe(&mut schema);
@@ -14,7 +18,7 @@ pub fn schema() -> Result<(), Exit> {
     print(&format!("{text}\n"))
 }
 
-/// A key that may be left out cannot be null: TOML has none.
+/// Takes `null` out of a schema: a key of the deck may be left out, but cannot be null, for TOML has none.
 fn without_null(schema: &mut Value) {
     let is_null = |value: &Value| *value == "null" || value.get("type").is_some_and(|kind| kind == "null");
     match schema {

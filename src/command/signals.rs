@@ -5,7 +5,11 @@ use std::io::{self, Read};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Interrupt, termination and the loss of the terminal raise the flag: the run ends after the step in hand, with whole files.
+/// Lets interrupt, termination and the loss of the terminal raise a flag: the run then ends after the step in hand, with whole
+/// files.
+///
+/// # Errors
+/// The operating system refuses to have its signals caught.
 pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
     // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
     // two at the same moment.
@@ -20,13 +24,13 @@ pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
         if !is_ignored(SIGHUP) {
             signal_hook::flag::register(SIGHUP, Arc::clone(flag))?;
         }
-        // The soft limit on processor time (`ulimit -t`): some seconds are left.
+        // At the soft limit on processor time (`ulimit -t`) some seconds are left, enough to end with whole files.
         signal_hook::flag::register(SIGXCPU, Arc::clone(flag))?;
     }
     Ok(())
 }
 
-/// A file that reaches a limit (`ulimit -f`) is an error of writing, not the end of the process.
+/// Makes a file that reaches a limit (`ulimit -f`) an error of writing instead of the end of the process.
 pub fn survive_file_limits() {
     #[cfg(unix)]
     {
@@ -35,7 +39,8 @@ pub fn survive_file_limits() {
     }
 }
 
-/// As `nohup` asks for; also where nobody tells, so that nothing is caught that was to be ignored.
+/// Whether whoever started the process has asked for a signal to be ignored, as `nohup` does. Where the system does not tell,
+/// it counts as ignored, so that nothing is caught that was to be ignored.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

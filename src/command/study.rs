@@ -93,6 +93,7 @@ pub struct StudyArgs {
     quiet: bool,
 }
 
+/// Reads a number above zero, for clap.
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
@@ -100,6 +101,10 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Runs the studies of a deck and prints their outcome.
+///
+/// # Errors
+/// The exit code of every study that has no outcome, or was stopped; the reason has been shown.
 pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     let (mut sets, mut names) = (args.sets.clone(), Vec::new());
     for (name, value) in args.keys()? {
@@ -112,7 +117,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    // The model is sound, so there is a deck.
+    // Studies run the deck itself with other entries; the model is sound, so there is a deck.
     let (Some(deck), _) = crate::deck::read(&loaded.source) else { return Err(Exit::Internal) };
     if !args.rigidify {
         let problems = massless(&loaded.model)?;
@@ -147,13 +152,13 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     Ok(())
 }
 
-/// Two studies in one folder would take each other's runs.
+/// Makes the folder of a study and locks it, for two studies in one folder would take each other's runs.
 fn lock(folder: &Path) -> std::io::Result<FolderLock> {
     std::fs::create_dir_all(folder)?;
     FolderLock::take(folder)
 }
 
-/// Says why there is no study.
+/// Says why there is no study, and gives the exit code.
 fn exit(fault: StudyFault, source: &Source) -> Exit {
     match fault {
         StudyFault::Deck(problems) => {
@@ -172,7 +177,7 @@ fn exit(fault: StudyFault, source: &Source) -> Exit {
     }
 }
 
-/// What the explicit schemes of a study lack.
+/// What the explicit schemes of a study lack: masses at free degrees of freedom. The runs would each fail for the same reason.
 fn massless(model: &Model) -> Result<Vec<Diagnostic>, Exit> {
     let listed = model.study.iter().flat_map(|study| &study.schemes).map(|choice| &choice.scheme);
     let own = model.study.as_ref().is_none_or(|study| study.schemes.is_empty()).then_some(&model.solution.scheme);
@@ -190,6 +195,7 @@ fn massless(model: &Model) -> Result<Vec<Diagnostic>, Exit> {
 }
 
 impl StudyArgs {
+    /// How the study is run: all options that are no keys of `[study]`.
     fn options(&self, folder: &Path) -> Options {
         Options {
             deck: self.deck.clone(),
@@ -204,7 +210,7 @@ impl StudyArgs {
 
     /// Options that stand for keys of `[study]`, with their values in TOML.
     fn keys(&self) -> Result<Vec<(&'static str, String)>, Exit> {
-        // Strings of JSON are strings of TOML.
+        // Strings are written in JSON, which TOML reads as they are.
         let texts = |list: &[String]| serde_json::Value::from(list.to_vec()).to_string();
         let numbers = |list: &[f64]| {
             let list: Vec<String> = list.iter().map(|number| format!("{number:?}")).collect();
@@ -219,7 +225,7 @@ impl StudyArgs {
         add("--schemes", !self.schemes.is_empty(), texts(&self.schemes));
         add("--methods", !self.methods.is_empty(), texts(&self.methods));
         add("--time-steps", !self.time_steps.is_empty(), numbers(&self.time_steps));
-        // A list given here is complete, whatever the deck halves.
+        // A list of time steps on the command line is complete, whatever the deck would halve.
         let halvings = self.halvings.or((!self.time_steps.is_empty()).then_some(0));
         add("--halvings", halvings.is_some(), halvings.unwrap_or_default().to_string());
         add("--error-tolerances", !self.error_tolerances.is_empty(), numbers(&self.error_tolerances));
@@ -229,7 +235,7 @@ impl StudyArgs {
         add("--wanted-error", !self.wanted_error.is_empty(), numbers(&self.wanted_error));
         add("--finest", self.finest, "true".into());
         if let Some(file) = &self.reference {
-            // The deck's own is a path from the deck; this one is from here.
+            // A path in the deck starts at the deck; one on the command line starts at the current folder.
             let file = file.canonicalize().map_err(|error| {
                 complain(&format!("cannot read the reference `{}`: {error}", file.display()));
                 Exit::InputOutput

@@ -1,4 +1,4 @@
-//! How a run ended, in words: its status, its warnings, its expectations.
+//! The end of a run in words: its status, its warnings about energy, its expectations.
 
 use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 use crate::names::{instant, short, to_digits};
@@ -8,10 +8,11 @@ use crate::solve::{Outcome, Run};
 use crate::system::energy::Balance;
 use std::io;
 
-/// How a run ended.
+/// The end of a run.
 pub struct End {
+    /// The kind of end, which decides the exit code.
     pub status: Status,
-    /// Empty where all went as the deck asks.
+    /// The reason in a sentence without a full stop; it is empty where all went as the deck asks.
     pub reason: String,
     /// Where the run did not come to its end, the time up to which its results are valid.
     pub valid_until: Option<f64>,
@@ -58,7 +59,7 @@ pub fn end(
     Ok(End { status, reason: reasons.join("; "), valid_until })
 }
 
-/// A path that ended before its `stop`, in a sentence.
+/// Says of a path that it ended before its `stop`; `None` for any other end.
 fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     let (StepLength::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
         (&model.analysis.step_length, run.short_of_stop())
@@ -97,11 +98,11 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     })
 }
 
-/// An energy balance that no one should take on trust.
+/// The warning about an energy balance that no one should take on trust; `None` where it is sound.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
-    /// More is seen in the results: of the energy of the motion at the end, ...
+    /// A larger part of the energy of the motion at the end is seen in the results.
     const SEEN: f64 = 0.02;
-    /// ... and of the largest energy on the way, where an impact takes and gives back some within a step.
+    /// The same of the largest energy on the way, which is less strict: an impact takes some and gives it back within a step.
     const ON_THE_WAY: f64 = 0.2;
     let motion = balance.motion();
     let percent = |energy: f64, of: f64| to_digits(100.0 * energy / of, 2);
@@ -136,10 +137,10 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     }
 }
 
-/// Digits of values and of what was expected.
+/// The number of digits of values and of what was expected.
 const DIGITS: usize = 7;
 
-/// An expectation in a line.
+/// The line on an expectation: whether it is met, its value, what was expected, and the error.
 pub fn line(v: &Verdict) -> String {
     let mark = if v.passed { "ok  " } else { "MISS" };
     let value = v.value.map_or("no value".to_string(), |value| to_digits(value, DIGITS));

@@ -5,7 +5,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The error with the file it is about, and for a file that cannot grow with what to do.
+/// Adds the file that an error is about to its message, and the remedy where the file cannot grow.
 pub fn at(path: &Path, error: io::Error) -> io::Error {
     let remedy = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
@@ -19,10 +19,13 @@ pub fn at(path: &Path, error: io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}{remedy}", path.display()))
 }
 
-/// At the end of the name of a file that is not whole yet.
+/// The ending that the name of a file has while it is not whole yet.
 pub const UNFINISHED: &str = ".tmp";
 
-/// A new file, for writing. An older file or link of this name goes first; what a link leads to stays as it is.
+/// Makes a new file for writing. An older file or link of this name is removed first; what a link leads to stays as it is.
+///
+/// # Errors
+/// Something that is neither a file nor a link has this name, or the system refuses; the error does not name the file.
 pub fn create(path: &Path) -> io::Result<File> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_file() || found.is_symlink() => fs::remove_file(path)?,
@@ -33,7 +36,7 @@ pub fn create(path: &Path) -> io::Result<File> {
     OpenOptions::new().write(true).create_new(true).open(path)
 }
 
-/// Whether a file still stands under its name.
+/// Whether an open file still stands under its name. Where the system has no inodes, any file of that name counts.
 pub fn is_same(file: &File, path: &Path) -> bool {
     let (Ok(open), Ok(named)) = (file.metadata(), fs::symlink_metadata(path)) else { return false };
     #[cfg(unix)]
@@ -48,6 +51,9 @@ pub fn is_same(file: &File, path: &Path) -> bool {
 }
 
 /// Writes a small file so that a reader sees the old one or the new one, never a part.
+///
+/// # Errors
+/// The file cannot be written; the error names it, and no part of it is left.
 pub fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
     let mut name = path.as_os_str().to_owned();
     name.push(UNFINISHED);
@@ -57,7 +63,7 @@ pub fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
         fs::rename(name, path)
     };
     write().map_err(|error| {
-        // A part of it is of no use, and on a full disk in the way.
+        // What has been written is of no use, and on a full disk it is in the way.
         let _ = fs::remove_file(name);
         at(path, error)
     })

@@ -9,7 +9,7 @@ use crate::solve::{Frame, Observer, Wanted};
 use serde::Serialize;
 use std::io;
 
-/// The names `quantity` may take.
+/// The names that `quantity` may take for one thing, over all tables that know it.
 pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
     answers(at).flat_map(|answers| (answers.quantities)(at)).collect()
 }
@@ -19,13 +19,13 @@ pub fn needs(at: ExpectAt) -> Wanted {
     answers(at).fold(Wanted::NOTHING, |all, answers| all | answers.needs)
 }
 
-/// What the tables answer about one thing.
+/// The answers of the tables that know quantities of one thing.
 fn answers(at: ExpectAt) -> impl Iterator<Item = &'static Answers> {
     let all = TABLES.iter().copied().filter_map(|table| table.answers.as_ref());
     all.filter(move |answers| !(answers.quantities)(at).is_empty())
 }
 
-/// The answers that a quantity of one thing is among, and its index there.
+/// The answers that a quantity of one thing is among, and its index there; `None` where no table has it.
 fn find(at: ExpectAt, quantity: &str) -> Option<(&'static Answers, usize)> {
     answers(at).find_map(|answers| {
         let index = (answers.quantities)(at).iter().position(|name| *name == quantity)?;
@@ -33,29 +33,36 @@ fn find(at: ExpectAt, quantity: &str) -> Option<(&'static Answers, usize)> {
     })
 }
 
-/// How one expectation went.
+/// The judgement on one expectation, as it stands in result.json.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
+    /// The quantity, where and when, in words: `ux of tip at t = 1`.
     pub label: String,
-    /// `None`: the run never came to it.
+    /// The computed value; `None` where the run never came to it.
     pub value: Option<f64>,
-    /// Time of the value.
+    /// The time at which the value was taken.
     pub time: Option<f64>,
+    /// The value that the deck expects, in the units of the deck.
     pub expected: f64,
-    /// Of the kind of the tolerance.
+    /// The absolute value of computed less expected, divided by the magnitude of the expected value where `relative`; of a
+    /// bound, how far it is exceeded. `None` where this is no finite number.
     pub error: Option<f64>,
+    /// The largest error that passes; 0 for a bound.
     pub tolerance: f64,
+    /// Whether error and tolerance are parts of the expected value; else they have its unit.
     pub relative: bool,
     /// "at least" or "at most" where the expected value is a bound.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound: Option<&'static str>,
+    /// Whether the error is within the tolerance; an expectation without a value has not passed.
     pub passed: bool,
+    /// Where the expected value comes from, as the deck says.
     pub source: String,
-    /// Why it was missed.
+    /// Why it was missed, in a sentence without a full stop; `None` where it has passed.
     pub reason: Option<String>,
 }
 
-/// Collects samples; [`Expectations::verdicts`] compares them.
+/// Takes the values that the deck expects while the run goes; [`Expectations::verdicts`] judges them.
 pub struct Expectations {
     watches: Vec<Watch>,
     end_time: f64,
@@ -63,7 +70,7 @@ pub struct Expectations {
 
 struct Watch {
     expect: Expect,
-    /// `None`: there is no quantity of that name.
+    /// The answers that the quantity is among and its index there; `None` where there is no quantity of that name.
     quantity: Option<(&'static Answers, usize)>,
     sample: Option<Sample>,
 }
@@ -75,6 +82,7 @@ struct Sample {
 }
 
 impl Expectations {
+    /// Expectations of a deck before the first step.
     pub fn new(model: &Model) -> Expectations {
         let watch = |expect: &Expect| Watch {
             quantity: find(expect.at, &expect.quantity),
@@ -84,7 +92,7 @@ impl Expectations {
         Expectations { watches: model.expects.iter().map(watch).collect(), end_time: model.analysis.end_time }
     }
 
-    /// In deck order.
+    /// Judges what has been taken so far, in the order of the deck.
     pub fn verdicts(&self) -> Vec<Verdict> {
         self.watches.iter().map(Watch::verdict).collect()
     }
@@ -117,12 +125,13 @@ impl Observer for Expectations {
 }
 
 impl Watch {
-    /// The value now, where the frame has it.
+    /// The value in a frame; `None` where the frame does not have it.
     fn value(&self, frame: &Frame) -> Option<f64> {
         let (answers, index) = self.quantity?;
         (answers.value)(self.expect.at, index, frame)
     }
 
+    /// Judges the value taken.
     fn verdict(&self) -> Verdict {
         let Expect { quantity, value: expected, tolerance, when, source, label, .. } = &self.expect;
         let (limit, unit, relative) = match *tolerance {
@@ -140,7 +149,7 @@ impl Watch {
             Tolerance::AtMost => Some("at most"),
             _ => None,
         };
-        // Multiplied rather than divided: an expected 0 with a relative tolerance is met by 0.
+        // The tolerance is multiplied rather than the difference divided: an expected 0 with a relative tolerance is met by 0.
         let passed = difference.is_some_and(|difference| difference <= limit * unit);
         let reason = match (self.quantity, self.sample, *when) {
             _ if passed => None,

@@ -20,14 +20,14 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-/// A drawn point: fixed to a node, `arm` and `axes` (columns) as they are at t = 0.
+/// A drawn point, which is fixed to a node and turns with it; `arm` and `axes` (columns) are global at t = 0.
 struct Place {
     node: usize,
     arm: Vec3,
     axes: Mat3,
 }
 
-/// Cells of the whole scene, and the part each belongs to.
+/// The cells of the whole scene, and the part that each belongs to.
 #[derive(Default)]
 struct Grid {
     places: Vec<Place>,
@@ -45,18 +45,18 @@ impl Grid {
         self.parts.push(part as i64);
     }
 
-    /// A curve from the first node to the last, with points of its own. VTK lists the ends first. It spaces its parameter
-    /// evenly, Lobatto points are not even; the curve drawn passes through all of them.
+    /// Adds a curve from the first node to the last, with points of its own; VTK lists the ends first. VTK spaces the parameter of
+    /// its curves evenly, and Lobatto points are not even, but the curve drawn passes through all of them.
     fn curve(&mut self, kind: Cell, part: usize, nodes: &[usize], axes: Mat3) {
         let (first, last) = (self.places.len(), self.places.len() + nodes.len() - 1);
         self.places.extend(nodes.iter().map(|&node| Place { node, arm: Vec3::zeros(), axes }));
         self.cell(kind, part, [first, last].into_iter().chain(first + 1..last));
     }
 
-    /// Cells of a part, or of one of two shells that make it up.
+    /// Adds the cells of a part, or of one of the two shells that make it up.
     fn part(&mut self, part: usize, of: &Part) {
         let first = self.places.len();
-        // Points of a surface's own, one for each of its nodes.
+        // A surface has points of its own, one for each of its nodes, which its elements share.
         let mut place = HashMap::new();
         for element in 0..of.elements() {
             match of.drawing(element) {
@@ -87,7 +87,7 @@ impl Grid {
         }
     }
 
-    /// Beams, bars, shells, links, bodies, each in deck order.
+    /// The grid of a model: parts kind by kind, then bodies, each in the order of the deck.
     fn of(model: &Model) -> Grid {
         let mut grid = Grid::default();
         let mut part = 0..;
@@ -113,7 +113,7 @@ impl Grid {
     }
 }
 
-/// The cell of a face with so many corners.
+/// The type of the cell that has so many corners.
 fn face(corners: usize) -> Cell {
     match corners {
         2 => Cell::Line,
@@ -123,12 +123,12 @@ fn face(corners: usize) -> Cell {
     }
 }
 
-/// Contacts are not: what carries them is.
+/// Whether a part is drawn. Contacts are not, for what carries them is.
 fn is_drawn(part: &Part) -> bool {
     part.kind().is_drawn()
 }
 
-/// fields.csv, in the order of [`Grid::of`].
+/// The text of fields.csv: number, kind and name of the parts, in the order of [`Grid::of`].
 fn names(model: &Model) -> csv::Result<Vec<u8>> {
     let parts = model.parts.chunk_by(Part::is_one_with).map(|of| &of[0]).filter(|part| is_drawn(part));
     let parts = parts.map(|part| (part.kind().word(), part.name()));
@@ -141,7 +141,7 @@ fn names(model: &Model) -> csv::Result<Vec<u8>> {
     table.into_inner().map_err(|e| e.into_error().into())
 }
 
-/// Whether a file of this name is one of these.
+/// Whether a file of this name is one that [`Fields`] writes.
 pub fn is_file(name: &str) -> bool {
     LISTS.contains(&name) || is_grid(name)
 }
@@ -155,28 +155,37 @@ pub fn is_grid(name: &str) -> bool {
     step.is_some_and(|step| step.len() >= 6 && step.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
+/// Writes a grid of the moving scene at every step that is asked for, and the list of all grids.
 pub struct Fields {
     dir: PathBuf,
-    /// Of the files of this run: each grid is one more.
+    /// The list of the files of this run, which each grid enters.
     list: RunList,
+    /// The number of steps from a grid to the next.
     every: usize,
     places: Vec<Place>,
-    /// What is the same in every grid: the opening of its one piece, the parts of its cells, the cells.
+    /// The opening of the one piece of a grid, which is the same at every step, as are the next two.
     piece: String,
+    /// The array with the part of each cell.
     parts: String,
+    /// The cells.
     cells: String,
-    /// Of cells.
+    /// The number of cells.
     count: usize,
-    /// Of cells before those of shells; none where there are no shells.
+    /// The number of cells before those of shells; `None` where there are no shells.
     before: Option<usize>,
-    /// Lines of fields.pvd so far.
+    /// The lines of fields.pvd so far.
     listed: String,
+    /// The text of a grid; its memory serves again at the next step.
     text: String,
+    /// The bytes of an array before they are encoded; their memory serves again as well.
     bytes: Vec<u8>,
 }
 
 impl Fields {
-    /// With `keep_to`, the list goes on after the grid of that step.
+    /// Writes fields.csv; with `keep_to`, the list of grids goes on after the grid of that step.
+    ///
+    /// # Errors
+    /// A file cannot be written, or the list that is to go on cannot be read.
     pub fn open(dir: &Path, model: &Model, every: usize, keep_to: Option<usize>) -> io::Result<Fields> {
         let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
         replace(&dir.join("fields.csv"), &names(model)?)?;
@@ -210,7 +219,10 @@ impl Fields {
         })
     }
 
-    /// Every so many steps, and the first and the last.
+    /// Writes a grid every so many steps, and at the first and the last.
+    ///
+    /// # Errors
+    /// A file cannot be written.
     pub fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if frame.step.is_multiple_of(self.every.max(1)) || frame.last { self.write(frame) } else { Ok(()) }
     }
@@ -277,6 +289,7 @@ impl Fields {
     }
 }
 
+/// The beginning of fields.pvd.
 const LIST: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
 
 /// The lines of a list up to the grid of `step`; none where there is no list yet.

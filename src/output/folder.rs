@@ -11,13 +11,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Makes a folder ready for a run: it is made where there is none, locked, and what an older run has written there goes, so that
-/// nothing of it is taken for a result of this one. Anything else stays: other files, what links lead to, and the files `read` by
-/// the run, such as its deck.
+/// Makes a folder ready for a run: it is made where there is none and locked, and what an older run has written there is removed,
+/// so that nothing of it is taken for a result of this one. Anything else stays: other files, what links lead to, and the files
+/// `read` by the run, such as its deck.
 ///
 /// # Errors
 /// Another run writes there; without `overwrite`, the folder holds files; a file that no run has written, or that this run reads,
-/// is in the way. Then nothing has gone.
+/// is in the way. Then nothing has been removed.
 pub fn claim(dir: &Path, overwrite: bool, model: &Model, read: &[PathBuf]) -> io::Result<FolderLock> {
     fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
     let lock = FolderLock::take(dir)?;
@@ -47,7 +47,7 @@ pub fn claim(dir: &Path, overwrite: bool, model: &Model, read: &[PathBuf]) -> io
     Ok(lock)
 }
 
-/// Names of everything in a folder.
+/// The names of all that is in a folder.
 fn entries(dir: &Path) -> io::Result<Vec<String>> {
     let entries = fs::read_dir(dir).map_err(|e| at(dir, e))?;
     let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_str().map(str::to_owned));
@@ -55,14 +55,14 @@ fn entries(dir: &Path) -> io::Result<Vec<String>> {
     Ok(names.map_err(|e| at(dir, e))?.into_iter().flatten().collect())
 }
 
-/// A path whose folder is free of links; the file itself may be one.
+/// A path whose folder is free of links; the file itself may be a link.
 fn place(path: &Path) -> Option<PathBuf> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
-/// Of the files of a folder those that a run has written: as its list says, with what it left unfinished; of an earlier version
-/// without a list, by their names, where its log or its result shows that it was one.
+/// The files of a folder that a run has written, with what it left unfinished. Its list names them; where an earlier version left
+/// no list, they are known by their names, provided that a log or a result shows that there was a run.
 fn ours(dir: &Path, files: &[String]) -> io::Result<HashSet<String>> {
     if let Some(listed) = run_list::read(dir)? {
         let unfinished: Vec<String> = listed.iter().map(|name| format!("{name}{UNFINISHED}")).collect();
@@ -73,6 +73,7 @@ fn ours(dir: &Path, files: &[String]) -> io::Result<HashSet<String>> {
     Ok(if is_of_earlier_version(dir) { without_list() } else { HashSet::new() })
 }
 
+/// Whether the log or the result in a folder is that of a run.
 fn is_of_earlier_version(dir: &Path) -> bool {
     let text = |name: &str| fs::read_to_string(dir.join(name)).unwrap_or_default();
     let has_log =
@@ -81,7 +82,8 @@ fn is_of_earlier_version(dir: &Path) -> bool {
     has_log || result["deck_hash"].is_string() && result["exit_code"].is_u64()
 }
 
-/// Removes files of a run: the result first, so that it never stands beside tables that are not its own, and the list last.
+/// Removes files of a run. The result goes first, so that it never stands beside tables that are not its own, and the list last,
+/// so that whatever is left after a failure is still known.
 fn take_away(dir: &Path, files: &[String], ours: &HashSet<String>) -> io::Result<()> {
     let remove = |name: &str| {
         let path = dir.join(name);
@@ -96,7 +98,7 @@ fn take_away(dir: &Path, files: &[String], ours: &HashSet<String>) -> io::Result
     remove(run_list::NAME)
 }
 
-/// A file that a run writes, whole or not.
+/// Whether a run writes a file of this name, whole or unfinished.
 fn is_of_a_run(name: &str) -> bool {
     let whole = name.strip_suffix(UNFINISHED).unwrap_or(name);
     let is_result = tables::of_file(whole).is_some() || fields::is_file(whole) || whole == result_json::NAME;
@@ -104,10 +106,13 @@ fn is_of_a_run(name: &str) -> bool {
 }
 
 /// Removes what an earlier run has left, and its folder unless something else is in it.
+///
+/// # Errors
+/// The folder cannot be read, or a file in it cannot be removed; the error names it.
 pub fn remove_run(dir: &Path) -> io::Result<()> {
     let files = entries(dir)?;
     let mut ours = ours(dir, &files)?;
-    // Of a run that was killed.
+    // A run that was killed leaves its lock.
     ours.insert(lock::NAME.to_owned());
     take_away(dir, &files, &ours)?;
     remove_empty(dir)
@@ -118,18 +123,18 @@ pub fn holds_run(dir: &Path) -> io::Result<bool> {
     Ok(entries(dir)?.iter().any(|name| is_of_a_run(name)))
 }
 
-/// Removes a folder with nothing in it.
+/// Removes a folder that has nothing in it; any other stays.
 pub fn remove_empty(dir: &Path) -> io::Result<()> {
     let mut entries = fs::read_dir(dir).map_err(|e| at(dir, e))?;
     if entries.next().is_none() { fs::remove_dir(dir).map_err(|e| at(dir, e)) } else { Ok(()) }
 }
 
-/// Removes the files of these names.
+/// Removes the files whose names are `ours`; folders and symbolic links stay.
 pub fn remove(dir: &Path, is_ours: &dyn Fn(&str) -> bool) -> io::Result<()> {
     for entry in fs::read_dir(dir).map_err(|e| at(dir, e))? {
         let entry = entry.map_err(|e| at(dir, e))?;
         let path = entry.path();
-        // A symbolic link was put there by somebody.
+        // No run makes symbolic links: somebody has put it there.
         if !entry.file_type().map_err(|e| at(&path, e))?.is_file() {
             continue;
         }

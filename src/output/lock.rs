@@ -8,27 +8,29 @@ use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+/// The name of the lock in the output folder.
 pub const NAME: &str = "run.lock";
 
-/// Held until it is dropped; then the file goes.
+/// The right to write into a folder. It is held until it is dropped, which removes the file.
 #[derive(Debug)]
 pub struct FolderLock {
     path: PathBuf,
     _file: File,
 }
 
-/// Who writes into a folder.
+/// The process that writes into a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Holder {
     host: String,
     process: u32,
     /// Seconds since 1970, UTC.
     began: u64,
-    /// Of the boot of the host, where the system tells.
+    /// The identifier of the boot of the host; empty where the system does not tell.
     boot: String,
 }
 
 impl Holder {
+    /// This process.
     fn this() -> Holder {
         let line = |path: &str| fs::read_to_string(path).unwrap_or_default().trim().to_owned();
         let host = [line("/proc/sys/kernel/hostname"), std::env::var("HOSTNAME").unwrap_or_default()];
@@ -40,12 +42,13 @@ impl Holder {
         }
     }
 
+    /// The text of the lock.
     fn text(&self) -> String {
         let Holder { host, process, began, boot } = self;
         format!("host {host}\nprocess {process}\nbegan {began} ({})\nboot {boot}\n", date(*began))
     }
 
-    /// None of a text that is not whole.
+    /// Reads the text of a lock; `None` where it is not whole.
     fn read(text: &str) -> Option<Holder> {
         let entry =
             |key: &str| text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(' ')).map(str::to_owned);
@@ -57,7 +60,7 @@ impl Holder {
         })
     }
 
-    /// Whether its process may still run, where only the text can tell.
+    /// Whether the process may still run, as far as the text of its lock can tell.
     fn may_live(&self, this: &Holder) -> bool {
         if self.host != this.host {
             return true;
@@ -75,7 +78,7 @@ impl fmt::Display for Holder {
 }
 
 impl FolderLock {
-    /// Takes the lock of a folder that is there.
+    /// Takes the lock of a folder, which must exist.
     ///
     /// # Errors
     /// Another process writes there ([`io::ErrorKind::ResourceBusy`]), and who it is; or the lock cannot be written.
@@ -83,7 +86,7 @@ impl FolderLock {
         let path = dir.join(NAME);
         let this = Holder::this();
         loop {
-            // A link was put there by somebody: it goes, and what it leads to stays.
+            // No run makes symbolic links: the link is removed, and what it leads to stays.
             if fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink()) {
                 fs::remove_file(&path).map_err(|error| at(&path, error))?;
             }
@@ -92,10 +95,10 @@ impl FolderLock {
             let locked = match file.try_lock() {
                 Ok(()) => true,
                 Err(TryLockError::WouldBlock) => return Err(busy(dir, &path, holder(&mut file).as_ref())),
-                // A file system without locks: the text alone tells.
+                // On a file system without locks the text alone tells.
                 Err(TryLockError::Error(_)) => false,
             };
-            // The one before may have taken the file away in between.
+            // The holder before may have removed the file between opening and locking.
             if locked && !is_same(&file, &path) {
                 continue;
             }
@@ -115,7 +118,7 @@ impl FolderLock {
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        // Only this one's own: a folder that was taken away and made anew may have another.
+        // Only the lock of this process is removed: a folder that was removed and made anew may have another.
         let text = fs::read_to_string(&self.path).unwrap_or_default();
         if Holder::read(&text).is_some_and(|holder| holder.process == std::process::id()) {
             let _ = fs::remove_file(&self.path);
@@ -123,12 +126,14 @@ impl Drop for FolderLock {
     }
 }
 
+/// The holder that an open lock names.
 fn holder(file: &mut File) -> Option<Holder> {
     let mut text = String::new();
     file.rewind().and_then(|()| file.read_to_string(&mut text)).ok()?;
     Holder::read(&text)
 }
 
+/// The error that another process writes into the folder.
 fn busy(dir: &Path, path: &Path, holder: Option<&Holder>) -> io::Error {
     let who = holder.map_or_else(|| "another process".to_owned(), Holder::to_string);
     io::Error::new(
@@ -142,7 +147,8 @@ fn busy(dir: &Path, path: &Path, holder: Option<&Holder>) -> io::Error {
     )
 }
 
-/// As 2026-01-31 23:59:59 UTC. Days to civil dates: H. Hinnant, "chrono-compatible low-level date algorithms".
+/// Seconds since 1970 as a date: 2026-01-31 23:59:59 UTC. Days become civil dates as in H. Hinnant, "chrono-compatible low-level
+/// date algorithms".
 fn date(seconds: u64) -> String {
     let (days, of_day) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, of_era) = (days / 146_097, days % 146_097);

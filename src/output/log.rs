@@ -1,4 +1,5 @@
-//! run.log: what happened, in plain lines. Timings are welcome here, as they are not in the tables.
+//! run.log: the events of a run in plain lines. It may hold timings, which the tables may not: those are the same bytes whenever
+//! the deck is run again.
 
 use super::disk::{at, create};
 use crate::diagnostic::plain;
@@ -8,18 +9,22 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// The name of the log in the output folder.
 pub const NAME: &str = "run.log";
 
-/// Lines reach the file at once: they are few, and the last ones matter when a run dies.
+/// The log of a run. Its lines reach the file at once: they are few, and the last ones matter when a run dies.
 pub struct Log {
     path: PathBuf,
     file: File,
-    /// Negative pivots and direction of the load in the last step.
+    /// The number of negative pivots and the increment of the load in the last step of a path.
     path_before: Option<(usize, f64)>,
 }
 
 impl Log {
-    /// A new log, or the old one continued.
+    /// Opens a new log or, with `resume`, the one that is there, to go on with it. The folder is made where there is none.
+    ///
+    /// # Errors
+    /// The file cannot be opened; the error names it.
     pub fn open(dir: &Path, resume: bool) -> io::Result<Log> {
         let path = dir.join(NAME);
         let open = |()| if resume { OpenOptions::new().create(true).append(true).open(&path) } else { create(&path) };
@@ -27,13 +32,19 @@ impl Log {
         Ok(Log { path, file, path_before: None })
     }
 
-    /// One or more lines; the last may do without its line break.
+    /// Writes one or more lines; the last may do without its line break.
+    ///
+    /// # Errors
+    /// The file cannot be written; the error names it.
     pub fn say(&mut self, text: &str) -> io::Result<()> {
         let text = format!("{}\n", plain(text.trim_end()));
         self.file.write_all(text.as_bytes()).map_err(|e| at(&self.path, e))
     }
 
-    /// A doubt about the deck or its results.
+    /// Writes a warning about the deck or its results.
+    ///
+    /// # Errors
+    /// As of [`Log::say`].
     pub fn warn(&mut self, message: &str) -> io::Result<()> {
         self.say(&format!("warning: {message}"))
     }
@@ -53,8 +64,8 @@ impl Observer for Log {
 }
 
 impl Log {
-    /// Limit points and bifurcations: an eigenvalue of the matrix changes its sign, and at a limit point the load turns, which
-    /// may show a step later.
+    /// Notes limit points and bifurcations: an eigenvalue of the matrix changes its sign there, and at a limit point the load
+    /// turns, which may show a step later.
     fn see_path(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(now) = frame.negative_pivots else { return Ok(()) };
         let (before, dt) = self.path_before.replace((now, frame.dt)).unwrap_or((now, frame.dt));

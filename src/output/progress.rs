@@ -5,11 +5,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
+/// The time between two pictures of the bar: a terminal that is written to at every step would cost more than the steps.
 const PAUSE: Duration = Duration::from_millis(50);
-/// Positions of the bar from start to end time.
+/// The number of positions of the bar from start to end time.
 const LENGTH: f64 = 1e4;
 
-/// Shows simulated time, steps, iterations and the time left; nothing when quiet or not on a terminal.
+/// Shows simulated time, steps, iterations and the time left. When quiet or not on a terminal it shows nothing.
 pub struct Progress {
     bar: Option<ProgressBar>,
     shown: Instant,
@@ -17,6 +18,7 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// A bar at its beginning, unless `quiet`.
     pub fn new(quiet: bool) -> Progress {
         let bar = (!quiet && io::stderr().is_terminal()).then(|| {
             let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {eta} left");

@@ -1,4 +1,4 @@
-//! result.json: how the run ended, in one object a script can read.
+//! result.json: the outcome of a run in one object that a script can read.
 
 use super::disk::{at, replace};
 use super::expect::Verdict;
@@ -6,21 +6,27 @@ use serde::Serialize;
 use std::io;
 use std::path::Path;
 
+/// The name of the file in the output folder.
 pub const NAME: &str = "result.json";
 
-/// Why the run ended.
+/// The kind of end that a run came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
+    /// The run came to its end, and all expectations are met.
     Done,
+    /// No step could be taken any more; results are valid up to the time named.
     NotConverged,
+    /// The run came to its end, and at least one expectation is missed.
     ExpectationMissed,
-    /// By a signal, with a checkpoint.
+    /// A signal has stopped the run after a whole step.
     Stopped,
+    /// The program itself has a fault.
     Failed,
 }
 
 impl Status {
+    /// The exit code of the program where nothing but the run itself decides.
     pub fn exit_code(self) -> u8 {
         match self {
             Status::Done => 0,
@@ -32,15 +38,16 @@ impl Status {
     }
 }
 
-/// The object itself.
+/// The object itself; its fields are the keys, in this order.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunResult {
+    /// The kind of end that the run came to.
     pub status: Status,
-    /// That of the status, unless the failure was one of input/output (6).
+    /// The exit code that belongs to the status.
     pub exit_code: u8,
-    /// One sentence; empty when done, unless a path ended before its `stop`.
+    /// The reason for the end in one sentence. It is empty when done, unless a path ended before its `stop`.
     pub reason: String,
-    /// Where the run did not come to its end, the time up to which its results are valid.
+    /// The time up to which results are valid, where the run did not come to its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub valid_until: Option<f64>,
     /// The deck and the program that the results come from.
@@ -48,8 +55,11 @@ pub struct RunResult {
     pub origin: RunOrigin,
     /// The lines that `rdsolve check` prints.
     pub plan: Vec<String>,
+    /// The size of the scene and of its equations.
     pub sizes: Sizes,
+    /// The work of the solver.
     pub counts: ReportedCounts,
+    /// The time that the run took.
     pub timings: Timings,
     /// Largest departure from orthogonality that a first- or second-order rotation update left to be corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,30 +67,33 @@ pub struct RunResult {
     /// Largest gap that a joint was left with at the end of a step, relative to the largest coordinate of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_violation: Option<f64>,
-    /// `None` where the system does not tell.
+    /// The largest resident memory of the process; `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
+    /// The warnings about the deck and the results, in the order in which they arose.
     pub warnings: Vec<String>,
+    /// The judgements on the expectations, in the order of the deck.
     pub expectations: Vec<Verdict>,
 }
 
-/// What results come from: enough to run them again, and to tell whether two runs were of the same deck and program.
+/// The deck and the program that results come from: enough to run them again, and to tell whether two runs were of the same deck
+/// and program.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct RunOrigin {
-    /// Version of the program, with the commit it was built from where that was known.
+    /// The version of the program, with the commit it was built from where that was known.
     pub version: String,
-    /// That of the deck.
+    /// The title of the deck; empty where it has none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// Path of the deck, as it was given.
+    /// The path of the deck, as it was given.
     pub deck: String,
-    /// Overrides, as they were given: `KEY=VALUE`.
+    /// The overrides, as they were given: `KEY=VALUE`.
     pub sets: Vec<String>,
     /// SHA-256 of the deck with its overrides and its mesh, hexadecimal.
     pub deck_hash: String,
 }
 
 impl RunOrigin {
-    /// Lines for the log.
+    /// The same in lines for the log.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("rdsolve {}, deck {}", self.version, self.deck)];
         lines.extend(self.sets.iter().map(|set| format!("--set {set}")));
@@ -89,41 +102,56 @@ impl RunOrigin {
     }
 }
 
-/// How large the scene is.
+/// The size of the scene and of its equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Sizes {
+    /// The number of all nodes: those of bodies, of ends of links and those on the ground are among them.
     pub nodes: usize,
+    /// The number of rigid bodies.
     pub bodies: usize,
-    /// Of all beams, bars and shells.
+    /// The number of elements of all beams, bars and shells.
     pub elements: usize,
-    /// Displacements, rotations and Lagrange multipliers that are solved for.
+    /// The number of displacements, rotations and Lagrange multipliers that are solved for.
     pub unknowns: usize,
-    /// Of these, Lagrange multipliers.
+    /// The number of Lagrange multipliers among the unknowns.
     pub multipliers: usize,
 }
 
+/// The work of the solver over the whole run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct ReportedCounts {
+    /// The number of accepted steps, substeps included.
     pub steps: usize,
+    /// The number of equilibrium iterations in accepted steps; of an explicit scheme, of evaluations of the residual.
     pub iterations: usize,
+    /// The number of factorizations of a matrix.
     pub factorizations: usize,
+    /// The number of solutions with a factorized matrix.
     pub solves: usize,
+    /// The number of cutbacks: attempts at a step that were given up for a shorter one.
     pub cuts: usize,
 }
 
-/// Wall-clock seconds.
+/// The time that the run took, in seconds of the wall clock.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Timings {
+    /// Reading the deck and its mesh, and building the model.
     pub read_s: f64,
+    /// Making the plan, the system of equations and the solver.
     pub plan_s: f64,
     /// The time stepping alone.
     pub loop_s: f64,
+    /// Showing accepted steps to all that write, draw or judge them.
     pub write_s: f64,
+    /// From the start of the program to the writing of this object.
     pub total_s: f64,
 }
 
 impl RunResult {
     /// Writes `result.json` whole or not at all.
+    ///
+    /// # Errors
+    /// The file cannot be written; the error names it.
     pub fn write(&self, dir: &Path) -> io::Result<()> {
         let path = dir.join(NAME);
         let mut text = serde_json::to_vec_pretty(self).map_err(|e| at(&path, e.into()))?;
@@ -132,7 +160,7 @@ impl RunResult {
     }
 }
 
-/// Greatest resident memory of this process so far; Linux tells it.
+/// The largest resident memory of this process so far, which Linux tells; `None` elsewhere.
 pub fn peak_memory_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

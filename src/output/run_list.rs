@@ -6,20 +6,24 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// The name of the list in the output folder.
 pub const NAME: &str = "run.list";
-/// Its first line, by which it is known.
+/// The first line of a list, by which it is known.
 const HEAD: &str = "# written by this run; --overwrite takes it away";
 
-/// The list of a run that goes on.
+/// The list of a run that is going on.
 pub struct RunList {
     path: PathBuf,
     file: File,
-    /// Names in it.
+    /// The names that are in the file.
     noted: HashSet<String>,
 }
 
 impl RunList {
-    /// A new list, or the one that is there continued.
+    /// Opens a new list, or the one that is there to go on with it.
+    ///
+    /// # Errors
+    /// The file cannot be written, or was not written by a run.
     pub fn open(dir: &Path) -> io::Result<RunList> {
         let path = dir.join(NAME);
         let listed = read(dir)?;
@@ -33,16 +37,19 @@ impl RunList {
     }
 
     /// Notes a file that is about to be written, so that the list is whole however the run ends.
+    ///
+    /// # Errors
+    /// The list cannot be written; the error names it.
     pub fn note(&mut self, name: &str) -> io::Result<()> {
         if !self.noted.insert(name.to_owned()) {
             return Ok(());
         }
-        // One write: a line is there whole or not at all.
+        // The line is written at once, so that it is there whole or not at all.
         self.file.write_all(format!("{name}\n").as_bytes()).map_err(|error| at(&self.path, error))
     }
 }
 
-/// The names in the list of a folder, each that of a file in the folder itself; none where there is no list.
+/// The names in the list of a folder, each that of a file in the folder itself; `None` where there is no list.
 ///
 /// # Errors
 /// A file of this name that no run has written, or that leads elsewhere.
@@ -65,12 +72,12 @@ pub fn read(dir: &Path) -> io::Result<Option<Vec<String>>> {
     Ok(Some(names.map(str::to_owned).collect()))
 }
 
-/// A name that leads nowhere else.
+/// Whether a name leads to nothing but a file of the folder itself.
 fn is_plain(name: &str) -> bool {
     !name.is_empty() && name != "." && name != ".." && !name.contains(['/', '\\', '\0'])
 }
 
-/// A file that is in the way of a run, and not one that a run has written.
+/// The error that a file is in the way of a run and was not written by a run.
 pub fn foreign(path: &Path) -> io::Error {
     let path = path.display();
     io::Error::new(

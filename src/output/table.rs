@@ -1,5 +1,5 @@
-//! What a table of results is: its file, its columns and how a frame becomes rows. Whatever lists, writes, compares or
-//! describes tables reads this and nothing else of them.
+//! The definition of a table of results: its file, its columns and how a frame becomes rows. Whatever lists, writes, compares
+//! or describes tables reads this and nothing else of them.
 
 use super::table_file::TableFile;
 use crate::model::{ExpectAt, Model};
@@ -7,32 +7,33 @@ use crate::quantities::{Column, STEP, TIME};
 use crate::solve::{Frame, Wanted};
 use std::io;
 
-/// Writes the rows of one frame. Made once a run, so that it may hold what a scene fixes for good.
+/// A function that writes the rows of one frame. It is made once a run, so that it may hold what a scene fixes for good.
 pub type WriteRows = Box<dyn Fn(&mut TableFile, &Frame) -> io::Result<()>>;
 
-/// A kind of table. One constant in a file of its own, and one line of [`super::TABLES`].
+/// A kind of table: one constant in a file of its own, and one line of [`super::TABLES`].
 pub struct TableKind {
-    /// Name in the output folder.
+    /// The name of the file in the output folder.
     pub file: &'static str,
     /// What a row is about and when the table is written, in whole sentences.
     pub about: &'static str,
-    /// Columns behind `step` and `time`.
+    /// The columns behind `step` and `time`, group by group.
     pub columns: &'static [&'static [Column]],
     /// Whether the deck asks for it and the scene has something to put in.
     pub wanted: fn(&Model) -> bool,
-    /// What the solver must compute for it.
+    /// What the solver must compute for its rows.
     pub needs: Wanted,
-    /// Of every accepted step, whatever the cadence of output.
+    /// True where it has rows of every accepted step, whatever the cadence of output.
     pub every_step: bool,
+    /// Makes the function that writes its rows for one model.
     pub rows: fn(&Model) -> WriteRows,
     /// What `[[expect]]` may ask about the things in its rows.
     pub answers: Option<Answers>,
 }
 
-/// Quantities of the things a table has rows for, as `[[expect]]` asks for them: at any step, and whether or not the table is
-/// written.
+/// The quantities of the things that a table has rows for, as `[[expect]]` asks for them: at any step, and whether or not the
+/// table is written.
 pub struct Answers {
-    /// Names of the quantities of one thing; none where it is no thing of this table.
+    /// The names of the quantities of one thing; empty where the table knows nothing of it.
     pub quantities: fn(ExpectAt) -> Vec<&'static str>,
     /// What the solver must compute for them.
     pub needs: Wanted,
@@ -41,12 +42,12 @@ pub struct Answers {
 }
 
 impl TableKind {
-    /// All columns in their order.
+    /// All columns in their order, `step` and `time` first.
     pub fn columns(&self) -> impl Iterator<Item = Column> {
         [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
     }
 
-    /// The header row.
+    /// The header row, without a line break.
     pub fn header(&self) -> String {
         self.columns().map(|column| column.name).collect::<Vec<_>>().join(",")
     }

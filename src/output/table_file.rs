@@ -10,22 +10,28 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::{Path, PathBuf};
 
-/// Bytes of finished rows that are not left waiting for the next flush.
+/// The number of bytes of finished rows that do not wait for the next flush.
 const ENOUGH: usize = 1 << 16;
-/// Bytes that the operating system takes at a time, whatever is killed meanwhile.
+/// The number of bytes that the operating system takes at a time, whatever is killed meanwhile.
 const PAGE: usize = 1 << 12;
 
+/// A table of results that is being written.
 pub struct TableFile {
     path: PathBuf,
     file: File,
-    /// Bytes in the file: whole rows.
+    /// The number of bytes in the file, all of whole rows.
     written: u64,
+    /// The rows that wait, and the row that is being written.
     rows: Vec<u8>,
     digits: ryu::Buffer,
 }
 
 impl TableFile {
-    /// A new file with its header row; or, with `keep_to`, an old one cut after the rows of that step (the first column).
+    /// Makes a new file with its header row; or, with `keep_to`, opens an old one and cuts it after the rows of that step (the
+    /// first column).
+    ///
+    /// # Errors
+    /// The file cannot be opened or written; the error names it.
     pub fn open(dir: &Path, name: &str, header: &str, keep_to: Option<usize>) -> io::Result<TableFile> {
         let path = dir.join(name);
         let file = match keep_to {
@@ -48,12 +54,13 @@ impl TableFile {
         self.number(time)
     }
 
+    /// Adds a field with a whole number.
     pub fn count(&mut self, value: usize) -> &mut TableFile {
         let _ = write!(self.rows, ",{value}");
         self
     }
 
-    /// A field that stays empty where there is no finite number.
+    /// Adds a field with a number; it stays empty where the number is not finite.
     pub fn number(&mut self, value: f64) -> &mut TableFile {
         self.rows.push(b',');
         if value.is_finite() {
@@ -62,6 +69,7 @@ impl TableFile {
         self
     }
 
+    /// Adds a field for each of several numbers.
     pub fn numbers(&mut self, values: &[f64]) -> &mut TableFile {
         for value in values {
             self.number(*value);
@@ -69,7 +77,7 @@ impl TableFile {
         self
     }
 
-    /// Text, quoted where it must be (RFC 4180).
+    /// Adds a field with a text, which is quoted where it must be (RFC 4180).
     pub fn text(&mut self, text: &str) -> &mut TableFile {
         self.rows.push(b',');
         if text.contains([',', '"', '\n', '\r']) {
@@ -80,7 +88,10 @@ impl TableFile {
         self
     }
 
-    /// Ends a row.
+    /// Ends a row. Where many wait, they are handed to the file.
+    ///
+    /// # Errors
+    /// As of [`TableFile::flush`].
     pub fn end(&mut self) -> io::Result<()> {
         self.rows.push(b'\n');
         if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
@@ -91,7 +102,7 @@ impl TableFile {
     /// # Errors
     /// The file cannot grow; it then ends with its last whole row, and the rows are lost.
     pub fn flush(&mut self) -> io::Result<()> {
-        // Cut short by somebody, the file would have a hole.
+        // A file that somebody has cut short would get a hole.
         if self.file.metadata().map_err(|error| at(&self.path, error))?.len() != self.written {
             self.rows.clear();
             return Err(self.spoiled());
@@ -108,7 +119,7 @@ impl TableFile {
             if done.is_ok() {
                 (self.written, from) = (self.written + length as u64, from + length);
             } else {
-                // There is room for a shorter file.
+                // The part of a row is cut off; a shorter file always has room.
                 let _ = self.file.set_len(self.written);
             }
         }
@@ -116,7 +127,7 @@ impl TableFile {
         done.map_err(|e| at(&self.path, e))
     }
 
-    /// Whether the file still stands under its name and holds what was written, nothing more.
+    /// Makes sure that the file still stands under its name and holds what was written, nothing more.
     ///
     /// # Errors
     /// Somebody has taken it away, put another in its place or written to it.
@@ -128,6 +139,7 @@ impl TableFile {
         Err(self.spoiled())
     }
 
+    /// The error that somebody else has been at the file.
     fn spoiled(&self) -> io::Error {
         let what = "the table was taken away, replaced or changed while the run was writing it; its results are lost";
         at(&self.path, io::Error::new(io::ErrorKind::NotFound, what))

@@ -1,5 +1,5 @@
-//! Tables of an output folder read back row by row, never held whole. A last line without its end was truncated when a run was
-//! killed: it is left out, and said.
+//! Tables of an output folder are read back row by row and never held whole. A last line without its end was truncated when a run
+//! was killed: it is left out, which the reader of the table is told.
 
 use super::disk::at;
 use super::tables;
@@ -8,25 +8,30 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-/// Bytes asked for at a time.
+/// The number of bytes that are asked for at a time.
 const CHUNK: usize = 1 << 18;
 
+/// A table that is being read.
 pub struct TableReader {
     path: PathBuf,
     reader: BufReader<File>,
+    /// The row at hand, without its line break.
     line: Vec<u8>,
-    /// Names of the columns.
+    /// The names of the columns.
     pub header: Vec<String>,
-    /// Of each column, whether it says what a row is about.
+    /// For each column, whether it says what a row is about.
     keys: Vec<bool>,
-    /// Rows so far, without the header.
+    /// The number of rows so far, without the header.
     pub count: usize,
-    /// The last line had no end; known when the rows have come to theirs.
+    /// True where the last line had no end, which is known once all rows have been read.
     pub truncated: bool,
 }
 
 impl TableReader {
     /// Opens a table and reads its header.
+    ///
+    /// # Errors
+    /// The file cannot be read, is not a regular file, or has no whole header; the error names it.
     pub fn open(path: &Path) -> io::Result<TableReader> {
         if !std::fs::metadata(path).map_err(|e| at(path, e))?.is_file() {
             return Err(at(path, io::Error::new(io::ErrorKind::InvalidData, "not a regular file, so no table")));
@@ -45,9 +50,9 @@ impl TableReader {
         Ok(rows)
     }
 
-    /// The columns that say what a row is about: as the table's own definition has them; of a table that is not one of ours, the
-    /// leading columns behind `step` and `time` that hold text in the first row. Names of columns tell nothing: `contact` is a
-    /// name in one table and an energy in another.
+    /// For each column, whether it says what a row is about. The definition of the table tells; in a table of another program
+    /// these are the leading columns behind `step` and `time` that hold text in the first row. Names of columns tell nothing:
+    /// `contact` is a name in one table and an energy in another.
     fn find_keys(&mut self) -> io::Result<Vec<bool>> {
         let file = self.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         if let Some(table) = tables::of_file(file) {
@@ -73,12 +78,15 @@ impl TableReader {
             .collect())
     }
 
-    /// Whether a column, given by its place, says what a row is about.
+    /// Whether a column, given by its place from 0, says what a row is about.
     pub fn is_key(&self, place: usize) -> bool {
         self.keys.get(place).copied().unwrap_or(false)
     }
 
-    /// The next row, without its end; none where no whole one is left.
+    /// The next row, without its line break; `None` where no whole one is left.
+    ///
+    /// # Errors
+    /// The file cannot be read; the error names it.
     pub fn next(&mut self) -> io::Result<Option<&[u8]>> {
         if !self.read()? {
             return Ok(None);
@@ -87,6 +95,7 @@ impl TableReader {
         Ok(Some(&self.line))
     }
 
+    /// Reads the next line that ends a row; false where there is no whole one.
     fn read(&mut self) -> io::Result<bool> {
         self.line.clear();
         loop {
@@ -114,20 +123,20 @@ impl TableReader {
         Ok(true)
     }
 
-    /// A row that has not as many fields as the header.
+    /// The error that the row at hand has not as many fields as the header.
     pub fn ragged(&self, fields: usize) -> io::Error {
         let (row, columns) = (self.count, self.header.len());
         let text = format!("row {row} has {fields} fields, the header {columns}");
         at(&self.path, io::Error::new(io::ErrorKind::InvalidData, text))
     }
 
-    /// Place of a column.
+    /// The place of a column from 0; `None` where there is none of that name.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|other| other == name)
     }
 }
 
-/// Fields of a row as they stand there, quotes and all.
+/// The fields of a row as they stand there, quotes included.
 pub fn fields(row: &[u8]) -> impl Iterator<Item = &[u8]> {
     let mut quoted = false;
     row.split(move |&byte| {
@@ -136,7 +145,7 @@ pub fn fields(row: &[u8]) -> impl Iterator<Item = &[u8]> {
     })
 }
 
-/// What a field says.
+/// The text of a field, without the quotes around it and with those within it single.
 pub fn text(field: &[u8]) -> Cow<'_, str> {
     match field {
         [b'"', inner @ .., b'"'] => Cow::Owned(String::from_utf8_lossy(inner).replace("\"\"", "\"")),
@@ -144,8 +153,8 @@ pub fn text(field: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The number of a field. An empty one, which stands for none, is NaN; any other text is a NaN that carries its hash, so that
-/// equal texts have equal bits.
+/// The number of a field. An empty field, which stands for no number, is NaN; any other text is a NaN that carries its hash, so
+/// that equal texts have equal bits.
 pub fn number(field: &[u8]) -> f64 {
     if field.is_empty() {
         return f64::NAN;

@@ -4,12 +4,14 @@
 use base64::prelude::{BASE64_STANDARD, Engine};
 use std::fmt::Write;
 
+/// The beginning of a grid, up to its field data.
 pub const OPEN: &str = "<?xml version=\"1.0\"?>\n\
     <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
     <UnstructuredGrid>\n";
+/// The end of a grid, behind its cells.
 pub const CLOSE: &str = "</UnstructuredGrid>\n</VTKFile>\n";
 
-/// Cell types of VTK.
+/// Types of cells, by the numbers of VTK.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Cell {
@@ -40,7 +42,8 @@ macro_rules! scalar {
 }
 scalar! { f64, "Float64"; i64, "Int64"; u8, "UInt8"; }
 
-/// Appends a `DataArray` to `text`; `bytes` is scratch. (No arrays of strings: meshio refuses a file that has one.)
+/// Appends a `DataArray` to `text`: tuples of so many `components`, one after the other; `bytes` is scratch. There are no arrays
+/// of strings, for meshio refuses a file that has one.
 pub fn array<T: Scalar>(
     text: &mut String,
     bytes: &mut Vec<u8>,

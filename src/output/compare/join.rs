@@ -1,47 +1,58 @@
-//! Rows of two tables side by side: those of one time belong together, and among them those of one name.
+//! Two tables are joined row by row: the rows of one time belong together, and among them those of one name.
 
 use super::prefetch::Cursor;
 use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 use std::io;
 
-/// Of the shorter of the two last steps: times that agree within this part of it are one time. It is far more than sums of
-/// steps lose to rounding, and hides nothing: what moves in between is a difference.
+/// Times that agree within this part of the shorter of the two last steps are one time. It is far more than sums of steps lose
+/// to rounding, and hides nothing: what moves in between is a difference.
 const ROUNDING: f64 = 1e-3;
 
-/// The largest difference of a column.
+/// The largest difference of a column, and where it stands.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Worst {
-    /// Infinite where only one side has a number.
+    /// The absolute difference in the unit of the column; infinite where only one side has a number.
     pub difference: f64,
+    /// The time of the row, the earlier of the two.
     pub time: f64,
+    /// The key of the row ([`shown`](super::shown) makes a text of it).
     pub key: Vec<u8>,
 }
 
-/// Rows and times that one side has alone.
+/// The rows and frames that one side has alone.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Alone {
-    /// At times that both have.
+    /// The number of rows without a partner in frames that both sides have.
     pub rows: u64,
-    /// Time and name of the first of them.
+    /// The time and the key of the first of these rows.
     pub first: Option<(f64, Vec<u8>)>,
+    /// The number of frames that the other side has not.
     pub frames: u64,
+    /// The number of rows in these frames.
     pub all_rows: u64,
 }
 
+/// What two tables have in common, and what not.
 #[derive(Debug, Clone, Default)]
 pub struct Joined {
-    /// Of each column.
+    /// The largest difference of each column.
     pub worst: Vec<Worst>,
+    /// The number of rows that both sides have.
     pub rows: u64,
+    /// The number of frames that both sides have.
     pub frames: u64,
+    /// What each side has alone.
     pub alone: [Alone; 2],
-    /// Time (or step) of the last frame of each side and of the frame before.
+    /// Time (or step) of the last frame of each side and of the frame before; `None` where there is no frame.
     pub ends: [Option<(f64, f64)>; 2],
 }
 
-/// Goes through both tables. With `by_step` frames are matched by their step: on a path whose load falls and rises a time says
-/// not where it is.
+/// Goes through both tables once. With `by_step`, frames are matched by their step: on a path whose load falls and rises, a time
+/// does not say where it is.
+///
+/// # Errors
+/// A table cannot be read, or is no table.
 pub fn join(sides: &mut [Cursor; 2], columns: usize, by_step: bool) -> io::Result<Joined> {
     let mut joined = Joined { worst: vec![Worst::default(); columns], ..Joined::default() };
     sides.iter_mut().try_for_each(Cursor::advance)?;
@@ -110,7 +121,7 @@ fn skip(side: &mut Cursor, alone: &mut Alone) -> io::Result<()> {
     Ok(())
 }
 
-/// The rest of a frame whose rows are not in the same order on both sides, or not the same rows.
+/// Joins the rest of a frame whose rows are not in the same order on both sides, or not the same rows.
 fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::Result<()> {
     let [a, b] = sides;
     let time = a.when[1].min(b.when[1]);
@@ -125,7 +136,7 @@ fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::R
         alone.rows += 1;
         alone.first.get_or_insert_with(|| (time, key.to_vec()));
     };
-    // What the other side lacks because its file was cut short here is not missing: that it was is said.
+    // What a side lacks because its file was cut short here is not called missing: that the file is torn is said by itself.
     let a_truncated = a.done && a.summary.truncated;
     while b.is_in(both[1]) {
         match waiting.get_mut(b.key()).and_then(VecDeque::pop_front) {
@@ -149,6 +160,7 @@ fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::R
     Ok(())
 }
 
+/// Enters the differences between two rows into the largest so far.
 fn tally(worst: &mut [Worst], a: &[f64], b: &[f64], time: f64, key: &[u8]) {
     for ((worst, &a), &b) in worst.iter_mut().zip(a).zip(b) {
         let difference = if a == b || a.to_bits() == b.to_bits() {

@@ -1,7 +1,7 @@
-//! Whether two output folders agree: every table that either has, as numbers, each column against its own range.
+//! The comparison of two output folders: every table that either has is compared as numbers, each column against its own range.
 //!
-//! Tables are read once, side by side, and never held. Left out: the grids of the fields, `run.log`, and of `result.json` all but
-//! the status. `steps.csv` is compared and shown but not judged unless one of its columns is named: it says what the way cost.
+//! Tables are read once, side by side, and never held. The grids of the fields, `run.log`, and all of `result.json` but its status
+//! are left out. `steps.csv` is compared and shown but not judged unless one of its columns is named, for it says what a run cost.
 
 mod join;
 mod prefetch;
@@ -23,13 +23,13 @@ use std::path::Path;
 /// What is compared, and how closely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// Relative to the scale of a column; where none takes it, [`TOLERANCE`].
+    /// Tolerances relative to the scale of a column; a column that none of them names has [`TOLERANCE`].
     pub tolerances: Vec<ColumnTolerance>,
-    /// Differences up to this are none.
+    /// The absolute difference up to which numbers agree whatever their column.
     pub absolute: f64,
-    /// Only these columns; all, where there are none.
+    /// The columns that are compared; where there are none, all are.
     pub columns: Vec<Selector>,
-    /// Not these.
+    /// The columns that are left out.
     pub ignored: Vec<Selector>,
 }
 
@@ -40,63 +40,76 @@ impl Settings {
         (self.columns.is_empty() || any(&self.columns)) && !any(&self.ignored)
     }
 
-    /// All that name columns.
+    /// All selectors, which must each name a column.
     fn selectors(&self) -> impl Iterator<Item = &Selector> {
         self.columns.iter().chain(&self.ignored).chain(self.tolerances.iter().map(|tolerance| &tolerance.of))
     }
 }
 
-/// Where nothing else is said.
+/// The tolerance relative to the scale of a column where the user names none.
 pub const TOLERANCE: f64 = 1e-6;
 
-/// What a run costs, which may differ where the results agree.
+/// The table with what a run costs, which may differ where the results agree.
 const COST: &str = "steps.csv";
 
-/// One column of both sides.
+/// A column of both sides, compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedColumn {
+    /// The name in the header.
     pub name: String,
+    /// The largest difference.
     pub worst: Worst,
-    /// Of what `worst` is a part.
+    /// What differences are measured against, in the unit of the column: its range, or the largest number of its kind.
     pub scale: f64,
+    /// The tolerance relative to the scale.
     pub tolerance: f64,
+    /// False of a column that is shown only.
     pub judged: bool,
+    /// True where the difference is within the tolerance, or is not judged.
     pub passed: bool,
 }
 
 impl ComparedColumn {
+    /// The largest difference relative to the scale.
     pub fn relative(&self) -> f64 {
         if self.worst.difference == 0.0 { 0.0 } else { self.worst.difference / self.scale }
     }
 }
 
-/// One table of both sides.
+/// A table of both sides, compared.
 #[derive(Debug, Clone)]
 pub struct ComparedTable {
+    /// The name of the file.
     pub name: String,
+    /// The columns that both sides have, but for keys and steps.
     pub columns: Vec<ComparedColumn>,
-    /// Columns that one side has alone.
+    /// The columns that one side has alone.
     pub only: [Vec<String>; 2],
+    /// The rows that one side has alone.
     pub alone: [Alone; 2],
-    /// Rows compared, and the times at which they stand.
+    /// The number of rows compared.
     pub rows: u64,
+    /// The number of times, or steps, at which these rows stand.
     pub frames: u64,
-    /// All rows of each side.
+    /// The number of all rows of each side.
     pub all_rows: [u64; 2],
-    /// Last times, where one side goes on without the other.
+    /// The last times, or steps, where one side goes on without the other.
     pub ends: Option<[f64; 2]>,
+    /// Whether the last line of each side is torn.
     pub truncated: [bool; 2],
-    /// By step instead of time.
+    /// True where rows are matched by step instead of time.
     pub by_step: bool,
-    /// Rows that do not match are a fault too.
+    /// True where rows without a partner are a fault too.
     pub judged: bool,
 }
 
 impl ComparedTable {
+    /// True where there are rows, but none of one side has a partner on the other.
     pub fn nothing_matched(&self) -> bool {
         self.rows == 0 && self.all_rows.iter().any(|&rows| rows > 0)
     }
 
+    /// Whether the two sides agree in all that is judged.
     pub fn agrees(&self) -> bool {
         let rows = !self.nothing_matched() && self.ends.is_none() && self.alone.iter().all(|alone| alone.rows == 0);
         let whole = !self.truncated.contains(&true) && self.only.iter().all(Vec::is_empty);
@@ -104,22 +117,25 @@ impl ComparedTable {
     }
 }
 
+/// Two folders, compared.
 #[derive(Debug, Clone)]
 pub struct Comparison {
+    /// The tables that both sides have, by name.
     pub tables: Vec<ComparedTable>,
-    /// Files that one side has alone.
+    /// The files that one side has alone.
     pub only: [Vec<String>; 2],
-    /// Of `result.json`, as it stands there.
+    /// The status in `result.json` of each side; `None` where a side has none.
     pub status: Option<[String; 2]>,
-    /// Neither side has one.
+    /// True where neither side has a status.
     pub without_status: bool,
-    /// Selectors that take no column of either side, as written.
+    /// The selectors that name no column of either side. Where there are any, nothing has been compared.
     pub idle: Vec<Selector>,
-    /// All columns, as `nodes.csv:ux`.
+    /// All columns of either side, as `nodes.csv:ux`.
     pub known: BTreeSet<String>,
 }
 
 impl Comparison {
+    /// Whether the two folders agree in all that is judged.
     pub fn agrees(&self) -> bool {
         self.only.iter().all(Vec::is_empty)
             && self.status.as_ref().is_none_or(|[a, b]| a == b)
@@ -127,7 +143,10 @@ impl Comparison {
     }
 }
 
-/// Compares two folders; an error names what cannot be read.
+/// Compares two folders.
+///
+/// # Errors
+/// A folder holds no results, or a file in it cannot be read; the error names it.
 pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Comparison> {
     let names = [tables(folders[0])?, tables(folders[1])?];
     let status = [status(folders[0])?, status(folders[1])?];
@@ -198,6 +217,7 @@ fn columns(folders: [&Path; 2], names: &[BTreeSet<String>; 2]) -> io::Result<BTr
     Ok(known)
 }
 
+/// Compares a table that both sides have.
 fn table(
     name: &str,
     rows: [TableReader; 2],
@@ -211,7 +231,7 @@ fn table(
         let missing = rows[side].header.iter().filter(|column| rows[1 - side].column(column).is_none());
         missing.filter(|column| chosen(name, column)).cloned().collect()
     });
-    // Of either side: a table of another version may have its names in another place.
+    // A key of either side is one: a table of another version may have its names in another place.
     let is_key = |column: &str| rows.iter().any(|rows| rows.column(column).is_some_and(|place| rows.is_key(place)));
     let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
     let has_time = shared.iter().any(|column| column == "time");
@@ -257,10 +277,10 @@ fn table(
     })
 }
 
-/// Which columns of one side are read.
+/// The columns of one side that are read.
 fn pick(rows: &TableReader, shared: &[String], values: &[&str], has_time: bool) -> Pick {
     let place = |column: &str| rows.column(column);
-    // Without a time there are no frames.
+    // A table without a time has no frames, whatever its column `step` counts.
     let (step, time) = (place("step").filter(|_| has_time), place("time").filter(|_| has_time));
     let is_value = |column: &String| matches!(column.as_str(), "step" | "time") || values.contains(&column.as_str());
     let keys = shared.iter().filter(|column| !is_value(column)).filter_map(|column| place(column)).collect();
@@ -277,7 +297,7 @@ fn apart(ends: [Option<(f64, f64)>; 2], truncated: [bool; 2]) -> Option<[f64; 2]
     ((a.0 - b.0).abs() > (1.5 * step).max(digits) && !truncated[shorter]).then_some([a.0, b.0])
 }
 
-/// Names of the tables of a folder.
+/// The names of the tables of a folder.
 fn tables(folder: &Path) -> io::Result<BTreeSet<String>> {
     let mut names = BTreeSet::new();
     for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {
@@ -287,7 +307,7 @@ fn tables(folder: &Path) -> io::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// The status of a run; none where it never came to write one.
+/// The status of a run; `None` where it never came to write one.
 fn status(folder: &Path) -> io::Result<Option<String>> {
     let path = folder.join("result.json");
     let text = match fs::read(&path) {
@@ -301,7 +321,7 @@ fn status(folder: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// Whether the load of a path falls anywhere.
+/// Whether the load of a path falls anywhere, so that times do not tell its points apart.
 fn turns(folder: &Path) -> io::Result<bool> {
     let path = folder.join(COST);
     if !path.is_file() {

@@ -1,64 +1,76 @@
-//! A table read and parsed on a thread of its own, ahead of whoever looks at its rows.
+//! A table is read and parsed on a thread of its own, ahead of whoever looks at its rows.
 
 use crate::output::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{Scope, ScopedJoinHandle};
 
-/// Rows handed over at a time, and blocks that may wait.
+/// The number of rows that are handed over at a time.
 const ROWS: usize = 2048;
+/// The number of blocks of rows that may wait for their reader.
 const WAITING: usize = 4;
 
-/// Which columns are read, by their places.
+/// The places, from 0, of the columns that are read.
 #[derive(Debug, Clone, Default)]
 pub struct Pick {
+    /// The place of `step`; `None` where frames have no step.
     pub step: Option<usize>,
+    /// The place of `time`; `None` where the table has no frames.
     pub time: Option<usize>,
+    /// The places of the columns that say what a row is about.
     pub keys: Vec<usize>,
+    /// The places of the columns that are compared.
     pub values: Vec<usize>,
 }
 
-/// Some rows.
+/// Some rows, one after the other.
 #[derive(Default)]
 struct Block {
     /// Step and time of each row; 0 where a table has none.
     when: Vec<[f64; 2]>,
-    /// Row by row.
+    /// The picked values, row by row.
     values: Vec<f64>,
-    /// Names, one row behind the other, and where each row's end.
+    /// The keys of the rows.
     keys: Vec<u8>,
+    /// The place in `keys` where the key of each row ends.
     ends: Vec<usize>,
 }
 
-/// Least and largest number of a column.
+/// The range of the finite numbers of a column.
 #[derive(Debug, Clone, Copy)]
 pub struct Range {
+    /// The least number.
     pub least: f64,
+    /// The largest number.
     pub most: f64,
 }
 
 impl Range {
+    /// The range of no number.
     pub const NONE: Range = Range { least: f64::INFINITY, most: f64::NEG_INFINITY };
 
+    /// The range of the numbers of both.
     pub fn with(self, other: Range) -> Range {
         Range { least: self.least.min(other.least), most: self.most.max(other.most) }
     }
 
-    /// Of nothing, 0.
+    /// The largest number less the least; 0 of no number.
     pub fn width(self) -> f64 {
         (self.most - self.least).max(0.0)
     }
 
+    /// The largest absolute value; 0 of no number.
     pub fn magnitude(self) -> f64 {
         if self.most < self.least { 0.0 } else { self.most.abs().max(self.least.abs()) }
     }
 }
 
-/// What is known when a table has been read.
+/// What is known once a table has been read.
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
-    /// Of each picked column, over the whole table.
+    /// The range of each picked value over the whole table.
     pub ranges: Vec<Range>,
+    /// Whether the last line of the table is torn.
     pub truncated: bool,
 }
 
@@ -67,31 +79,35 @@ enum Message {
     End(io::Result<Summary>),
 }
 
-/// The row in hand.
+/// A place in the rows of a table: it stands on one row, and goes forward.
 pub struct Cursor {
     blocks: Receiver<Message>,
     block: Block,
+    /// The row at hand, by its place in the block.
     row: usize,
+    /// The number of values of a row.
     width: usize,
-    /// No row is left.
+    /// True where no row is left.
     pub done: bool,
-    /// Once done.
+    /// The summary of the table; it is empty until all rows have been read.
     pub summary: Summary,
-    /// Rows so far that share their step and time: their number, from 1.
+    /// The number, from 1, of the frame: rows that follow each other with the same step and time.
     pub frame: usize,
-    /// Step and time of this frame and of the one before.
+    /// Step and time of this frame.
     pub when: [f64; 2],
+    /// Step and time of the frame before; `None` in the first.
     pub before: Option<[f64; 2]>,
+    /// The number of rows so far.
     pub rows: u64,
 }
 
-/// Starts reading the rows of a table.
+/// Starts reading the rows of a table on a thread of the scope. The cursor stands before the first row.
 pub fn read<'s>(scope: &'s Scope<'s, '_>, mut rows: TableReader, pick: Pick) -> (Cursor, ScopedJoinHandle<'s, ()>) {
     let (sender, blocks) = sync_channel(WAITING);
     let width = pick.values.len();
     let thread = scope.spawn(move || {
         let end = send(&mut rows, &pick, &sender);
-        // Nobody listens any more where something else went wrong.
+        // Sending fails where nobody listens any more, since something else went wrong.
         let _ = sender.send(Message::End(end));
     });
     let block = Block::default();
@@ -100,7 +116,7 @@ pub fn read<'s>(scope: &'s Scope<'s, '_>, mut rows: TableReader, pick: Pick) -> 
     (cursor, thread)
 }
 
-/// For each field of a row, what it is.
+/// What the fields of a column are read as.
 #[derive(Clone, Copy)]
 enum Role {
     Step,
@@ -110,6 +126,7 @@ enum Role {
     Nothing,
 }
 
+/// The role of each column.
 fn roles(pick: &Pick, columns: usize) -> Vec<Role> {
     let mut roles = vec![Role::Nothing; columns];
     for (place, &column) in pick.values.iter().enumerate() {
@@ -125,6 +142,7 @@ fn roles(pick: &Pick, columns: usize) -> Vec<Role> {
     roles
 }
 
+/// Reads a table to its end and sends its rows block by block.
 fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io::Result<Summary> {
     let (columns, width) = (rows.header.len(), pick.values.len());
     let roles = roles(pick, columns);
@@ -145,7 +163,7 @@ fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io
                 }
                 Role::Key => {
                     block.keys.extend_from_slice(text(field).as_bytes());
-                    // No text of a table holds it: names stay apart.
+                    // No text of a table holds a zero byte, which therefore keeps names apart.
                     block.keys.push(0);
                 }
                 Role::Value(place) => block.values[first + place] = number(field),
@@ -172,6 +190,9 @@ fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io
 
 impl Cursor {
     /// Goes to the next row, which is the first if there was none.
+    ///
+    /// # Errors
+    /// The table cannot be read, or a row has not as many fields as the header.
     pub fn advance(&mut self) -> io::Result<()> {
         self.row += 1;
         while self.row >= self.block.when.len() {
@@ -194,22 +215,24 @@ impl Cursor {
         Ok(())
     }
 
+    /// The key of the row: the names of what it is about, each followed by a zero byte.
     pub fn key(&self) -> &[u8] {
         let begin = if self.row == 0 { 0 } else { self.block.ends[self.row - 1] };
         &self.block.keys[begin..self.block.ends[self.row]]
     }
 
+    /// The picked values of the row, in the order of [`Pick::values`].
     pub fn values(&self) -> &[f64] {
         &self.block.values[self.row * self.width..(self.row + 1) * self.width]
     }
 
-    /// Whether a row is in hand that belongs to this frame.
+    /// Whether there is a row, and it belongs to this frame.
     pub fn is_in(&self, frame: usize) -> bool {
         !self.done && self.frame == frame
     }
 }
 
-/// A key as it is shown: `tip`, `roof 3 1`.
+/// A key as it is shown: `tip`, `roof 3 1`; empty for rows that are about the whole scene.
 pub fn shown(key: &[u8]) -> String {
     let key = String::from_utf8_lossy(key);
     key.split('\0').filter(|name| !name.is_empty()).collect::<Vec<_>>().join(" ")

@@ -1,11 +1,12 @@
-//! What a difference in a column is measured against: the column's range, and where a column does not vary, the largest number
-//! of its kind in the file.
+//! The scale that a difference in a column is measured against: the range of the column, and where a column does not vary, the
+//! largest number of its kind in the file.
 
 use super::prefetch::Range;
 use crate::output::table::TableKind;
 use crate::output::tables::{self, TABLES};
 
-/// The kind of a column: components of one thing, or amounts that are exchanged with each other. `None`: it stands alone.
+/// The kind of a column. Columns of one kind are components of one thing, or amounts that are exchanged with each other; a column
+/// without a kind stands alone.
 fn kind(file: &str, column: &str) -> Option<&'static str> {
     let of = |table: &TableKind| table.columns().find(|known| known.answers_to(column)).map(|known| known.kind);
     match tables::of_file(file) {

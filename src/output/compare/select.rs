@@ -2,18 +2,22 @@
 
 use std::str::FromStr;
 
+/// Some columns, by file, by name, or by both; by neither, all.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Selector {
+    /// The name of the file; `None` means any file.
     pub file: Option<String>,
+    /// The name of the column; `None` means any column.
     pub column: Option<String>,
 }
 
 impl Selector {
+    /// Whether a column of a file is among those that are meant.
     pub fn takes(&self, file: &str, column: &str) -> bool {
         self.file.as_deref().is_none_or(|name| name == file) && self.column.as_deref().is_none_or(|name| name == column)
     }
 
-    /// How closely it names a column.
+    /// A number that is the larger, the more closely a column is named: the name of a column counts more than that of a file.
     fn closeness(&self) -> usize {
         2 * usize::from(self.column.is_some()) + usize::from(self.file.is_some())
     }
@@ -38,7 +42,9 @@ impl FromStr for Selector {
 /// A tolerance for some columns, or for all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnTolerance {
+    /// The columns that it is for.
     pub of: Selector,
+    /// The largest difference that passes, relative to the scale of the column.
     pub value: f64,
 }
 
@@ -54,7 +60,10 @@ impl FromStr for ColumnTolerance {
     }
 }
 
-/// A tolerance alone.
+/// Reads a tolerance, for clap.
+///
+/// # Errors
+/// The word is not a finite number, or is negative.
 pub fn size(word: &str) -> Result<f64, String> {
     let value: f64 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
     if value.is_finite() && value >= 0.0 { Ok(value) } else { Err("a tolerance is finite and not negative".into()) }

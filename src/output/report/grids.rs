@@ -1,4 +1,5 @@
-//! The moving scene out of the grids of the fields: triangles, lines and edges, where they are over time, and what cells carry.
+//! The moving scene is read from the grids of the fields: triangles, lines and edges, where they are over time, and what their
+//! cells carry.
 
 use super::data::{PageScene, numbers};
 use crate::output::at;
@@ -9,15 +10,20 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Numbers of a scene, its grids and its points, at most.
+/// The largest number of numbers over all times that a page carries.
 const NUMBERS: usize = 4_000_000;
+/// The largest number of times.
 const GRIDS: usize = 150;
+/// The largest number of points: a scene with more of them is not shown.
 const POINTS: usize = 1_000_000;
 
-/// What a cell is part of, as the page numbers it.
+/// The kinds of parts, in the order in which the page numbers them.
 const KINDS: [&str; 5] = ["beam", "bar", "shell", "link", "body"];
 
-/// The scene; `Err` in words where a folder has grids that a page cannot carry, none where there are none.
+/// The scene of a folder; `None` where it has no grids, and the inner error, in words, where a page cannot carry them.
+///
+/// # Errors
+/// A file cannot be read, or is no grid of this program; the error names it.
 pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     let grids = listed(&folder.join("fields.pvd"))?;
     let Some((_, first)) = grids.first() else { return Ok(None) };
@@ -65,7 +71,7 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     Ok(Some(Ok(scene)))
 }
 
-/// Times and names of the grids; empty where there is no list.
+/// The times and names of the grids; empty where there is no list.
 fn listed(path: &Path) -> io::Result<Vec<(f64, String)>> {
     let list = match fs::read_to_string(path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -74,17 +80,18 @@ fn listed(path: &Path) -> io::Result<Vec<(f64, String)>> {
     let grid = |line: &str| {
         let time = attribute(line, "timestep")?.parse().ok()?;
         let file = attribute(line, "file")?;
-        // A name within the folder, and nothing else.
+        // Only a file of the folder itself is opened, whatever the list says.
         (!file.contains(['/', '\\'])).then(|| (time, file.to_owned()))
     };
     Ok(list.lines().filter(|line| line.starts_with("<DataSet ")).filter_map(grid).collect())
 }
 
+/// The value of an attribute of a tag of XML.
 fn attribute<'t>(tag: &'t str, name: &str) -> Option<&'t str> {
     tag.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 
-/// Kinds of the parts, by their numbers.
+/// The kinds of the parts, by the numbers of the parts.
 fn kinds(path: &Path) -> io::Result<Vec<u8>> {
     if !path.is_file() {
         return Ok(Vec::new());
@@ -110,11 +117,12 @@ impl Grid {
         Ok(Grid { path, text })
     }
 
+    /// The error that the grid lacks something.
     fn wrong(&self, lacks: &str) -> io::Error {
         at(&self.path, io::Error::new(io::ErrorKind::InvalidData, format!("this grid has not {lacks}")))
     }
 
-    /// Numbers of an array of this name and width.
+    /// The numbers of the array of a name, with so many components a tuple.
     fn array(&self, name: &str, components: usize) -> io::Result<Vec<f64>> {
         let read = || {
             let at = self.text.find(&format!(" Name=\"{name}\""))?;
@@ -133,11 +141,12 @@ impl Grid {
         read().ok_or_else(|| self.wrong(&format!("an array `{name}` of {components} numbers each")))
     }
 
+    /// The numbers of an array of places, numbers of parts, or types.
     fn places(&self, name: &str) -> io::Result<Vec<usize>> {
         Ok(self.array(name, 1)?.into_iter().map(|number| number as usize).collect())
     }
 
-    /// Names of the arrays with one number for each cell, but for the number of its part.
+    /// The names of the arrays with one number for each cell, but for that with the numbers of parts.
     fn scalars_of_cells(&self) -> Vec<String> {
         let data = self.text.split_once("<CellData>").and_then(|(_, rest)| rest.split_once("</CellData>"));
         let tags = data.map_or("", |(data, _)| data).split("<DataArray").skip(1);
@@ -147,7 +156,7 @@ impl Grid {
     }
 }
 
-/// Faces of a hexahedron, corners in VTK's order.
+/// The corners of the faces of a hexahedron, in VTK's order.
 const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
 /// Takes cells apart into triangles and lines.
@@ -175,7 +184,7 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io:
         };
         match (types[cell], corners) {
             (3 | 21 | 68, &[a, b, ref inner @ ..]) => {
-                // The ends come first.
+                // VTK lists the ends of a curve first.
                 let along: Vec<usize> = [a].into_iter().chain(inner.iter().copied()).chain([b]).collect();
                 for pair in along.windows(2) {
                     scene.lines.extend([pair[0] as u32, pair[1] as u32]);
@@ -194,6 +203,7 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io:
 }
 
 impl PageScene {
+    /// The scene as the scripts of the page read it.
     pub fn json(&self) -> serde_json::Value {
         let fields: Vec<_> = self
             .fields

@@ -1,4 +1,5 @@
-//! What tables say over time, thinned to what a page can carry: every so many times, and of too many names some, evenly.
+//! The numbers of tables over time, thinned to what a page can carry: every so many times, and where there are too many names,
+//! some of them, evenly.
 
 use super::data::numbers;
 use crate::output::table_reader::{TableReader, fields, number, text};
@@ -9,25 +10,30 @@ use std::collections::HashMap;
 use std::io;
 use std::path::Path;
 
-/// Numbers of one table, and times of one history, at most.
+/// The largest number of numbers of one table that a page carries.
 const NUMBERS: usize = 1_000_000;
+/// The largest number of times.
 const TIMES: usize = 1_500;
-/// Names give way before there are fewer times.
+/// The number of times below which names are left out instead of further times.
 const FEW_TIMES: usize = 200;
 
+/// A table over time.
 pub struct History {
+    /// The name of the file.
     pub file: String,
-    /// What rows are about, as `tip` or `roof 3`; one empty name where they are about the whole.
+    /// The names of what rows are about, as `tip` or `roof 3`; one empty name where they are about the whole scene.
     pub names: Vec<String>,
+    /// The names of the columns with numbers, but for the time.
     pub columns: Vec<String>,
+    /// The times that are shown.
     pub times: Vec<f32>,
-    /// By time, name, column; NaN where there is none.
+    /// The numbers by time, name and column; NaN where there is none.
     pub values: Vec<f32>,
-    /// Of the table itself: times and names.
+    /// The numbers of times and of names of the table itself.
     pub all: [usize; 2],
 }
 
-/// Places of the columns of a table.
+/// The places of the columns of a table, from 0: `step` and `time`, keys, numbers.
 struct Places {
     when: [Option<usize>; 2],
     keys: Vec<usize>,
@@ -49,7 +55,7 @@ impl Places {
     }
 }
 
-/// Shows every whole row with the number of its frame, from 0.
+/// Shows every whole row to `see` with the number of its frame, from 0, and returns the number of frames.
 fn each(rows: &mut TableReader, places: &Places, see: &mut dyn FnMut(usize, &[&[u8]])) -> io::Result<usize> {
     let columns = rows.header.len();
     let (mut frames, mut before) = (0, Vec::new());
@@ -70,7 +76,10 @@ fn each(rows: &mut TableReader, places: &Places, see: &mut dyn FnMut(usize, &[&[
 }
 
 impl History {
-    /// None where a table has no times.
+    /// Reads a table; `None` where it has no times.
+    ///
+    /// # Errors
+    /// The table cannot be read, or a row has not as many fields as the header; the error names it.
     pub fn read(folder: &Path, file: &str) -> io::Result<Option<History>> {
         let path = folder.join(file);
         let mut rows = TableReader::open(&path)?;
@@ -100,7 +109,7 @@ impl History {
         let (mut at, mut values) = (Vec::new(), Vec::new());
         let mut last = None;
         each(&mut rows, &places, &mut |frame, row| {
-            // More rows may have come since.
+            // A run that goes on may have written more rows since the first pass.
             if frame >= frames || !shown(frame) {
                 return;
             }
@@ -118,14 +127,14 @@ impl History {
         Ok(Some(History { file: file.into(), names, columns, times: at, values, all }))
     }
 
-    /// One column of one name over time.
+    /// A column of the name at a place over time; `None` where there is no such column.
     pub fn line(&self, name: usize, column: &str) -> Option<Vec<f32>> {
         let column = self.columns.iter().position(|other| other == column)?;
         let width = self.columns.len();
         Some((0..self.times.len()).map(|t| self.values[(t * self.names.len() + name) * width + column]).collect())
     }
 
-    /// What has been left out, in a sentence.
+    /// Says what has been left out; empty where all is shown.
     pub fn left_out(&self) -> String {
         let mut parts = Vec::new();
         if self.times.len() < self.all[0] {
@@ -137,6 +146,7 @@ impl History {
         if parts.is_empty() { String::new() } else { format!("{}: shown are {}", self.file, parts.join(" and ")) }
     }
 
+    /// The history as the scripts of the page read it.
     pub fn json(&self) -> Value {
         json!({
             "file": self.file,
@@ -150,7 +160,7 @@ impl History {
     }
 }
 
-/// A column as its table describes it; none of a table that is not one of ours.
+/// A column as its table describes it; `None` where the table is not one of a run.
 fn described(file: &str, column: &str) -> Option<Column> {
     tables::of_file(file)?.columns().find(|known| known.answers_to(column))
 }
@@ -163,7 +173,7 @@ fn label(file: &str, column: &str) -> String {
     }
 }
 
-/// For each of `all`, its place among the `kept` that stay.
+/// For each of `all`, its place among the `kept` that stay; these are spread evenly.
 fn thinned(all: usize, kept: usize) -> Vec<Option<usize>> {
     let mut next = 0;
     (0..all)

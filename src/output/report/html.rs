@@ -1,4 +1,4 @@
-//! Pieces of HTML; every text goes through [`escaped`].
+//! Pieces of HTML, in which every text has gone through [`escaped`].
 
 /// A text that may stand anywhere in HTML, in an attribute too.
 pub fn escaped(text: &str) -> String {
@@ -16,7 +16,7 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// A table whose first column names its rows; the others are numbers. Cells are text.
+/// A table whose first column names its rows; the others are numbers. Cells are plain text; an empty head is left out.
 pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
     let head: String = head.iter().map(|cell| format!("<th>{}</th>", escaped(cell))).collect();
     let row = |cells: &Vec<String>| {
@@ -27,7 +27,7 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
     format!("<table>{head}<tbody>\n{}</tbody></table>\n", rows.iter().map(row).collect::<String>())
 }
 
-/// JSON within a script element, which nothing in it can end.
+/// A script element with JSON; nothing in the JSON can end the element.
 pub fn data(id: &str, value: &serde_json::Value) -> String {
     let json = value.to_string().replace('<', "\\u003c");
     format!("<script type=\"application/json\" id=\"{id}\">{json}</script>\n")

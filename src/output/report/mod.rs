@@ -1,7 +1,7 @@
 //! One HTML file of a folder of results: tables, plots, the moving scene. It opens without a network and holds all it needs:
 //! our own style and scripts from the files beside this one, numbers as base64 arrays of Float32.
 //!
-//! Bounded: histories and grids are thinned, which the page says.
+//! Its size is bounded: histories and grids are thinned, which the page says.
 
 mod data;
 mod grids;
@@ -21,9 +21,11 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+/// The page with marks where the parts go.
 const PAGE: &str = include_str!("page.html");
+/// The style of the page, which that of a study shares.
 pub(crate) const STYLE: &str = include_str!("page.css");
-/// The column with what the time integration made of the energy balance.
+/// The column with the energy that the time integration has dissipated or made.
 const BALANCE: &str = "numerical";
 const SCRIPTS: [&str; 6] = [
     include_str!("data.js"),
@@ -34,7 +36,10 @@ const SCRIPTS: [&str; 6] = [
     include_str!("main.js"),
 ];
 
-/// The page of a folder; an error names what cannot be read.
+/// The page of a folder.
+///
+/// # Errors
+/// The folder holds no results, or a file in it cannot be read; the error names it.
 pub fn page(folder: &Path) -> io::Result<String> {
     let files = table_files(folder)?;
     let json = result_json(&folder.join("result.json"))?;
@@ -84,7 +89,7 @@ pub fn page(folder: &Path) -> io::Result<String> {
     Ok(filled(PAGE, &parts))
 }
 
-/// A text with its marks replaced, in one pass: what is put in is never looked at again.
+/// Replaces the marks of a text in one pass: what is put in is never looked at again, whatever marks it holds.
 fn filled(page: &str, parts: &[(&str, String)]) -> String {
     let mut out = String::with_capacity(page.len() + parts.iter().map(|(_, text)| text.len()).sum::<usize>());
     let mut rest = page;
@@ -105,7 +110,7 @@ fn filled(page: &str, parts: &[(&str, String)]) -> String {
     out + rest
 }
 
-/// Energies at the start, at the end and at their largest, and what the time integration made of the balance.
+/// A table of the energies at the start, at the end and at their largest, and a sentence on the energy balance.
 fn energy(histories: &[History]) -> String {
     let has_balance = |history: &&History| history.columns.iter().any(|name| name == BALANCE);
     let Some(history) = histories.iter().find(has_balance) else { return String::new() };
@@ -135,7 +140,7 @@ fn energy(histories: &[History]) -> String {
     )
 }
 
-/// Tables of the folder, in the order a reader looks for them.
+/// The tables of a folder, in the order in which a reader looks for them.
 fn table_files(folder: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {
@@ -147,7 +152,7 @@ fn table_files(folder: &Path) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// Null where there is none.
+/// The object in result.json; null where there is no such file.
 fn result_json(path: &Path) -> io::Result<Value> {
     match fs::read(path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(Value::Null),

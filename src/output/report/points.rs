@@ -4,10 +4,10 @@
 use super::data::PageScene;
 use super::histories::History;
 
-/// Times at most.
+/// The largest number of times that are shown.
 const TIMES: usize = 150;
 
-/// None where there are neither nodes nor bodies.
+/// The scene of nodes.csv and bodies.csv; `None` where there is neither.
 pub fn scene(histories: &[History]) -> Option<PageScene> {
     let find = |file: &str| histories.iter().find(|history| history.file == file && history.line(0, "x").is_some());
     let tables: Vec<&History> = ["nodes.csv", "bodies.csv"].into_iter().filter_map(find).collect();
@@ -19,7 +19,7 @@ pub fn scene(histories: &[History]) -> Option<PageScene> {
         PageScene { times: shown.iter().map(|&t| first.times[t]).collect(), all: first.all[0], ..PageScene::default() };
     let mut paths: Vec<Vec<[f32; 3]>> = Vec::new();
     for table in tables {
-        // Tables of one run have the same times, but for the last of a run that was killed.
+        // Tables of one run have the same times, except that of a killed run one may lack the last.
         for (name, label) in table.names.iter().enumerate() {
             let Some(lines) = ["x", "y", "z"].into_iter().map(|c| table.line(name, c)).collect::<Option<Vec<_>>>()
             else {
@@ -58,7 +58,7 @@ pub fn scene(histories: &[History]) -> Option<PageScene> {
     Some(scene)
 }
 
-/// `beam[3]`: `beam` and 3.
+/// The name and the number of a numbered node: `beam` and 3 of `beam[3]`.
 fn series(label: &str) -> Option<(&str, usize)> {
     let (name, number) = label.strip_suffix(']')?.rsplit_once('[')?;
     Some((name, number.parse().ok()?))

@@ -1,4 +1,4 @@
-//! How the run went, as tables that need no script: status, plan, counts, expectations, the deck.
+//! The outcome of the run as tables that need no script: status, plan, counts, expectations, the deck.
 
 use super::html::{escaped, table};
 use crate::names::short;
@@ -8,17 +8,19 @@ use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What result.json says, and of a run that is not finished the log.
+/// The outcome of a run as result.json has it, or as far as the log tells of a run that is not finished.
 pub struct Result {
-    /// Null where there is no result.json.
+    /// The object in result.json; null where there is no such file.
     pub json: Value,
-    /// Path of the deck, as it was given.
+    /// The path of the deck, as it was given.
     pub deck: Option<String>,
-    /// Its text, if it can be found and is that of this run to the last byte.
+    /// The text of the deck, if it can be found and is that of this run to the last byte.
     pub text: Option<String>,
 }
 
 impl Result {
+    /// The outcome of the run in a folder, given its result.json. The deck is looked for where its path leads from here, and
+    /// beside the folder.
     pub fn of(folder: &Path, json: Value) -> Result {
         let deck = json["deck"].as_str().map(str::to_owned).or_else(|| deck_of_log(&folder.join(log::NAME)));
         let sets: Vec<&str> = json["sets"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
@@ -29,7 +31,7 @@ impl Result {
         Result { json, deck, text }
     }
 
-    /// That of the deck; else the name of the deck or the folder.
+    /// The title of the deck; without one, the name of the deck or of the folder.
     pub fn title(&self, folder: &Path) -> String {
         let stem = |path: &Path| path.file_stem().map(|name| name.to_string_lossy().into_owned());
         match self.json["title"].as_str() {
@@ -42,7 +44,7 @@ impl Result {
         }
     }
 
-    /// A badge and the reason.
+    /// A badge with the status, and the reason, as HTML.
     pub fn status(&self) -> String {
         let Some(status) = self.json["status"].as_str() else {
             return "<p><span class=\"badge bad\">unfinished</span> There is no result.json: the run is still going, or was \
@@ -54,6 +56,7 @@ impl Result {
         format!("<p><span class=\"badge {class}\">{}</span> {reason}</p>\n", escaped(status))
     }
 
+    /// A table of the expectations as HTML; empty where the deck has none.
     pub fn expectations(&self) -> String {
         let Some(list) = self.json["expectations"].as_array().filter(|list| !list.is_empty()) else {
             return String::new();
@@ -80,6 +83,7 @@ impl Result {
         format!("<section><h2>Expectations</h2>\n{}</section>\n", table(&head, &rows))
     }
 
+    /// A table of sizes, counts, times and origin as HTML.
     pub fn numbers(&self) -> String {
         let mut rows: Vec<Vec<String>> = Vec::new();
         let mut row = |name: &str, value: String| rows.push(vec![name.to_owned(), value]);
@@ -111,7 +115,7 @@ impl Result {
         format!("<section><h2>Counts and times</h2>\n{}</section>\n", table(&[], &rows))
     }
 
-    /// The plan, warnings, the deck.
+    /// The warnings, the plan and the deck as HTML.
     pub fn texts(&self) -> String {
         let lines = |key: &str| -> Vec<&str> {
             self.json[key].as_array().into_iter().flatten().filter_map(Value::as_str).collect()
@@ -133,7 +137,7 @@ impl Result {
     }
 }
 
-/// To seven digits.
+/// A number to seven significant digits.
 fn significant(number: f64) -> String {
     let rounded: f64 = format!("{number:.6e}").parse().unwrap_or(number);
     match rounded.abs() {
@@ -142,7 +146,7 @@ fn significant(number: f64) -> String {
     }
 }
 
-/// As a run takes it of a deck without a mesh.
+/// The hash that a run takes of a deck without a mesh.
 fn digest(text: &str, sets: &[&str]) -> String {
     let mut hasher = Sha256::new();
     hasher.update(text);
@@ -153,7 +157,7 @@ fn digest(text: &str, sets: &[&str]) -> String {
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A run that is not finished has named its deck in the first line of its log.
+/// The deck that a run has named in the first line of its log.
 fn deck_of_log(path: &Path) -> Option<String> {
     let log = fs::read_to_string(path).ok()?;
     Some(log.lines().next()?.split_once(", deck ")?.1.to_owned())

@@ -42,7 +42,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     quaternion(now).get(index).copied()
 }
 
-/// The motion of one body. Of the two quaternions of its rotation the one with qw ≥ 0.
+/// The motion of one body, in the order of the columns.
 fn values(now: &Node) -> [f64; 19] {
     let q = quaternion(now);
     let vectors = [now.v, now.omega, now.a, now.alpha];
@@ -53,7 +53,8 @@ fn values(now: &Node) -> [f64; 19] {
     })
 }
 
-/// Its columns `qw qx qy qz`.
+/// The columns `qw qx qy qz`: of the two quaternions of a rotation the one with qw ≥ 0, so that equal rotations have equal
+/// numbers.
 fn quaternion(now: &Node) -> [f64; 4] {
     let q = if now.rotation.w < 0.0 { -now.rotation } else { now.rotation };
     [q.w, q.i, q.j, q.k]

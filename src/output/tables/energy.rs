@@ -33,7 +33,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     values(energy).get(index).copied()
 }
 
-/// The columns of one state.
+/// The columns of one state, in the order of [`ENERGY`].
 fn values(e: &Energy) -> [f64; 18] {
     let [p, l] = [e.p, e.l];
     [

@@ -31,7 +31,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     values(link).get(index).copied()
 }
 
-/// The columns of one link.
+/// The columns of one link, in the order of [`LINK`].
 fn values(link: &LinkState) -> [f64; 9] {
     let LinkState { elongation, rate, force, f, m } = *link;
     [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z]

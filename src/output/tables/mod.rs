@@ -1,4 +1,4 @@
-//! The tables of results, a file each. One more is one more file and one line of [`TABLES`].
+//! The tables of results, a file each. A new table is one more file and one line of [`TABLES`].
 
 mod bodies;
 mod contacts;
@@ -15,7 +15,7 @@ mod steps;
 
 use super::table::TableKind;
 
-/// In the order in which a reader looks for them.
+/// All tables, in the order in which a reader looks for them.
 pub static TABLES: &[&TableKind] = &[
     &nodes::TABLE,
     &bodies::TABLE,
@@ -30,7 +30,7 @@ pub static TABLES: &[&TableKind] = &[
     &steps::TABLE,
 ];
 
-/// The table of a file, if it is one of these.
+/// The table of a file; `None` where the file is no table of a run.
 pub fn of_file(name: &str) -> Option<&'static TableKind> {
     TABLES.iter().copied().find(|table| table.file == name)
 }

@@ -4,10 +4,11 @@
 use crate::model::{Model, Part, PartType, Shell};
 use crate::solve::{Frame, ShellState};
 
-/// Places in the frame, in the order of writing; empty where the two are the same.
+/// The places of the elements in the frame, in the order of writing; empty where the two orders are the same.
 pub struct ShellOrder(Vec<u32>);
 
 impl ShellOrder {
+    /// The order for a model, which holds for all of its frames.
     pub fn of(model: &Model) -> ShellOrder {
         if model.each::<Shell>().all(|shell| shell.numbers.is_empty()) {
             return ShellOrder(Vec::new());
@@ -24,6 +25,7 @@ impl ShellOrder {
         ShellOrder(order)
     }
 
+    /// The states of the shells' elements in a frame, in the order of writing.
     pub fn states<'f>(&self, frame: &'f Frame) -> impl Iterator<Item = &'f ShellState> {
         let states = &frame.derived.shells;
         (0..states.len()).map(|k| &states[self.0.get(k).map_or(k, |&place| place as usize)])
