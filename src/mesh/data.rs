@@ -6,23 +6,24 @@ use crate::math::Vec3;
 /// A mesh from a file. Its elements are valid: their nodes exist, are distinct and span a length or a convex area.
 #[derive(Debug)]
 pub struct Mesh {
-    /// In the order of the file.
+    /// The nodes in the order of the file.
     pub nodes: Vec<MeshNode>,
-    /// In the order of the file.
+    /// The elements in the order of the file.
     pub elements: Vec<MeshElement>,
-    /// In the order in which the file names them first.
+    /// The groups in the order in which the file names them first.
     pub groups: Vec<MeshGroup>,
     /// Parts of the file that were not read.
     pub skipped: Vec<Skipped>,
+    /// The indices of the nodes by their numbers in the file.
     pub(super) ids: Ids,
 }
 
 /// A node of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshNode {
-    /// Its number in the file.
+    /// The number in the file.
     pub id: u64,
-    /// Its position.
+    /// The position, in the axes and the unit of length of the file.
     pub x: Vec3,
 }
 
@@ -53,7 +54,9 @@ impl CellShape {
 pub struct MeshElement {
     /// Its number in the file.
     pub id: u64,
+    /// The shape, which gives the number of its nodes.
     pub kind: CellShape,
+    /// The indices of its nodes; those beyond their number are 0.
     pub(super) nodes: [u32; 4],
     /// Its line in the file, counted from 1.
     pub line: u32,
@@ -69,6 +72,7 @@ impl MeshElement {
 /// A named group of nodes and elements.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MeshGroup {
+    /// The name in the file; a nameless group is named after its tag.
     pub name: String,
     /// Indices into [`Mesh::elements`], each once, in the order of the file.
     pub elements: Vec<u32>,

@@ -15,11 +15,15 @@ const SHAPE_TOLERANCE: f64 = 1e-12;
 /// A mesh that is being read.
 #[derive(Default)]
 pub struct Draft {
+    /// The nodes so far, in the order of the file.
     pub nodes: Vec<MeshNode>,
     /// The line of each node.
     pub lines: Vec<u32>,
+    /// The elements so far, in the order of the file.
     pub elements: Vec<RawElement>,
+    /// The groups so far, in the order in which the file names them first.
     pub groups: Vec<RawGroup>,
+    /// Parts of the file that were not read.
     pub skipped: Vec<Skipped>,
     /// Errors so far.
     pub faults: Vec<Fault>,
@@ -30,15 +34,20 @@ pub struct Draft {
 /// An element whose nodes are given by their numbers in the file.
 #[derive(Clone, Copy)]
 pub struct RawElement {
+    /// The number in the file.
     pub id: u64,
+    /// The shape, which gives the number of its nodes.
     pub kind: CellShape,
+    /// The numbers of its nodes in the file; those beyond their number mean nothing.
     pub nodes: [u64; 4],
+    /// The line in the file, counted from 1.
     pub line: u32,
 }
 
 /// A group whose nodes are given by their numbers in the file.
 #[derive(Default)]
 pub struct RawGroup {
+    /// The name in the file.
     pub name: String,
     /// Indices into [`Draft::elements`].
     pub elements: Vec<u32>,

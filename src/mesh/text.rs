@@ -10,6 +10,7 @@ pub type Fault = Box<Diagnostic>;
 pub struct Text<'t> {
     /// The path of the file, for messages.
     pub path: &'t str,
+    /// All bytes of the file.
     pub bytes: &'t [u8],
     /// Where the next line begins.
     next: usize,
@@ -20,17 +21,20 @@ pub struct Text<'t> {
 /// A line without its end.
 #[derive(Debug, Clone, Copy)]
 pub struct TextLine<'t> {
+    /// The bytes of the line, without the blanks at its end.
     pub bytes: &'t [u8],
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     pub number: usize,
 }
 
 /// A part of a line, without blanks around it.
 #[derive(Debug, Clone, Copy)]
 pub struct Word<'t> {
+    /// The bytes of the word.
     pub bytes: &'t [u8],
     /// The number of bytes of the line before it.
     pub column: usize,
+    /// The number of the line, counted from 1.
     pub line: usize,
 }
 

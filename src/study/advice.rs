@@ -1,4 +1,4 @@
-//! What the parts of a deck cost and carry, in words and as rigidify.csv.
+//! The outcome of running a deck with each part rigid in turn, in words and as rigidify.csv.
 
 use super::columns::columns;
 use super::run::{RunStatus, StudyRun};
@@ -9,29 +9,35 @@ use crate::model::study::Quantity;
 /// A beam, bar or shell that deforms.
 #[derive(Debug, Clone)]
 pub struct AdvisedPart {
+    /// The kind of part: `beam`, `bar` or `shell`.
     pub kind: &'static str,
+    /// The name of the part.
     pub name: String,
-    /// Of the largest elastic energy of all parts together at any time: the largest of this part's. `None`, as the next: the deck
-    /// as it is did not come to its end.
+    /// The largest elastic energy of this part over the largest elastic energy of all parts together, each at any time. It is
+    /// `None`, as is the next, where the deck as it is did not come to its end.
     pub peak_share: Option<f64>,
-    /// Of the energy over all times: this part's.
+    /// The share of this part in the elastic energy summed over all times.
     pub mean_share: Option<f64>,
-    /// The run with this part rigid; a reason alone where there can be none.
+    /// The run with this part rigid; a reason in words where there can be none.
     pub rigid: Result<StudyRun, String>,
 }
 
-/// What the parts of a deck cost and carry.
+/// What each part of a deck carries, and what making it rigid costs and saves.
 pub struct StudyAdvice {
+    /// The quantities that errors are measured on.
     pub quantities: Vec<Quantity>,
+    /// The number of intervals between the times at which errors are taken.
     pub samples: usize,
-    /// The deck as it is.
+    /// The run of the deck as it is.
     pub base: StudyRun,
+    /// The parts, in the order of the deck.
     pub parts: Vec<AdvisedPart>,
+    /// True where a signal has ended it before all runs were done.
     pub stopped: bool,
 }
 
 impl StudyAdvice {
-    /// For standard output: the parts, those that could go first.
+    /// A table for standard output, which begins with the parts whose rigidity makes the least error.
     pub fn text(&self) -> String {
         let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
         let percent = |part: Option<f64>| match part.map(|part| 100.0 * part) {

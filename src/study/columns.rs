@@ -1,6 +1,6 @@
-//! Text in columns.
+//! Text set in columns.
 
-/// Lines with their cells one below the other: the first `left` and the last to the left, the others to the right.
+/// Lines with their cells one below the other: the first `left` columns and the last are flush left, the others flush right.
 pub fn columns(lines: &[Vec<String>], left: usize) -> String {
     let count = lines.iter().map(Vec::len).max().unwrap_or(0);
     let width = |i: usize| lines.iter().filter_map(|line| line.get(i)).map(|cell| cell.chars().count()).max();

@@ -1,4 +1,4 @@
-//! What a study has found.
+//! The outcome of a study.
 
 use super::grid::StudyGrid;
 use super::order::{Cheapest, Order};
@@ -8,18 +8,22 @@ use crate::model::study::Quantity;
 
 /// A study that has been run.
 pub struct Found {
+    /// The title of the deck, or its path where it has none.
     pub title: String,
+    /// The path of the deck, as it was given.
     pub deck: String,
+    /// The quantities that errors are measured on.
     pub quantities: Vec<Quantity>,
+    /// The settings that were asked for.
     pub grid: StudyGrid,
-    /// By line, longest time step first.
+    /// The runs that came to be, line by line, each from the longest time step down.
     pub runs: Vec<StudyRun>,
-    /// Or why there is none, in words.
+    /// What errors are measured against; or in words why there is nothing.
     pub reference: Result<Reference, String>,
-    /// Of each line; or why there is none, in words.
+    /// The measured order of each line; or in words why it has none.
     pub orders: Vec<Result<Order, &'static str>>,
-    /// For each error asked for, by cost; empty where no line comes to it.
+    /// For each error asked for, the lines that come to it, the cheapest first.
     pub cheapest: Vec<(f64, Vec<Cheapest>)>,
-    /// A signal ended it.
+    /// True where a signal has ended it before all runs were done.
     pub stopped: bool,
 }

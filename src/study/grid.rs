@@ -10,51 +10,60 @@ use crate::model::study::{Quantity, Study, obstacle};
 use crate::model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
 use std::sync::Arc;
 
-/// Intervals between samples where nothing says otherwise.
+/// The number of intervals between samples where the deck gives none.
 pub const SAMPLES: usize = 200;
-/// The grid where nothing says otherwise: from so many of the deck's time steps, halved so often.
+/// The longest time step, in time steps of the deck, where none is asked for.
 const LONGEST: f64 = 8.0;
+/// The number of times that this step is halved.
 const HALVINGS: usize = 6;
 /// Over a load step only material that yields makes an error, of first order in general and never above second.
 const OF_LOAD_STEPS: f64 = 2.0;
 
-/// A scheme, a method and a mesh.
+/// A line of settings: a scheme, a method and a mesh, run over all time steps or all tolerances of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyLine {
-    /// What distinguishes it from the others.
+    /// The words that distinguish it from the other lines.
     pub label: String,
+    /// The label of the scheme, with its parameters; `static` in a static analysis.
     pub scheme: String,
+    /// The word of the iteration method.
     pub method: String,
-    /// Factor on the deck's numbers of elements.
+    /// The factor on the numbers of elements of the deck.
     pub mesh: f64,
-    /// The step is automatic, and its tolerance is what the grid goes over.
+    /// True where the step is automatic, and the grid goes over its tolerance.
     pub automatic: bool,
-    /// That of the scheme in the time step; of load steps, the highest there is.
+    /// The order of the scheme in the time step; of load steps, the highest that they can have.
     pub order: f64,
-    /// Overrides.
+    /// The overrides of the deck that make this line, `KEY=VALUE`.
     pub sets: Vec<String>,
 }
 
+/// The grid of settings of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyGrid {
+    /// The lines of settings.
     pub lines: Vec<StudyLine>,
-    /// Longest first; each fits a whole number of times between two samples.
+    /// The time steps, longest first; each fits a whole number of times between two samples.
     pub time_steps: Vec<f64>,
-    /// Largest first.
+    /// The error tolerances of automatic steps, largest first.
     pub error_tolerances: Vec<f64>,
+    /// The end time of the analysis.
     pub end_time: f64,
-    /// Intervals.
+    /// The number of intervals between the times at which errors are taken.
     pub samples: usize,
-    /// Overrides of all runs.
+    /// The overrides that all runs have.
     pub sets: Vec<String>,
-    /// `[analysis]` without what a resolution sets.
+    /// The entries of `[analysis]` besides those that a resolution sets.
     analysis: String,
-    /// Time steps that were asked for and shortened, with what they are.
+    /// The time steps that were asked for and had to be shortened, each with what it has become.
     pub fitted: Vec<(f64, f64)>,
 }
 
 impl StudyGrid {
-    /// `samples`: those of a reference.
+    /// The grid that a deck and its `[study]` ask for; `samples` is the number of intervals of a reference.
+    ///
+    /// # Errors
+    /// What is asked for makes no sense with this deck.
     pub fn new(
         model: &Model,
         deck: &Deck,
@@ -109,7 +118,7 @@ impl StudyGrid {
         Ok(StudyGrid { lines, time_steps, error_tolerances, end_time, samples, sets, analysis, fitted })
     }
 
-    /// What a line goes over: time steps or tolerances.
+    /// The time steps, or tolerances, that a line goes over.
     pub fn resolutions(&self, line: usize) -> &[f64] {
         if self.lines[line].automatic { &self.error_tolerances } else { &self.time_steps }
     }
@@ -125,16 +134,17 @@ impl StudyGrid {
         of.sets.iter().chain(&self.sets).cloned().chain([analysis]).collect()
     }
 
-    /// Steps that a run takes, about, in units of elements.
+    /// A guess of the work of a run: its number of steps times the factor on the numbers of elements.
     pub fn work(&self, line: usize, resolution: f64) -> f64 {
         let of = &self.lines[line];
-        // Errors go with the square of the step.
+        // The error of an automatic step grows with the square of its length.
         let steps = if of.automatic { 20.0 / resolution.sqrt() } else { self.end_time / resolution };
         steps.max(self.samples as f64) * of.mesh
     }
 }
 
-/// Nothing is written but what errors are measured on.
+/// The override by which a run writes nothing but what errors are measured on, every `interval` of time; with `parts`, the elastic
+/// energies of the parts too.
 pub fn output(quantities: &[Quantity], interval: f64, parts: bool) -> String {
     let mut nodes: Vec<String> = Vec::new();
     for quantity in quantities.iter().filter(|quantity| !quantity.body) {
@@ -143,12 +153,12 @@ pub fn output(quantities: &[Quantity], interval: f64, parts: bool) -> String {
             nodes.push(name);
         }
     }
-    // An empty list is an error; where there are bodies alone, named points cost little.
+    // An empty list would be an error; without the key all named points are written, which costs little.
     let nodes = if nodes.is_empty() { String::new() } else { format!("nodes = [{}], ", nodes.join(", ")) };
     format!("output={{ {nodes}interval = {}, energy = false, parts = {parts} }}", float(interval))
 }
 
-/// As TOML: the quotes of JSON are among its own.
+/// A text as TOML writes it, which reads the quotes of JSON as its own.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
@@ -158,6 +168,7 @@ pub fn float(number: f64) -> String {
     ryu::Buffer::new().format(number).to_owned()
 }
 
+/// The time steps asked for, or the default ones, longest first; `interval` is the time between two samples.
 fn time_steps(model: &Model, study: &Study, interval: f64) -> Vec<f64> {
     let halve = |longest: f64, times: usize| (0..=times).map(|k| longest * 0.5_f64.powi(k as i32)).collect();
     let deck = model.analysis.nominal_step();
@@ -169,6 +180,7 @@ fn time_steps(model: &Model, study: &Study, interval: f64) -> Vec<f64> {
     }
 }
 
+/// The tolerances asked for; where nothing is asked for, those around the tolerance of a deck with automatic steps.
 fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
     let own = match model.analysis.step_length {
         StepLength::ErrorControlled { tolerance, .. } => Some(tolerance),
@@ -184,12 +196,13 @@ fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
     }
 }
 
-/// What `[analysis]` says besides its step: a tolerance of the deck means nothing for a given step, and cannot be unset.
+/// The entries of `[analysis]` besides its step. The table is replaced as a whole, for a tolerance of the deck means nothing beside
+/// a given step, and no override can unset it.
 fn analysis(model: &Model, deck: &Deck) -> String {
     let kind = if model.analysis.kind == AnalysisKind::Static { "static" } else { "dynamic" };
     let mut text = format!("kind = \"{kind}\", end_time = {}", float(model.analysis.end_time));
     let Some(at) = &deck.analysis else { return text };
-    // Named one by one, so that none is forgotten.
+    // The keys are named one by one, so that a new one cannot be forgotten here.
     let Analysis {
         least_step,
         plane,
@@ -216,6 +229,7 @@ fn fitting(interval: f64, step: f64) -> f64 {
     interval / (interval / step - 1e-9).ceil().max(1.0)
 }
 
+/// The lines of a grid: all schemes with all methods, meshes and `kinds` of steps (true: automatic).
 fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<StudyLine> {
     let word = model.solution.scheme.word().to_owned();
     let is_static = model.analysis.kind == AnalysisKind::Static;
@@ -265,7 +279,7 @@ fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &m
     lines
 }
 
-/// Why a scheme cannot be studied over tolerances; `None`: it can.
+/// Why a scheme cannot be studied over tolerances; `None` where it can.
 fn no_tolerance(label: &str, scheme: &dyn Scheme) -> Option<Diagnostic> {
     let (message, hint) = match scheme.stepping() {
         Stepping::Verlet => (
@@ -281,7 +295,7 @@ fn no_tolerance(label: &str, scheme: &dyn Scheme) -> Option<Diagnostic> {
     Some(Diagnostic::error(message).hint(hint))
 }
 
-/// Overrides that multiply all numbers of elements.
+/// The overrides that multiply all numbers of elements.
 fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<String> {
     if factor == 1.0 {
         return Vec::new();
@@ -309,7 +323,7 @@ fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<Strin
     sets
 }
 
-/// Numbers of elements times a factor, as a deck writes them; `None` where one is not whole.
+/// The numbers of elements times a factor, as a deck writes them; `None` where one is not whole.
 fn multiplied(elements: &OneOrMany<u64>, factor: f64) -> Option<String> {
     let whole = elements.values.iter().map(|count| {
         let scaled = count.value as f64 * factor;

@@ -1,4 +1,4 @@
-//! Quantities of a run at the sample times, from its tables.
+//! The quantities of a run at the sample times are read from its tables; errors are differences of them.
 
 use crate::math::{Mat3, Vec3, rotation};
 use crate::model::Model;
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::io;
 use std::path::Path;
 
-/// Those asked for, or all displacements that a run of the deck writes.
+/// The quantities asked for, or the displacements of all named points and bodies that a run of the deck writes.
 pub fn quantities(model: &Model, study: &Study) -> Vec<Quantity> {
     if !study.quantities.is_empty() {
         return study.quantities.clone();
@@ -24,16 +24,17 @@ pub fn quantities(model: &Model, study: &Study) -> Vec<Quantity> {
     nodes.chain(bodies).flat_map(of).collect()
 }
 
-/// One row of nodes.csv or bodies.csv.
+/// A row of nodes.csv or bodies.csv.
 struct Moment<'a> {
     numbers: &'a [f64],
-    /// Places of the columns.
+    /// The places of the columns by their names.
     column: &'a HashMap<String, usize>,
-    /// Of the same at t = 0.
+    /// The position of the same node or body at t = 0.
     start: Vec3,
 }
 
 impl Moment<'_> {
+    /// The number in a column; NaN where there is none.
     fn get(&self, name: &str) -> f64 {
         self.column.get(name).and_then(|&i| self.numbers.get(i)).copied().unwrap_or(f64::NAN)
     }
@@ -42,6 +43,7 @@ impl Moment<'_> {
         Vec3::from(names.map(|name| self.get(name)))
     }
 
+    /// The rotation from the undeformed state.
     fn R(&self) -> Mat3 {
         let q = if self.column.contains_key("qw") {
             Quaternion::new(self.get("qw"), self.get("qx"), self.get("qy"), self.get("qz"))
@@ -51,6 +53,8 @@ impl Moment<'_> {
         rotation::matrix(&q)
     }
 
+    /// A quantity: a column, or what is computed from columns: displacements of a body, its angular velocity in its own axes
+    /// (`body_wx`), components of a rotation matrix (`r11`).
     fn value(&self, quantity: &Quantity) -> f64 {
         let word = quantity.column;
         let digit = |at: usize| usize::from(word.as_bytes()[at] - b'1');
@@ -69,7 +73,10 @@ impl Moment<'_> {
     }
 }
 
-/// Values at the sample times one after the other, each time all quantities. An error names what a folder lacks.
+/// The values at the sample times one after the other, each time all quantities.
+///
+/// # Errors
+/// A table cannot be read, or a value is missing; the error names it.
 pub fn read(folder: &Path, quantities: &[Quantity], samples: usize, end: f64) -> io::Result<Vec<f64>> {
     let count = quantities.len();
     let mut values = vec![f64::NAN; (samples + 1) * count];
@@ -89,6 +96,7 @@ pub fn read(folder: &Path, quantities: &[Quantity], samples: usize, end: f64) ->
     }
 }
 
+/// Enters the quantities of one table, that of bodies or that of nodes, into `values`.
 fn read_table(
     path: &Path,
     quantities: &[Quantity],
@@ -134,7 +142,8 @@ fn read_table(
     Ok(())
 }
 
-/// √(mean |q − q_ref|²) / max |q_ref|; `of` picks among the quantities.
+/// The error √(mean |q − q_ref|²) / max |q_ref| over all times. Each time has `count` quantities, of which `of` picks those that
+/// count.
 pub fn error(q: &[f64], reference: &[f64], count: usize, of: impl Fn(usize) -> bool) -> f64 {
     let (mut sum, mut largest) = (0.0, 0.0f64);
     for (row, exact) in q.chunks(count).zip(reference.chunks(count)) {

@@ -1,4 +1,4 @@
-//! What a study has written into its folder, in a file of its own there: nothing else is taken away or written over.
+//! study.list: the names of all that a study has written into its folder. Nothing else is removed or written over.
 
 use super::options::RUNS;
 use crate::output::{at, holds_run, remove, remove_empty, remove_run, replace};
@@ -6,22 +6,22 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The list.
+/// The name of the list in the folder of a study.
 pub const NAME: &str = "study.list";
-/// Its first line, by which it is known.
+/// The first line of a list, by which it is known.
 const HEAD: &str = "# written by this study; --overwrite takes it away";
 
-/// Files and folders of runs that a study has written, by their names below its folder.
+/// The files and folders of runs that a study has written, by their names below its folder.
 pub struct Manifest {
     folder: PathBuf,
     names: Vec<String>,
 }
 
 impl Manifest {
-    /// Begins in a folder that is new, empty, or given up: what an older study has written there goes, and what it has not stays.
+    /// Begins in a folder that is new, empty, or given up: what an older study has written there is removed, and all else stays.
     ///
     /// # Errors
-    /// Something there that no study has written is in the way of these files and folders of runs; then nothing has gone.
+    /// Something there that no study has written is in the way of these files and folders of runs; then nothing has been removed.
     pub fn begin(folder: &Path, files: &[&str], runs: &[String]) -> io::Result<Manifest> {
         fs::create_dir_all(folder).map_err(|error| at(folder, error))?;
         let list = folder.join(NAME);
@@ -50,7 +50,7 @@ impl Manifest {
             |name: &&String| name.strip_prefix(RUNS).and_then(|rest| rest.strip_prefix('/')).is_some_and(is_plain);
         for name in older.iter().filter(of_runs) {
             let path = folder.join(name);
-            // A link was put there by somebody.
+            // No study makes symbolic links: somebody has put it there, so it stays.
             if !linked && fs::symlink_metadata(&path).is_ok_and(|found| found.is_dir()) {
                 remove_run(&path)?;
             }
@@ -64,6 +64,9 @@ impl Manifest {
     }
 
     /// Notes what is about to be written, so that the list is whole however the study ends.
+    ///
+    /// # Errors
+    /// The list cannot be written; the error names it.
     pub fn note(&mut self, name: &str) -> io::Result<()> {
         self.names.push(name.to_owned());
         let lines = std::iter::once(HEAD).chain(self.names.iter().map(String::as_str));
@@ -71,14 +74,17 @@ impl Manifest {
         replace(&self.folder.join(NAME), text.as_bytes())
     }
 
-    /// Writes a small file.
+    /// Notes and writes a file, whole or not at all.
+    ///
+    /// # Errors
+    /// A file cannot be written; the error names it.
     pub fn write(&mut self, name: &str, text: &[u8]) -> io::Result<()> {
         self.note(name)?;
         replace(&self.folder.join(name), text)
     }
 }
 
-/// A name that leads nowhere else.
+/// Whether a name leads to nothing but an entry of the folder itself.
 fn is_plain(name: &str) -> bool {
     !name.is_empty() && name != "." && name != ".." && !name.contains(['/', '\\'])
 }
@@ -87,7 +93,7 @@ fn is_link(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink())
 }
 
-/// True where a run would write over something.
+/// Whether a run would write over something in this place.
 fn holds_results(path: &Path) -> io::Result<bool> {
     match fs::metadata(path) {
         Ok(found) if found.is_dir() => holds_run(path),
@@ -97,6 +103,7 @@ fn holds_results(path: &Path) -> io::Result<bool> {
     }
 }
 
+/// The error that a file is in the way of a study and was not written by one.
 fn foreign(path: &Path) -> io::Error {
     let path = path.display();
     io::Error::new(

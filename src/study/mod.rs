@@ -42,12 +42,18 @@ use manifest::Manifest;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-/// Files that a study writes besides its runs.
+/// The table of runs that a study writes.
 const TABLE: &str = "study.csv";
+/// The picture of error against run time.
 const PICTURE: &str = "study.svg";
+/// The page with both.
 const PAGE: &str = "study.html";
 
-/// Runs the grid of settings of a sound deck and writes study.csv, study.svg and study.html.
+/// Runs the grid of settings of a sound deck and writes study.csv, study.svg and study.html. Raising `stop` ends it with the runs
+/// that are complete.
+///
+/// # Errors
+/// What is asked for makes no sense with this deck, or a file cannot be read or written.
 pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Found, StudyFault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);

@@ -1,36 +1,41 @@
-//! How a study is run, where it writes, and why there may be none.
+//! The options of a study, the names of its folders, and the reasons why there may be none.
 
 use crate::diagnostic::Diagnostic;
 use std::io;
 use std::path::PathBuf;
 
-/// Below the folder of a study, that of its runs: one for each setting, by number, ...
+/// The folder of the runs, below that of the study; in it, a grid has a folder for each setting, by number from 1.
 pub const RUNS: &str = "runs";
-/// ... or the deck as it is, and with a part rigid, by number.
+/// The folder of the deck as it is, where parts are made rigid in turn.
 pub const AS_IT_IS: &str = "as_it_is";
+/// The beginning of the folder of a run with a part rigid; the number of the part follows.
 pub const RIGID: &str = "rigid_";
 
-/// How a study is run.
+/// How a study is run, apart from what it runs.
 #[derive(Debug, Clone)]
 pub struct Options {
+    /// The path of the deck.
     pub deck: PathBuf,
     /// The user's own `--set` arguments.
     pub sets: Vec<String>,
-    /// For study.csv and the runs.
+    /// The folder that the study writes into.
     pub folder: PathBuf,
+    /// The number of threads of each run.
     pub threads: usize,
-    /// Runs of each setting, of which the least time counts.
+    /// The number of runs of each setting, of which the least time counts.
     pub repeats: usize,
-    /// A setting is run again only while its runs have taken less than so many seconds together.
+    /// The time, in seconds, that the runs of a setting may take together before it is run again.
     pub budget: f64,
+    /// True where no progress is shown.
     pub quiet: bool,
 }
 
-/// Why there is no study.
+/// The reason why there is no study.
 #[derive(Debug)]
 pub enum StudyFault {
     /// What is asked for makes no sense with this deck.
     Deck(Vec<Diagnostic>),
+    /// A file could not be read or written, a run could not be started, or a signal came before the first run was done.
     Io(io::Error),
 }
 

@@ -1,41 +1,44 @@
-//! What a line of runs says: its order where it has one, and what an error costs.
+//! The outcome of a line of runs: its order where it has one, and the cost of an error.
 
 use super::grid::StudyGrid;
 use super::run::{RunStatus, StudyRun};
 
-/// Local orders that agree so far are of one slope.
+/// Local orders that differ by no more than this are of one slope.
 const SLOPE: f64 = 0.3;
-/// Below this there is no convergence to speak of.
+/// A local order below this is no convergence to speak of.
 const LEAST: f64 = 0.4;
 
 /// The order of a line over the time steps of its steady slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Order {
-    /// Slope of log error against log time step (or log tolerance), by least squares.
+    /// The slope of log error against log time step (or log tolerance), by least squares.
     pub order: f64,
-    /// Runs it is fitted to.
+    /// The number of runs that it is fitted to.
     pub runs: usize,
-    /// The longest and the shortest of their time steps.
+    /// The longest time step (or largest tolerance) of these runs.
     pub from: f64,
+    /// The shortest time step (or least tolerance) of these runs.
     pub to: f64,
     /// The error below which shorter steps gain little, where the line comes to it.
     pub floor: Option<f64>,
 }
 
-/// A line at the error asked for.
+/// The cost of an error on one line, interpolated between its runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cheapest {
-    /// Index into [`StudyGrid::lines`].
+    /// The index of the line in [`StudyGrid::lines`].
     pub line: usize,
+    /// The seconds of the time stepping.
     pub loop_s: f64,
+    /// The seconds of the whole process.
     pub process_s: f64,
-    /// Time step or tolerance.
+    /// The time step or the tolerance.
     pub resolution: f64,
-    /// The coarsest setting of the grid is better than asked for already.
+    /// True where the coarsest setting of the grid is better than asked for already.
     pub at_the_top: bool,
 }
 
-/// Of each line; or why it has none.
+/// The order of each line; or in words why it has none.
 pub fn orders(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<Result<Order, &'static str>> {
     let of = |line| {
         let of_line: Vec<&StudyRun> = runs.iter().filter(|run| run.line == line).collect();
@@ -44,16 +47,16 @@ pub fn orders(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<Result<Order, &'static
     (0..grid.lines.len()).map(of).collect()
 }
 
-/// Over settings next to each other: one that failed, or was not come to, parts the line.
+/// The order over settings next to each other: one that failed, or was not come to, parts the line.
 fn over(resolutions: &[f64], runs: &[&StudyRun]) -> Result<Order, &'static str> {
     let run = |resolution: &f64| runs.iter().find(|run| run.resolution == *resolution && run.status == RunStatus::Done);
-    // Errors well above that of the reference.
+    // Only errors well above that of the reference are known well enough.
     let point = |resolution: &f64| {
         let run = run(resolution).filter(|run| run.resolved)?;
         Some((run.resolution.ln(), run.error.filter(|error| *error > 0.0)?.ln()))
     };
     let points: Vec<Option<(f64, f64)>> = resolutions.iter().map(point).collect();
-    // The last of the longest.
+    // Of the longest stretches without a gap the last counts, since it has the finer steps.
     let stretches = points.split(Option::is_none).map(|of| of.iter().copied().flatten().collect::<Vec<_>>());
     let best = stretches.filter_map(|points| order(&points)).max_by_key(|order| order.runs);
     let in_a_row = || resolutions.windows(2).any(|pair| pair.iter().all(|resolution| run(resolution).is_some()));
@@ -63,10 +66,10 @@ fn over(resolutions: &[f64], runs: &[&StudyRun]) -> Result<Order, &'static str> 
     })
 }
 
-/// Of (ln h, ln e), h falling.
+/// The order of points (ln h, ln e), h falling; `None` where no two neighbours have one slope.
 fn order(points: &[(f64, f64)]) -> Option<Order> {
     let slopes: Vec<f64> = points.windows(2).map(|pair| (pair[0].1 - pair[1].1) / (pair[0].0 - pair[1].0)).collect();
-    // The longest stretch of steady slope; of equals the one of the finer steps.
+    // The longest stretch of steady slope is looked for; of stretches of one length, the one with the finer steps.
     let mut best: Option<(usize, usize)> = None;
     for first in 0..slopes.len() {
         let mut last = first;
@@ -93,7 +96,7 @@ fn order(points: &[(f64, f64)]) -> Option<Order> {
     Some(Order { order: slope, runs: used.len(), from: step(used.first()), to: step(used.last()), floor })
 }
 
-/// By least squares.
+/// The slope of the straight line through points, by least squares.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
@@ -101,8 +104,8 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2))
 }
 
-/// For each error asked for, the lines that come to it, the cheapest first: on straight lines between neighbours of log error
-/// and log time, never beyond the grid.
+/// For each error asked for, the lines that come to it, the cheapest first. Costs are interpolated on straight lines between
+/// neighbours of log error and log time, and never extrapolated beyond the grid.
 pub fn cheapest(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
     let of = |error: f64| {
         let lines = 0..grid.lines.len();
@@ -114,8 +117,9 @@ pub fn cheapest(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<(f64
     wanted.iter().map(|&error| of(error)).collect()
 }
 
+/// The least cost at which a line comes to an error.
 fn cost(resolutions: &[f64], runs: &[StudyRun], line: usize, wanted: f64) -> Option<Cheapest> {
-    // Bounds count: what they hold is at least as good.
+    // Errors that are bounds count as they are: the true error is at most as large.
     let points: Vec<(&StudyRun, f64)> =
         runs.iter().filter(|run| run.line == line).filter_map(|run| Some((run, run.error?))).collect();
     let reached = points.iter().filter(|(_, error)| *error <= wanted);

@@ -5,6 +5,7 @@ use super::table;
 use crate::output::report::STYLE;
 use crate::output::report::html::{self, escaped};
 
+/// The page of a study; `picture` is its SVG.
 pub fn page(found: &Found, picture: &str) -> String {
     let label = |line: usize| found.grid.lines[line].label.clone();
     let orders: Vec<Vec<String>> = found

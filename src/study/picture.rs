@@ -1,5 +1,5 @@
-//! Error against the time of the loop, both by decades, one line a setting, as SVG without fonts or scripts of its own, for light
-//! and dark paper.
+//! study.svg: error against the time of the time stepping, both by decades, with one curve a line of settings. It has no fonts or
+//! scripts of its own, and is legible on light and on dark paper.
 
 use super::found::Found;
 use super::grid::StudyLine;
@@ -8,15 +8,18 @@ use super::table::{resolution, seconds};
 use crate::names::short;
 use crate::output::report::html::escaped;
 
+/// The height of the picture, in its own units.
 const HEIGHT: f64 = 520.0;
-/// Of a letter, at the widest.
+/// The width of a letter, at the widest.
 const LETTER: f64 = 7.6;
-const FRAME: [f64; 4] = [70.0, 20.0, 560.0, 440.0]; // left, top, width, height
-/// Read on white and on black.
+/// The frame of the axes: left, top, width, height.
+const FRAME: [f64; 4] = [70.0, 20.0, 560.0, 440.0];
+/// Colours that are legible on white and on black.
 const COLOURS: [&str; 8] = ["#3b7dd8", "#d9622b", "#2f9e63", "#b058c4", "#b38a12", "#1f9aa8", "#d14b6b", "#7c7f86"];
+/// Dashes, which tell curves apart where the colours are used up.
 const DASHES: [&str; 3] = ["", "7 4", "2 4"];
 
-/// A decimal logarithm on a stretch of the frame.
+/// A decimal logarithm from `low` to `high`, drawn from `from` to `to`.
 struct Axis {
     low: f64,
     high: f64,
@@ -25,6 +28,7 @@ struct Axis {
 }
 
 impl Axis {
+    /// The axis of some values, with a margin on both sides.
     fn new(values: &[f64], [from, to]: [f64; 2]) -> Axis {
         let logs = values.iter().filter(|value| **value > 0.0).map(|value| value.log10());
         let (low, high) = logs.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
@@ -33,12 +37,13 @@ impl Axis {
         Axis { low: low - room, high: high + room, from, to }
     }
 
+    /// The place of a value in the picture.
     fn at(&self, value: f64) -> f64 {
         let part = (value.log10() - self.low) / (self.high - self.low);
         self.from + part * (self.to - self.from)
     }
 
-    /// Values to rule, with how strongly: decades, and parts of them where there are few.
+    /// The values that get a rule, and whether each is a whole decade; parts of decades are ruled where these are few.
     fn marks(&self) -> Vec<(f64, bool)> {
         let wide = self.high - self.low;
         let parts: &[f64] = if wide < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -48,11 +53,12 @@ impl Axis {
     }
 }
 
-/// "1e-3", "0.05".
+/// The text at a rule: "1e-3", "0.05".
 fn label(value: f64) -> String {
     if (0.01..1000.0).contains(&value) { short(value) } else { format!("{value:.0e}") }
 }
 
+/// The picture of a study.
 pub fn draw(found: &Found) -> String {
     let [left, top, width, height] = FRAME;
     let shown = |run: &&StudyRun| run.error.is_some_and(|error| error > 0.0) && run.loop_s > 0.0;
@@ -78,7 +84,7 @@ pub fn draw(found: &Found) -> String {
     out + "</svg>\n"
 }
 
-/// The beginning, with the styles.
+/// The beginning of the picture, with its styles.
 fn open(width: f64) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {HEIGHT}\" class=\"study\" role=\"img\" \
@@ -97,7 +103,7 @@ fn text(anchor: &str, x: f64, y: f64, text: &str) -> String {
     format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{}</text>\n", escaped(text))
 }
 
-/// The frame with its rules, the errors asked for, and what the axes are.
+/// The frame with its rules, the errors asked for, and the titles of the axes.
 fn axes(x: &Axis, y: &Axis, found: &Found) -> String {
     let [left, top, width, height] = FRAME;
     let mut out = String::new();
@@ -123,7 +129,7 @@ fn axes(x: &Axis, y: &Axis, found: &Found) -> String {
     out + &format!("<text x=\"18\" y=\"{middle:.1}\" {turned}>relative error</text>\n")
 }
 
-/// The runs of a setting, joined, and its entry in the legend.
+/// The curve of a line of settings, and its entry in the legend.
 fn curve(index: usize, setting: &StudyLine, runs: &[&StudyRun], [x, y]: [&Axis; 2]) -> String {
     let [left, top, width, height] = FRAME;
     let (colour, dash) = (COLOURS[index % COLOURS.len()], DASHES[index / COLOURS.len() % DASHES.len()]);
@@ -152,7 +158,7 @@ fn curve(index: usize, setting: &StudyLine, runs: &[&StudyRun], [x, y]: [&Axis; 
     out
 }
 
-/// A shape of its own for each line, hollow where the error is a bound.
+/// The mark of a run: lines differ in its shape, and it is hollow where the error is a bound.
 fn mark(index: usize, x: f64, y: f64, colour: &str, full: bool, title: &str) -> String {
     let fill = if full { colour } else { "none" };
     let path = match index % 4 {

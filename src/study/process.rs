@@ -1,4 +1,4 @@
-//! One run as a process of its own, timed from start to exit.
+//! A run of a study is a process of its own, timed from start to exit.
 
 use crate::output::at;
 use std::io::{self, Read};
@@ -8,34 +8,41 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// How often a signal is looked for while a run goes on.
+/// The time between two looks for a signal while a run goes on.
 const GLANCE: Duration = Duration::from_millis(50);
 
-/// Exit code of a run that a signal has ended.
+/// The exit code of a run that a signal has ended.
 const STOPPED: i32 = 75;
 
-/// Set in the environment of a run: it ends when its standard input does, which is when the study is gone, however it went.
+/// The variable of the environment that tells a run to end when its standard input does, which is when the study is gone, however
+/// it ended.
 pub const LIFELINE: &str = "RDSOLVE_LIFELINE";
 
 /// A process that has ended.
 pub struct Ended {
-    /// `None`: by a signal.
+    /// The exit code; `None` where a signal has ended it.
     pub code: Option<i32>,
-    /// Seconds from start to exit.
+    /// The seconds from start to exit.
     pub process_s: f64,
-    /// What it said on standard error.
+    /// The text that it has written to standard error.
     pub said: String,
 }
 
-/// How to run one deck.
+/// The program and the deck that it runs.
 pub struct Program {
+    /// The path of the program.
     pub path: PathBuf,
+    /// The path of the deck.
     pub deck: PathBuf,
+    /// The number of threads of each run.
     pub threads: usize,
 }
 
 impl Program {
-    /// Runs the deck with overrides into a folder; `None`: stopped by a signal, and the process has been ended.
+    /// Runs the deck with overrides into a folder. It returns `None` where a signal has stopped it; the process has then ended.
+    ///
+    /// # Errors
+    /// The process cannot be started.
     pub fn run(&self, sets: &[String], folder: &Path, stop: &AtomicBool) -> io::Result<Option<Ended>> {
         let mut command = Command::new(&self.path);
         command.arg("run").arg(&self.deck).arg("--output").arg(folder);
@@ -46,7 +53,7 @@ impl Program {
         command.env(LIFELINE, "1").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
         let began = Instant::now();
         let mut child = command.spawn().map_err(|error| at(&self.path, error))?;
-        // Waiting for the process would close it.
+        // Waiting for the process would close its input, which would end it.
         let lifeline = child.stdin.take();
         let (sender, ended) = channel();
         let pipe = child.stderr.take();
@@ -72,7 +79,7 @@ impl Program {
         let status = child.wait()?;
         drop(lifeline);
         let said = reader.join().unwrap_or_default();
-        // One at a terminal gets the signal itself, and may be first.
+        // At a terminal the run gets the signal as well, and may end before the flag is seen.
         if stopped || stop.load(Ordering::Relaxed) || status.code() == Some(STOPPED) {
             return Ok(None);
         }
@@ -80,7 +87,7 @@ impl Program {
     }
 }
 
-/// The first error of what a process said, in a line.
+/// The first error in what a process has written to standard error, without the lines that explain it.
 pub fn first_error(said: &str) -> Option<String> {
     said.lines().find_map(|line| line.strip_prefix("error: ")).map(str::to_owned)
 }

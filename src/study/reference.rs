@@ -16,20 +16,21 @@ use super::reference_file::GivenReference;
 use super::run::{RunStatus, StudyRun};
 use crate::model::study::Quantity;
 
-/// Steps less than so many times as long as others are as long: less than halving does, more than what rounding to
-/// whole steps makes of equal ones.
+/// Mean steps count as equally long up to this ratio, which is less than that of a halving, and more than what rounding to whole
+/// steps makes of equal ones.
 const ALIKE: f64 = 1.05;
-/// Runs that are alike to the last digit tell no more than this of what they tend to, relative to the largest motion: rounding of
-/// many steps.
+/// Runs that are alike to the last digit tell their limit no better than this, relative to the largest motion: rounding of many
+/// steps.
 const ROUNDING: f64 = 1e-10;
-/// A measured order is that of a scheme up to so much above it; beyond, it is chance.
+/// A measured order may exceed that of the scheme by this; beyond, it is chance.
 const ABOVE: f64 = 0.3;
 
+/// The values that errors are measured against.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// At the sample times one after the other, each time all quantities.
+    /// The values at the sample times one after the other, each time all quantities.
     pub values: Vec<f64>,
-    /// Of its own error, relative as errors are; 0 for a file, of which nothing is known.
+    /// A bound of its own error, relative as errors are; 0 for a file, of which nothing is known.
     pub error_bound: f64,
     /// Where it comes from, in words.
     pub source: String,
@@ -41,24 +42,25 @@ impl From<GivenReference> for Reference {
     }
 }
 
-/// What some runs tend to.
+/// The limit that some runs tend to.
 #[derive(Debug, Clone)]
 struct Limit {
+    /// The values at the sample times one after the other, each time all quantities.
     q: Vec<f64>,
-    /// Of its error, relative.
+    /// A bound of its error, relative as errors are.
     error_bound: f64,
-    /// `None`: nothing was extrapolated.
+    /// The order of the extrapolation; `None` where nothing was extrapolated.
     order: Option<f64>,
-    /// Room for errors of what was extrapolated: they grow so many times.
+    /// The factor by which errors of the values that were extrapolated can grow.
     growth: f64,
 }
 
-/// From runs with steps or element sizes `h`, coarse to fine; `most`: no higher order can be theirs.
+/// The limit of runs `q` with steps or element sizes `h`, coarse to fine; `most` is the highest order that they can have.
 fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     let n = q.len();
     let (fine, before) = (q.last()?, q.get(n.checked_sub(2)?)?);
     let last = history::error(before, fine, count, |_| true).max(ROUNDING);
-    // Of first order the finest run is off by Δ/(r − 1): less is not taken for granted where no order is seen.
+    // At first order the finest run is off by Δ/(r − 1): less is not taken for granted where no order is seen.
     let ratio = h[n - 2] / h[n - 1];
     let as_it_is = Limit { q: fine.to_vec(), error_bound: last / (ratio - 1.0).min(1.0), order: None, growth: 1.0 };
     let Some(first) = n.checked_sub(3).map(|i| q[i]) else { return Some(as_it_is) };
@@ -87,11 +89,13 @@ fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
     Some(Limit { q: best, error_bound, order: Some(order), growth })
 }
 
+/// The Euclidean distance of two runs.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// p of differences Δ₁/Δ₂ = r₂ᵖ (r₁ᵖ − 1)/(r₂ᵖ − 1), which rises with p.
+/// The order p at which successive differences have the ratio Δ₁/Δ₂ = r₂ᵖ (r₁ᵖ − 1)/(r₂ᵖ − 1), which rises with p; `None` where
+/// it lies outside 0.4 to 12.
 fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
     let of = |p: f64| r2.powf(p) * (r1.powf(p) - 1.0) / (r2.powf(p) - 1.0);
     let (mut low, mut high) = (0.4, 12.0);
@@ -105,7 +109,7 @@ fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-/// Mean steps of the runs of a line, coarse to fine, each shorter than the one before. Those that the limit of stability or the
+/// The mean steps of the runs of a line, coarse to fine, each shorter than the one before. Runs that the critical time step or the
 /// interval between samples has made alike are one run: the last of them counts.
 fn distinct<'a>(runs: impl DoubleEndedIterator<Item = &'a StudyRun>, end_time: f64) -> Vec<(f64, &'a StudyRun)> {
     let mut kept: Vec<(f64, &StudyRun)> = Vec::new();
@@ -133,14 +137,17 @@ fn nothing(grid: &StudyGrid, runs: &[StudyRun]) -> String {
     }
 }
 
-/// What is said of quantities that are zero throughout.
+/// The message about quantities that are zero throughout.
 fn at_rest(quantities: &[Quantity]) -> String {
     let turns = quantities.iter().find(|quantity| quantity.body && quantity.column.starts_with('u'));
     let hint = turns.map(|body| format!("; a body that turns: `quantities = [\"{}.body_wx\"]`", body.name));
     format!("nothing moves of what errors are measured on{}", hint.unwrap_or_default())
 }
 
-/// What the runs of a grid tend to; or, in words, why that is not known.
+/// The limit that the runs of a grid tend to.
+///
+/// # Errors
+/// The limit is not known; the error says why, in words.
 pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity]) -> Result<Reference, String> {
     let ended = runs.iter().filter(|run| run.status == RunStatus::Done);
     let finest = ended.map(|run| grid.lines[run.line].mesh).fold(0.0, f64::max);
@@ -180,7 +187,7 @@ pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity])
     Ok(Reference { values: limit.q, error_bound, source })
 }
 
-/// The limits of a line in time, and of it and its coarser meshes in both.
+/// The limit of a line in the time step, and the limit of it and its coarser meshes in both time step and mesh.
 fn over_meshes(grid: &StudyGrid, runs: &[StudyRun], index: usize) -> Option<(Limit, Option<Limit>)> {
     let line = &grid.lines[index];
     let of_line = |index: usize| {

@@ -10,18 +10,20 @@ use std::path::Path;
 
 /// The values of a file.
 pub struct GivenReference {
+    /// The values at the sample times one after the other, each time all quantities.
     pub values: Vec<f64>,
+    /// The number of intervals between its times.
     pub samples: usize,
-    /// The file, as it was found.
+    /// The path under which the file was found.
     pub source: String,
 }
 
-/// More messages about one file help nobody.
+/// The number of messages about one file beyond which more help nobody.
 const MOST_FAULTS: usize = 20;
 
-/// What is wrong with the file of a reference.
+/// The faults of the file of a reference.
 struct Faults<'t> {
-    /// As the deck names it.
+    /// The name that the deck gives.
     file: &'t str,
     text: Text<'t>,
     list: Vec<Diagnostic>,
@@ -38,15 +40,15 @@ impl Faults<'_> {
         }
     }
 
-    /// About a line of the file.
+    /// An error at a line of the file.
     fn on(&self, line: usize, text: String) -> Diagnostic {
         *self.text.fault(format!("the reference `{}` {text}", self.file), line)
     }
 
-    /// About a field of a line, where it can be told.
+    /// An error at a field of a line, or at the line where the field cannot be told.
     fn in_field(&self, line: usize, field: usize, text: String) -> Diagnostic {
         let bytes = self.text.bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
-        // Commas in quotes part nothing.
+        // In a line with quotes, commas do not tell where fields end.
         let word = TextLine { bytes, number: line }.fields().nth(field).filter(|_| !bytes.contains(&b'"'));
         match word {
             Some(word) => *self.text.fault_at(format!("the reference `{}` {text}", self.file), &word),
@@ -55,7 +57,11 @@ impl Faults<'_> {
     }
 }
 
-/// Reads the file that the deck names, if it names one; `key`: where it does.
+/// Reads the file that the deck names, if it names one. `base` is the folder of the deck, and `key` the place where it names the
+/// file.
+///
+/// # Errors
+/// All faults of the file.
 pub fn read(
     model: &Model,
     study: &Study,
@@ -90,7 +96,7 @@ pub fn read(
         while left.next_if(|row| row.time < time - near).is_some() {}
         match left.peek() {
             Some(row) if row.time <= time + near => values.extend(&row.values),
-            // The row before which it is missing; at the end the last there is.
+            // The line that is named is that of the row before which it is missing; at the end, that of the last row.
             next => missing.push((time, next.map_or_else(|| rows.last(), |row| Some(*row)).map_or(1, |row| row.line))),
         }
     }
@@ -110,14 +116,14 @@ pub fn read(
     Ok(Some(GivenReference { values, samples, source: shown }))
 }
 
-/// A time of a reference, and the quantities then.
+/// A row of a reference: a time, and the quantities then.
 struct Row {
     line: usize,
     time: f64,
     values: Vec<f64>,
 }
 
-/// All rows, where nothing is wrong with the file.
+/// All rows; what is wrong with the file goes to `faults`.
 fn rows(study: &Study, quantities: &[Quantity], bytes: &[u8], faults: &mut Faults) -> Vec<Row> {
     let mut lines = LineCounter { bytes, passed: 0, line: 1 };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
@@ -160,16 +166,18 @@ fn rows(study: &Study, quantities: &[Quantity], bytes: &[u8], faults: &mut Fault
     rows
 }
 
-/// Lines of a file by their bytes.
+/// Tells the lines of records from the bytes at which they begin.
 struct LineCounter<'t> {
     bytes: &'t [u8],
-    /// Bytes that have been counted, and the line that follows them.
+    /// The number of bytes that have been counted.
     passed: usize,
+    /// The line that follows them.
     line: usize,
 }
 
 impl LineCounter<'_> {
-    /// The line of a record that begins at a byte, ever later ones: blank lines before it are the reader's own affair.
+    /// The line of the record that begins at a byte, each call at a later one. The reader of records passes over blank lines, but
+    /// counts their bytes to the record that follows.
     fn at(&mut self, start: usize) -> usize {
         let blank = self.bytes[start..].iter().take_while(|&&byte| byte == b'\n' || byte == b'\r').count();
         self.line += self.bytes[self.passed..start + blank].iter().filter(|&&byte| byte == b'\n').count();
@@ -178,16 +186,17 @@ impl LineCounter<'_> {
     }
 }
 
-/// Where the columns stand that are asked for.
+/// The places of the columns that are asked for.
 struct Columns {
     header: Vec<String>,
+    /// The place of the time; `None` where it is missing.
     time: Option<usize>,
-    /// Of each quantity.
+    /// The places of the quantities.
     values: Vec<usize>,
 }
 
 impl Columns {
-    /// `head` is the line of the header; what is missing is a fault.
+    /// Finds the columns in the header, which stands in line `head`; what is missing is a fault.
     fn of(header: Vec<String>, head: usize, study: &Study, quantities: &[Quantity], faults: &mut Faults) -> Columns {
         let own = || quantities.iter().map(Quantity::word).collect();
         let names: Vec<String> = if study.columns.is_empty() { own() } else { study.columns.clone() };
@@ -210,7 +219,7 @@ impl Columns {
         Columns { header, time, values }
     }
 
-    /// The number of a field; none is a fault.
+    /// The number in a field; it is a fault where there is none.
     fn number(&self, record: &csv::ByteRecord, place: usize, line: usize, faults: &mut Faults) -> Option<f64> {
         let text = record.get(place).map(String::from_utf8_lossy);
         let number = text.as_ref().and_then(|text| text.parse::<f64>().ok()).filter(|number| number.is_finite());

@@ -1,5 +1,5 @@
-//! What would it cost to make a part rigid, and what would it save? Each part's share of the elastic energy says where to look;
-//! a run with that part rigid says what comes of it.
+//! The price and the gain of making a part rigid. The share of each part in the elastic energy tells where to look; a run with that
+//! part rigid tells the error and the time.
 
 use super::advice::{AdvisedPart, StudyAdvice};
 use super::grid::{SAMPLES, output};
@@ -22,7 +22,7 @@ use std::io;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-/// What the advisor writes besides its runs.
+/// The table that is written besides the runs.
 const TABLE: &str = "rigidify.csv";
 
 /// A part of the deck, before anything is known of it.
@@ -33,12 +33,12 @@ struct Candidate {
     set: Option<String>,
 }
 
-/// One deck to run: as it is, or with a part rigid.
+/// A deck to run: as it is, or with a part rigid.
 struct Job {
     label: String,
-    /// Below that of the study.
+    /// The folder, below that of the study.
     folder: String,
-    /// Overrides; `None`: it cannot be run.
+    /// The overrides; `None` where the part cannot be rigid.
     sets: Option<Vec<String>>,
 }
 
@@ -52,17 +52,21 @@ struct Trial<'a> {
     time_step: f64,
 }
 
-/// By kind and name: the largest share of the elastic energy, and that over all times.
+/// For each part, by kind and name, the largest share in the elastic energy and that over all times.
 type Shares = HashMap<(String, String), [f64; 2]>;
 
-/// Runs the deck as it is and with each part rigid; writes rigidify.csv.
+/// Runs the deck as it is and with each part rigid, and writes rigidify.csv. Raising `stop` ends it with the runs that are
+/// complete.
+///
+/// # Errors
+/// There is no part that could be rigid or nothing to measure errors on, or a file cannot be read or written.
 pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<StudyAdvice, StudyFault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);
     let candidates = candidates(deck);
     check(model, &quantities, &candidates)?;
     let (end, time_step) = (model.analysis.end_time, model.analysis.nominal_step());
-    // Samples closer together than the deck's steps would shorten these.
+    // Steps end at samples, so samples closer together than the deck's steps would shorten these.
     let steps = (end / time_step + 1e-9).floor().max(1.0);
     let samples = asked.samples.unwrap_or(SAMPLES.min(steps as usize));
     let common = [output(&quantities, end / samples as f64, true), "expect=[]".to_owned()];
@@ -84,6 +88,7 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     Ok(advice)
 }
 
+/// Makes sure that the study can be run.
 fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Result<(), StudyFault> {
     let mut problems: Vec<Diagnostic> = obstacle(model).map(Diagnostic::error).into_iter().collect();
     if quantities.is_empty() {
@@ -96,6 +101,7 @@ fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Re
     if problems.is_empty() { Ok(()) } else { Err(StudyFault::Deck(problems)) }
 }
 
+/// The decks to run, first the deck as it is; `common` are the overrides of all of them.
 fn jobs(candidates: &[Candidate], options: &Options, common: &[String]) -> Vec<Job> {
     let sets = |own: &[String]| options.sets.iter().chain(own).chain(common).cloned().collect();
     let base = Job { label: "as it is".to_owned(), folder: format!("{RUNS}/{AS_IT_IS}"), sets: Some(sets(&[])) };
@@ -108,7 +114,8 @@ fn jobs(candidates: &[Candidate], options: &Options, common: &[String]) -> Vec<J
 }
 
 impl Trial<'_> {
-    /// Runs of all jobs, each again and again in turn; shares of energy of the first; whether a signal ended it.
+    /// Runs all jobs, each again and again in turn. Returns the runs, the shares in the energy of the first, and whether a signal
+    /// has ended it.
     fn run_all(
         &self,
         jobs: &[Job],
@@ -155,12 +162,13 @@ impl Trial<'_> {
         Ok((runs, shares, stopped))
     }
 
+    /// Whether a job needs no further repeat: it failed, or has taken the time that it may take.
     fn is_enough(&self, run: &StudyRun, repeat: usize) -> bool {
         run.status != RunStatus::Done || run.process_s * repeat as f64 > self.options.budget
     }
 }
 
-/// Of the deck as it is, which must not be refused.
+/// The shares in the energy of the deck as it is, which must not be refused.
 fn shares_of(base: &StudyRun, place: &Path) -> Result<Shares, StudyFault> {
     match base.status {
         RunStatus::Failed => {
@@ -172,7 +180,7 @@ fn shares_of(base: &StudyRun, place: &Path) -> Result<Shares, StudyFault> {
     }
 }
 
-/// A part with what is known of it; `count`: of quantities.
+/// A part with all that is known of it; `count` is the number of quantities.
 fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &Shares, count: usize) -> AdvisedPart {
     let key = (candidate.kind.to_owned(), candidate.name.clone());
     let [peak_share, mean_share] = match base.status {
@@ -194,7 +202,7 @@ fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &S
     AdvisedPart { kind: candidate.kind, name: candidate.name, peak_share, mean_share, rigid }
 }
 
-/// Parts that are not rigid already.
+/// The parts that deform, and belong to no body.
 fn candidates(deck: &Deck) -> Vec<Candidate> {
     let bodies = deck.bodies.iter().filter_map(|body| body.parts.as_ref());
     let of_bodies: Vec<&str> = bodies.flat_map(|parts| &parts.values).map(|name| name.as_str()).collect();
@@ -209,11 +217,11 @@ fn candidates(deck: &Deck) -> Vec<Candidate> {
     deck.parts().filter(is_candidate).map(candidate).collect()
 }
 
-/// By kind and name: the largest energy, and that over all times, each of that of all parts.
+/// Reads parts.csv: for each part, by kind and name, the largest energy and that over all times, each divided by that of all parts.
 fn read_shares(path: &Path) -> io::Result<Shares> {
     let mut rows = TableReader::open(path)?;
     let mut peaks: Shares = HashMap::new();
-    // Of the time at hand, its energy, the largest so far, the sum.
+    // The step at hand, the energy of all parts in it, the largest such energy so far, and the sum over all steps.
     let (mut step, mut now, mut largest, mut sum) = (Vec::new(), 0.0, 0.0f64, 0.0);
     while let Some(row) = rows.next()? {
         let cells: Vec<&[u8]> = fields(row).collect();

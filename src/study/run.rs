@@ -1,4 +1,4 @@
-//! One run of a study: a setting and what came of it.
+//! One run of a study: a setting and its outcome.
 
 use super::history;
 use super::process::{Ended, first_error};
@@ -9,16 +9,19 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// How a run ended.
+/// The kind of end that a run came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunStatus {
+    /// It came to its end time.
     Done,
+    /// It came to a step that could not be taken.
     NotConverged,
-    /// Refused, or ended in another way.
+    /// It was refused, has ended in another way, or lacks results.
     Failed,
 }
 
 impl RunStatus {
+    /// The word for it in study.csv.
     pub fn word(self) -> &'static str {
         match self {
             RunStatus::Done => "done",
@@ -28,50 +31,60 @@ impl RunStatus {
     }
 }
 
-/// A setting and what came of it.
+/// A setting and the outcome of its runs.
 #[derive(Debug, Clone)]
 pub struct StudyRun {
-    /// Index into [`StudyGrid::lines`].
+    /// The index of its line in [`super::StudyGrid::lines`].
     pub line: usize,
-    /// Its time step; on an automatic line, its tolerance.
+    /// The time step; on an automatic line, the tolerance.
     pub resolution: f64,
-    /// Its folder, below that of the study.
+    /// The name of its folder, below that of the study.
     pub folder: String,
+    /// The kind of end that the first run came to.
     pub status: RunStatus,
-    /// Why it failed; empty when done.
+    /// The reason for that end in one line; empty when done.
     pub reason: String,
+    /// The counts of the first run.
     pub measured: Measured,
-    /// Least seconds of the time stepping and of the whole process.
+    /// The least seconds of the time stepping over all repeats.
     pub loop_s: f64,
+    /// The least seconds of the whole process over all repeats.
     pub process_s: f64,
-    /// Seconds of the time stepping, repeat by repeat.
+    /// The seconds of the time stepping, repeat by repeat.
     pub times: Vec<f64>,
-    /// Of all quantities together; `None`: it failed, or there is no reference.
+    /// The relative error over all quantities together; `None` where it failed, or there is no reference.
     pub error: Option<f64>,
-    /// Of each quantity, relative to its own largest value.
+    /// The error of each quantity, relative to its own largest value.
     pub errors: Vec<f64>,
-    /// The error is well above that of the reference; if not, `error` is a bound.
+    /// True where the error is well above that of the reference; otherwise `error` is a bound.
     pub resolved: bool,
-    /// Quantities at the sample times; empty where it failed.
+    /// The values at the sample times one after the other, each time all quantities; empty where it failed.
     pub history: Vec<f64>,
 }
 
-/// What result.json says.
+/// What is read from the result.json of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
+    /// The number of unknowns that are solved for.
     pub unknowns: u64,
+    /// The number of accepted steps.
     pub steps: u64,
+    /// The number of iterations; of an explicit scheme, of evaluations of the residual.
     pub iterations: u64,
+    /// The number of factorizations of a matrix.
     pub factorizations: u64,
+    /// The number of cutbacks.
     pub cuts: u64,
+    /// The seconds of the time stepping.
     pub loop_s: f64,
 }
 
-/// Errors below so many times that of the reference are not told apart from it.
+/// An error below this multiple of the error of the reference cannot be told apart from it.
 pub const RESOLVED: f64 = 3.0;
 
 impl StudyRun {
-    /// Its error against the values of a reference, which are themselves off by up to `error_bound`.
+    /// Takes the errors against the values of a reference, which are themselves off by up to `error_bound`; `count` is the number
+    /// of quantities.
     pub fn judge(&mut self, reference: &[f64], error_bound: f64, count: usize) {
         if self.status != RunStatus::Done {
             return;
@@ -84,6 +97,10 @@ impl StudyRun {
 }
 
 impl StudyRun {
+    /// The first run of a setting, from the process that has ended and what it has written in `place`.
+    ///
+    /// # Errors
+    /// The result of a run that has ended by itself cannot be read.
     pub fn new(line: usize, resolution: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<StudyRun> {
         let status = match ended.code {
             Some(0) => RunStatus::Done,
@@ -114,19 +131,19 @@ impl StudyRun {
         })
     }
 
-    /// One more repeat.
+    /// Adds the times of one more repeat.
     pub fn again(&mut self, loop_s: f64, process_s: f64) {
         self.times.push(loop_s);
         self.loop_s = self.loop_s.min(loop_s);
         self.process_s = self.process_s.min(process_s);
     }
 
-    /// The median of its times.
+    /// The median seconds of the time stepping over all repeats.
     pub fn median_s(&self) -> f64 {
         median(self.times.clone()).unwrap_or(f64::NAN)
     }
 
-    /// With what it has written; where that is not whole, it has failed.
+    /// The run with the histories that it has written; where these are not whole, it has failed.
     pub fn with_history(mut self, quantities: &[Quantity], samples: usize, end: f64, place: &Path) -> StudyRun {
         if self.status == RunStatus::Done {
             match history::read(place, quantities, samples, end) {
@@ -138,15 +155,14 @@ impl StudyRun {
     }
 }
 
-/// The upper median; `None`: there are no numbers.
+/// The upper median; `None` where there are no numbers.
 fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied()
 }
 
-/// How far times can be trusted: the median of a setting's times over the least of them, and of these ratios the median over all
-/// settings.
-/// `None`: nothing was run twice.
+/// A measure of how far times can be trusted: the median of a setting's times over the least of them, and of these ratios the
+/// median over all settings. It is `None` where nothing was run twice.
 pub fn spread(runs: &[StudyRun]) -> Option<f64> {
     let twice = runs.iter().filter(|run| run.times.len() > 1 && run.loop_s > 0.0);
     median(twice.map(|run| run.median_s() / run.loop_s).collect())
@@ -163,12 +179,15 @@ fn reason(place: &Path) -> String {
     one_line(result["reason"].as_str().unwrap_or_default())
 }
 
-/// For a row of a table.
+/// The lines of a text in one, for a row of a table.
 fn one_line(text: &str) -> String {
     text.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
-/// Counts and the seconds of the time stepping.
+/// The counts and times that a run has written in `place`.
+///
+/// # Errors
+/// Its result.json cannot be read; the error names it.
 pub fn measured(place: &Path) -> io::Result<Measured> {
     let result = result(place)?;
     let count = |key: &str| result["counts"][key].as_u64().unwrap_or(0);

@@ -1,5 +1,5 @@
-//! The runs of a study: one each for its answer, then again for its time, in turn, so that what disturbs the machine for a while
-//! disturbs all settings alike.
+//! The runs of a study: each setting is run once for its answer and again for its time, in turn with the others, so that what
+//! disturbs the machine for a while disturbs all settings alike.
 
 use super::grid::StudyGrid;
 use super::manifest::Manifest;
@@ -11,18 +11,21 @@ use crate::model::study::Quantity;
 use std::io;
 use std::sync::atomic::AtomicBool;
 
-/// The folder of a setting.
+/// The folder of a setting, below that of the study.
 fn folder(index: usize) -> String {
     format!("{RUNS}/{}", index + 1)
 }
 
-/// Folders of all runs of a grid.
+/// The folders of all settings of a grid.
 pub fn folders(grid: &StudyGrid) -> Vec<String> {
     let count = (0..grid.lines.len()).map(|line| grid.resolutions(line).len()).sum();
     (0..count).map(folder).collect()
 }
 
-/// Runs all settings. Returns the runs that came to be, and whether a signal ended it.
+/// Runs all settings. Returns the settings that were run, and whether a signal has ended it.
+///
+/// # Errors
+/// A run cannot be started, or its result cannot be read.
 pub fn run_all(
     grid: &StudyGrid,
     quantities: &[Quantity],
@@ -38,7 +41,7 @@ pub fn run_all(
             jobs.push((line, resolution, sets));
         }
     }
-    // A process itself costs as much as some hundred steps.
+    // Starting a process costs as much as some hundred steps.
     let work = |line: usize, resolution: f64| 300.0 + grid.work(line, resolution);
     let all: f64 = jobs.iter().map(|(line, resolution, _)| work(*line, *resolution)).sum();
     let mut progress = StudyProgress::new(options.quiet, all * options.repeats as f64);
@@ -81,7 +84,10 @@ pub fn run_all(
     Ok((runs, stopped))
 }
 
-/// This program itself, for the deck of a study.
+/// This program itself, with the deck of a study.
+///
+/// # Errors
+/// The system does not tell the path of the program.
 pub fn program(options: &Options) -> io::Result<Program> {
     let path = std::env::current_exe()?;
     Ok(Program { path, deck: options.deck.clone(), threads: options.threads })

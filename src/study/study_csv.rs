@@ -5,6 +5,7 @@ use super::grid::float;
 use super::order::local;
 use super::run::StudyRun;
 
+/// The columns, behind which the errors of the quantities stand.
 const COLUMNS: [&str; 22] = [
     "run",
     "scheme",
@@ -30,17 +31,17 @@ const COLUMNS: [&str; 22] = [
     "reason",
 ];
 
-/// A number where there is one.
+/// The text of a number; empty where there is none, or it is not finite.
 pub fn maybe(number: Option<f64>) -> String {
     number.filter(|number| number.is_finite()).map_or(String::new(), float)
 }
 
-/// Quoted where it must be (RFC 4180).
+/// A text as a field, quoted where it must be (RFC 4180).
 pub fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// The text of it.
+/// The text of study.csv.
 pub fn table(found: &Found) -> String {
     let mut header: Vec<String> = COLUMNS.map(String::from).to_vec();
     header.extend(found.quantities.iter().map(|quantity| field(&format!("error:{}", quantity.word()))));

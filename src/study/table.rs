@@ -7,10 +7,11 @@ use super::order::{Cheapest, Order, local};
 use super::run::{RunStatus, StudyRun, spread};
 use crate::names::short;
 
+/// The header of the table of runs.
 pub const HEAD: [&str; 9] =
     ["setting", "time step", "error", "order", "loop s", "process s", "iterations", "factorizations", "status"];
 
-/// An error to two digits; a bound is said to be one.
+/// The error of a run to three digits, or as the bound that it is; empty where there is none.
 pub fn error(run: &StudyRun) -> String {
     match run.error {
         Some(error) if run.resolved => format!("{error:.2e}"),
@@ -57,11 +58,12 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
     rows
 }
 
-/// A time step, or a tolerance that says it is one.
+/// A time step as a number, or a tolerance, which is marked as one.
 pub fn resolution(line: &StudyLine, resolution: f64) -> String {
     if line.automatic { format!("tol {}", short(resolution)) } else { short(resolution) }
 }
 
+/// The measured order of a line: "1.99 over time steps 0.01 to 0.00125 (4 runs)", or why there is none.
 pub fn order(line: &StudyLine, order: &Result<Order, &str>) -> String {
     let order = match order {
         Ok(order) => order,
@@ -74,7 +76,7 @@ pub fn order(line: &StudyLine, order: &Result<Order, &str>) -> String {
     format!("{:.2} over {what} {from} to {to} ({} runs{caution}){floor}", order.order, order.runs)
 }
 
-/// "0.0021 s (process 0.0070 s), time step 0.0071".
+/// The cost of an error on a line: "loop 0.0021 s, process 0.0070 s, time step 0.0071".
 pub fn cost(line: &StudyLine, of: &Cheapest) -> String {
     let what = if line.automatic { "tolerance" } else { "time step" };
     let bound = if of.at_the_top { ", the coarsest setting run" } else { "" };
@@ -82,7 +84,7 @@ pub fn cost(line: &StudyLine, of: &Cheapest) -> String {
     format!("loop {loop_s} s, process {process_s} s, {what} {}{bound}", short(of.resolution))
 }
 
-/// What errors are measured against.
+/// What errors are measured against, and on what.
 pub fn reference(found: &Found) -> String {
     let (samples, count) = (found.grid.samples + 1, found.quantities.len());
     let against = match &found.reference {
@@ -96,7 +98,7 @@ pub fn reference(found: &Found) -> String {
     format!("{against}; {count} {quantities} at {samples} times")
 }
 
-/// How times were taken, and how far they are apart.
+/// How times were taken, and how far they scatter.
 pub fn timing(found: &Found) -> String {
     let most = found.runs.iter().map(|run| run.times.len()).max().unwrap_or(0);
     match spread(&found.runs) {
@@ -107,6 +109,7 @@ pub fn timing(found: &Found) -> String {
     }
 }
 
+/// The outcome of a study for standard output: reference, table of runs, orders, the cheapest settings.
 pub fn text(found: &Found) -> String {
     let mut rows = vec![HEAD.map(String::from).to_vec()];
     rows.extend(cells(found));

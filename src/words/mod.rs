@@ -1,7 +1,22 @@
 //! What tables of the deck are made of: sorts of values, and tables whose keys depend on the kind they name. Rooms of kinds
-//! write their keys with it, and the deck its tables.
+//! write their keys with it, and the deck its tables. Each sort of value says in its `expecting` what a user should have written.
 
+mod directions;
 pub mod kinds;
-mod values;
+mod named;
+mod number_or_auto;
+mod numbers;
+mod one_or_many;
+mod table;
 
-pub use values::*;
+pub use directions::Directions;
+pub use named::Named;
+pub use number_or_auto::NumberOrAuto;
+pub use numbers::{Numbers, Vector};
+pub use one_or_many::{Item, Names, OneOrMany};
+pub use table::Table;
+
+use crate::diagnostic::At;
+
+/// A key that may be left out.
+pub type Maybe<T> = Option<At<T>>;

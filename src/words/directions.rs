@@ -1,0 +1,81 @@
+//! Sets of the six directions of a node.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::borrow::Cow;
+use std::fmt;
+
+/// A set of directions, in the order `ux uy uz rx ry rz`. A deck writes "all", "translations", "rotations", one direction, or a
+/// list of directions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Directions(pub [bool; 6]);
+
+impl Directions {
+    /// All six directions.
+    pub const ALL: Directions = Directions([true; 6]);
+}
+
+/// The words for several directions, and those for one.
+const WORDS: [&str; 9] = ["all", "translations", "rotations", "ux", "uy", "uz", "rx", "ry", "rz"];
+
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum Direction {
+    Ux,
+    Uy,
+    Uz,
+    Rx,
+    Ry,
+    Rz,
+}
+
+impl<'de> Deserialize<'de> for Directions {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = Directions;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"all\", \"translations\", \"rotations\" or a list, such as [\"ux\", \"ry\"]")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Directions, E> {
+                match word {
+                    "all" => Ok(Directions::ALL),
+                    "translations" => Ok(Directions([true, true, true, false, false, false])),
+                    "rotations" => Ok(Directions([false, false, false, true, true, true])),
+                    _ => {
+                        let one = WORDS[3..].iter().position(|direction| *direction == word);
+                        let one = one.ok_or_else(|| E::unknown_variant(word, &WORDS))?;
+                        Ok(Directions(std::array::from_fn(|direction| direction == one)))
+                    }
+                }
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Directions, A::Error> {
+                let mut directions = [false; 6];
+                while let Some(direction) = list.next_element::<Direction>()? {
+                    directions[direction as usize] = true;
+                }
+                Ok(Directions(directions))
+            }
+        }
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+impl JsonSchema for Directions {
+    fn schema_name() -> Cow<'static, str> {
+        "Directions".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let direction = generator.subschema_for::<Direction>();
+        json_schema!({ "anyOf": [
+            { "enum": ["all", "translations", "rotations"] },
+            direction,
+            { "type": "array", "items": direction },
+        ] })
+    }
+}

@@ -1,0 +1,64 @@
+//! A kind of table: the word that chooses it, and its keys.
+
+use super::form::Form;
+
+/// A key that one or several kinds of a table take.
+#[derive(Debug)]
+pub struct Key {
+    /// The key as the deck writes it.
+    pub name: &'static str,
+    /// The form of its value.
+    pub form: Form,
+    /// Its meaning with unit, range and default, in the words of the reference of the deck.
+    pub about: &'static str,
+}
+
+/// One of the kinds that a table of the deck may be.
+#[derive(Debug)]
+pub struct Kind<M: 'static> {
+    /// The word that chooses it, as the deck writes it.
+    pub word: &'static str,
+    /// Other words that choose it.
+    pub aliases: &'static [&'static str],
+    /// Words that other programs have for it: whoever writes one is told the word of the deck.
+    pub guesses: &'static [&'static str],
+    /// Its description in the words of the reference of the deck.
+    pub about: &'static str,
+    /// The keys that belong to it; other kinds may take some of them as well.
+    pub keys: &'static [Key],
+    /// What the room wants of its kinds, such as the function that makes an object from the keys.
+    pub make: M,
+}
+
+impl<M> Kind<M> {
+    /// Whether a word of the deck chooses it.
+    pub(super) fn is_called(&self, word: &str) -> bool {
+        self.word == word || self.aliases.contains(&word)
+    }
+
+    /// The same kind for another use, with what that use wants of it.
+    pub const fn with<N>(&self, make: N) -> Kind<N> {
+        let Kind { word, aliases, guesses, about, keys, .. } = *self;
+        Kind { word, aliases, guesses, about, keys, make }
+    }
+
+    /// Whether it takes a key.
+    pub fn takes(&self, key: &str) -> bool {
+        self.keys.iter().any(|own| own.name == key)
+    }
+}
+
+/// A set of kinds among which a table chooses. The struct that bears it holds the keys that all of them share.
+pub trait Kinds: 'static {
+    /// The key whose value is the word of the kind.
+    const CHOOSER: &'static str;
+    /// The meaning of that key, in the words of the reference of the deck.
+    const ABOUT: &'static str;
+    /// True where the schema demands the chooser; false where a table without it has a default kind.
+    const REQUIRED: bool;
+    /// What the room wants of its kinds.
+    type Make: 'static;
+
+    /// All kinds, in the order of the reference of the deck.
+    fn list() -> &'static [&'static Kind<Self::Make>];
+}
