@@ -105,7 +105,8 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
     if !report.has_errors() {
         check_amplitude_ends(deck, &amplitudes, scene.analysis.end_time, report);
-        check_unjoined(&scene, &topology, Ties::new(&topology, &joints, &links, &contacts), report);
+        let linked = links.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
+        check_unjoined(&scene, &topology, Ties::new(&topology, &joints, linked), report);
         check_proportions(&scene, &topology, report);
     }
     place_nodes(&scene.names, &scene.parts, &mut topology);

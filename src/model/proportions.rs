@@ -2,14 +2,13 @@
 
 use std::collections::HashMap;
 
-use super::data::{Beam, Part, PartType, Shell};
+use super::data::Part;
 use super::nodes::Nodes;
 use super::report::Report;
 use super::scene::Scene;
 use crate::deck::parts::DeckPart;
 use crate::math::Vec3;
 use crate::names::short;
-use crate::sections::Stiffness;
 use std::f64::consts::PI;
 
 /// Numbers of sections are rounded to three digits in tables; beyond this part an inequality is violated.
@@ -24,17 +23,17 @@ pub(super) fn check_proportions(scene: &Scene, nodes: &Nodes, report: &mut Repor
         let of = scene.parts.of(part.at);
         let Some(first) = of.iter().find(|part| part.elements() > 0).map(|part| part.nodes(0)[0]) else { continue };
         let extent = connected.extent(first);
+        let Some(depths) = of.iter().find_map(|part| part.depths(&scene.parts.stiffnesses)) else { continue };
         if part.at.kind.is_surface() {
-            check_shell(&part, of, &extent, report);
+            check_shell(&part, depths[0], &extent, report);
         } else {
-            check_line(&part, of, &extent, (scene, nodes), report);
+            check_line(&part, of, depths, (&extent, nodes), report);
         }
     }
     check_sections(scene, report);
 }
 
-fn check_shell(part: &DeckPart, of: &[Part], extent: &Extent, report: &mut Report) {
-    let Some(thickness) = of.iter().find_map(Shell::of).map(|shell| shell.plate.thickness) else { return };
+fn check_shell(part: &DeckPart, thickness: f64, extent: &Extent, report: &mut Report) {
     let width = extent.area / extent.diagonal();
     if thickness > width {
         let message = format!(
@@ -47,10 +46,8 @@ fn check_shell(part: &DeckPart, of: &[Part], extent: &Extent, report: &mut Repor
     }
 }
 
-fn check_line(part: &DeckPart, of: &[Part], extent: &Extent, (scene, nodes): (&Scene, &Nodes), report: &mut Report) {
+fn check_line(part: &DeckPart, of: &[Part], depths: [f64; 2], (extent, nodes): (&Extent, &Nodes), report: &mut Report) {
     let length = of.iter().map(|part| (0..part.elements()).map(|e| length(part.nodes(e), nodes)).sum::<f64>()).sum();
-    let stiffness = of.iter().find_map(Beam::of).and_then(|beam| beam.elements.first());
-    let Some(depths) = stiffness.map(|element| depths(&scene.parts.stiffnesses[element.section])) else { return };
     // A bending stiffness far from its area may stand for anything: the depth of a rectangle is the word for it.
     let (deep, long) = match depths {
         [_, larger] if larger > extent.length => (larger, extent.length),
@@ -60,13 +57,6 @@ fn check_line(part: &DeckPart, of: &[Part], extent: &Extent, (scene, nodes): (&S
     let (title, deep, long) = (part.title(), short(deep), short(long));
     let message = format!("the section of {title} is about {deep} deep, and the beam is {long} long");
     report.warn(part.span, message, "a beam is long against its section: look at the units of both");
-}
-
-/// Smaller and larger depth of the rectangle with the section's axial and bending stiffness.
-fn depths(stiffness: &Stiffness) -> [f64; 2] {
-    let depth = |i: usize| (12.0 * stiffness.M[(i, i)] / stiffness.N[(0, 0)]).sqrt();
-    let [a, b] = [depth(1), depth(2)];
-    [a.min(b), a.max(b)]
 }
 
 fn length(line: &[usize], nodes: &Nodes) -> f64 {

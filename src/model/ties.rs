@@ -1,6 +1,6 @@
 //! Which nodes something holds together without an element between them: joints, attachments, links, contacts, the ground.
 
-use super::data::{Contact, Joint, Link};
+use super::data::Joint;
 use super::nodes::Topology;
 use std::collections::HashSet;
 
@@ -13,7 +13,8 @@ pub(super) struct Ties {
 }
 
 impl Ties {
-    pub fn new(topology: &Topology, joints: &[Joint], links: &[Link], contacts: &[Contact]) -> Self {
+    /// The ties of a scene; links and contacts act between the pairs of nodes in `linked`.
+    pub fn new(topology: &Topology, joints: &[Joint], linked: impl Iterator<Item = [usize; 2]>) -> Self {
         let count = topology.list.len();
         let mut ties = Ties { towards: (0..=count).collect(), linked: HashSet::new() };
         for dependent in topology.dependents.iter().filter(|dependent| dependent.dofs[..3] == [true; 3]) {
@@ -26,11 +27,7 @@ impl Ties {
                 ties.join(node, count);
             }
         }
-        let touching = contacts.iter().flat_map(|contact| {
-            contact.points.iter().flat_map(|point| point.nodes()).map(|&node| [contact.node, node])
-        });
-        let pairs: Vec<[usize; 2]> = links.iter().map(|link| link.ends).chain(touching).collect();
-        for pair in pairs {
+        for pair in linked {
             let groups = ties.groups(pair);
             // What is linked to the ground is not linked to all else that rests on it.
             if groups[1] != ties.group(count) && groups[0] != ties.group(count) {

@@ -12,7 +12,7 @@ const PARTS: [&str; 5] = ["Beam", "Bar", "Shell", "Link", "Contact"];
 const STRANGERS: usize = 6;
 
 /// Kinds of parts that more files name.
-const WELL_KNOWN: Known = &[("Beam", 7), ("Link", 7)];
+const WELL_KNOWN: Known = &[];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
 const CATALOGUES: [(&str, &[&str]); 7] = [

@@ -76,6 +76,13 @@ impl PartAnswers for Beam {
         Some(axial / extent(self.elements.iter().flat_map(|e| &e.nodes[..=self.order]), nodes))
     }
 
+    fn depths(&self, stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {
+        let stiffness = &stiffnesses[self.elements.first()?.section];
+        let depth = |i: usize| (12.0 * stiffness.M[(i, i)] / stiffness.N[(0, 0)]).sqrt();
+        let [a, b] = [depth(1), depth(2)];
+        Some([a.min(b), a.max(b)])
+    }
+
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
         Some(Drawing::Curve { nodes: self.nodes(element), axes: self.elements[element].frame })
     }

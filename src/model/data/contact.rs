@@ -26,6 +26,13 @@ pub struct Contact {
     pub chosen: Option<String>,
 }
 
+impl Contact {
+    /// The node that carries the surface with each node of the points, one pair after the other.
+    pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.points.iter().flat_map(|point| point.nodes()).map(|&node| [self.node, node])
+    }
+}
+
 impl PartAnswers for Contact {
     const QUANTITIES: &'static [&'static [Column]] = &[&CONTACT, &[CONTACT_FORCE]];
 

@@ -110,6 +110,12 @@ impl Part {
         ask!(self, stretching nodes, stiffnesses)
     }
 
+    /// The smaller and the larger depth of a cross-section: of a shell its thickness, of a beam those of the rectangle with the
+    /// axial and bending stiffness of its first element; `None` for what has none.
+    pub fn depths(&self, stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {
+        ask!(self, depths stiffnesses)
+    }
+
     /// How an element is drawn; `None` for a contact, whose surface and points are drawn with what carries them.
     pub fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
         ask!(self, drawing element)

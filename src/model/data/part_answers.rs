@@ -55,6 +55,10 @@ pub trait PartAnswers {
         None
     }
 
+    fn depths(&self, _stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {
+        None
+    }
+
     fn drawing(&self, _element: usize) -> Option<Drawing<'_>> {
         None
     }

@@ -89,6 +89,10 @@ impl PartAnswers for Shell {
         Some(self.plate.E * self.plate.thickness)
     }
 
+    fn depths(&self, _: &[Stiffness]) -> Option<[f64; 2]> {
+        Some([self.plate.thickness; 2])
+    }
+
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
         Some(Drawing::Face { corners: self.nodes(element) })
     }
