@@ -6,8 +6,8 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::materials::{Hardening, MaterialLaw, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{
-    self, ArcLength, Bar, Beam, Cadence, ExpectAt, History, Link, LinkKind, MassKind, Method, Model, PartIndex,
-    PartKind, Passage, Shell, StepLength, Tolerance, When,
+    self, ArcLength, Bar, Beam, Cadence, DisplacementTarget, ExpectAt, History, Link, LinkKind, MassKind, Method,
+    Model, PartIndex, PartKind, Shell, StepLength, Tolerance, When,
 };
 use rdsolve::sections::Fibre;
 
@@ -291,12 +291,15 @@ tolerance = 0.1
     let model = model.unwrap();
     // The words of the directions, with their quotes.
     let place = |word: &str| text.find(word).map(|start| [start, start + word.len()]).unwrap();
-    let stop = Passage { node: 1, dof: 1, value: -0.8, pass: 2, place: place("\"uy\"") };
+    let stop = DisplacementTarget { node: 1, dof: 1, value: -0.8, pass: 2, place: place("\"uy\"") };
     let path = ArcLength { first: model.analysis.nominal_step(), stop: Some(stop), steps: Some(50), growth: 4.0 };
     assert_eq!(model.analysis.step_length, StepLength::ArcLength(path));
     let expect = &model.expects[0];
     assert_eq!(expect.at, ExpectAt::Analysis);
-    assert_eq!(expect.when, When::Passing(Passage { node: 1, dof: 0, value: -0.5, pass: 1, place: place("\"ux\"") }));
+    assert_eq!(
+        expect.when,
+        When::Target(DisplacementTarget { node: 1, dof: 0, value: -0.5, pass: 1, place: place("\"ux\"") })
+    );
     assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
     assert!(matches!(everything().analysis.step_length, StepLength::Fixed { .. }));
 }

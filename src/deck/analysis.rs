@@ -33,7 +33,7 @@ pub struct Analysis {
     /// / 2^20; with an automatic step end_time / 10^9.
     pub least_step: Maybe<f64>,
     /// With arc-length control: the run ends where a displacement passes a value, unless `end_time` is reached before.
-    pub stop: Maybe<Table<Passage>>,
+    pub stop: Maybe<Table<DisplacementTarget>>,
     /// With arc-length control: the run ends after this number of steps, 1 or more. Default: it fails after 100000.
     pub steps: Maybe<u64>,
     /// With arc-length control: the arc length grows to at most this multiple of the first. Default: no limit.
@@ -52,10 +52,10 @@ pub enum Control {
     ArcLength,
 }
 
-/// A displacement on its way through a value: a step lands on it.
+/// A target displacement: a value that a displacement passes, and at which a step ends.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Passage {
+pub struct DisplacementTarget {
     /// Name of a point or body.
     #[schemars(required)]
     pub at: Maybe<String>,

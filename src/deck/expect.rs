@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::analysis::Passage;
+use super::analysis::DisplacementTarget;
 use super::words::{Maybe, Table};
 
 /// A value that is checked at the end of the run; a miss ends it with exit code 5.
@@ -21,7 +21,7 @@ pub struct Expect {
     /// Time at which the value is taken; with arc-length control, the first time the load reaches it.
     pub time: Maybe<f64>,
     /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.
-    pub when: Maybe<Table<Passage>>,
+    pub when: Maybe<Table<DisplacementTarget>>,
     /// An extreme over the whole run, instead of `time`.
     pub peak: Maybe<Peak>,
     /// The expected value. Left out with a bound.

@@ -1,8 +1,8 @@
 //! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
 
 use super::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
+use super::displacement_targets::displacement_target;
 use super::nodes::Topology;
-use super::passages::passage;
 use super::report::Report;
 use super::scene::Scene;
 use super::usage::named_amplitudes;
@@ -39,7 +39,7 @@ pub(super) fn control<'d>(
     }
     check_iteration(scene.deck, report);
     check_history(scene, amplitudes, topology, report);
-    let stop = analysis.stop.as_ref().and_then(|stop| passage("`stop`", stop, scene, topology, report));
+    let stop = analysis.stop.as_ref().and_then(|stop| displacement_target("`stop`", stop, scene, topology, report));
     let steps = analysis.steps.as_ref().map(|_| report.count("steps", &analysis.steps, 1));
     let growth = report.positive("growth", &analysis.growth).unwrap_or(f64::INFINITY);
     if let Some(at) = analysis.growth.as_ref().filter(|at| at.value > 0.0 && at.value < 1.0) {

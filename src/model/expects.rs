@@ -1,8 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
 use super::data::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When, quantities_of};
+use super::displacement_targets::displacement_target;
 use super::nodes::Topology;
-use super::passages::passage;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -52,7 +52,7 @@ impl<'d> Expects<'_, 'd> {
         let ((at, _), quantity, when, (value, tolerance)) = (at?, column?, when?, judged?);
         let moment = match when {
             When::Time(time) => format!("at t = {time}"),
-            When::Passing(at) => {
+            When::Target(at) => {
                 let (node, direction) = (&self.topology.list[at.node].label, DIRECTIONS[at.dof]);
                 let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
                 format!("where {direction} of {node} is {}{pass}", at.value)
@@ -176,7 +176,7 @@ impl<'d> Expects<'_, 'd> {
                     hint,
                 );
             }
-            return passage("`when`", when, self.scene, self.topology, self.report).map(When::Passing);
+            return displacement_target("`when`", when, self.scene, self.topology, self.report).map(When::Target);
         }
         match (&expect.time, &expect.peak) {
             (Some(_), Some(peak)) => self.report.error(&peak.span, "an expected value has `time` or `peak`, not both"),

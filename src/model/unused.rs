@@ -27,12 +27,12 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
         if let ExpectAt::Node(node) = &mut expect.at {
             of(node);
         }
-        if let When::Passing(passage) = &mut expect.when {
-            of(&mut passage.node);
+        if let When::Target(target) = &mut expect.when {
+            of(&mut target.node);
         }
     }
-    if let StepLength::ArcLength(ArcLength { stop: Some(passage), .. }) = &mut model.analysis.step_length {
-        of(&mut passage.node);
+    if let StepLength::ArcLength(ArcLength { stop: Some(target), .. }) = &mut model.analysis.step_length {
+        of(&mut target.node);
     }
 }
 

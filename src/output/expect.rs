@@ -102,7 +102,7 @@ impl Observer for Expectations {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         let time = frame.state.time;
         for (index, watch) in self.watches.iter_mut().enumerate() {
-            if matches!(watch.expect.when, When::Passing(_)) && !frame.passed.contains(&index) {
+            if matches!(watch.expect.when, When::Target(_)) && !frame.passed.contains(&index) {
                 continue;
             }
             if matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time) {
@@ -111,7 +111,7 @@ impl Observer for Expectations {
             let Some(value) = watch.value(frame) else { continue };
             let better = |old: Sample| match watch.expect.when {
                 When::Time(t) => (time - t).abs() < (old.time - t).abs(),
-                When::Passing(_) => false,
+                When::Target(_) => false,
                 When::Max => value > old.value,
                 When::Min => value < old.value,
                 When::Abs => value.abs() > old.value.abs(),
@@ -155,7 +155,7 @@ impl Watch {
             _ if passed => None,
             (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
-            (_, None, When::Passing(_)) => Some("the path never came there".to_string()),
+            (_, None, When::Target(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
             (_, Some(sample), _) if bound.is_some() => {
                 let bound = bound.unwrap_or_default();

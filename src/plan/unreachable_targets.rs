@@ -3,7 +3,7 @@
 use super::Plan;
 use super::dof_status::DofStatus;
 use crate::diagnostic::Diagnostic;
-use crate::model::{ArcLength, DIRECTIONS, Model, Passage, StepLength, When};
+use crate::model::{ArcLength, DIRECTIONS, DisplacementTarget, Model, StepLength, When};
 
 /// An error for each `stop` and each `when` of the model whose displacement cannot change, with its place in the
 /// deck.
@@ -13,15 +13,15 @@ pub fn unreachable_targets(plan: &Plan, model: &Model) -> Vec<Diagnostic> {
         _ => None,
     };
     let expected = model.expects.iter().filter_map(|expect| match &expect.when {
-        When::Passing(target) => Some(target),
+        When::Target(target) => Some(target),
         _ => None,
     });
     let targets = stop.into_iter().chain(expected);
     targets.filter_map(|target| why_unreachable(plan, model, target)).collect()
 }
 
-fn why_unreachable(plan: &Plan, model: &Model, target: &Passage) -> Option<Diagnostic> {
-    let &Passage { node, dof, place: [start, end], .. } = target;
+fn why_unreachable(plan: &Plan, model: &Model, target: &DisplacementTarget) -> Option<Diagnostic> {
+    let &DisplacementTarget { node, dof, place: [start, end], .. } = target;
     let why = match plan.nodes[node][dof] {
         // A dependent node moves with its master, which the deck allows or not.
         DofStatus::Unknown | DofStatus::Dependent => return None,

@@ -1,6 +1,6 @@
 //! Values that a run is expected to reach.
 
-use super::passage::Passage;
+use super::displacement_target::DisplacementTarget;
 use crate::deck::parts::PartIndex;
 
 /// An expected value, checked at the end of the run.
@@ -46,7 +46,7 @@ pub enum When {
     /// At this time; along a path, when the load reaches it for the first time from below.
     Time(f64),
     /// When a displacement passes a value, along a path.
-    Passing(Passage),
+    Target(DisplacementTarget),
     Max,
     Min,
     /// The largest absolute value of the run.

@@ -1,7 +1,7 @@
 //! The ways in which steps get their lengths: fixed, by their error, by the stability limit, or along an equilibrium
 //! path.
 
-use super::passage::Passage;
+use super::displacement_target::DisplacementTarget;
 
 /// Relative error of displacements that automatic steps allow over a run, unless the deck says otherwise.
 pub const ERROR_TOLERANCE: f64 = 1e-3;
@@ -34,7 +34,7 @@ pub struct ArcLength {
     /// Increment of the time, that is of the load, in the first step, which sets the length of the others.
     pub first: f64,
     /// The displacement at which the path ends, unless `end_time` is reached before.
-    pub stop: Option<Passage>,
+    pub stop: Option<DisplacementTarget>,
     /// Number of steps after which the run ends wherever it is.
     pub steps: Option<usize>,
     /// Longest arc, as a multiple of the first step.

@@ -4,7 +4,7 @@
 
 use super::targets::{TargetQuantity, Targets};
 use crate::integrators::load_steps;
-use crate::model::{ArcLength, Passage};
+use crate::model::{ArcLength, DisplacementTarget};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::implicit::{ArcLengthConstraint, Condition, Newton, StepMotion};
@@ -115,10 +115,11 @@ impl ArcLengthController {
                 || self.path.steps.is_some_and(|steps| march.recorder.counts.steps + 1 >= steps);
             self.notify(march, &found, dt, ends)?;
             if ends {
-                self.short_of_stop =
-                    self.path.stop.filter(|stop| !self.targets.is_stop(stop, found.reached)).map(
-                        |Passage { node, dof, .. }| march.state.nodes[node].moved(&march.cx.model.nodes[node].x)[dof],
-                    );
+                self.short_of_stop = self.path.stop.filter(|stop| !self.targets.is_stop(stop, found.reached)).map(
+                    |DisplacementTarget { node, dof, .. }| {
+                        march.state.nodes[node].moved(&march.cx.model.nodes[node].x)[dof]
+                    },
+                );
                 return Ok(());
             }
             let steps = march.recorder.counts.steps;

@@ -1,6 +1,6 @@
 //! The times and displacements at which a step along a path must end.
 
-use crate::model::{ArcLength, Model, Passage, When};
+use crate::model::{ArcLength, DisplacementTarget, Model, When};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
@@ -42,7 +42,7 @@ impl Targets {
         for (index, expect) in model.expects.iter().enumerate() {
             match expect.when {
                 When::Time(time) if time > 0.0 => all.add(TargetQuantity::Time, time, 1).expects.push(index),
-                When::Passing(at) => {
+                When::Target(at) => {
                     let quantity = TargetQuantity::Displacement { node: at.node, dof: at.dof };
                     all.add(quantity, at.value, at.pass).expects.push(index);
                 }
@@ -108,7 +108,7 @@ impl Targets {
     }
 
     /// True where a step ended at this target.
-    pub fn is_stop(&self, stop: &Passage, reached: Option<usize>) -> bool {
+    pub fn is_stop(&self, stop: &DisplacementTarget, reached: Option<usize>) -> bool {
         let quantity = TargetQuantity::Displacement { node: stop.node, dof: stop.dof };
         reached.is_some_and(|i| self.0[i].ends && self.0[i].quantity == quantity)
     }

@@ -1,6 +1,6 @@
-//! Displacements on their way through a value, for `stop` of `[analysis]` and `when` of `[[expect]]`.
+//! Target displacements, for `stop` of `[analysis]` and `when` of `[[expect]]`.
 
-use super::data::Passage;
+use super::data::DisplacementTarget;
 use super::nodes::Topology;
 use super::place::Place;
 use super::report::{Owner, Report};
@@ -9,16 +9,16 @@ use crate::deck::analysis as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 
-/// Reads a displacement at which some step is to end; it must be one of the unknowns.
-pub(super) fn passage<'d>(
+/// Reads a target displacement, at which some step is to end; it must be one of the unknowns.
+pub(super) fn displacement_target<'d>(
     what: &str,
-    passage: &'d At<Table<words::Passage>>,
+    target: &'d At<Table<words::DisplacementTarget>>,
     scene: &Scene<'d>,
     topology: &Topology,
     report: &mut Report<'d>,
-) -> Option<Passage> {
-    let owner = Owner::new(what, &passage.span);
-    let table: &'d words::Passage = &passage.value;
+) -> Option<DisplacementTarget> {
+    let owner = Owner::new(what, &target.span);
+    let table: &'d words::DisplacementTarget = &target.value;
     let name = report.require(&owner, "at", &table.at);
     let quantity = report.require(&owner, "quantity", &table.quantity);
     let value = report.require(&owner, "value", &table.value);
@@ -59,5 +59,5 @@ pub(super) fn passage<'d>(
         );
     }
     let place = [quantity.span.start, quantity.span.end];
-    Some(Passage { node, dof, value: value.value, pass, place })
+    Some(DisplacementTarget { node, dof, value: value.value, pass, place })
 }
