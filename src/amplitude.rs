@@ -9,15 +9,44 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Amplitude {
     /// Straight lines through (time, value), constant beyond the ends; times do not fall, and equal times are a jump.
-    Table { points: Vec<[f64; 2]> },
+    Table {
+        /// The points (time, value), by time.
+        points: Vec<[f64; 2]>,
+    },
     /// sin(ω (t − start) + phase) from start to end, 0 outside.
-    Sine { angular_frequency: f64, phase: f64, start: f64, end: f64 },
+    Sine {
+        /// ω, in radians per time.
+        angular_frequency: f64,
+        /// The phase at the start, in radians.
+        phase: f64,
+        /// The time at which it begins.
+        start: f64,
+        /// The time at which it ends.
+        end: f64,
+    },
     /// sin²(ω (t − start)) from start to end, 0 outside.
-    SineSquared { angular_frequency: f64, start: f64, end: f64 },
+    SineSquared {
+        /// ω, in radians per time.
+        angular_frequency: f64,
+        /// The time at which it begins.
+        start: f64,
+        /// The time at which it ends.
+        end: f64,
+    },
     /// From 0 at start to 1 at end, then 1.
-    Ramp { start: f64, end: f64 },
+    Ramp {
+        /// The time at which it begins.
+        start: f64,
+        /// The time from which it is 1.
+        end: f64,
+    },
     /// 1 for start ≤ t < end, 0 outside.
-    Step { start: f64, end: f64 },
+    Step {
+        /// The time from which it is 1.
+        start: f64,
+        /// The time from which it is 0 again.
+        end: f64,
+    },
     /// 1.
     Constant,
 }
@@ -25,8 +54,11 @@ pub enum Amplitude {
 /// A time at which an amplitude jumps, with its values on both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jump {
+    /// The time of the jump.
     pub time: f64,
+    /// The limit of the value from earlier times.
     pub before: f64,
+    /// The limit of the value from later times.
     pub after: f64,
 }
 
@@ -119,6 +151,7 @@ impl Amplitude {
         }
     }
 
+    /// The factor at a time. At a jump it is the value from later times, except at the end of a sine.
     pub fn value(&self, t: f64) -> f64 {
         match *self {
             Amplitude::Table { ref points } => match around(points, t) {

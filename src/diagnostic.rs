@@ -23,7 +23,9 @@ pub const PLACED: &str = "a value and its place";
 /// A value of the deck and where it stands.
 #[derive(Debug, Clone, Default)]
 pub struct At<T> {
+    /// The value.
     pub value: T,
+    /// Its place, as bytes of the deck or of a `--set` argument.
     pub span: Span,
 }
 
@@ -75,29 +77,31 @@ impl<T: JsonSchema> JsonSchema for At<T> {
     }
 }
 
+/// The weight of a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Severity {
     /// The deck cannot be run.
     Error,
-    /// It can, but perhaps not as it was meant.
+    /// The deck can be run, but perhaps not as it was meant.
     Warning,
-    /// It can, and something is taken as it was most likely meant.
+    /// The deck can be run, and something is taken as it was most likely meant.
     Note,
 }
 
 /// A line of a file that the deck names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Excerpt {
+    /// The path of the file, as the deck names it.
     pub path: String,
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     pub line: usize,
-    /// Of the line, from its start.
+    /// The text of the line from its start, at most [`WIDEST`] bytes of it.
     pub text: String,
-    /// Bytes of the text that are meant.
+    /// The bytes of the text that are meant.
     pub columns: Range<usize>,
 }
 
-/// Of a longer line no more is shown.
+/// The number of bytes of a line that are shown at most.
 const WIDEST: usize = 160;
 
 impl Excerpt {
@@ -141,53 +145,63 @@ fn in_place(text: &str) -> Cow<'_, str> {
 /// One thing to say about a deck.
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
+    /// The weight of what is said.
     pub severity: Severity,
+    /// The message: one sentence without a full stop that names the thing.
     pub message: String,
+    /// The place in the deck; `None` where the deck as a whole is meant.
     pub place: Option<Span>,
-    /// In another file, shown instead of the place, which is then where the deck names that file.
+    /// The line of another file that is meant. It is shown instead of the place, which is then where the deck names that file.
     pub excerpt: Option<Box<Excerpt>>,
-    /// The first one stands at the caret, the others below the line.
+    /// The remedies: the first one stands at the caret, the others below the line.
     pub hints: Vec<String>,
 }
 
 impl Diagnostic {
+    /// An error, as yet without a place.
     pub fn error(message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Error, message: message.into(), place: None, excerpt: None, hints: Vec::new() }
     }
 
+    /// A warning, as yet without a place.
     pub fn warning(message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(message) }
     }
 
+    /// A note, as yet without a place.
     pub fn note(message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Note, ..Diagnostic::error(message) }
     }
 
+    /// The same about a place in the deck.
     pub fn at(mut self, place: &Span) -> Self {
         self.place = Some(place.clone());
         self
     }
 
-    /// About a line of another file.
+    /// The same about a line of another file.
     pub fn of(mut self, excerpt: Excerpt) -> Self {
         self.excerpt = Some(Box::new(excerpt));
         self
     }
 
+    /// The same with one more hint.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());
         self
     }
 
+    /// True where the deck cannot be run.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 
+    /// True where the deck can be run, but perhaps not as it was meant.
     pub fn is_warning(&self) -> bool {
         self.severity == Severity::Warning
     }
 
-    /// As text: message, file:line:column, the line, the caret.
+    /// The diagnostic as text: message, file:line:column, the line, the caret; with colours where `styled`.
     pub fn draw(&self, source: &Source, styled: bool) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
@@ -213,7 +227,7 @@ impl Diagnostic {
     }
 }
 
-/// Texts up to this are handed over whole.
+/// The length in bytes up to which a text is handed over whole.
 const SHORT: usize = 1 << 14;
 
 /// The lines of a range and the number of the first: a renderer that gets a long text goes through all of it, every time.
@@ -230,18 +244,21 @@ fn lines(text: &str, range: Range<usize>) -> (usize, &str, Range<usize>) {
 /// The deck's text and the `--set` arguments.
 #[derive(Debug, Clone)]
 pub struct Source {
+    /// The path of the deck, as it was given.
     pub path: String,
+    /// The text of the deck, whose spans begin at 0.
     pub text: String,
-    /// Each with the offset at which its spans begin.
+    /// The arguments, each with the offset at which its spans begin.
     pub sets: Vec<(usize, String)>,
-    /// Names of the options for which the last of them stand.
+    /// The names of the options for which the last arguments stand.
     pub options: Vec<String>,
 }
 
-/// Room after each text: for a place behind its end, and for the quotes that [`crate::deck::set`] adds to a bare word.
+/// The room after each text: for a place behind its end, and for the quotes that [`crate::deck::set`] adds to a bare word.
 const GAP: usize = 4;
 
 impl Source {
+    /// The texts of a run: the path and the text of a deck, and its `--set` arguments.
     pub fn new(path: impl Into<String>, text: impl Into<String>, sets: &[String]) -> Self {
         let text = text.into();
         let mut offset = text.len() + GAP;
@@ -253,7 +270,7 @@ impl Source {
         Source { path: path.into(), sets: sets.iter().map(place).collect(), text, options: Vec::new() }
     }
 
-    /// The last of the `--set` arguments stand for options of these names.
+    /// The same with the names of the options for which the last of the `--set` arguments stand.
     pub fn with_options(self, options: Vec<String>) -> Self {
         Source { options, ..self }
     }

@@ -30,6 +30,8 @@
 //!
 //! A vector without a suffix is global.
 
+#![warn(missing_docs)]
+
 pub mod amplitude;
 pub mod command;
 pub mod constraints;

@@ -5,30 +5,46 @@
 
 use std::fmt;
 
-/// In any consistent system of units.
+/// The unit of a column, in any consistent system of units; what is printed is made of force, length, mass and time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// A name or a number that says what a row is about.
     Label,
+    /// A whole number of things.
     Count,
-    /// Without dimension.
+    /// A number without dimension.
     One,
+    /// An angle in radians.
     Radian,
+    /// A time; along a path by arc length, the load factor.
     Time,
+    /// A length.
     Length,
+    /// A length per time.
     Velocity,
+    /// An angle in radians per time.
     AngularVelocity,
+    /// A length per time squared.
     Acceleration,
+    /// An angle in radians per time squared.
     AngularAcceleration,
+    /// A force.
     Force,
+    /// A force times a length.
     Moment,
     /// A force in rows of translations, a moment in rows of rotations.
     ForceOrMoment,
+    /// A force per length of a section through a shell.
     ForcePerLength,
+    /// A moment per length of a section through a shell.
     MomentPerLength,
+    /// A force per area.
     Stress,
+    /// A force times a length.
     Energy,
+    /// A mass times a velocity.
     Momentum,
+    /// A mass times a velocity times a length.
     AngularMomentum,
 }
 
@@ -61,8 +77,9 @@ impl fmt::Display for Unit {
 /// The axes that components refer to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
-    /// A scalar.
+    /// The column is a scalar, or its components need no axes.
     None,
+    /// The global axes x, y and z.
     Global,
     /// Beam axis x and the section's local y and z, turning with the section.
     Section,
@@ -84,12 +101,15 @@ impl fmt::Display for Axes {
 /// A column of a table of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
+    /// The name in the header, which is also the quantity of `[[expect]]`.
     pub name: &'static str,
-    /// What it is. Components of one vector share these words.
+    /// The meaning in words. Components of one vector share them.
     pub meaning: &'static str,
+    /// The unit of its numbers.
     pub unit: Unit,
+    /// The axes that a component refers to.
     pub axes: Axes,
-    /// What a positive number says, where that is not plain.
+    /// The meaning of a positive number, where that is not plain; else empty.
     pub sign: &'static str,
     /// Columns of one kind are components of one thing, or amounts that are exchanged with each other; one that does not vary
     /// is measured against the largest of its kind.
@@ -109,22 +129,27 @@ impl Column {
         Column { name, meaning, unit, axes: Axes::None, sign: "", kind: name, old_name: None }
     }
 
+    /// The same column with the meaning of a positive number.
     pub const fn positive(self, sign: &'static str) -> Column {
         Column { sign, ..self }
     }
 
+    /// The same column as one of a kind.
     pub const fn kind(self, kind: &'static str) -> Column {
         Column { kind, ..self }
     }
 
+    /// The same column as a component along axes.
     pub const fn in_axes(self, axes: Axes) -> Column {
         Column { axes, ..self }
     }
 
+    /// The same column with a name that it had in earlier versions, which decks may still use.
     pub const fn formerly(self, name: &'static str) -> Column {
         Column { old_name: Some(name), ..self }
     }
 
+    /// Whether the column says what a row is about.
     pub fn is_key(&self) -> bool {
         self.unit == Unit::Label
     }
@@ -149,12 +174,17 @@ const fn energy(name: &'static str, meaning: &'static str) -> Column {
     Column::scalar(name, meaning, Unit::Energy).kind("energy")
 }
 
+/// The first column of every table.
 pub const STEP: Column = Column::scalar("step", "number of accepted steps so far; 0 is the initial state", Unit::Count);
+/// The second column of every table.
 pub const TIME: Column =
     Column::scalar("time", "time at the end of the step; of a path by arc length, the load factor", Unit::Time);
 
+/// The position of a node or a body, x y z.
 pub const POSITION: [Column; 3] = vector(["x", "y", "z"], "position", Unit::Length);
+/// The displacement of a node, x y z.
 pub const DISPLACEMENT: [Column; 3] = vector(["ux", "uy", "uz"], "displacement since the initial state", Unit::Length);
+/// The rotation vector of a node, x y z.
 pub const ROTATION: [Column; 3] = {
     let [x, y, z] = vector(
         ["rx", "ry", "rz"],
@@ -163,6 +193,7 @@ pub const ROTATION: [Column; 3] = {
     );
     [x.positive("right-handed"), y.positive("right-handed"), z.positive("right-handed")]
 };
+/// The rotation of a body, w x y z.
 pub const QUATERNION: [Column; 4] = {
     const fn component(name: &'static str) -> Column {
         Column::scalar(name, "unit quaternion that turns body axes into global axes; `qw` is never negative", Unit::One)
@@ -171,9 +202,13 @@ pub const QUATERNION: [Column; 4] = {
     }
     [component("qw"), component("qx"), component("qy"), component("qz")]
 };
+/// The velocity of a node or a body, x y z.
 pub const VELOCITY: [Column; 3] = vector(["vx", "vy", "vz"], "velocity", Unit::Velocity);
+/// The angular velocity of a node or a body, x y z.
 pub const ANGULAR_VELOCITY: [Column; 3] = vector(["wx", "wy", "wz"], "angular velocity", Unit::AngularVelocity);
+/// The acceleration of a node or a body, x y z.
 pub const ACCELERATION: [Column; 3] = vector(["ax", "ay", "az"], "acceleration", Unit::Acceleration);
+/// The angular acceleration of a node or a body, x y z.
 pub const ANGULAR_ACCELERATION: [Column; 3] = {
     let [x, y, z] = vector(["alphax", "alphay", "alphaz"], "angular acceleration", Unit::AngularAcceleration);
     [x.formerly("bx"), y.formerly("by"), z.formerly("bz")]
@@ -183,6 +218,7 @@ pub const ANGULAR_ACCELERATION: [Column; 3] = {
 pub const JOINT: [Column; 6] =
     wrench("force of the joint on its first part", "moment of the joint on its first part, about that end");
 
+/// Elongation, its rate and force of a link, then force and moment on its first end.
 pub const LINK: [Column; 9] = {
     let [fx, fy, fz, mx, my, mz] =
         wrench("force of the link on its first end", "moment of the link on its first end (bushings only)");
@@ -206,6 +242,7 @@ pub const LINK: [Column; 9] = {
     ]
 };
 
+/// Points in contact and least clearance of a contact, then force and moment on its surface.
 pub const CONTACT: [Column; 8] = {
     let [fx, fy, fz, mx, my, mz] = wrench(
         "force on the surface",
@@ -223,10 +260,11 @@ pub const CONTACT: [Column; 8] = {
         mz,
     ]
 };
-/// Of a contact, what only `[[expect]]` asks for.
+/// The magnitude of the force of a contact, which only `[[expect]]` asks for.
 pub const CONTACT_FORCE: Column =
     Column::scalar("force", "magnitude of the force on the surface", Unit::Force).kind("force");
 
+/// The energies of the scene and their balance, then linear and angular momentum.
 pub const ENERGY: [Column; 18] = {
     let [px, py, pz] = vector(["px", "py", "pz"], "linear momentum", Unit::Momentum);
     let [lx, ly, lz] = vector(["lx", "ly", "lz"], "angular momentum about the origin", Unit::AngularMomentum);
@@ -258,8 +296,9 @@ pub const ENERGY: [Column; 18] = {
     ]
 };
 
+/// The plastic strain of beams, bars and shells.
 pub const PLASTIC_STRAIN: Column = Column::scalar("plastic_strain", "largest accumulated plastic strain", Unit::One);
-/// Of a shell, what only `[[expect]]` asks for.
+/// The stress of a layer of a shell; `[[expect]]` asks for the largest of a whole shell.
 pub const VON_MISES: Column = Column::scalar("von_mises", "von Mises stress", Unit::Stress).kind("stress");
 
 /// Global components of a force and a moment.

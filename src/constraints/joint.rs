@@ -26,13 +26,31 @@ pub struct Joint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ConstraintEquation {
     /// The relative position along a global axis is constant: (x_a − x_b)·e = `at`.
-    GlobalAxis { axis: usize, at: f64 },
+    GlobalAxis {
+        /// The global axis, 0 to 2.
+        axis: usize,
+        /// The component of the relative position along it, in units of length.
+        at: f64,
+    },
     /// The relative position along an axis of the second node is constant: (x_a − x_b)·R_b e = `at`.
-    BodyAxis { e: Vec3, at: f64 },
+    BodyAxis {
+        /// The axis, fixed to the second node.
+        e: Vec3,
+        /// The component of the relative position along it, in units of length.
+        at: f64,
+    },
     /// An axis of the first node stays perpendicular to one of the second: R_a p · R_b s = 0.
-    Perpendicular { p: Vec3, s: Vec3 },
+    Perpendicular {
+        /// The axis that is fixed to the first node.
+        p: Vec3,
+        /// The axis that is fixed to the second node.
+        s: Vec3,
+    },
     /// The distance of the nodes is constant: |x_a − x_b| = `length` > 0.
-    Distance { length: f64 },
+    Distance {
+        /// The distance.
+        length: f64,
+    },
 }
 
 impl ConstraintEquation {

@@ -35,6 +35,7 @@ pub struct Amplitude {
     pub end: Maybe<f64>,
 }
 
+/// The function of time of an amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AmplitudeKind {

@@ -42,6 +42,7 @@ pub struct Analysis {
     pub plane: Maybe<Plane>,
 }
 
+/// The quantity that steps advance by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Control {
@@ -69,6 +70,7 @@ pub struct DisplacementTarget {
     pub pass: Maybe<u64>,
 }
 
+/// A displacement by its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Displacement {
@@ -80,6 +82,7 @@ pub enum Displacement {
     Uz,
 }
 
+/// The kind of analysis, by whether inertia acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AnalysisKind {
@@ -90,6 +93,7 @@ pub enum AnalysisKind {
     Static,
 }
 
+/// The treatment of motion out of a global plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Plane {

@@ -23,6 +23,7 @@ pub struct Attachment {
     pub method: Maybe<AttachmentMethod>,
 }
 
+/// The method by which an attachment is enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AttachmentMethod {

@@ -38,6 +38,7 @@ pub struct Expect {
     pub source: Maybe<String>,
 }
 
+/// An extreme value over the whole run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Peak {

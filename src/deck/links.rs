@@ -71,6 +71,7 @@ pub struct End {
     pub ground: Maybe<Vector>,
 }
 
+/// The law of the force over the elongation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LinkLaw {

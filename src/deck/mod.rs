@@ -130,5 +130,6 @@ pub struct Deck {
 pub struct Spoiled {
     /// Where its table stands; `None`: somewhere, the text being no TOML there.
     pub table: Option<Span>,
+    /// The key of the entry.
     pub key: String,
 }

@@ -44,6 +44,7 @@ pub struct Fields {
     pub every: Maybe<u64>,
 }
 
+/// The format of the files with the moving scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Format {
@@ -54,14 +55,19 @@ pub enum Format {
 /// Length, mass and time; `SI` is `m-kg-s`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum Units {
+    /// Forces are in N, stresses in Pa, energies in J.
     #[serde(rename = "SI")]
     Si,
+    /// Forces are in N, stresses in Pa, energies in J.
     #[serde(rename = "m-kg-s")]
     MKgS,
+    /// Forces are in N, stresses in MPa, energies in mJ.
     #[serde(rename = "mm-t-s")]
     MmTS,
+    /// Forces are in mN, stresses in kPa, energies in µJ.
     #[serde(rename = "mm-kg-s")]
     MmKgS,
+    /// Forces are in kN, stresses in GPa, energies in J.
     #[serde(rename = "mm-kg-ms")]
     MmKgMs,
 }

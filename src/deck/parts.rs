@@ -9,10 +9,15 @@ use crate::diagnostic::{At, Span};
 /// The kinds of parts, in the order in which they are read, numbered, assembled and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PartKind {
+    /// A line of elements that stretch, shear, bend and twist.
     Beam,
+    /// Bars or cables: straight elements with an axial force only.
     Bar,
+    /// A surface of triangles and quadrilaterals that stretch, shear and bend.
     Shell,
+    /// A spring, damper or bushing between two points.
     Link,
+    /// Points, or boxes, against a surface.
     Contact,
 }
 

@@ -83,6 +83,7 @@ impl PartTable for Shell {
     }
 }
 
+/// The kind of elements that a patch is divided into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ElementKind {
@@ -105,6 +106,7 @@ pub struct PatchSurface {
     pub axis: Maybe<Vector>,
 }
 
+/// The coordinates in which points between the edges of a patch are interpolated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceKind {

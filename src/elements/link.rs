@@ -8,13 +8,31 @@ use crate::state::{Configuration, Node, elongation, stretch};
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkLaw {
     /// N = k δ + preload.
-    Linear { stiffness: f64, preload: f64 },
+    Linear {
+        /// k, force per length.
+        stiffness: f64,
+        /// The force at δ = 0.
+        preload: f64,
+    },
     /// Linear between the points (δ, N); the end slopes continue beyond them.
-    Table { points: Vec<[f64; 2]> },
+    Table {
+        /// The points (δ, N), at least two, δ rising.
+        points: Vec<[f64; 2]>,
+    },
     /// N = k (δ + gap) for δ < −gap, else zero.
-    CompressionOnly { stiffness: f64, gap: f64 },
+    CompressionOnly {
+        /// k, force per length.
+        stiffness: f64,
+        /// The shortening at which the link closes.
+        gap: f64,
+    },
     /// N = k (δ − gap) for δ > gap, else zero.
-    TensionOnly { stiffness: f64, gap: f64 },
+    TensionOnly {
+        /// k, force per length.
+        stiffness: f64,
+        /// The elongation at which the link closes.
+        gap: f64,
+    },
 }
 
 impl LinkLaw {

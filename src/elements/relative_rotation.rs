@@ -17,16 +17,25 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RotationalSpring {
     /// The same stiffness about all axes.
-    Isotropic { stiffness: f64 },
-    /// An axis of its own, 0, 1 or 2, and the stiffness about each axis.
-    AboutAxis { axis: usize, stiffness: Vec3 },
+    Isotropic {
+        /// The moment per radian.
+        stiffness: f64,
+    },
+    /// One axis stands out: the rotation is a twist about it, and a swing of it.
+    AboutAxis {
+        /// The axis, 0 to 2.
+        axis: usize,
+        /// The moment per radian about each axis.
+        stiffness: Vec3,
+    },
 }
 
 /// What a relative rotation brings about.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticMoment {
-    /// On the second end.
+    /// The moment on the second end.
     pub moment: Vec3,
+    /// The energy that is stored.
     pub energy: f64,
     /// How near the rotation is to where the moment is no longer defined: the angle φ of a rotation vector, or θ of the swing.
     pub angle: f64,

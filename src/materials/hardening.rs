@@ -4,9 +4,17 @@
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hardening {
     /// σ_Y0 + H ε̄ᵖ (15); H = 0 is perfectly plastic.
-    Linear { yield_stress: f64, modulus: f64 },
+    Linear {
+        /// σ_Y0, before any plastic strain.
+        yield_stress: f64,
+        /// H, stress per plastic strain.
+        modulus: f64,
+    },
     /// Straight lines through (plastic strain, yield stress), constant beyond the last; what [`Hardening::table`] accepts.
-    Table { points: Vec<[f64; 2]> },
+    Table {
+        /// The points, the first at plastic strain 0.
+        points: Vec<[f64; 2]>,
+    },
 }
 
 impl Hardening {

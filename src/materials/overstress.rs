@@ -56,7 +56,10 @@ pub struct Viscosity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Overstress {
     /// vⁿ; with γ = D and n = q the law of Cowper and Symonds.
-    Power { exponent: f64 },
+    Power {
+        /// n.
+        exponent: f64,
+    },
     /// v.
     Linear,
     /// eᵛ − 1.

@@ -12,7 +12,9 @@ pub struct Sideways {
     pub system: System,
     /// The unknowns out of the plane alone.
     pub dofs: DofMap,
+    /// The solver for the matrix of these unknowns.
     pub solver: Solver,
+    /// The assembly of that matrix and of its right-hand side.
     pub assembly: Assembly,
 }
 

@@ -19,6 +19,7 @@ pub struct MakeSection {
 
 /// The section that a table `[sections.x]` describes.
 pub enum CrossSection {
+    /// A shape, from which stiffness and mass follow with a material.
     Shape(Box<dyn SectionShape>),
     /// Stiffnesses and masses per length, as given.
     Stiffness(Box<Stiffness>),

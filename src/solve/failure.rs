@@ -8,42 +8,115 @@ use std::fmt;
 /// A step that was given up.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Failure {
-    /// Nothing resists at this degree of freedom: a pivot vanishes, or a motion strains no element. `open`: a part there that would
-    /// resist, but is open or slack.
-    Singular { label: String, direction: &'static str, open: Option<String> },
+    /// Nothing resists at this degree of freedom: a pivot vanishes, or a motion strains no element.
+    Singular {
+        /// The name of the node or joint.
+        label: String,
+        /// The name of the degree of freedom or constraint.
+        direction: &'static str,
+        /// A part there that would resist, but is open or slack.
+        open: Option<String>,
+    },
     /// The iteration did not converge.
-    NotConverged { iterations: usize, largest: Vec<NamedResidual> },
+    NotConverged {
+        /// The number of iterations.
+        iterations: usize,
+        /// The largest residual forces.
+        largest: Vec<NamedResidual>,
+    },
     /// Joints could not be closed at the end of a step.
-    ConstraintsViolated { largest: Vec<NamedResidual> },
-    /// One step of the deck, or several in a row, needed too many substeps; `cause` is the failure of the last cutback.
-    TooManySubsteps { steps: usize, substeps: usize, dt: f64, cause: Box<Failure> },
+    ConstraintsViolated {
+        /// The largest gaps.
+        largest: Vec<NamedResidual>,
+    },
+    /// One step of the deck, or several in a row, needed too many substeps.
+    TooManySubsteps {
+        /// The number of steps of the deck.
+        steps: usize,
+        /// The number of substeps that they took.
+        substeps: usize,
+        /// The length of the last substep.
+        dt: f64,
+        /// The failure of the last cutback.
+        cause: Box<Failure>,
+    },
     /// No equilibrium lies on the arc of a step.
-    NoEquilibriumOnArc { largest: Vec<NamedResidual> },
+    NoEquilibriumOnArc {
+        /// The largest residual forces.
+        largest: Vec<NamedResidual>,
+    },
     /// No load or prescribed motion changes with the time, so nothing leads on along the path.
-    NoLoadIncrement { time: f64 },
+    NoLoadIncrement {
+        /// The time at which that is so.
+        time: f64,
+    },
     /// A path did not end within the steps that it was given.
-    TooManySteps { steps: usize },
+    TooManySteps {
+        /// The number of these steps.
+        steps: usize,
+    },
     /// A step would take a point through a surface, or into an impact that it does not resolve.
-    ContactNotResolved { name: String },
+    ContactNotResolved {
+        /// The name of the contact.
+        name: String,
+    },
     /// The ends of a bushing have turned against each other by half a turn.
-    BushingTurnedOver { name: String },
-    /// A step of central differences is longer than the critical time step; `automatic` where steps find their own
-    /// length.
-    Unstable { dt: f64, longest: f64, automatic: bool },
-    /// Central differences have generated this multiple of the available energy.
-    EnergyGrowth { ratio: f64 },
+    BushingTurnedOver {
+        /// The name of the bushing.
+        name: String,
+    },
+    /// A step of central differences is longer than the critical time step.
+    Unstable {
+        /// The length of the step.
+        dt: f64,
+        /// The critical time step.
+        longest: f64,
+        /// True where steps find their own length.
+        automatic: bool,
+    },
+    /// Central differences have generated energy.
+    EnergyGrowth {
+        /// The energy generated, as a multiple of the available energy.
+        ratio: f64,
+    },
     /// A step of an explicit scheme rotates something too far.
-    RotationTooLarge { dt: f64 },
+    RotationTooLarge {
+        /// The length of the step.
+        dt: f64,
+    },
     /// A load step turns a node too far.
-    LoadStepTurns { label: String, angle: f64 },
-    /// An element of this part has passed through zero length or area, or has turned over.
-    TurnedOver { name: String },
+    LoadStepTurns {
+        /// The name of the node.
+        label: String,
+        /// The angle of its rotation in the step, in radians.
+        angle: f64,
+    },
+    /// An element has passed through zero length or area, or has turned over.
+    TurnedOver {
+        /// The name of its part.
+        name: String,
+    },
     /// The work of a load step is not what has been stored and dissipated: its ends do not lie on one path of equilibria.
-    EquilibriumJumps { label: String, direction: &'static str, work: f64, stored: f64 },
+    EquilibriumJumps {
+        /// The name of the node that moves most.
+        label: String,
+        /// The direction in which it does.
+        direction: &'static str,
+        /// The work of the loads in the step.
+        work: f64,
+        /// The energy stored and dissipated in the step.
+        stored: f64,
+    },
     /// The error of a step is larger than what is allowed.
-    ErrorTooLarge { dt: f64 },
+    ErrorTooLarge {
+        /// The length of the step.
+        dt: f64,
+    },
     /// The motion left the range of numbers.
-    NotFinite { largest: Vec<NamedResidual> },
+    NotFinite {
+        /// The largest residual forces, or those that are no numbers.
+        largest: Vec<NamedResidual>,
+    },
 }
 
 /// A residual force, or a gap, with its name.

@@ -7,10 +7,18 @@ use super::failure::Failure;
 pub enum Outcome {
     /// The run came to its end.
     Done,
-    /// No step could be taken, however short; results are valid up to `time`.
-    Failed { time: f64, failure: Failure },
+    /// No step could be taken, however short.
+    Failed {
+        /// The time up to which results are valid.
+        time: f64,
+        /// The failure of the shortest step.
+        failure: Failure,
+    },
     /// The stop flag was raised.
-    Stopped { time: f64 },
+    Stopped {
+        /// The end of the last step, up to which results are valid.
+        time: f64,
+    },
     /// The observer could not write.
     Io(std::io::Error),
 }

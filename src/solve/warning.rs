@@ -7,10 +7,16 @@ use std::mem::discriminant;
 /// A doubt about results, with what it concerns.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// Initial velocities do not agree with the joints; the largest change over the largest velocity.
-    InitialVelocities { change: f64 },
-    /// A load step ended where rounding leaves this residual, relative to the forces.
-    Unbalanced { residual: f64 },
+    /// Initial velocities do not agree with the joints, and were changed.
+    InitialVelocities {
+        /// The largest change over the largest velocity.
+        change: f64,
+    },
+    /// A load step ended where rounding leaves a residual.
+    Unbalanced {
+        /// The residual, relative to the forces.
+        residual: f64,
+    },
     /// Load control has passed a load at which the equilibrium becomes unstable.
     Unstable(Instability),
     /// The same out of the plane of a plane motion.
@@ -75,12 +81,14 @@ impl fmt::Display for Warning {
 pub struct Warnings(Vec<Warning>);
 
 impl Warnings {
+    /// Adds a warning, unless there is one of its kind already.
     pub fn add(&mut self, warning: Warning) {
         if self.0.iter().all(|known| discriminant(known) != discriminant(&warning)) {
             self.0.push(warning);
         }
     }
 
+    /// The warnings in the order in which they arose.
     pub fn iter(&self) -> impl Iterator<Item = &Warning> {
         self.0.iter()
     }

@@ -20,7 +20,9 @@ pub struct Prescribed {
 /// The side of a jump on which a load is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
+    /// The limit from earlier times, which a step that ends at the jump sees.
     Before,
+    /// The limit from later times, which a step that begins at the jump sees.
     After,
 }
 

@@ -4,16 +4,19 @@
 //! has the integral ∫ w/(1 + d w) dw = 0 from v₀ to −e v₀, whatever m and k are, so D = d v₀ follows from the coefficient of
 //! restitution e alone: D (1 + e) = ln((1 + D)/(1 − e D)). The force begins and ends at zero and never pulls.
 
-/// Least coefficient of restitution: below it D grows as 1/e, and steps would have to resolve ever shorter impacts.
+/// The least coefficient of restitution: below it D grows as 1/e, and steps would have to resolve ever shorter impacts.
 pub const LEAST: f64 = 0.01;
 
 /// The energy loss in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Loss {
+    /// An impact gives back all of its energy.
     None,
-    /// D of a coefficient of restitution, and the approach speed below which an impact counts as one at that speed.
+    /// An impact gives back a set part of the approach speed.
     Restitution {
+        /// D of the coefficient of restitution.
         number: f64,
+        /// The approach speed below which an impact counts as one at that speed.
         floor: f64,
     },
     /// Viscous damping, force per velocity.

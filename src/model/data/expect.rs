@@ -27,6 +27,7 @@ pub struct Expect {
 pub enum ExpectAt {
     /// The analysis itself: the time, which follows along a path.
     Analysis,
+    /// The motion of a node, or of a body by its node.
     Node(usize),
     /// Columns of energy.csv.
     Energy,
@@ -45,9 +46,11 @@ pub enum ExpectAt {
 pub enum When {
     /// At this time; along a path, when the load reaches it for the first time from below.
     Time(f64),
-    /// When a displacement passes a value, along a path.
+    /// When a displacement passes its target, along a path.
     Target(DisplacementTarget),
+    /// The greatest value of the run, with its sign.
     Max,
+    /// The least value of the run, with its sign.
     Min,
     /// The largest absolute value of the run.
     Abs,
@@ -56,9 +59,12 @@ pub enum When {
 /// The tolerance of an expected value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
+    /// The largest difference, as a part of the expected value.
     Relative(f64),
+    /// The largest difference, in the unit of the value.
     Absolute(f64),
-    /// The value is a bound.
+    /// The expected value is a lower bound.
     AtLeast,
+    /// The expected value is an upper bound.
     AtMost,
 }

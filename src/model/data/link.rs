@@ -21,15 +21,25 @@ pub struct Link {
 pub enum LinkKind {
     /// Force along the line of the ends, or along a fixed global unit vector.
     Line {
+        /// The force over the elongation.
         law: LinkLaw,
+        /// The force per rate of the elongation.
         damping: f64,
+        /// The fixed direction; `None` where the force acts along the line of the ends.
         direction: Option<Vec3>,
         /// Length (along the line) at which the law's elongation is zero; along `direction`: the initial projection
         /// counts as zero elongation unless a free length is given.
         free_length: f64,
     },
-    /// Six components in the frame of the first end; `axes` (columns, global at t = 0).
-    Bushing { stiffness: [f64; 6], damping: [f64; 6], axes: Mat3 },
+    /// Six components in a frame that is fixed to the first end: three of the relative position, three of the relative rotation.
+    Bushing {
+        /// The force per length along each axis, then the moment per radian about each.
+        stiffness: [f64; 6],
+        /// The force per velocity along each axis, then the moment per angular velocity about each.
+        damping: [f64; 6],
+        /// The axes (columns, global at t = 0).
+        axes: Mat3,
+    },
 }
 
 impl PartAnswers for Link {

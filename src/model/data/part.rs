@@ -18,10 +18,15 @@ use crate::sections::Stiffness;
 /// A part of the scene; [`super::Model::parts`] lists them kind by kind in the order of the variants.
 #[derive(Debug, Clone)]
 pub enum Part {
+    /// A line of elements that stretch, shear, bend and twist.
     Beam(Beam),
+    /// Bars or cables: straight elements with an axial force only.
     Bar(Bar),
+    /// A surface of elements that stretch, shear and bend; a shell of the deck with two shapes of elements makes two.
     Shell(Shell),
+    /// A spring, damper or bushing between two nodes.
     Link(Link),
+    /// Points, or boxes, against a surface.
     Contact(Contact),
 }
 
@@ -39,6 +44,7 @@ macro_rules! ask {
 }
 
 impl Part {
+    /// The kind of the part, by which rooms tell parts apart without their data.
     pub fn kind(&self) -> PartKind {
         match self {
             Part::Beam(_) => PartKind::Beam,
@@ -157,7 +163,9 @@ pub fn quantities_of(kind: PartKind) -> Vec<Column> {
 
 /// One of the types that [`Part`] holds.
 pub trait PartType: Into<Part> {
+    /// The part as this type; `None` where it is of another kind.
     fn of(part: &Part) -> Option<&Self>;
+    /// The same, to be changed.
     fn of_mut(part: &mut Part) -> Option<&mut Self>;
 }
 

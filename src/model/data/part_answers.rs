@@ -9,10 +9,18 @@ use crate::sections::Stiffness;
 
 /// How an element is drawn.
 pub enum Drawing<'p> {
-    /// A curve from the first node to the last; `axes` (columns, global at t = 0) are the section's.
-    Curve { nodes: &'p [usize], axes: Mat3 },
+    /// A curve from the first node to the last.
+    Curve {
+        /// The nodes along the curve.
+        nodes: &'p [usize],
+        /// The axes of the section (columns, global at t = 0).
+        axes: Mat3,
+    },
     /// A face of three or four corners.
-    Face { corners: &'p [usize] },
+    Face {
+        /// The nodes at the corners, around the face.
+        corners: &'p [usize],
+    },
 }
 
 /// A place on an element: its nodes, each with its weight.

@@ -18,12 +18,22 @@ pub(super) const SAFE_WHERE_STRUCK: f64 = 0.5;
 #[derive(Debug, Clone, PartialEq)]
 pub enum StepLength {
     /// Steps have this length, or are a little shorter where they end at an output time.
-    Fixed { step: f64 },
-    /// Steps follow an estimate of their error: that of displacements at the end of the run, relative to the largest,
-    /// is to be the tolerance. The first trial step has the length `first`.
-    ErrorControlled { tolerance: f64, first: f64 },
-    /// Steps are this fraction of the critical time step of central differences.
-    StabilityLimited { fraction: f64 },
+    Fixed {
+        /// The length of a step, in units of time.
+        step: f64,
+    },
+    /// Steps follow an estimate of their error.
+    ErrorControlled {
+        /// The error of displacements at the end of the run, relative to the largest, that is aimed at.
+        tolerance: f64,
+        /// The length of the first trial step, in units of time.
+        first: f64,
+    },
+    /// Steps are a fraction of the critical time step of central differences.
+    StabilityLimited {
+        /// The fraction, below 1 so that rounding and the estimate of the critical time step leave room.
+        fraction: f64,
+    },
     /// Steps are arcs of an equilibrium path of a static analysis; the time follows, and may decrease.
     ArcLength(ArcLength),
 }

@@ -58,6 +58,7 @@ impl Quantity {
 pub struct Choice {
     /// Label like "newmark:gamma=0.6".
     pub label: String,
+    /// The scheme itself.
     pub scheme: Arc<dyn Scheme>,
     /// The table `[integrator]` that asks for it, on one line.
     pub table: String,

@@ -20,7 +20,10 @@ macro_rules! surfaces {
         /// Any of the shapes.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum SurfaceShape {
-            $($Shape($Shape)),+
+            $(
+                #[doc = concat!("A shape of surfaces/", stringify!($file), ".rs.")]
+                $Shape($Shape)
+            ),+
         }
 
         /// All shapes, in the order of the reference.
