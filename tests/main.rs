@@ -37,6 +37,7 @@ mod schemes;
 mod shells;
 mod statics;
 mod study;
+mod table_sizes;
 mod turning;
 
 mod scene;

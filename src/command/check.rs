@@ -12,12 +12,12 @@ use crate::plan::explain::explain_costs;
 /// # Errors
 /// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
 pub fn check(args: &DeckArgs) -> Result<(), Exit> {
-    let loaded = load(&args.deck, &args.sets, Vec::new())?;
+    let mut loaded = load(&args.deck, &args.sets, Vec::new())?;
     show(&loaded.warnings, &loaded.source);
-    let (system, plan, warnings) = plan(&loaded, 1)?;
+    let (system, plan, warnings) = plan(&mut loaded, 1)?;
     show(&warnings, &loaded.source);
     let (solver, _) = plan.build(&system).map_err(too_large)?;
     let mut text = explain_costs(&plan, &loaded.model, &system, &solver);
-    text.computed.push(("output", listed(&loaded.model)));
+    text.computed.push(("output", listed(&loaded.model, &plan)));
     print(&format!("{}: no errors\n{text}", loaded.source.path))
 }

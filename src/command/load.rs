@@ -5,6 +5,7 @@ use super::exit::Exit;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::linear::TooLarge;
 use crate::model::{self, Model};
+use crate::output::settle_cadence;
 use crate::plan::explain::redundant_constraints;
 use crate::plan::{Plan, unreachable_targets};
 use crate::system::System;
@@ -101,11 +102,12 @@ fn conclude(problems: &[Diagnostic], source: &Source) -> Exit {
     Exit::DeckInvalid
 }
 
-/// The system and the plan of a deck for a number of threads, and what the plan warns of.
+/// The system and the plan of a deck for a number of threads, and what the plan warns of; with it the times of output are
+/// settled.
 ///
 /// # Errors
 /// [`Exit::DeckInvalid`] where the scene cannot be computed as the deck asks; the reason has been shown.
-pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Exit> {
+pub fn plan(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Exit> {
     let system = System::new(&loaded.model).map_err(|error| {
         complain(&error);
         Exit::Internal
@@ -119,6 +121,7 @@ pub fn plan(loaded: &Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagno
         complain(&format!("`{}` has {}", loaded.source.path, counted(problems.len(), "error")));
         return Err(Exit::DeckInvalid);
     }
+    settle_cadence(&mut loaded.model, &plan);
     let warnings = plan_warnings(&plan, &loaded.model, &system);
     Ok((system, plan, warnings))
 }

@@ -49,7 +49,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    let (system, plan, warnings) = plan(&loaded, threads)?;
+    let (system, plan, warnings) = plan(&mut loaded, threads)?;
     if !args.quiet {
         show(&warnings, &loaded.source);
     }
@@ -77,7 +77,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
 /// The plan in the lines that `check` prints.
 fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Vec<String> {
     let mut text = explain(plan, &loaded.model, system);
-    text.computed.push(("output", listed(&loaded.model)));
+    text.computed.push(("output", listed(&loaded.model, plan)));
     text.to_string().lines().map(str::to_owned).collect()
 }
 

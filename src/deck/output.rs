@@ -11,7 +11,9 @@ use super::words::{Maybe, Names, Table};
 pub struct Output {
     /// Nodes in nodes.csv: "named", "all", or names of points and sets. Default: "named".
     pub nodes: Maybe<Names>,
-    /// Steps between two rows, 1 or more. Default: 1.
+    /// Steps between two rows of all tables, 1 or more; 1 writes every step. Default, where there is no `interval` either:
+    /// 1 as long as the tables stay below some 20 MB, otherwise 2, 5, 10 and so on; with automatic steps those that are
+    /// far enough apart. `check` says which, and how large the tables become.
     pub every: Maybe<u64>,
     /// Time between two rows, above 0, instead of `every`: multiples of it are hit exactly.
     pub interval: Maybe<f64>,
@@ -40,7 +42,7 @@ pub struct Fields {
     /// The format of the files.
     #[schemars(required)]
     pub format: Maybe<Format>,
-    /// Steps between two files, 1 or more. Default: 1.
+    /// Steps between two files, 1 or more. Default: as many as give 200 files at most.
     pub every: Maybe<u64>,
 }
 

@@ -8,6 +8,8 @@ use crate::deck::output as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
 
+/// Files of fields at most, unless the deck says how many.
+const MOST_FIELDS: f64 = 200.0;
 /// Largest number of output times; more are taken for a typing error, and would exhaust memory.
 const MOST_ROWS: f64 = 1e7;
 
@@ -27,6 +29,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             units,
             nodes,
             cadence: Cadence::Steps(1),
+            cadence_is_open: true,
             energy: true,
             links: false,
             contacts: false,
@@ -45,15 +48,21 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         _ if table.nodes.is_none() => named_nodes(scene, nodes),
         _ => listed_nodes(scene, table, report),
     };
-    let cadence = cadence(table, scene.analysis.end_time, is_arc_length, report);
+    let end_time = scene.analysis.end_time;
+    let cadence = cadence(table, end_time, is_arc_length, report);
     let fields = table.fields.as_ref().map(|fields| {
         report.require(&Owner::new("`fields`", &fields.span), "format", &fields.format);
-        report.count("every", &fields.every, 1)
+        match &fields.every {
+            Some(_) => Cadence::Steps(report.count("every", &fields.every, 1)),
+            None if is_arc_length => Cadence::Steps(1),
+            None => Cadence::at_most(MOST_FIELDS, end_time, &scene.analysis.step_length),
+        }
     });
     let output = Output {
         units,
         nodes,
         cadence,
+        cadence_is_open: table.every.is_none() && table.interval.is_none(),
         energy: flag(&table.energy, true),
         links: flag(&table.links, false),
         contacts: flag(&table.contacts, false),

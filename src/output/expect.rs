@@ -1,6 +1,6 @@
 //! Values the deck expects, taken while the run goes and judged at its end.
 //!
-//! Peaks of motion look at every accepted step, those of energies, links and plastic strains at the steps where these are formed.
+//! Peaks look at every accepted step, whenever tables have rows.
 
 use super::table::Answers;
 use super::tables::TABLES;

@@ -128,6 +128,20 @@ fn is_drawn(part: &Part) -> bool {
     part.kind().is_drawn()
 }
 
+/// Bytes of one grid, about: base64 has four letters for three bytes.
+pub fn bytes(model: &Model) -> usize {
+    let Grid { places, connectivity, offsets, .. } = Grid::of(model);
+    let cells = offsets.len();
+    let of_shells = if model.has_surfaces() { 13 } else { 0 };
+    let numbers = 21 * places.len() + connectivity.len() + cells * (2 + of_shells + usize::from(model.yields()));
+    let arrays = if model.has_surfaces() { 18 } else { 12 };
+    (8 * numbers + cells) * 4 / 3 + arrays * ARRAY + ENDS
+}
+
+/// Bytes of an array without its numbers, and of what stands before and behind the arrays.
+const ARRAY: usize = 150;
+const ENDS: usize = 600;
+
 /// The text of fields.csv: number, kind and name of the parts, in the order of [`Grid::of`].
 fn names(model: &Model) -> csv::Result<Vec<u8>> {
     let parts = model.parts.chunk_by(Part::is_one_with).map(|of| &of[0]).filter(|part| is_drawn(part));
@@ -160,8 +174,6 @@ pub struct Fields {
     dir: PathBuf,
     /// The list of the files of this run, which each grid enters.
     list: RunList,
-    /// The number of steps from a grid to the next.
-    every: usize,
     places: Vec<Place>,
     /// The opening of the one piece of a grid, which is the same at every step, as are the next two.
     piece: String,
@@ -186,7 +198,7 @@ impl Fields {
     ///
     /// # Errors
     /// A file cannot be written, or the list that is to go on cannot be read.
-    pub fn open(dir: &Path, model: &Model, every: usize, keep_to: Option<usize>) -> io::Result<Fields> {
+    pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Fields> {
         let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
         replace(&dir.join("fields.csv"), &names(model)?)?;
         let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
@@ -203,7 +215,6 @@ impl Fields {
         Ok(Fields {
             dir: dir.into(),
             list: RunList::open(dir)?,
-            every,
             places,
             piece,
             parts: part_array,
@@ -219,12 +230,12 @@ impl Fields {
         })
     }
 
-    /// Writes a grid every so many steps, and at the first and the last.
+    /// Writes a grid where one is to be drawn.
     ///
     /// # Errors
     /// A file cannot be written.
     pub fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        if frame.step.is_multiple_of(self.every.max(1)) || frame.last { self.write(frame) } else { Ok(()) }
+        if frame.drawn { self.write(frame) } else { Ok(()) }
     }
 
     fn write(&mut self, frame: &Frame) -> io::Result<()> {

@@ -5,8 +5,10 @@ use super::expect::needs;
 use super::fields::{Fields, LISTS};
 use super::table::{TableKind, WriteRows};
 use super::table_file::TableFile;
+use super::table_size::size_in_words;
 use super::tables::TABLES;
-use crate::model::{Cadence, Model};
+use crate::model::{Cadence, Model, When};
+use crate::plan::Plan;
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
 use std::io;
@@ -40,7 +42,7 @@ impl Files {
         };
         let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
         let tables = wanted.map(open).collect::<io::Result<_>>()?;
-        let fields = model.output.fields.map(|every| Fields::open(dir, model, every, keep_to)).transpose()?;
+        let fields = model.output.fields.map(|_| Fields::open(dir, model, keep_to)).transpose()?;
         Ok(Files { tables, fields, flushed: Instant::now() })
     }
 
@@ -76,34 +78,36 @@ impl Observer for Files {
     }
 }
 
-/// The files that a run of this model writes, and when, in words.
-pub fn listed(model: &Model) -> String {
-    let wanted = || TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
-    let names = |every_step| {
-        let names: Vec<&str> = wanted().filter(|kind| kind.every_step == every_step).map(|kind| kind.file).collect();
-        names.join(", ")
-    };
-    let when = match model.output.cadence {
+/// The files that a run of this model writes, when, and how large they become.
+pub fn listed(model: &Model, plan: &Plan) -> String {
+    let output = &model.output;
+    let names: Vec<&str> = TABLES.iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file).collect();
+    let chosen = output.cadence_is_open && output.cadence != Cadence::Steps(1);
+    let open = if chosen { ", as all would be large and `[output]` has neither `every` nor `interval`" } else { "" };
+    let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
+    groups.extend(output.fields.map(|cadence| format!("fields ({})", in_words(cadence))));
+    groups.push(size_in_words(model, plan));
+    groups.join("; ")
+}
+
+fn in_words(cadence: Cadence) -> String {
+    match cadence {
         Cadence::Steps(0 | 1) => "every step".to_owned(),
         Cadence::Steps(every) => format!("every {every} steps"),
         Cadence::Interval(interval) => format!("every {interval} of time"),
-    };
-    let mut groups = vec![format!("{} ({when})", names(false)), format!("{} (every step)", names(true))];
-    if names(false).is_empty() {
-        groups.remove(0);
+        Cadence::Apart(apart) => format!("at steps {apart} of time or more apart"),
     }
-    groups.extend(model.output.fields.map(|every| match every {
-        0 | 1 => "fields (every step)".to_owned(),
-        _ => format!("fields (every {every} steps)"),
-    }));
-    groups.join("; ")
 }
 
 /// What the tables, fields and expectations of a model need to be computed.
 pub fn wanted(model: &Model) -> Wanted {
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS);
-    let expects = model.expects.iter().map(|expect| needs(expect.at));
+    let expects = model.expects.iter().map(|expect| match expect.when {
+        // A peak between two rows is one too.
+        When::Max | When::Min | When::Abs => needs(expect.at).at_every_step(),
+        When::Time(_) | When::Target(_) => needs(expect.at),
+    });
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
     if model.has_surfaces() { all } else { all.without(Wanted::SHELLS) }

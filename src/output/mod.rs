@@ -6,6 +6,7 @@
 pub mod compare;
 mod disk;
 pub mod expect;
+pub mod extent;
 pub mod fields;
 mod files;
 mod folder;
@@ -18,6 +19,7 @@ mod run_list;
 pub mod table;
 mod table_file;
 pub(crate) mod table_reader;
+pub mod table_size;
 pub mod tables;
 mod vtu;
 
@@ -26,4 +28,5 @@ pub use files::{Files, listed, wanted};
 pub use folder::claim;
 pub(crate) use folder::{holds_run, remove, remove_empty, remove_run};
 pub use lock::FolderLock;
+pub use table_size::{expected_sizes, settle_cadence};
 pub use tables::TABLES;

@@ -1,6 +1,7 @@
 //! The definition of a table of results: its file, its columns and how a frame becomes rows. Whatever lists, writes, compares
 //! or describes tables reads this and nothing else of them.
 
+use super::extent::{Extent, Rows};
 use super::table_file::TableFile;
 use crate::model::{ExpectAt, Model};
 use crate::quantities::{Column, STEP, TIME};
@@ -22,8 +23,10 @@ pub struct TableKind {
     pub wanted: fn(&Model) -> bool,
     /// What the solver must compute for its rows.
     pub needs: Wanted,
-    /// True where it has rows of every accepted step, whatever the cadence of output.
+    /// True where it is shown every accepted step, so that a row may tell of all since the one before.
     pub every_step: bool,
+    /// What it has at one time, about.
+    pub extent: fn(&Extent) -> Rows,
     /// Makes the function that writes its rows for one model.
     pub rows: fn(&Model) -> WriteRows,
     /// What `[[expect]]` may ask about the things in its rows.

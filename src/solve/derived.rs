@@ -7,15 +7,17 @@ use crate::system::energy::{self, Energy, PartEnergy};
 use crate::system::{ContactState, JointState, LinkState, SectionPoint, ShellState, System, results};
 use std::ops::BitOr;
 
-/// A set of derived quantities, those that the observer needs; others are not computed.
+/// A set of derived quantities, those that the observer needs; others are not computed. The upper half of the bits has
+/// those that it needs of every accepted step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Wanted(u16);
+pub struct Wanted(u32);
+
+/// Bits of one half.
+const HALF: u32 = 16;
 
 impl Wanted {
     /// No quantity.
     pub const NOTHING: Wanted = Wanted(0);
-    /// An output at every step.
-    pub const EVERY_STEP: Wanted = Wanted(1);
     /// Energies and momenta.
     pub const ENERGY: Wanted = Wanted(1 << 1);
     /// Reactions of supports and joints.
@@ -43,7 +45,18 @@ impl Wanted {
     /// The set without `what`.
     #[must_use]
     pub const fn without(self, what: Wanted) -> Wanted {
-        Wanted(self.0 & !what.0)
+        Wanted(self.0 & !(what.0 | what.0 << HALF))
+    }
+
+    /// The set, wanted of every accepted step, whether or not tables are due.
+    #[must_use]
+    pub const fn at_every_step(self) -> Wanted {
+        Wanted(self.0 | self.0 << HALF)
+    }
+
+    /// True where all of `what` is wanted of a step; tables are `due` there, or not.
+    pub const fn has_now(self, what: Wanted, due: bool) -> bool {
+        if due { self.has(what) } else { self.has(Wanted(what.0 << HALF)) }
     }
 }
 
@@ -55,7 +68,7 @@ impl BitOr for Wanted {
     }
 }
 
-/// The derived quantities of one accepted step, each empty unless it is wanted and the step is due. The buffers are
+/// The derived quantities of one accepted step, each empty unless it is wanted of this step. The buffers are
 /// kept from step to step, so that nothing is allocated once they have grown.
 #[derive(Debug, Clone, Default)]
 pub struct Derived {
@@ -111,8 +124,8 @@ impl Derived {
         self.clear();
         let &Request { model, system, state, due, drawn, balance, threads } = request;
         let now = &state.configuration();
-        let is_wanted = |what| due && wanted.has(what);
-        let is_drawn = |what| (due || drawn) && wanted.has(what);
+        let is_wanted = |what| wanted.has_now(what, due);
+        let is_drawn = |what| wanted.has_now(what, due || drawn);
         if is_drawn(Wanted::PLASTIC_STRAINS) {
             results::plastic_strains(system, now, &mut self.plastic_strains);
         }

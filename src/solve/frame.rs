@@ -24,14 +24,17 @@ pub struct Frame<'a> {
     pub cuts: usize,
     /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
-    /// True when the output cadence asks for this step; t = 0 and the last step always are.
+    /// True when the output cadence asks for this step; t = 0 and the last step always are. The last step before a
+    /// failure is shown once more for it, with no iterations.
     pub due: bool,
+    /// True when the cadence of fields asks for this step; t = 0 and the end of the run always are.
+    pub drawn: bool,
     /// True for the last step of the run.
     pub last: bool,
     /// Indices into [`Model::expects`] of the displacements at which this step ends.
     pub passed: &'a [usize],
-    /// Reactions on the structure, global components, in the order of the model's restraints; empty unless `due` and
-    /// wanted.
+    /// Reactions on the structure, global components, in the order of the model's restraints; empty unless wanted of
+    /// this step.
     pub reactions: &'a [f64],
     /// Quantities computed for output only.
     pub derived: &'a Derived,

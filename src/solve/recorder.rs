@@ -24,6 +24,34 @@ pub struct Recorder {
     /// Mechanical energy at t = 0, where energies are summed.
     initial_energy: Option<f64>,
     derived: Derived,
+    tables: Pace,
+    fields: Pace,
+    /// Length of the last step, where tables were not due at its end.
+    pending: Option<f64>,
+}
+
+/// The progress of a cadence.
+#[derive(Default)]
+struct Pace {
+    /// Time of the last output.
+    last: f64,
+}
+
+impl Pace {
+    /// True where output is due at a step; that of t = 0 and of the end is due anyway.
+    fn is_due(&mut self, cadence: Cadence, (step, time): (usize, f64), anyway: bool) -> bool {
+        let due = anyway
+            || match cadence {
+                Cadence::Steps(every) => step.is_multiple_of(every.max(1)),
+                Cadence::Interval(_) => false,
+                // A rounding error short of it is none.
+                Cadence::Apart(apart) => time - self.last >= apart * (1.0 - 1e-9),
+            };
+        if due {
+            self.last = time;
+        }
+        due
+    }
 }
 
 /// An accepted step as the recorder receives it.
@@ -52,6 +80,9 @@ impl Recorder {
             growth: EnergyGrowth::default(),
             initial_energy: None,
             derived: Derived::new(model),
+            tables: Pace::default(),
+            fields: Pace::default(),
+            pending: None,
         }
     }
 
@@ -78,31 +109,50 @@ impl Recorder {
             self.counts.steps += 1;
             self.counts.iterations += step.report.iterations;
         }
-        let (due, drawn) = self.is_due(cx.model, step);
+        let (due, drawn) = self.is_due(cx.model, step, state.time);
+        self.pending = (!due).then_some(step.dt);
         // Reading the clock twice costs a twentieth of a step of two bodies.
-        let began = (due || drawn || self.wanted.has(Wanted::EVERY_STEP)).then(Instant::now);
+        let began = (due || drawn).then(Instant::now);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let watched = if checks_energy_growth(model) { Wanted::ENERGY } else { Wanted::NOTHING };
         let request = Request { model, system, state, due, drawn, balance, threads };
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
-        observer.on_step(&self.frame(cx, ws, state, step, due)).map_err(Outcome::Io)?;
+        observer.on_step(&self.frame(cx, ws, state, step, [due, drawn])).map_err(Outcome::Io)?;
         if let Some(began) = began {
             self.observing += began.elapsed();
         }
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
     }
 
-    /// Decides whether tables are due, and whether fields are drawn; fields are drawn by steps and at the end.
-    fn is_due(&self, model: &Model, step: &AcceptedStep) -> (bool, bool) {
-        let due = match model.output.cadence {
-            Cadence::Steps(every) => self.counts.steps.is_multiple_of(every.max(1)),
-            Cadence::Interval(_) => false,
-        };
-        let drawn =
-            model.output.fields.is_some_and(|every| self.counts.steps.is_multiple_of(every.max(1)) || step.last);
-        (due || step.due, drawn)
+    /// Shows the last accepted step once more where it was not due and no other follows, so that tables end with it.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write.
+    pub fn close(
+        &mut self,
+        cx: &Context,
+        ws: &Workspace,
+        state: &State,
+        observer: &mut dyn Observer,
+    ) -> Result<(), Outcome> {
+        let Some(dt) = self.pending.take() else { return Ok(()) };
+        let report = &StepReport::begin(0.0);
+        let step = &AcceptedStep { dt, report, cuts: 0, due: true, last: false, passed: &[] };
+        let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
+        let request = Request { model, system, state, due: true, drawn: false, balance, threads };
+        self.derived.compute(self.wanted, &request);
+        observer.on_step(&self.frame(cx, ws, state, step, [true, false])).map_err(Outcome::Io)
+    }
+
+    /// Decides whether tables are due, and whether fields are drawn; fields are drawn at the end too.
+    fn is_due(&mut self, model: &Model, step: &AcceptedStep, time: f64) -> (bool, bool) {
+        let (output, at) = (&model.output, (self.counts.steps, time));
+        let due = self.tables.is_due(output.cadence, at, step.due);
+        let is_first = self.counts.steps == 0;
+        let drawn = output.fields.is_some_and(|cadence| self.fields.is_due(cadence, at, is_first || step.last));
+        (due, drawn)
     }
 
     fn frame<'f>(
@@ -111,7 +161,7 @@ impl Recorder {
         ws: &Workspace,
         state: &'f State,
         step: &AcceptedStep<'f>,
-        due: bool,
+        [due, drawn]: [bool; 2],
     ) -> Frame<'f> {
         let &AcceptedStep { dt, report, cuts, last, passed, .. } = step;
         // Each multiplier has a negative pivot of its own.
@@ -126,8 +176,9 @@ impl Recorder {
             residual: report.residual,
             cuts,
             due,
+            drawn,
             last,
-            reactions: if due && self.wanted.has(Wanted::REACTIONS) { &state.reactions } else { &[] },
+            reactions: if self.wanted.has_now(Wanted::REACTIONS, due) { &state.reactions } else { &[] },
             derived: &self.derived,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),

@@ -62,7 +62,10 @@ impl<'a> Run<'a> {
         };
         recorder.begin(cx, &state);
         let mut march = March { cx, ws, state: &mut state, recorder, observer, stop };
-        let outcome = controller.run(&mut march);
+        let mut outcome = controller.run(&mut march);
+        if !matches!(outcome, Err(Outcome::Io(_))) {
+            outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
+        }
         recorder.counts.factorizations = ws.factorizations;
         recorder.counts.solves = ws.solves;
         (outcome.err().unwrap_or(Outcome::Done), Some(state))

@@ -78,6 +78,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             units: None,
             nodes: vec![],
             cadence: Cadence::Steps(1),
+            cadence_is_open: false,
             energy: true,
             links: false,
             contacts: false,

@@ -116,6 +116,7 @@ pub fn model() -> Model {
             units: None,
             nodes: vec![2, 0],
             cadence: Cadence::Steps(1),
+            cadence_is_open: false,
             energy: true,
             links: true,
             contacts: true,
@@ -207,6 +208,8 @@ impl Extras {
             residual: 1e-9,
             cuts: step % 2,
             due: step.is_multiple_of(2) || step == 10,
+            drawn: matches!(model.output.fields, Some(Cadence::Steps(every)) if step.is_multiple_of(every))
+                || step == 10,
             last: step == 10,
             reactions: &self.reactions,
             derived: &self.derived,

@@ -232,6 +232,16 @@ pub fn tables_of(model: &Model) -> Tables {
 }
 
 impl Tables {
+    /// The tables in a folder.
+    pub fn of(folder: tempfile::TempDir) -> Tables {
+        Tables(folder)
+    }
+
+    /// Bytes of all files.
+    pub fn bytes(&self) -> u64 {
+        fs::read_dir(self.0.path()).unwrap().map(|entry| entry.unwrap().metadata().unwrap().len()).sum()
+    }
+
     pub fn rows(&self, file: &str) -> Vec<Row> {
         let mut reader = csv::Reader::from_path(self.0.path().join(file)).unwrap();
         reader.deserialize().map(|row| Row(row.unwrap())).collect()

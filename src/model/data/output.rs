@@ -1,5 +1,7 @@
 //! The output of a run.
 
+use super::step_length::StepLength;
+
 /// The tables and fields that the run writes.
 #[derive(Debug, Clone)]
 pub struct Output {
@@ -9,6 +11,8 @@ pub struct Output {
     pub nodes: Vec<usize>,
     /// The times of the histories.
     pub cadence: Cadence,
+    /// True where the deck leaves these times open.
+    pub cadence_is_open: bool,
     /// True where energy.csv is written.
     pub energy: bool,
     /// True where links.csv is written.
@@ -23,15 +27,63 @@ pub struct Output {
     pub layers: bool,
     /// True where parts.csv is written.
     pub parts: bool,
-    /// Steps between two field files; `None`: no fields.
-    pub fields: Option<usize>,
+    /// The times of field files; `None`: no fields.
+    pub fields: Option<Cadence>,
 }
 
-/// The steps at which histories are written.
+/// The times at which histories or fields are written; t = 0 and the end are always among them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cadence {
-    /// Histories are written every so many accepted steps.
+    /// They are written every so many accepted steps.
     Steps(usize),
-    /// Histories are written at multiples of this time, which steps hit exactly.
+    /// They are written at multiples of this time, which steps hit exactly.
     Interval(f64),
+    /// They are written at the first step that ends this time or more after the one before.
+    Apart(f64),
+}
+
+impl Cadence {
+    /// The cadence of at most so many times, and no less than some two fifths of them, in a run of given length: whole
+    /// numbers of steps where these are given, times apart otherwise. It is that of every step where the run has no
+    /// more, and along a path, whose length nobody knows.
+    pub fn at_most(times: f64, end_time: f64, step_length: &StepLength) -> Cadence {
+        match step_length {
+            StepLength::Fixed { step } => Cadence::Steps(round_up(end_time / step / times)),
+            StepLength::ArcLength(_) => Cadence::Steps(1),
+            StepLength::ErrorControlled { .. } | StepLength::StabilityLimited { .. } => {
+                Cadence::Apart(end_time / times)
+            }
+        }
+    }
+}
+
+/// The next of 1, 2, 5, 10, 20, … that is not below a number.
+fn round_up(number: f64) -> usize {
+    // A rounding error beyond a whole number is none.
+    let reaches = |round: f64| round >= number * (1.0 - 1e-9);
+    let mut power = 1.0;
+    while power < 1e15 {
+        if let Some(factor) = [1.0, 2.0, 5.0].into_iter().find(|factor| reaches(factor * power)) {
+            return (factor * power) as usize;
+        }
+        power *= 10.0;
+    }
+    power as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_between_rows_are_round_numbers() {
+        for (number, round) in [(0.01, 1), (1.0, 1), (1.0 + 1e-12, 1), (1.1, 2), (2.1, 5), (5.1, 10), (1999.0, 2000)] {
+            assert_eq!(round_up(number), round, "{number}");
+        }
+        let fixed = StepLength::Fixed { step: 1e-4 };
+        assert_eq!(Cadence::at_most(1000.0, 0.1, &fixed), Cadence::Steps(1));
+        assert_eq!(Cadence::at_most(1000.0, 0.3, &fixed), Cadence::Steps(5));
+        let automatic = StepLength::StabilityLimited { fraction: 0.8 };
+        assert_eq!(Cadence::at_most(1000.0, 0.5, &automatic), Cadence::Apart(5e-4));
+    }
 }

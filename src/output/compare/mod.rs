@@ -328,11 +328,16 @@ fn turns(folder: &Path) -> io::Result<bool> {
         return Ok(false);
     }
     let mut rows = TableReader::open(&path)?;
-    let Some(dt) = rows.column("dt") else { return Ok(false) };
+    let (Some(dt), Some(time)) = (rows.column("dt"), rows.column("time")) else { return Ok(false) };
+    let mut before = f64::NEG_INFINITY;
     while let Some(row) = rows.next()? {
-        if fields(row).nth(dt).is_some_and(|field| number(field) < 0.0) {
+        let row: Vec<f64> = fields(row).map(number).collect();
+        // A row may stand for several steps.
+        let now = row.get(time).copied().unwrap_or(f64::NAN);
+        if row.get(dt).is_some_and(|dt| *dt < 0.0) || now < before {
             return Ok(true);
         }
+        before = now;
     }
     Ok(false)
 }

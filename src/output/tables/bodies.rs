@@ -1,6 +1,7 @@
 //! bodies.csv: the motion of the rigid bodies at their centres of mass, global components.
 
 use crate::model::ExpectAt;
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{
@@ -25,6 +26,13 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| !model.bodies.is_empty(),
     needs: Wanted::NOTHING,
     every_step: false,
+    extent: |extent| {
+        let bodies = &extent.model.bodies;
+        // A quaternion has as many components as its body turns about axes, and one more.
+        let turns = |node: usize| extent.moving(node)[3..].iter().any(|moves| *moves);
+        let numbers = bodies.iter().map(|body| extent.motion(body.node, [1, 2]) + usize::from(turns(body.node))).sum();
+        Rows::named(bodies.iter().map(|body| body.name.as_str()), numbers)
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };

@@ -1,6 +1,7 @@
 //! contacts.csv: clearances and forces of the contacts.
 
 use crate::model::{Contact, ExpectAt, PartKind};
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column, names};
@@ -15,6 +16,11 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.contacts && model.has(PartKind::Contact),
     needs: Wanted::CONTACTS,
     every_step: false,
+    extent: |extent| {
+        let contacts = || extent.model.each::<Contact>();
+        // Apart there are no forces: the clearance alone.
+        Rows::named(contacts().map(|contact| contact.name.as_str()), 2 * contacts().count())
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::CONTACTS, value }),
 };

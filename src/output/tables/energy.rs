@@ -1,6 +1,7 @@
 //! energy.csv: the energy balance and the momenta.
 
-use crate::model::ExpectAt;
+use crate::model::{ExpectAt, PartKind};
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{ENERGY, names};
@@ -16,6 +17,16 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.energy,
     needs: Wanted::ENERGY,
     every_step: false,
+    extent: |extent| {
+        let model = extent.model;
+        let has = |kind| usize::from(model.has(kind));
+        let moves = if extent.is_dynamic() { 1 + extent.components().iter().sum::<usize>() } else { 0 };
+        let deforms = usize::from(model.parts.iter().any(|part| part.kind().is_deformable()));
+        let yields = usize::from(model.yields());
+        // Work of loads, numerical dissipation, mechanical energy.
+        let numbers = 3 + moves + deforms + yields + has(PartKind::Link) + has(PartKind::Contact);
+        Rows { rows: 1, letters: 0, numbers }
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::ENERGY, value }),
 };

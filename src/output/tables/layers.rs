@@ -1,6 +1,8 @@
 //! layers.csv: stress through the thickness of the shells.
 
 use super::shell_order::ShellOrder;
+use crate::model::Shell;
+use crate::output::extent::Rows;
 use crate::output::table::TableKind;
 use crate::output::table_file::TableFile;
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit, VON_MISES};
@@ -29,6 +31,13 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.layers && model.has_surfaces(),
     needs: Wanted::SHELLS,
     every_step: false,
+    extent: |extent| {
+        let shells = || extent.model.each::<Shell>();
+        let layers = |shell: &Shell| shell.yielding.as_ref().map_or(2, |layers| layers.layers) * shell.elements.len();
+        let names = shells().flat_map(|shell| std::iter::repeat_n(shell.name.as_str(), layers(shell)));
+        let numbers = |shell: &Shell| layers(shell) * (4 + usize::from(shell.yielding.is_some()));
+        Rows::named(names, shells().map(numbers).sum())
+    },
     rows: |model| {
         let order = ShellOrder::of(model);
         Box::new(move |table, frame| write(table, &order, frame))

@@ -1,6 +1,7 @@
 //! links.csv: elongations and forces of the links.
 
 use crate::model::{ExpectAt, Link, PartKind};
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{Column, LINK, names};
@@ -14,6 +15,12 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.links && model.has(PartKind::Link),
     needs: Wanted::LINKS,
     every_step: false,
+    extent: |extent| {
+        // Elongation, rate and force, and the force as a vector; few resist moments.
+        let [force, _] = extent.components();
+        let links = || extent.model.each::<Link>();
+        Rows::named(links().map(|link| link.name.as_str()), (3 + force) * links().count())
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::LINKS, value }),
 };

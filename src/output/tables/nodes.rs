@@ -2,6 +2,7 @@
 
 use crate::math::rotation;
 use crate::model::{self, ExpectAt};
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{
@@ -28,6 +29,13 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| !model.output.nodes.is_empty(),
     needs: Wanted::NOTHING,
     every_step: false,
+    extent: |extent| {
+        let (model, nodes) = (extent.model, &extent.model.output.nodes);
+        // Positions stay what they are at t = 0 where nothing moves.
+        let positions = |node: usize| extent.moving(node)[..3].iter().filter(|moves| **moves).count();
+        let numbers = nodes.iter().map(|&node| positions(node) + extent.motion(node, [1, 2])).sum();
+        Rows::named(nodes.iter().map(|&node| model.nodes[node].label.as_str()), numbers)
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };

@@ -1,6 +1,7 @@
 //! parts.csv: the elastic energy of each beam, bar and shell.
 
 use crate::model::ExpectAt;
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{Column, PLASTIC_STRAIN, Unit};
@@ -19,6 +20,11 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.parts,
     needs: Wanted::PARTS,
     every_step: false,
+    extent: |extent| {
+        let parts = || extent.model.parts.iter().filter(|part| part.kind().is_deformable());
+        let rows = Rows::named(parts().map(|part| part.name()), parts().count());
+        Rows { letters: rows.letters + parts().map(|part| part.kind().word().len()).sum::<usize>(), ..rows }
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::PLASTIC_STRAINS, value }),
 };

@@ -1,6 +1,7 @@
 //! reactions.csv: force or moment on the structure in every restrained direction, and on the first part of every joint.
 
 use crate::model::{DIRECTIONS, ExpectAt};
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{Axes, Column, JOINT, Unit, names};
@@ -25,6 +26,16 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.reactions,
     needs: Wanted::REACTIONS,
     every_step: false,
+    extent: |extent| {
+        let model = extent.model;
+        let restraints = &model.constraints.restraints;
+        let joints = model.constraints.joints.iter().filter(|joint| !joint.supports);
+        let supports = restraints.iter().map(|restraint| model.nodes[restraint.node].label.as_str());
+        let of_joints = joints.flat_map(|joint| [joint.name.as_str(); DIRECTIONS.len()]);
+        let all = Rows::named(supports.chain(of_joints), 0);
+        let idle = restraints.iter().filter(|restraint| !extent.in_plane(restraint.dof)).count();
+        Rows { letters: all.letters + 2 * all.rows, numbers: all.rows - idle, ..all }
+    },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::REACTIONS, value }),
 };

@@ -1,6 +1,7 @@
 //! sections.csv: stress resultants of the beams at their integration points, section axes.
 
-use crate::model::PartKind;
+use crate::model::{Beam, PartKind};
+use crate::output::extent::Rows;
 use crate::output::table::TableKind;
 use crate::output::table_file::TableFile;
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit};
@@ -36,6 +37,14 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.sections && model.has(PartKind::Beam),
     needs: Wanted::SECTIONS,
     every_step: false,
+    extent: |extent| {
+        let beams = || extent.model.each::<Beam>();
+        let points = |beam: &Beam| beam.elements.len() * beam.order;
+        let names = beams().flat_map(|beam| std::iter::repeat_n(beam.name.as_str(), points(beam)));
+        let forces: usize = extent.components().iter().sum();
+        let numbers = |beam: &Beam| points(beam) * (forces + usize::from(beam.yielding.is_some()));
+        Rows::named(names, beams().map(numbers).sum())
+    },
     rows: |_| Box::new(write),
     answers: None,
 };

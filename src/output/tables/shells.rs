@@ -1,7 +1,8 @@
 //! shells.csv: stress resultants of the shells' elements.
 
 use super::shell_order::ShellOrder;
-use crate::model::{ExpectAt, PartKind};
+use crate::model::{ExpectAt, PartKind, Shell};
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit, VON_MISES};
@@ -55,6 +56,12 @@ pub static TABLE: TableKind = TableKind {
     wanted: |model| model.output.sections && model.has(PartKind::Shell),
     needs: Wanted::SHELLS,
     every_step: false,
+    extent: |extent| {
+        let shells = || extent.model.each::<Shell>();
+        let names = shells().flat_map(|shell| std::iter::repeat_n(shell.name.as_str(), shell.elements.len()));
+        let numbers = |shell: &Shell| shell.elements.len() * (10 + usize::from(shell.yielding.is_some()));
+        Rows::named(names, shells().map(numbers).sum())
+    },
     rows: |model| {
         let order = ShellOrder::of(model);
         Box::new(move |table, frame| write(table, &order, frame))

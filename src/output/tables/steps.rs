@@ -1,30 +1,38 @@
-//! steps.csv: what each accepted step cost, whether or not it is written elsewhere.
+//! steps.csv: what the steps cost, at the times at which tables have rows.
 
 use crate::model::ExpectAt;
+use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{Column, TIME, Unit};
 use crate::solve::{Frame, Wanted};
+use std::cell::Cell;
 use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "steps.csv",
-    about: "One row for each accepted step, whatever the cadence of output; always written.",
+    about: "One row at each time of output, for all accepted steps since the row before: with `every = 1` one for each step. \
+            Always written.",
     columns: &[&[
         Column::scalar(
             "dt",
-            "length of the step; along a path by arc length, its increment of the load factor",
+            "length of the last step; along a path by arc length, its increment of the load factor",
             Unit::Time,
         ),
-        Column::scalar("iterations", "equilibrium iterations", Unit::Count),
-        Column::scalar("refactorizations", "factorizations of the matrix", Unit::Count),
-        Column::scalar("residual", "relative residual force at the last evaluation", Unit::One),
-        Column::scalar("cuts", "cutbacks before the step was accepted", Unit::Count),
+        Column::scalar("iterations", "equilibrium iterations, of all steps since the row before", Unit::Count),
+        Column::scalar("refactorizations", "factorizations of the matrix, likewise", Unit::Count),
+        Column::scalar("residual", "relative residual force at the last evaluation of a step, the largest", Unit::One),
+        Column::scalar("cuts", "cutbacks before the steps were accepted, of all", Unit::Count),
     ]],
     wanted: |_| true,
-    needs: Wanted::EVERY_STEP,
+    needs: Wanted::NOTHING,
     every_step: true,
-    rows: |_| Box::new(write),
+    // Length and residual; the rest are counts, like zeros in length.
+    extent: |_| Rows { rows: 1, letters: 0, numbers: 2 },
+    rows: |_| {
+        let since = Cell::new(Cost::default());
+        Box::new(move |table, frame| write(table, &since, frame))
+    },
     answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };
 
@@ -39,10 +47,31 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
     matches!(at, ExpectAt::Analysis).then_some(frame.state.time)
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+/// What steps since the last row cost.
+#[derive(Debug, Clone, Copy, Default)]
+struct Cost {
+    iterations: usize,
+    refactorizations: usize,
+    residual: f64,
+    cuts: usize,
+}
+
+fn write(table: &mut TableFile, since: &Cell<Cost>, frame: &Frame) -> io::Result<()> {
     if frame.step == 0 {
         return Ok(()); // no step led to t = 0
     }
-    table.row(frame.step, frame.state.time).number(frame.dt).count(frame.iterations).count(frame.refactorizations);
-    table.number(frame.residual).count(frame.cuts).end()
+    let before = since.get();
+    let cost = Cost {
+        iterations: before.iterations + frame.iterations,
+        refactorizations: before.refactorizations + frame.refactorizations,
+        residual: before.residual.max(frame.residual),
+        cuts: before.cuts + frame.cuts,
+    };
+    if !frame.due {
+        since.set(cost);
+        return Ok(());
+    }
+    since.set(Cost::default());
+    table.row(frame.step, frame.state.time).number(frame.dt).count(cost.iterations).count(cost.refactorizations);
+    table.number(cost.residual).count(cost.cuts).end()
 }

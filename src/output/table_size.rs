@@ -1,0 +1,99 @@
+//! How large the tables of a run become, before it begins, and the times of their rows where the deck leaves them open.
+
+use super::extent::{Extent, Rows};
+use super::fields;
+use super::table::TableKind;
+use super::tables::TABLES;
+use crate::model::{Cadence, Model, StepLength};
+use crate::plan::Plan;
+
+/// Bytes of a number with its comma: most have sixteen or seventeen digits.
+const NUMBER: usize = 19;
+/// Bytes of a number that stays zero: `,0.0`.
+const ZERO: usize = 4;
+/// Bytes of a count with its comma, of the time, and of a step at the start of a row.
+const COUNT: usize = 2;
+const TIME: usize = 15;
+const STEP: usize = 5;
+/// Bytes to which tables may grow where the deck leaves the times of their rows open.
+const MOST: f64 = 20e6;
+/// Times that they have even if they grow beyond: what charts need.
+const FEWEST: f64 = 200.0;
+/// Tables and fields that are smaller in all need no list of the largest.
+const SMALL: f64 = 10e6;
+
+/// Bytes of the rows of a table.
+fn bytes(kind: &TableKind, rows: &Rows) -> usize {
+    let (keys, columns) = (kind.columns().filter(|column| column.is_key()).count(), kind.columns().count());
+    // Every key has a comma and, if it is not a name, a digit or two; step and time are not keys.
+    let fixed = STEP + TIME + keys * COUNT;
+    let zeros = (rows.rows * columns.saturating_sub(keys + 2)).saturating_sub(rows.numbers);
+    rows.rows * fixed + rows.letters + rows.numbers * NUMBER + zeros * ZERO
+}
+
+/// Chooses the times of tables where the deck does not: all steps, unless the tables become large.
+pub fn settle_cadence(model: &mut Model, plan: &Plan) {
+    if model.output.cadence_is_open {
+        let once: usize = sizes(model, plan).iter().map(|(_, size)| size).sum();
+        let times = (MOST / once.max(1) as f64).max(FEWEST);
+        model.output.cadence = Cadence::at_most(times, model.analysis.end_time, &model.analysis.step_length);
+    }
+}
+
+/// Bytes that each table takes for one time.
+fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
+    let extent = Extent::new(model, plan);
+    let wanted = TABLES.iter().filter(|kind| (kind.wanted)(model));
+    wanted.map(|kind| (kind.file, bytes(kind, &(kind.extent)(&extent)))).collect()
+}
+
+/// Bytes that each table takes in a whole run, and all grids of the fields, about; none where nobody knows how many steps there
+/// will be. With automatic steps that are longer than the time between rows it is less.
+pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f64)>> {
+    let times = times(model, model.output.cadence)?;
+    let mut all: Vec<_> = sizes(model, plan).into_iter().map(|(file, size)| (file, size as f64 * times)).collect();
+    if let Some(cadence) = model.output.fields {
+        all.push(("fields", self::times(model, cadence)? * fields::bytes(model) as f64));
+    }
+    Some(all)
+}
+
+/// "about 157 MB in all (nodes.csv 120 MB, energy.csv 30 MB); …".
+pub fn size_in_words(model: &Model, plan: &Plan) -> String {
+    let Some(mut all) = expected_sizes(model, plan) else {
+        let once: usize = sizes(model, plan).iter().map(|(_, size)| size).sum();
+        return format!("about {} of tables at each of these times", amount(once as f64));
+    };
+    let total: f64 = all.iter().map(|(_, size)| size).sum();
+    // Automatic steps may be longer than the time between rows.
+    let most = if matches!(model.output.cadence, Cadence::Apart(_)) { "at most about" } else { "about" };
+    let mut words = format!("{most} {} in all", amount(total));
+    if total > SMALL {
+        all.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let large = all.iter().filter(|(_, size)| *size >= 0.05 * total);
+        let large: Vec<String> = large.map(|(file, size)| format!("{file} {}", amount(*size))).collect();
+        words += &format!(" ({})", large.join(", "));
+    }
+    words
+}
+
+fn amount(bytes: f64) -> String {
+    match bytes {
+        1e9.. => format!("{:.1} GB", bytes / 1e9),
+        9.95e6.. => format!("{:.0} MB", bytes / 1e6),
+        0.95e6.. => format!("{:.1} MB", bytes / 1e6),
+        0.95e4.. => format!("{:.0} kB", bytes / 1e3),
+        _ => format!("{:.1} kB", bytes / 1e3),
+    }
+}
+
+/// Times of a cadence, where the deck tells.
+fn times(model: &Model, cadence: Cadence) -> Option<f64> {
+    let end = model.analysis.end_time;
+    match (cadence, &model.analysis.step_length) {
+        (_, StepLength::ArcLength(_)) => None,
+        (Cadence::Interval(apart) | Cadence::Apart(apart), _) => Some(end / apart + 1.0),
+        (Cadence::Steps(every), StepLength::Fixed { step }) => Some(end / step / every.max(1) as f64 + 1.0),
+        (Cadence::Steps(_), _) => None,
+    }
+}
