@@ -1,5 +1,6 @@
 //! Arguments in, exit code out.
 
+use crate::support::truss::behind_spring;
 use rdsolve::names::to_digits;
 use std::path::Path;
 
@@ -138,40 +139,21 @@ fn the_schema_is_a_schema_of_the_deck() {
 }
 
 /// A truss behind a spring snaps back; with steps that may not be cut its path is lost on the way.
-const TRUSS: &str = r#"
+fn snap_back() -> String {
+    const PATH: &str = r#"
 [analysis]
 kind = "static"
 control = "arc-length"
 end_time = 60.0
 time_step = 5.0
 least_step = 5.0
-[points]
-left = [-1.0, 0.0, 0.0]
-right = [1.0, 0.0, 0.0]
-crown = [0.0, 0.0, 0.5]
-hand = [0.0, 0.0, 1.0]
-[[bars]]
-name = "bars"
-path = ["left", "crown", "right"]
-axial_stiffness = 1000.0
-mass_per_length = 0.0
-[[links]]
-name = "spring"
-from = { node = "crown" }
-to = { node = "hand" }
-direction = [0.0, 0.0, 1.0]
-stiffness = 40.0
-[[supports]]
-at = ["left", "right"]
-fix = "translations"
-[[loads]]
-at = "hand"
-force = [0.0, 0.0, -60.0]
 "#;
+    format!("{PATH}{}[[loads]]\nat = \"hand\"\nforce = [0.0, 0.0, -60.0]\n", behind_spring(40.0))
+}
 
 #[test]
 fn a_lost_path_names_nodes_and_leaves_what_it_found() {
-    let folder = folder(TRUSS);
+    let folder = folder(&snap_back());
     let done = rdsolve(folder.path(), &["ball.toml"]).code(4);
     let said = said(&done);
     assert!(said.contains("crown uz") || said.contains("hand uz"), "{said}");
@@ -195,7 +177,7 @@ fn a_lost_path_names_nodes_and_leaves_what_it_found() {
 #[test]
 fn a_path_that_never_comes_to_its_stop_says_so() {
     let stop = "analysis.stop={ at = \"crown\", quantity = \"uz\", value = 0.2, pass = 2 }";
-    let folder = folder(TRUSS);
+    let folder = folder(&snap_back());
     let run = |more: &[&str]| {
         let sets = ["ball.toml", "--overwrite", "--set", "analysis.least_step=1e-3", "--set", stop];
         rdsolve(folder.path(), &[&sets[..], more].concat()).code(0)
@@ -224,7 +206,7 @@ fn a_path_that_never_comes_to_its_stop_says_so() {
     assert_eq!(said(&done.code(0)), "");
     assert!(read("result.json").contains("\"reason\": \"\""));
     let expect = "[[expect]]\nat = \"crown\"\nquantity = \"uz\"\ntime = 60.0\nvalue = 1.0\ntolerance = 0.1\n";
-    std::fs::write(folder.path().join("ball.toml"), format!("{TRUSS}{expect}")).unwrap();
+    std::fs::write(folder.path().join("ball.toml"), snap_back() + expect).unwrap();
     let sets = ["ball.toml", "--overwrite", "--set", "analysis.least_step=1e-3", "--set", stop];
     let missed = said(&rdsolve(folder.path(), &sets).code(5));
     assert!(missed.contains("1 of 1 expected values missed; `stop` was not reached"), "{missed}");
@@ -233,11 +215,11 @@ fn a_path_that_never_comes_to_its_stop_says_so() {
 /// The truss is plane, so that its crown never moves to the side: known before the run begins.
 #[test]
 fn a_passage_out_of_the_plane_is_an_error_of_the_deck() {
-    let folder = folder(TRUSS);
+    let folder = folder(&snap_back());
     let stop = "stop = { at = \"crown\", quantity = \"uy\", value = 0.2 }\n[points]";
     let when = "[[expect]]\nat = \"analysis\"\nquantity = \"time\"\nvalue = 1.0\ntolerance = 0.1\n\
                 when = { at = \"hand\", quantity = \"uy\", value = 0.1 }\n";
-    let deck = TRUSS.replace("[points]", stop) + when;
+    let deck = snap_back().replace("[points]", stop) + when;
     std::fs::write(folder.path().join("ball.toml"), &deck).unwrap();
     for arguments in [&["ball.toml"][..], &["check", "ball.toml"]] {
         let told = said(&rdsolve(folder.path(), arguments).code(3));

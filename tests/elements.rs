@@ -1,7 +1,9 @@
 //! Every element: tangent against differences at random large rotations under load, no force in a rigid motion,
 //! forces in balance, energy as the potential of the force. Those that yield: the same with a past, and what they remember.
 
-use nalgebra::{DMatrix, Quaternion, Unit, Vector3};
+use crate::support::blocks::{forces, nudge};
+use crate::support::random::{turn, vector};
+use nalgebra::{DMatrix, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
@@ -15,24 +17,6 @@ use rdsolve::materials::{Dissipation, Hardening, MaterialLaw as Material, Overst
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::sections::{Fibre, Stiffness};
 use rdsolve::state::{Configuration, Node};
-
-fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
-    Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
-}
-
-fn turn(rng: &mut StdRng) -> Quaternion<f64> {
-    let q = Quaternion::new(0.0, 0.0, 0.0, 0.0).map(|_: f64| rng.random_range(-1.0..1.0));
-    Unit::new_normalize(q).into_inner()
-}
-
-trait Map {
-    fn map(self, f: impl FnMut(f64) -> f64) -> Self;
-}
-impl Map for Quaternion<f64> {
-    fn map(self, f: impl FnMut(f64) -> f64) -> Self {
-        Quaternion::from(self.coords.map(f))
-    }
-}
 
 fn section() -> Stiffness {
     Stiffness {
@@ -240,18 +224,6 @@ fn moved(rng: &mut StdRng, x: &[Vec3], strain: f64) -> Vec<Node> {
             node
         })
         .collect()
-}
-
-fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
-    let mut F = vec![[0.0; 6]; now.nodes.len()];
-    block.subtract_forces(now, &mut F);
-    F.iter().map(|f| f.map(|c| -c)).collect()
-}
-
-fn nudge(node: &mut Node, dof: usize, h: f64) {
-    let mut d = Vec3::zeros();
-    d[dof % 3] = h;
-    if dof < 3 { node.x += d } else { node.rotation = rotation::exp(&d) * node.rotation }
 }
 
 /// Where central differences of one step and of half of it do not agree, a fibre begins to yield, ends, or meets a corner of its

@@ -1,16 +1,9 @@
 //! Paths of equilibria by arc length: limit points, snap-through and snap-back.
 
-use crate::support::{self, Done, node};
-use rdsolve::diagnostic::Source;
-use rdsolve::model::{self, Model};
+use crate::support::truss::{TRUSS, behind_spring};
+use crate::support::{self, Done, node, read_deck as read};
+use rdsolve::model::Model;
 use rdsolve::solve::{Frame, Outcome};
-
-fn read(text: &str) -> Model {
-    let source = Source::new("path.toml", text, &[]);
-    let (model, problems) = model::read(&source);
-    model
-        .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
-}
 
 /// Runs a deck to its end; a row is the time, then the displacements asked for. The start is left out.
 fn follow(model: &Model, at: &[(&str, usize)]) -> Done {
@@ -39,26 +32,14 @@ fn turns(rows: &[Vec<f64>]) -> usize {
     rows.windows(3).filter(|r| (r[1][0] - r[0][0]) * (r[2][0] - r[1][0]) < 0.0).count()
 }
 
-/// Two bars of EA = 1000 over a span of 2, the crown 0.5 above the feet; time is the load on it.
-const TRUSS: &str = r#"
+/// A path by arc length; time is the load on the crown of the truss.
+const PATH: &str = r#"
 title = "truss"
 [analysis]
 kind = "static"
 control = "arc-length"
 end_time = 60.0
 time_step = 5.0
-[points]
-left = [-1.0, 0.0, 0.0]
-right = [1.0, 0.0, 0.0]
-crown = [0.0, 0.0, 0.5]
-[[bars]]
-name = "bars"
-path = ["left", "crown", "right"]
-axial_stiffness = 1000.0
-mass_per_length = 0.0
-[[supports]]
-at = ["left", "right"]
-fix = "translations"
 "#;
 
 const ON_CROWN: &str = r#"
@@ -76,7 +57,7 @@ fn truss(w: f64) -> f64 {
 
 #[test]
 fn truss_snaps_through() {
-    let model = read(&format!("{TRUSS}{ON_CROWN}"));
+    let model = read(&format!("{PATH}{TRUSS}{ON_CROWN}"));
     let done = follow_to_the_end(&model, &[("crown", 2), ("crown", 0)]);
     let rows = &done.rows;
     for row in rows {
@@ -88,18 +69,8 @@ fn truss_snaps_through() {
 
 #[test]
 fn truss_behind_a_spring_snaps_back() {
-    let spring = r#"
-[[links]]
-name = "spring"
-from = { node = "crown" }
-to = { node = "hand" }
-direction = [0.0, 0.0, 1.0]
-stiffness = 40.0
-[[loads]]
-at = "hand"
-force = [0.0, 0.0, -60.0]
-"#;
-    let deck = format!("{TRUSS}{spring}").replace("crown = [", "hand = [0.0, 0.0, 1.0]\ncrown = [");
+    let load = ON_CROWN.replace("crown", "hand");
+    let deck = format!("{PATH}{}{load}", behind_spring(40.0));
     let done = follow_to_the_end(&read(&deck), &[("crown", 2), ("hand", 2)]);
     let rows = &done.rows;
     for row in rows {
@@ -225,7 +196,7 @@ poisson_ratio = 0.3
 yield_stress = 20.0
 hardening_modulus = 50.0
 "#;
-    let deck = format!("{TRUSS}{ON_CROWN}{material}")
+    let deck = format!("{PATH}{TRUSS}{ON_CROWN}{material}")
         .replace("axial_stiffness = 1000.0\nmass_per_length = 0.0", "material = \"steel\"\narea = 1.0")
         .replace("time_step = 5.0", "time_step = 2.0\ngrowth = 2.0");
     let done = follow_to_the_end(&read(&deck), &[("crown", 2)]);
@@ -337,12 +308,6 @@ kind = "constant"
 #[test]
 fn a_held_motion_leads_on_as_loads_do() {
     let driven = r#"
-[[links]]
-name = "spring"
-from = { node = "crown" }
-to = { node = "hand" }
-direction = [0.0, 0.0, 1.0]
-stiffness = 40.0
 [[supports]]
 at = "hand"
 motion = { uz = { amplitude = "down", scale = -1.0 } }
@@ -350,8 +315,7 @@ motion = { uz = { amplitude = "down", scale = -1.0 } }
 kind = "table"
 points = [[-10.0, -10.0], [10.0, 10.0]]
 "#;
-    let deck = format!("{TRUSS}{driven}")
-        .replace("crown = [", "hand = [0.0, 0.0, 1.0]\ncrown = [")
+    let deck = format!("{PATH}{}{driven}", behind_spring(40.0))
         .replace("end_time = 60.0\ntime_step = 5.0", "end_time = 2.6\ntime_step = 0.2");
     let done = follow_to_the_end(&read(&deck), &[("crown", 2), ("hand", 2)]);
     for row in &done.rows {
@@ -373,7 +337,7 @@ amplitude = "dead"
 [amplitudes.dead]
 kind = "constant"
 "#;
-    let done = follow_to_the_end(&read(&format!("{TRUSS}{ON_CROWN}{dead}")), &[("crown", 2)]);
+    let done = follow_to_the_end(&read(&format!("{PATH}{TRUSS}{ON_CROWN}{dead}")), &[("crown", 2)]);
     for row in &done.rows {
         assert!((row[0] + 10.0 - truss(-row[1])).abs() < 1e-8 * 60.0, "{row:?}");
     }
@@ -455,7 +419,7 @@ when = { at = "crown", quantity = "uz", value = -0.3, pass = 2 }
 value = 0.0
 absolute_tolerance = 1.0
 "#;
-    let deck = format!("{TRUSS}{ON_CROWN}{more}")
+    let deck = format!("{PATH}{TRUSS}{ON_CROWN}{more}")
         .replace("time_step = 5.0", "time_step = 5.0\nstop = { at = \"crown\", quantity = \"uz\", value = -0.8 }");
     let done = follow_to_the_end(&read(&deck), &[("crown", 2)]);
     let verdicts = &done.verdicts;
@@ -467,7 +431,7 @@ absolute_tolerance = 1.0
     assert_eq!(verdicts[3].reason.as_deref(), Some("the path never came there"));
     assert!((done.rows.last().unwrap()[1] + 0.8).abs() < 1e-15);
     // As many steps as asked for.
-    let deck = format!("{TRUSS}{ON_CROWN}").replace("time_step = 5.0", "time_step = 5.0\nsteps = 4");
+    let deck = format!("{PATH}{TRUSS}{ON_CROWN}").replace("time_step = 5.0", "time_step = 5.0\nsteps = 4");
     assert_eq!(follow_to_the_end(&read(&deck), &[("crown", 2)]).counts.steps, 4);
 }
 
@@ -476,7 +440,7 @@ absolute_tolerance = 1.0
 fn a_load_that_stays_leads_nowhere() {
     let dead = "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -20.0]\namplitude = \"short\"\n[amplitudes.short]\n\
                 kind = \"ramp\"\nend = 20.0\n";
-    let done = follow(&read(&format!("{TRUSS}{dead}")), &[("crown", 2)]);
+    let done = follow(&read(&format!("{PATH}{TRUSS}{dead}")), &[("crown", 2)]);
     let Outcome::Failed { failure, time } = &done.outcome else { panic!("{:?}", done.outcome) };
     assert!(failure.to_string().contains("no load or prescribed motion changes with the time"), "{failure}");
     assert!((time - 20.0).abs() < 0.01, "{time}");
@@ -500,7 +464,7 @@ fn a_path_ends_where_its_amplitude_ends() {
     ];
     for (force, amplitude, factor) in amplitudes {
         let load = ON_CROWN.replace("60.0", &format!("{force:?}"));
-        let deck = format!("{TRUSS}{load}amplitude = \"grows\"\n[amplitudes.grows]\n{amplitude}\n");
+        let deck = format!("{PATH}{TRUSS}{load}amplitude = \"grows\"\n[amplitudes.grows]\n{amplitude}\n");
         let done = follow_to_the_end(&read(&deck), &[("crown", 2)]);
         assert_eq!(done.rows.last().unwrap()[0], 60.0, "{amplitude}");
         for row in &done.rows {
@@ -513,12 +477,6 @@ fn a_path_ends_where_its_amplitude_ends() {
 #[test]
 fn a_held_motion_may_end_with_the_run() {
     let driven = r#"
-[[links]]
-name = "spring"
-from = { node = "crown" }
-to = { node = "hand" }
-direction = [0.0, 0.0, 1.0]
-stiffness = 4.0
 [[supports]]
 at = "hand"
 motion = { uz = { amplitude = "down", scale = -2.0 } }
@@ -526,8 +484,7 @@ motion = { uz = { amplitude = "down", scale = -2.0 } }
 kind = "ramp"
 end = 2.0
 "#;
-    let deck = format!("{TRUSS}{driven}")
-        .replace("crown = [", "hand = [0.0, 0.0, 1.0]\ncrown = [")
+    let deck = format!("{PATH}{}{driven}", behind_spring(4.0))
         .replace("end_time = 60.0\ntime_step = 5.0", "end_time = 2.0\ntime_step = 0.05")
         .replace("axial_stiffness = 1000.0", "axial_stiffness = 40.0");
     let done = follow_to_the_end(&read(&deck), &[("crown", 2), ("hand", 2)]);
@@ -546,7 +503,7 @@ fn loads_may_begin_late() {
         let late = format!(
             "amplitude = \"late\"\n[amplitudes.late]\nkind = \"ramp\"\nstart = {begin}\nend = 1.3\n[[expect]]\nat = \"analysis\"\nquantity = \"time\"\ntime = 0.1\nvalue = 0.1\ntolerance = 1e-12\n"
         );
-        let deck = format!("{TRUSS}{ON_CROWN}{late}")
+        let deck = format!("{PATH}{TRUSS}{ON_CROWN}{late}")
             .replace("-60.0", "-30.0")
             .replace("end_time = 60.0\ntime_step = 5.0", "end_time = 1.3\ntime_step = 0.1");
         let done = follow_to_the_end(&read(&deck), &[("crown", 2)]);
@@ -565,7 +522,7 @@ fn loads_may_begin_late() {
 fn the_last_step_is_told() {
     let stop = "stop = { at = \"crown\", quantity = \"uz\", value = -0.3 }";
     for more in ["", "steps = 4", stop] {
-        let deck = format!("{TRUSS}{ON_CROWN}").replace("time_step = 5.0", &format!("time_step = 5.0\n{more}"));
+        let deck = format!("{PATH}{TRUSS}{ON_CROWN}").replace("time_step = 5.0", &format!("time_step = 5.0\n{more}"));
         for deck in [
             deck.clone(),
             // Half of the load stays below the limit, 38.4.
@@ -584,7 +541,7 @@ fn the_last_step_is_told() {
 #[test]
 fn more_steps_than_usual_may_be_asked_for() {
     let deck =
-        format!("{TRUSS}{ON_CROWN}").replace("time_step = 5.0", "time_step = 1e-5\nsteps = 100001\ngrowth = 1.0");
+        format!("{PATH}{TRUSS}{ON_CROWN}").replace("time_step = 5.0", "time_step = 1e-5\nsteps = 100001\ngrowth = 1.0");
     assert_eq!(follow_to_the_end(&read(&deck), &[("crown", 2)]).counts.steps, 100_001);
 }
 

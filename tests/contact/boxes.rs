@@ -1,21 +1,18 @@
 //! Boxes on boxes: edges and faces, flush and hanging over, at rest and in flight.
 
 use super::go;
+use super::touch::{Touch, vector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::boxes::{BoxPairs, BoxPose, TouchingBox, depth};
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::surfaces::Cuboid;
 use rdsolve::elements::contact::{ContactLaw, Surface, SurfaceShape};
-use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::solve::Frame;
 use rdsolve::state::{Configuration, Node};
-
-fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
-    Vec3::from_fn(|_, _| rng.random_range(-size..size))
-}
 
 /// A box at any attitude, pushed a little into another.
 fn random_pose(rng: &mut StdRng) -> BoxPose {
@@ -85,14 +82,8 @@ fn law(friction: f64, loss: Loss) -> ContactLaw {
     }
 }
 
-/// A pair in touch, with the past it came by: carrier first.
-struct Touch {
-    block: BoxPairs,
-    nodes: Vec<Node>,
-    past: Vec<f64>,
-}
-
-fn touch(rng: &mut StdRng, friction: f64, slide: f64) -> Touch {
+/// A pair of boxes in touch.
+fn touch(rng: &mut StdRng, friction: f64, slide: f64) -> Touch<BoxPairs> {
     let pose = random_pose(rng);
     let shape = SurfaceShape::Cuboid(Cuboid { half: pose.other.into() });
     let surface = Surface { center: vector(rng, 0.3), axes: matrix(&exp(&vector(rng, 2.0))), shape };
@@ -126,17 +117,7 @@ fn touch(rng: &mut StdRng, friction: f64, slide: f64) -> Touch {
     Touch { block, nodes: vec![carrier, one], past }
 }
 
-impl Touch {
-    /// On the one body, then on the carrier.
-    fn force(&self, nodes: &[Node]) -> Vec<f64> {
-        let mut F = vec![[0.0; 6]; nodes.len()];
-        self.block.subtract_forces(&Configuration { nodes, history: &self.past, dt: 0.0 }, &mut F);
-        F.rotate_left(1);
-        F.into_iter().flatten().collect()
-    }
-}
-
-fn each(mut check: impl FnMut(&mut StdRng, Touch, &str)) {
+fn each(mut check: impl FnMut(&mut StdRng, Touch<BoxPairs>, &str)) {
     let mut rng = StdRng::seed_from_u64(11);
     for (friction, slide) in [(0.0, 1e-3), (0.8, 1e-4), (0.3, 3e-3)] {
         for k in 0..40 {
@@ -149,43 +130,8 @@ fn each(mut check: impl FnMut(&mut StdRng, Touch, &str)) {
 #[test]
 fn the_tangent_is_the_derivative() {
     let mut checked = 0;
-    each(|_, touch, what| {
-        let (rate, h) = (3.0, 1e-7);
-        let mut K = vec![f64::NAN; 144];
-        let now = Configuration { nodes: &touch.nodes, history: &touch.past, dt: 0.0 };
-        touch.block.tangent(0, &now, rate, Moduli::Algorithmic, &mut K);
-        let largest = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
-        let moved = |column: usize, h: f64| {
-            let mut nodes = touch.nodes.clone();
-            let node = &mut nodes[(column / 6 + 1) % 2];
-            let e = Vec3::ith(column % 3, h);
-            if column % 6 < 3 {
-                node.x += e;
-                node.v += rate * e;
-            } else {
-                node.rotation = exp(&e) * node.rotation;
-                node.omega += rate * e;
-            }
-            touch.force(&nodes)
-        };
-        let columns: Vec<(Vec<f64>, Vec<f64>)> = (0..12).map(|c| (moved(c, h), moved(c, -h))).collect();
-        let base = touch.force(&touch.nodes);
-        let kink =
-            columns.iter().flat_map(|(a, b)| a.iter().zip(b).zip(&base).map(|((a, b), c)| (a + b - 2.0 * c).abs()));
-        // Not between sticking and slipping, nor where a corner comes into the plane of a face.
-        if kink.fold(0.0, f64::max) > 1e-4 * largest * h || base.iter().all(|f| *f == 0.0) {
-            return;
-        }
-        checked += 1;
-        for (column, (ahead, behind)) in columns.iter().enumerate() {
-            for row in 0..12 {
-                let slope = -(ahead[row] - behind[row]) / (2.0 * h);
-                let k = K[row * 12 + column];
-                // Rounding of forces of size 10 over 1e-7, and of the depth, 1e-12 of it: 1e-5 of the largest.
-                assert!((slope - k).abs() < 1e-5 * largest, "{what}: ({row}, {column}): {k} against {slope}");
-            }
-        }
-    });
+    // Rounding of forces of size 10 over 1e-7, and of the depth, 1e-12 of it: 1e-5 of the largest.
+    each(|_, touch, what| checked += usize::from(touch.check_tangent(1e-5, what)));
     assert!(checked > 90, "only {checked} of 120 states were in touch and smooth");
 }
 
@@ -201,16 +147,9 @@ fn forces_and_moments_balance_and_turn_with_the_scene() {
             size = size.max(force.norm());
         }
         assert!(f.norm() < 1e-14 * size && m.norm() < 1e-13 * size, "{what}: round-off of some products: {f} {m}");
-        let (turn, shift) = (exp(&vector(rng, 3.0)), vector(rng, 5.0));
-        let R = matrix(&turn);
-        let nodes = touch.nodes.iter();
-        let turned: Vec<Node> = nodes
-            .map(|n| Node { x: shift + R * n.x, rotation: turn * n.rotation, v: R * n.v, omega: R * n.omega, ..*n })
-            .collect();
-        for (a, b) in F.chunks(3).zip(touch.force(&turned).chunks(3)) {
-            let expected = R * Vec3::from_column_slice(a);
+        for (expected, found) in touch.forces_of_turned_scene(rng) {
             // Positions of size 5 are rounded to 1e-15, depths are 1e-2: 1e-13 of them, which variances of thin solids enlarge.
-            assert!((expected - Vec3::from_column_slice(b)).norm() < 1e-9 * size, "{what}");
+            assert!((expected - found).norm() < 1e-9 * size, "{what}");
         }
     });
 }

@@ -1,13 +1,14 @@
 //! The block by itself: its tangent, its balance, its indifference to where the scene stands.
 
+use super::touch::{Touch, vector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::surfaces::{Capsule, Cuboid, Cylinder, Plane, Sphere};
 use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Surface, SurfaceShape};
-use rdsolve::elements::{ElementBlock, Moduli};
+use rdsolve::math::Vec3;
 use rdsolve::math::rotation::{exp, matrix};
-use rdsolve::math::{Mat3, Vec3};
 use rdsolve::state::{Configuration, Node};
 
 const SHAPES: [SurfaceShape; 5] = [
@@ -18,19 +19,15 @@ const SHAPES: [SurfaceShape; 5] = [
     SurfaceShape::Capsule(Capsule { radius: 0.4, half: 0.6 }),
 ];
 
-fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
-    Vec3::from_fn(|_, _| rng.random_range(-size..size))
-}
-
-/// A point and a surface in touch, with the past it came by.
-struct Touch {
-    block: Contacts,
-    nodes: Vec<Node>,
-    past: Vec<f64>,
-}
-
-/// `count` nodes carry the point; `slide` is the way along the surface since the past.
-fn touch(rng: &mut StdRng, shape: SurfaceShape, count: usize, radius: f64, friction: f64, slide: f64) -> Touch {
+/// A point and a surface in touch. `count` nodes carry the point; `slide` is the way along the surface since the past.
+fn touch(
+    rng: &mut StdRng,
+    shape: SurfaceShape,
+    count: usize,
+    radius: f64,
+    friction: f64,
+    slide: f64,
+) -> Touch<Contacts> {
     let law = ContactLaw {
         stiffness: 1e3,
         loss: Loss::Restitution { number: number(0.5), floor: 0.1 },
@@ -93,18 +90,8 @@ fn touch(rng: &mut StdRng, shape: SurfaceShape, count: usize, radius: f64, frict
     Touch { block, nodes, past }
 }
 
-impl Touch {
-    fn force(&self, nodes: &[Node]) -> Vec<f64> {
-        let mut F = vec![[0.0; 6]; nodes.len()];
-        self.block.subtract_forces(&Configuration { nodes, history: &self.past, dt: 0.0 }, &mut F);
-        // In the order of the block: the carrier is its last node.
-        F.rotate_left(1);
-        F.into_iter().flatten().collect()
-    }
-}
-
 /// Calls with every combination, and with what it is called.
-fn each(mut check: impl FnMut(&mut StdRng, Touch, &str)) {
+fn each(mut check: impl FnMut(&mut StdRng, Touch<Contacts>, &str)) {
     let mut rng = StdRng::seed_from_u64(7);
     for shape in SHAPES {
         for (count, radius) in [(1, 0.0), (1, 0.15), (3, 0.0), (2, 0.1)] {
@@ -121,47 +108,8 @@ fn each(mut check: impl FnMut(&mut StdRng, Touch, &str)) {
 #[test]
 fn the_tangent_is_the_derivative() {
     let mut checked = 0;
-    each(|_, touch, what| {
-        let size = touch.force(&touch.nodes).iter().fold(0.0f64, |m, f| m.max(f.abs()));
-        if size == 0.0 {
-            return;
-        }
-        let (width, rate, h) = (6 * touch.nodes.len(), 3.0, 1e-7);
-        let mut K = vec![f64::NAN; width * width];
-        let now = Configuration { nodes: &touch.nodes, history: &touch.past, dt: 0.0 };
-        touch.block.tangent(0, &now, rate, Moduli::Algorithmic, &mut K);
-        let largest = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
-        let moved = |column: usize, h: f64| {
-            let mut nodes = touch.nodes.clone();
-            let node = &mut nodes[(column / 6 + 1) % touch.nodes.len()];
-            let e = Vec3::ith(column % 3, h);
-            if column % 6 < 3 {
-                node.x += e;
-                node.v += rate * e;
-            } else {
-                node.rotation = exp(&e) * node.rotation;
-                node.omega += rate * e;
-            }
-            touch.force(&nodes)
-        };
-        let columns: Vec<(Vec<f64>, Vec<f64>)> = (0..width).map(|c| (moved(c, h), moved(c, -h))).collect();
-        // Not across the edge between two faces or between sticking and slipping: there second differences do not vanish.
-        let base = touch.force(&touch.nodes);
-        let kink =
-            columns.iter().flat_map(|(a, b)| a.iter().zip(b).zip(&base).map(|((a, b), c)| (a + b - 2.0 * c).abs()));
-        if kink.fold(0.0, f64::max) > 1e-4 * largest * h {
-            return;
-        }
-        checked += 1;
-        for (column, (ahead, behind)) in columns.iter().enumerate() {
-            for row in 0..width {
-                let slope = -(ahead[row] - behind[row]) / (2.0 * h);
-                let k = K[row * width + column];
-                // Rounding of forces of size 10 over 1e-7 gives 1e-8; the largest entries are 1e3 to 1e4.
-                assert!((slope - k).abs() < 2e-6 * largest, "{what}: ({row}, {column}): {k} against {slope}");
-            }
-        }
-    });
+    // Rounding of forces of size 10 over 1e-7 gives 1e-8; the largest entries are 1e3 to 1e4.
+    each(|_, touch, what| checked += usize::from(touch.check_tangent(2e-6, what)));
     assert!(checked > 400, "only {checked} states were in touch and smooth");
 }
 
@@ -187,19 +135,10 @@ fn forces_and_moments_balance() {
 fn forces_turn_with_the_scene() {
     each(|rng, touch, what| {
         let F = touch.force(&touch.nodes);
-        let (turn, shift) = (exp(&vector(rng, 3.0)), vector(rng, 5.0));
-        let R: Mat3 = matrix(&turn);
-        let turned: Vec<Node> = touch
-            .nodes
-            .iter()
-            .map(|n| Node { x: shift + R * n.x, rotation: turn * n.rotation, v: R * n.v, omega: R * n.omega, ..*n })
-            .collect();
-        let after = touch.force(&turned);
         let size = F.iter().fold(1.0f64, |m, f| m.max(f.abs()));
-        for (a, b) in F.chunks(3).zip(after.chunks(3)) {
-            let expected = R * Vec3::new(a[0], a[1], a[2]);
+        for (expected, found) in touch.forces_of_turned_scene(rng) {
             // Depths of 5e-3 are differences of positions of size 5, rounded to 1e-15: 1e-12 of the force.
-            assert!((expected - Vec3::new(b[0], b[1], b[2])).norm() < 1e-11 * size, "{what}");
+            assert!((expected - found).norm() < 1e-11 * size, "{what}");
         }
     });
 }

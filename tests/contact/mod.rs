@@ -6,6 +6,7 @@ mod element;
 mod impact;
 mod rubbing;
 mod stiffness;
+mod touch;
 
 use crate::support::{Done, read_deck, run_to_the_end};
 use rdsolve::solve::Frame;

@@ -115,23 +115,27 @@ fn masses_on_arms_are_the_body_they_make() {
     assert!(errors[2] < 1e-4, "{errors:?}");
 }
 
+/// A bent arm of two beams with a block at its end, which moves in the plane y = 0, and the tip of the arm. With `plane` the motion
+/// out of it may be omitted; `side` is the direction of the sections' y.
+fn arm_with_block(plane: bool, side: Vec3) -> (Model, usize) {
+    let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
+    m.analysis.plane = plane;
+    m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
+    let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
+    beam(&mut m, [p[0], p[1]], 1, 3, side, MassKind::Lumped);
+    beam(&mut m, [p[1], p[2]], 2, 1, side, MassKind::Lumped);
+    fix(&mut m, p[0], 0..6);
+    let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
+    attach(&mut m, p[2], block, ALL);
+    m.nodes[block].omega = Vec3::y() * 2.0;
+    m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
+    m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);
+    (m, p[2])
+}
+
 #[test]
 fn a_plane_scene_is_the_same_in_space() {
-    let in_plane = |plane: bool| {
-        let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
-        m.analysis.plane = plane;
-        m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
-        let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
-        beam(&mut m, [p[0], p[1]], 1, 3, Vec3::y(), MassKind::Lumped);
-        beam(&mut m, [p[1], p[2]], 2, 1, Vec3::y(), MassKind::Lumped);
-        fix(&mut m, p[0], 0..6);
-        let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
-        attach(&mut m, p[2], block, ALL);
-        m.nodes[block].omega = Vec3::y() * 2.0;
-        m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
-        m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);
-        (m, p[2])
-    };
+    let in_plane = |plane: bool| arm_with_block(plane, Vec3::y());
     let ((plane, tip), (space, _)) = (in_plane(true), in_plane(false));
     let unknowns = |m: &Model| Plan::new(m, &System::new(m).unwrap(), 1).dofs.unknowns();
     assert_eq!(unknowns(&space), 2 * unknowns(&plane));
@@ -144,19 +148,8 @@ fn a_plane_scene_is_the_same_in_space() {
 #[test]
 fn a_plane_scene_that_yields_is_the_same_in_space_and_in_any_plane() {
     let scene = |plane: bool, side: Vec3| {
-        let mut m = empty(AnalysisKind::Dynamic, 1.0, 0.01);
-        m.analysis.plane = plane;
-        m.stiffnesses.push(rdsolve::sections::Stiffness::general(900.0, [400.0; 2], 30.0, [40.0; 2], 0.7, [0.05; 3]));
-        let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.8, 0.0, 0.6]].map(|x| node(&mut m, Vec3::from(x)));
-        beam(&mut m, [p[0], p[1]], 1, 3, side, MassKind::Lumped);
-        beam(&mut m, [p[1], p[2]], 2, 1, side, MassKind::Lumped);
+        let (mut m, _) = arm_with_block(plane, side);
         soften(&mut m, 10.0);
-        fix(&mut m, p[0], 0..6);
-        let block = body(&mut m, Vec3::new(2.0, 0.0, 0.5), 2.0, Mat3::from_diagonal(&Vec3::new(0.3, 0.4, 0.5)));
-        attach(&mut m, p[2], block, ALL);
-        m.nodes[block].omega = Vec3::y() * 2.0;
-        m.nodes[block].v = Vec3::new(0.0, 0.0, 1.0);
-        m.loading.gravity = Vec3::new(1.0, 0.0, -4.0);
         m
     };
     let history = |m: &Model| System::new(m).unwrap().history;

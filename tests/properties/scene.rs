@@ -22,18 +22,11 @@ use rdsolve::system::energy::Energy;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+pub use crate::support::random::{turn, vector};
+
 pub type Quat = nalgebra::Quaternion<f64>;
 pub const ALL: [bool; 6] = [true; 6];
 pub const TRANSLATIONS: [bool; 6] = [true, true, true, false, false, false];
-
-pub fn vector(rng: &mut impl Rng, size: f64) -> Vec3 {
-    Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
-}
-
-pub fn turn(rng: &mut impl Rng) -> Quat {
-    let c = nalgebra::Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0));
-    Quat::from(c).normalize()
-}
 
 /// A positive inertia that no axis favours.
 pub fn inertia(rng: &mut impl Rng, size: f64) -> Mat3 {

@@ -1,16 +1,9 @@
 //! Statics at large rotations against the tables of Sze, Liu & Lo (Finite Elem. Anal. Des. 40, 2004), and linear ones.
 
 use crate::support;
-use rdsolve::diagnostic::Source;
-use rdsolve::model::{self, Model, Shell};
+pub use crate::support::read_deck as read;
+use rdsolve::model::{Model, Shell};
 use rdsolve::state::Node;
-
-pub fn read(text: &str) -> Model {
-    let source = Source::new("shell.toml", text, &[]);
-    let (model, problems) = model::read(&source);
-    model
-        .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
-}
 
 /// Displacements at named points after every load step.
 pub fn displacements(model: &Model, at: &[(&str, usize)]) -> Vec<Vec<f64>> {
@@ -123,6 +116,20 @@ pub fn fix(at: &str, dofs: &str) -> String {
 
 pub fn load(at: &str, key: &str, f: [f64; 3]) -> String {
     format!("[[loads]]\nat = \"{at}\"\n{key} = {f:?}\n")
+}
+
+/// A quarter of a rectangular plate, 2 wide and 2 · `aspect` long, by symmetry about its middle; `dofs` are held at its edges.
+pub fn quarter_plate(kind: &str, n: usize, aspect: f64, dofs: &str) -> String {
+    let mut body = String::from("[points]\n");
+    body += &point("middle", [0.0, 0.0, 0.0]);
+    body += &point("b", [aspect, 0.0, 0.0]);
+    body += &point("c", [aspect, 1.0, 0.0]);
+    body += &point("d", [0.0, 1.0, 0.0]);
+    body += &shell("plate", "middle b c d", [n, n], kind, "");
+    body += &fix("plate.edge1", "uy rx rz");
+    body += &fix("plate.edge4", "ux ry rz");
+    body += &fix("plate.edge2", dofs);
+    body + &fix("plate.edge3", dofs)
 }
 
 pub fn annulus(kind: &str, radial: usize, around: usize) -> String {
@@ -375,16 +382,7 @@ fn linear_set() {
         // Clamped and simply supported square plate, a quarter, thickness 1e-4 of the side.
         for (edge, dofs, wanted) in [("clamped", "ux uy uz rx ry rz", 5.60), ("supported", "ux uy uz", 11.60)] {
             for n in [4, 8] {
-                let mut body = String::from("[points]\n");
-                body += &point("middle", [0.0, 0.0, 0.0]);
-                body += &point("b", [1.0, 0.0, 0.0]);
-                body += &point("c", [1.0, 1.0, 0.0]);
-                body += &point("d", [0.0, 1.0, 0.0]);
-                body += &shell("plate", "middle b c d", [n, n], kind, "");
-                body += &fix("plate.edge1", "uy rx rz");
-                body += &fix("plate.edge4", "ux ry rz");
-                body += &fix("plate.edge2", dofs);
-                body += &fix("plate.edge3", dofs);
+                let mut body = quarter_plate(kind, n, 1.0, dofs);
                 let p = 1e-12;
                 body += &load("middle", "force", [0.0, 0.0, 0.25 * p]);
                 let h = 2e-4; // a ten-thousandth of the side

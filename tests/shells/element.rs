@@ -1,24 +1,17 @@
 //! One element, and patches of a few.
 
-use nalgebra::{DMatrix, DVector, Unit};
+use crate::support::blocks::{forces, nudge};
+use crate::support::random::{turn, vector};
+use nalgebra::{DMatrix, DVector};
+use rand::SeedableRng;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{
     DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
-use rdsolve::elements::{ElementBlock, Force, Moduli};
+use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::materials::{Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
-
-fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
-    Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
-}
-
-fn turn(rng: &mut StdRng) -> nalgebra::Quaternion<f64> {
-    let v = nalgebra::Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0));
-    Unit::new_normalize(nalgebra::Quaternion::from(v)).into_inner()
-}
 
 const PLATE: Plate = Plate { thickness: 0.1, E: 1e3, nu: 0.3, drilling: DRILLING };
 
@@ -79,18 +72,6 @@ impl Mesh {
         let normals = (0..n).map(|_| (Vec3::z() + vector(rng, 0.1)).normalize()).collect();
         Mesh { x, elements: vec![(0..n).collect()], normals }
     }
-}
-
-fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
-    let mut F = vec![[0.0; 6]; now.nodes.len()];
-    block.subtract_forces(now, &mut F);
-    F.iter().map(|f| f.map(|c| -c)).collect()
-}
-
-fn nudge(node: &mut Node, dof: usize, h: f64) {
-    let mut d = Vec3::zeros();
-    d[dof % 3] = h;
-    if dof < 3 { node.x += d } else { node.rotation = rotation::exp(&d) * node.rotation }
 }
 
 fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {

@@ -1,7 +1,7 @@
 //! The rest of the linear set: MacNeal & Harder (1985), Raasch's hook, the clamped hyperbolic paraboloid. Small loads, the
 //! answers scaled back; errors of some meshes, which fall, and within 2 % at the last.
 
-use super::benchmarks::{deck, displacements, fix, load, point, quarter_cylinder, read, shell};
+use super::benchmarks::{deck, displacements, fix, load, point, quarter_cylinder, quarter_plate, read, shell};
 use crate::support;
 use rdsolve::elements::shell::shares;
 use rdsolve::math::Vec3;
@@ -185,16 +185,7 @@ fn pinched_cylinder_with_free_ends() {
 /// Rectangular plate, a quarter, 2 wide and 2 · `aspect` long, so thin that shear does nothing.
 fn plate(kind: &str, n: usize, aspect: f64, dofs: &str, uniform: bool) -> f64 {
     let h = 2e-4;
-    let mut body = String::from("[points]\n");
-    body += &point("middle", [0.0, 0.0, 0.0]);
-    body += &point("b", [aspect, 0.0, 0.0]);
-    body += &point("c", [aspect, 1.0, 0.0]);
-    body += &point("d", [0.0, 1.0, 0.0]);
-    body += &shell("plate", "middle b c d", [n, n], kind, "");
-    body += &fix("plate.edge1", "uy rx rz");
-    body += &fix("plate.edge4", "ux ry rz");
-    body += &fix("plate.edge2", dofs);
-    body += &fix("plate.edge3", dofs);
+    let mut body = quarter_plate(kind, n, aspect, dofs);
     let p = 1e-12;
     body += &match uniform {
         true => load("plate", "force_per_area", [0.0, 0.0, p]),

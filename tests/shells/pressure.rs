@@ -2,17 +2,14 @@
 
 use super::benchmarks::{displacements, read};
 use crate::support;
+use crate::support::random::vector;
 use nalgebra::DMatrix;
+use rand::SeedableRng;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell;
 use rdsolve::math::Vec3;
 use rdsolve::state::Node;
-
-fn vector(rng: &mut StdRng, size: f64) -> Vec3 {
-    Vec3::from_fn(|_, _| size * rng.random_range(-1.0..1.0))
-}
 
 fn at(x: &[Vec3]) -> Vec<Node> {
     x.iter().map(|&x| Node::at_rest(x)).collect()

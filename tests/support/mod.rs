@@ -1,6 +1,10 @@
 //! Decks read with overrides and run in memory; references and the error against them.
 #![allow(dead_code)] // each test uses its part
 
+pub mod blocks;
+pub mod random;
+pub mod truss;
+
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
 use rdsolve::output::expect::{Expectations, Verdict};

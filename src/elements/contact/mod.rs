@@ -25,6 +25,7 @@ pub mod friction;
 mod history;
 mod kinematics;
 mod law;
+mod normal_motion;
 mod point;
 pub mod restitution;
 mod resultant;

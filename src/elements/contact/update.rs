@@ -3,6 +3,7 @@
 use super::force::{ContactForce, contact_force};
 use super::history::{self, PointHistory, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
+use super::normal_motion::{NormalMotion, pass_over, update_normal, way};
 use super::point::ContactPoint;
 use crate::materials::Dissipation;
 use crate::math::Vec3;
@@ -18,68 +19,20 @@ pub(super) fn update_point(
     new: &mut PointHistoryMut,
 ) -> Dissipation {
     let (law, point, old) = (&contacts.law, &contacts.points[e], history::of(contacts, e, now.history));
-    let mut spent = Dissipation::default();
-    let dt = part * now.dt;
     let (d, w) = contacts.relative(point, now.nodes);
     let speed = w.norm();
-    // The point could reach the surface in this time at twice its speed.
-    let safe = |gap: f64| if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 };
-    let far = safe(d.norm() - contacts.reach() - point.radius);
-    if far > 4.0 * now.dt && now.dt > 0.0 && old.impact_speed() == 0.0 {
-        new.set_far(far);
-        let pull = if law.friction > 0.0 { old.friction_force() } else { 0.0 };
-        spent.friction = 0.5 * pull * pull / law.stiffness;
+    if let Some(spent) = pass_over(law, (d.norm() - contacts.reach() - point.radius, speed), now, old, new) {
         return spent;
     }
-    let known = old.is_known();
-    // A point that is not known has no last state to come from.
-    let beyond = (part - 1.0) * now.dt;
-    let part = if known { part } else { 1.0 };
-    let toward = |old: f64, now: f64| old + part * (now - old);
     let at = contacts.kinematics(point, now.nodes);
-    let (gap, rate) = (at.gap, at.rate());
-    let acting = (gap <= 0.0).then(|| contact_force(contacts, point, &at, old, now.nodes));
+    let acting = (at.gap <= 0.0).then(|| contact_force(contacts, point, &at, old, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let end_gap = if known { toward(old.gap(), gap) } else { gap - rate * beyond };
-    new.set_motion(end_gap, toward(old.rate(), rate), safe(end_gap));
-    new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
-    let power = if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 };
-    new.set_damping_power(toward(old.damping_power(), power));
-    spent.impact = 0.5 * dt * (old.damping_power() + new.read().damping_power());
+    let motion = NormalMotion { gap: at.gap, rate: at.rate(), force, speed };
+    let mut spent = Dissipation { impact: update_normal(law, &motion, now, part, old, new), ..Dissipation::default() };
     if law.friction > 0.0 {
-        spent.friction = update_friction(contacts, point, (&at, acting.as_ref()), now, part, old, new);
+        spent.friction = update_friction(contacts, point, (&at, acting.as_ref()), now, way(old, part), old, new);
     }
     spent
-}
-
-/// The impact speed and the age to come. `gap` and `rate` are those at the instant of equilibrium; `new` has those at the end
-/// of the step.
-pub(super) fn impact(
-    duration: f64,
-    (gap, rate): (f64, f64),
-    dt: f64,
-    old: PointHistory,
-    new: PointHistory,
-) -> (f64, f64) {
-    let known = old.is_known();
-    let touches = new.gap() <= 0.0;
-    let touched = known && old.gap() <= 0.0;
-    match (touches, touched) {
-        // The speed is that of the approach where the gap closed, on a straight line.
-        (true, false) if known => {
-            let closed = old.gap() / (old.gap() - gap);
-            ((old.rate() + closed * (rate - old.rate())).max(0.0), 0.0)
-        }
-        (true, false) => (rate.max(0.0), 0.0),
-        // The point is faster than at the landing where something presses.
-        (true, true) => (old.impact_speed().max(new.rate()), old.age() + dt),
-        (false, true) => (old.impact_speed(), 0.0),
-        // The point touched at the instant of equilibrium: the acceleration of that is carried on.
-        (false, false) if gap <= 0.0 => (old.rate().max(rate).max(0.0), 0.0),
-        // The impact is over for good once the acceleration it leaves to the scheme is gone.
-        (false, false) if old.age() + dt < duration => (old.impact_speed(), old.age() + dt),
-        (false, false) => (0.0, 0.0),
-    }
 }
 
 /// Writes the anchor, the force on it and the rotations from which the nodes roll; returns what slip dissipated.

@@ -31,7 +31,7 @@ pub enum StepLength {
     },
     /// Steps are a fraction of the critical time step of central differences.
     StabilityLimited {
-        /// The fraction, below 1 so that rounding and the estimate of the critical time step leave room.
+        /// The fraction, below 1, for what is stable at one configuration may grow where the stiffness oscillates.
         fraction: f64,
     },
     /// Steps are arcs of an equilibrium path of a static analysis; the time follows, and may decrease.

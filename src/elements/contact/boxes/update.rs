@@ -3,7 +3,7 @@
 use super::memory::Memory;
 use super::pair::{BoxPairs, PairForce, PairKinematics};
 use crate::elements::contact::history::{PointHistory, PointHistoryMut};
-use crate::elements::contact::update::impact;
+use crate::elements::contact::normal_motion::{NormalMotion, pass_over, update_normal, way};
 use crate::materials::Dissipation;
 use crate::math::rotation::{exp, matrix};
 use crate::math::{Vec3, angular, linear};
@@ -18,37 +18,20 @@ pub(super) fn update_pair(
     numbers: &mut [f64],
 ) -> Dissipation {
     let (law, old) = (&pairs.law, pairs.history(e, now.history));
-    let rubs = law.friction > 0.0;
-    let mut spent = Dissipation::default();
     let at = pairs.kinematics(e, now.nodes);
-    let dt = part * now.dt;
     let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.norm();
-    // The boxes could meet in this time at twice their speed.
-    let safe = |gap: f64| if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 };
-    let far = safe(at.pose.y.norm() - at.pose.size());
     let mut new = PointHistoryMut::new(numbers);
-    if far > 4.0 * now.dt && now.dt > 0.0 && old.impact_speed() == 0.0 {
-        new.set_far(far);
-        let pull = if rubs { old.friction_force() } else { 0.0 };
-        spent.friction = 0.5 * pull * pull / law.stiffness;
+    if let Some(spent) = pass_over(law, (at.pose.y.norm() - at.pose.size(), speed), now, old, &mut new) {
         return spent;
     }
-    let known = old.is_known();
-    // A pair that is not known has no last state to come from.
-    let beyond = (part - 1.0) * now.dt;
-    let part = if known { part } else { 1.0 };
-    let toward = |old: f64, now: f64| old + part * (now - old);
     let acting = pairs.force(&at, old);
     let (gap, rate) = acting.as_ref().map_or_else(|| approach(&at), |acting| (-acting.depth.D, acting.rate));
-    let end_gap = if known { toward(old.gap(), gap) } else { gap - rate * beyond };
-    new.set_motion(end_gap, toward(old.rate(), rate), safe(end_gap));
-    new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let power = if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 };
-    new.set_damping_power(toward(old.damping_power(), power));
-    spent.impact = 0.5 * dt * (old.damping_power() + new.read().damping_power());
-    if rubs {
-        spent.friction = update_friction((&at, acting.as_ref()), law.stiffness, part, old, &mut new);
+    let motion = NormalMotion { gap, rate, force, speed };
+    let mut spent =
+        Dissipation { impact: update_normal(law, &motion, now, part, old, &mut new), ..Dissipation::default() };
+    if law.friction > 0.0 {
+        spent.friction = update_friction((&at, acting.as_ref()), law.stiffness, way(old, part), old, &mut new);
     }
     spent
 }

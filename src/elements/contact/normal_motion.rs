@@ -1,0 +1,94 @@
+//! The motion of a point, or of a pair of boxes, along the normal: how its history goes on from the last state.
+
+use super::history::{PointHistory, PointHistoryMut};
+use super::law::ContactLaw;
+use crate::materials::Dissipation;
+use crate::state::Configuration;
+
+/// The motion along the normal at the instant of equilibrium.
+pub(super) struct NormalMotion {
+    /// The gap, negative inside.
+    pub gap: f64,
+    /// The approach speed δ̇.
+    pub rate: f64,
+    /// The normal force.
+    pub force: f64,
+    /// An upper bound of the approach speed in any direction.
+    pub speed: f64,
+}
+
+/// A time in which a gap cannot close at twice the speed; 0 where it is not looked for, or the gap is small.
+fn safe_time(law: &ContactLaw, gap: f64, speed: f64) -> f64 {
+    if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 }
+}
+
+/// Passes over what cannot touch for some steps, `distance` being a lower bound of the gap: it is forgotten except for the time
+/// until it is to be looked at again. Returns what is dissipated; `None` where it has to be looked at.
+pub(super) fn pass_over(
+    law: &ContactLaw,
+    (distance, speed): (f64, f64),
+    now: &Configuration,
+    old: PointHistory,
+    new: &mut PointHistoryMut,
+) -> Option<Dissipation> {
+    let far = safe_time(law, distance, speed);
+    if !(far > 4.0 * now.dt && now.dt > 0.0 && old.impact_speed() == 0.0) {
+        return None;
+    }
+    new.set_far(far);
+    let pull = if law.friction > 0.0 { old.friction_force() } else { 0.0 };
+    Some(Dissipation { friction: 0.5 * pull * pull / law.stiffness, ..Dissipation::default() })
+}
+
+/// The part of the way from the last state to the instant of equilibrium at which the step ends, `part`. What is not known has no
+/// last state to come from, and stays where it is.
+pub(super) fn way(old: PointHistory, part: f64) -> f64 {
+    if old.is_known() { part } else { 1.0 }
+}
+
+/// Writes the motion along the normal, the impact and the power of its damping after `part` of the way from the last state to
+/// `now`; returns what the impact has dissipated.
+pub(super) fn update_normal(
+    law: &ContactLaw,
+    at: &NormalMotion,
+    now: &Configuration,
+    part: f64,
+    old: PointHistory,
+    new: &mut PointHistoryMut,
+) -> f64 {
+    let &NormalMotion { gap, rate, force, speed } = at;
+    let dt = part * now.dt;
+    let beyond = (part - 1.0) * now.dt;
+    let way = way(old, part);
+    let toward = |old: f64, now: f64| old + way * (now - old);
+    let end_gap = if old.is_known() { toward(old.gap(), gap) } else { gap - rate * beyond };
+    new.set_motion(end_gap, toward(old.rate(), rate), safe_time(law, end_gap, speed));
+    new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
+    let power = if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 };
+    new.set_damping_power(toward(old.damping_power(), power));
+    0.5 * dt * (old.damping_power() + new.read().damping_power())
+}
+
+/// The impact speed and the age to come. `gap` and `rate` are those at the instant of equilibrium; `new` has those at the end
+/// of the step.
+fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PointHistory, new: PointHistory) -> (f64, f64) {
+    let known = old.is_known();
+    let touches = new.gap() <= 0.0;
+    let touched = known && old.gap() <= 0.0;
+    match (touches, touched) {
+        // The speed is that of the approach where the gap closed, on a straight line.
+        (true, false) if known => {
+            let closed = old.gap() / (old.gap() - gap);
+            ((old.rate() + closed * (rate - old.rate())).max(0.0), 0.0)
+        }
+        (true, false) => (rate.max(0.0), 0.0),
+        // The point is faster than at the landing where something presses.
+        (true, true) => (old.impact_speed().max(new.rate()), old.age() + dt),
+        (false, true) => (old.impact_speed(), 0.0),
+        // The point touched at the instant of equilibrium: the acceleration of that is carried on.
+        (false, false) if gap <= 0.0 => (old.rate().max(rate).max(0.0), 0.0),
+        // The impact is over for good once the acceleration it leaves to the scheme is gone.
+        (false, false) if old.age() + dt < duration => (old.impact_speed(), old.age() + dt),
+        (false, false) => (0.0, 0.0),
+    }
+}

@@ -1,0 +1,19 @@
+//! Elements asked one by one, without a scene around them.
+
+use rdsolve::elements::{ElementBlock, Force};
+use rdsolve::math::{Vec3, rotation};
+use rdsolve::state::{Configuration, Node};
+
+/// The internal forces on all nodes.
+pub fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
+    let mut F = vec![[0.0; 6]; now.nodes.len()];
+    block.subtract_forces(now, &mut F);
+    F.iter().map(|f| f.map(|c| -c)).collect()
+}
+
+/// Moves a node by `h` along one of its degrees of freedom.
+pub fn nudge(node: &mut Node, dof: usize, h: f64) {
+    let mut d = Vec3::zeros();
+    d[dof % 3] = h;
+    if dof < 3 { node.x += d } else { node.rotation = rotation::exp(&d) * node.rotation }
+}
