@@ -68,7 +68,7 @@ enum Command {
 pub fn parse() -> Result<Cli, Exit> {
     let word = std::env::args().nth(1).unwrap_or_default();
     let parsed = Cli::try_parse();
-    // To clap a word that is no command is a deck, and what follows it is one too many.
+    // Clap takes a word that is no command for a deck, and calls what follows it one argument too many.
     let may_be_misspelt = match &parsed {
         Ok(cli) => cli.command.is_none() && !Path::new(&word).exists(),
         Err(error) => error.kind() == ErrorKind::ArgumentConflict,

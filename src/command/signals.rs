@@ -11,8 +11,8 @@ use std::sync::atomic::AtomicBool;
 /// # Errors
 /// The operating system refuses to have its signals caught.
 pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
-    // A second one from the keyboard ends the program at once; schedulers send theirs to a process and to its group, which is
-    // two at the same moment.
+    // A second interrupt from the keyboard ends the program at once. A second termination does not, for schedulers send it to a
+    // process and to its group, which is two at the same moment.
     let code = i32::from(Exit::Stopped as u8);
     signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGINT, code, Arc::clone(flag))?;
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
@@ -34,7 +34,7 @@ pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
 pub fn survive_file_limits() {
     #[cfg(unix)]
     {
-        // A signal that is caught does nothing more; where it cannot be caught all is as before.
+        // A signal that is caught does nothing more; where it cannot be caught, it ends the process as before.
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     }
 }

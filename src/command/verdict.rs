@@ -14,7 +14,7 @@ pub struct End {
     pub status: Status,
     /// The reason in a sentence without a full stop; it is empty where all went as the deck asks.
     pub reason: String,
-    /// Where the run did not come to its end, the time up to which its results are valid.
+    /// The time up to which results are valid, where the run did not come to its end.
     pub valid_until: Option<f64>,
 }
 

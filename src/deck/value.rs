@@ -17,13 +17,15 @@ use crate::diagnostic::{PLACED, Span};
 /// What serde stumbled over, and where.
 #[derive(Debug)]
 pub struct Wrong {
+    /// The problem.
     pub problem: Problem,
-    /// Of the innermost value or key that is wrong.
+    /// The place of the innermost value or key that is wrong.
     pub place: Option<Span>,
     /// What stands there, in words: "a list", "the number 2.5".
     pub found: String,
 }
 
+/// The kinds of problems that serde may stumble over.
 #[derive(Debug)]
 pub enum Problem {
     /// A key that its table does not have; those that it has.
@@ -81,7 +83,7 @@ impl Wrong {
         Wrong { problem, place: None, found: String::new() }
     }
 
-    /// In this place, unless it is known to lie deeper.
+    /// The same in this place, unless it is known to lie deeper.
     fn at(self, place: &Span, found: impl FnOnce() -> String) -> Self {
         match self.place {
             Some(_) => self,
@@ -261,7 +263,7 @@ impl<'de> SeqAccess<'de> for Items<'_, '_> {
 
 struct Entries<'a, 'i, I> {
     entries: I,
-    /// Of the key that was read last.
+    /// The value of the key that was read last.
     value: Option<&'a Spanned<DeValue<'i>>>,
 }
 

@@ -30,6 +30,7 @@ pub struct ShellResultants {
     pub Q: [f64; 2],
     /// See [`ShellResultants::layers`]; the first `count` are in use.
     pub(super) layers: [LayerStress; MOST_LAYERS],
+    /// The number of layers in use.
     pub(super) count: usize,
 }
 

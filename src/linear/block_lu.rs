@@ -31,6 +31,7 @@ pub struct BlockLu<const B: usize> {
 }
 
 impl<const B: usize> BlockLu<B> {
+    /// The factorisation of a pattern, without numbers.
     pub(super) fn new(graph: Graph) -> Self {
         let elimination = Elimination::new(&graph);
         let n = elimination.groups();
@@ -52,6 +53,7 @@ impl<const B: usize> BlockLu<B> {
         BlockLu { graph, elimination, start, places, padding, blocks, scales: zeros.clone(), x: zeros }
     }
 
+    /// The place of an entry in [`BlockLu::values`]; `None` where it is not in the pattern.
     pub(super) fn slot(&self, row: usize, col: usize) -> Option<usize> {
         let (g, h) = (*self.graph.group.get(row)? as usize, *self.graph.group.get(col)? as usize);
         if !self.graph.coupled(g, h) {
@@ -69,10 +71,12 @@ impl<const B: usize> BlockLu<B> {
         Some(((self.start[k] + block) * B + col - self.graph.first[h]) * B + row - self.graph.first[g])
     }
 
+    /// The entries of the matrix, to be filled before each factorisation, which overwrites them.
     pub(super) fn values(&mut self) -> &mut [f64] {
         self.blocks.as_flattened_mut().as_flattened_mut()
     }
 
+    /// A place in [`BlockLu::values`] for entries that are not wanted.
     pub(super) fn spare(&self) -> usize {
         (self.blocks.len() - 1) * B * B
     }
@@ -113,6 +117,7 @@ impl<const B: usize> BlockLu<B> {
         Ok(())
     }
 
+    /// Replaces the right-hand side `b` by the solution.
     pub(super) fn solve(&mut self, b: &mut [f64]) {
         self.gather(b);
         let n = self.elimination.groups();
@@ -161,6 +166,7 @@ impl<const B: usize> BlockLu<B> {
         (0..self.elimination.groups()).map(|k| negative_eigenvalues(&self.blocks[self.start[k]])).sum()
     }
 
+    /// The size of the factorisation, for `check`.
     pub(super) fn stats(&self) -> Stats {
         Stats {
             unknowns: self.graph.unknowns(),

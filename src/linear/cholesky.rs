@@ -51,6 +51,10 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
+    /// The factorisation of a pattern, without numbers.
+    ///
+    /// # Errors
+    /// The factor does not fit into memory.
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph);
         memory::require(graph.unknowns(), elimination.nonzeros)?;
@@ -95,6 +99,7 @@ impl Cholesky {
         Ok(cholesky)
     }
 
+    /// The place of an entry in [`Cholesky::values`], the same for both triangles; `None` where it is not in the pattern.
     pub(super) fn slot(&self, row: usize, col: usize) -> Option<usize> {
         let (p, q) = (*self.position.get(row)?, *self.position.get(col)?);
         let (p, q) = (p.max(q), p.min(q));
@@ -116,10 +121,12 @@ impl Cholesky {
         Some((BlockSlot { at, step: column.len() as u32 - 1 }, p < q))
     }
 
+    /// The entries of the matrix, to be filled before each factorisation.
     pub(super) fn values(&mut self) -> &mut [f64] {
         &mut self.values
     }
 
+    /// A place in [`Cholesky::values`] for entries that are not wanted.
     pub(super) fn spare(&self) -> usize {
         self.values.len() - 1
     }
@@ -180,6 +187,7 @@ impl Cholesky {
         })
     }
 
+    /// Replaces the right-hand side `b` by the solution.
     pub(super) fn solve(&mut self, b: &mut [f64]) {
         for (x, &row) in self.x.iter_mut().zip(&self.external) {
             *x = b[row];
@@ -199,6 +207,7 @@ impl Cholesky {
         }
     }
 
+    /// The size of the factorisation, for `check`.
     pub(super) fn stats(&self) -> Stats {
         Stats { unknowns: self.graph.unknowns(), nonzeros: self.L.len(), flops: self.flops, ordering: self.ordering }
     }

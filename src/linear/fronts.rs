@@ -22,6 +22,7 @@ const WORTH_CUTTING: f64 = 5e7;
 
 /// The factorisation of one structure: the assembly tree and the memory to work through it.
 pub(super) struct Fronts {
+    /// The assembly tree of the supernodes.
     pub(super) tree: Tree,
     /// Ranges of supernodes that are whole subtrees, ascending.
     pub(super) subtrees: Vec<(Range<usize>, FrontWorkspace)>,

@@ -85,9 +85,9 @@ pub struct MeshGroup {
 /// Parts of one kind in a file that were not read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Skipped {
-    /// What they are: "10-node tetrahedra", "*STEP".
+    /// The name of the kind: "10-node tetrahedra", "*STEP".
     pub what: String,
-    /// How many there are.
+    /// The number of them.
     pub count: usize,
     /// The line of the first, counted from 1.
     pub line: usize,

@@ -153,7 +153,7 @@ impl Draft {
     /// The groups with the indices of their nodes and elements.
     fn resolved(&mut self, text: &Text, ids: &Ids) -> Vec<MeshGroup> {
         let mut groups = Vec::new();
-        // The last group that holds each node and each element.
+        // For each node and each element, the last group that holds it is noted, so that it enters no group twice.
         let (mut of_node, mut of_element) = (vec![0u32; self.nodes.len()], vec![0u32; self.elements.len()]);
         for (index, raw) in std::mem::take(&mut self.groups).into_iter().enumerate() {
             let mark = short(index + 1);

@@ -29,7 +29,7 @@ pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
         ));
     }
     let mut bytes = Vec::with_capacity(found.len() as usize);
-    // It may grow meanwhile.
+    // The file may grow while it is read.
     File::open(path)?.take(LARGEST).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

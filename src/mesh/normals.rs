@@ -16,7 +16,7 @@ pub const FOLD: f64 = 31.0;
 /// three or four corners each.
 pub fn normals<'a>(x: &[Vec3], faces: impl Iterator<Item = &'a [u32]> + Clone) -> (Vec<[Vec3; 4]>, usize) {
     let corners: Vec<Corner> = faces.clone().enumerate().flat_map(|(face, nodes)| Corner::of(x, face, nodes)).collect();
-    // Corners by node: starts[node]..starts[node + 1] of `order`.
+    // The corners at a node are starts[node]..starts[node + 1] of `order`.
     let mut starts = vec![0u32; x.len() + 1];
     corners.iter().for_each(|corner| starts[corner.node as usize + 1] += 1);
     for node in 0..x.len() {
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(against, 0);
         for (face, n) in faces.iter().zip(&n) {
             for (&node, n) in face.iter().zip(n) {
-                // Faces span 0.2; half of its square.
+                // Faces span 0.2, and the bound is half of its square.
                 assert!((n - x[node as usize]).norm() < 0.02, "{n} at {}", x[node as usize]);
             }
         }

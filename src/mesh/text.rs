@@ -12,7 +12,7 @@ pub struct Text<'t> {
     pub path: &'t str,
     /// All bytes of the file.
     pub bytes: &'t [u8],
-    /// Where the next line begins.
+    /// The place in `bytes` where the next line begins.
     next: usize,
     /// The number of the last line read.
     line: usize,

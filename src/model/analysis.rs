@@ -31,6 +31,7 @@ pub(super) struct Procedure {
     pub iteration: Iteration,
 }
 
+/// Reads `[analysis]`, `[integrator]` and `[iteration]`, which do not refer to other tables.
 pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure {
     let analysis = match &deck.analysis {
         Some(analysis) => times(&analysis.value, &analysis.span, report),

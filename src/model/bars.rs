@@ -7,6 +7,7 @@ use super::report::Owner;
 use super::values::{chosen, flag, span};
 use crate::deck::bars as words;
 
+/// Reads `[[bars]]`: makes the nodes of each path and the elements between them.
 pub(super) fn bars(cx: &mut PartContext) {
     for (index, bar) in cx.deck.bars.iter().enumerate() {
         let name = bar.name.as_ref().map_or_else(|| format!("bars.{index}"), |name| name.value.clone());

@@ -18,6 +18,7 @@ use std::collections::HashSet;
 /// Sine of the angle between orientation and axis below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
 
+/// Reads `[[beams]]`: divides each path into elements, or takes those of a group of the mesh.
 pub(super) fn beams(cx: &mut PartContext) {
     for (index, beam) in cx.deck.beams.iter().enumerate() {
         let name = beam.name.as_ref().or(beam.group.as_ref());

@@ -23,6 +23,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Bodies of the deck, then parts that are a body by themselves.
 #[derive(Default)]
 pub(super) struct Bodies<'d> {
+    /// The bodies.
     pub list: Vec<Body>,
     /// The body that a part with `rigid = true` makes up by itself.
     pub body_of: HashMap<PartIndex, usize>,

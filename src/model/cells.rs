@@ -50,7 +50,7 @@ impl Cells {
 
     /// Halves a segment or triangle at the middle of its longest side until its pieces are small.
     fn visit_halves(&self, corners: &[Vec3], reach: f64, visit: &mut impl FnMut(usize)) {
-        /// So many bring any length to rounding.
+        /// The number of halvings that brings any length to rounding.
         const HALVINGS: usize = 60;
         let mut pieces = vec![(corners.to_vec(), 0)];
         while let Some((corners, halvings)) = pieces.pop() {

@@ -19,12 +19,15 @@ const STEPS: f64 = 10.0;
 
 /// Reads the numbers of a contact law.
 pub(super) struct LawReader<'a, 'd> {
+    /// The scene so far.
     pub scene: &'a Scene<'d>,
-    /// Point masses of the deck.
+    /// The point masses of the deck.
     pub masses: &'a [Mass],
     /// For each node the mass that it moves.
     pub at_nodes: &'a [f64],
+    /// The acceleration of gravity, global.
     pub gravity: Vec3,
+    /// The nodes and how they are connected.
     pub topology: &'a Topology,
 }
 

@@ -40,8 +40,11 @@ pub(super) fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
 
 /// Finds the points and boxes of one contact.
 pub(super) struct Finder<'a, 'd> {
+    /// The scene so far.
     pub scene: &'a Scene<'d>,
+    /// The nodes; those that points need are added.
     pub topology: &'a mut Topology,
+    /// The report, to which errors go.
     pub report: &'a mut Report<'d>,
     /// The node that carries the surface, where that is a box: bodies that are boxes touch it with their edges and faces too.
     pub on_box: Option<usize>,

@@ -14,20 +14,25 @@ const SUNK: f64 = 1e-3;
 /// The part of the size that an impact presses in: it is over before anything has turned, and steps can follow it.
 const STRUCK: f64 = 1e-2;
 
-/// A stiffness and why it is that.
+/// A penalty stiffness that the program has chosen.
 pub(super) struct ChosenStiffness {
+    /// The force of a point per depth.
     pub stiffness: f64,
+    /// The quantity by which it was chosen, in words.
     pub reason: String,
 }
 
-/// What meets in a contact.
+/// The things that meet in a contact.
 pub(super) struct Meets<'a, 'd> {
+    /// The scene so far.
     pub scene: &'a Scene<'d>,
+    /// The nodes and how they are connected.
     pub topology: &'a Topology,
-    /// Its magnitude.
+    /// The magnitude of gravity.
     pub gravity: f64,
     /// The node that carries the surface, and the surface.
     pub surface: (usize, &'a Surface),
+    /// The points.
     pub points: &'a [ContactPoint],
 }
 

@@ -11,9 +11,11 @@ use crate::math::Vec3;
 
 /// An end as the deck has it.
 pub(super) struct EndTable<'b, 'd> {
+    /// The link or joint that ends here.
     pub owner: &'b Owner<'d>,
-    /// `from` or `to`.
+    /// The key of the end, `from` or `to`.
     pub key: &'b str,
+    /// The table of the end.
     pub end: &'d Maybe<Table<words::End>>,
     /// The label of a new node.
     pub label: String,

@@ -26,6 +26,7 @@ pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> (Vec3,
     (vec3_or_zero(&environment.gravity), accelerations)
 }
 
+/// Reads `[damping]`: Rayleigh factors, and dampers on nodes.
 pub(super) fn damping<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut Report<'d>) -> Damping {
     let Some(damping) = &scene.deck.damping else { return Damping::default() };
     let mass_factor = report.not_negative("mass_factor", &damping.mass_factor, 0.0);

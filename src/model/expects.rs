@@ -22,6 +22,7 @@ struct Expects<'a, 'd> {
     report: &'a mut Report<'d>,
 }
 
+/// Reads `[[expect]]`: finds what each entry asks for, when, and within what tolerance.
 pub(super) fn expects<'d>(
     scene: &Scene<'d>,
     topology: &Topology,

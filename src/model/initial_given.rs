@@ -45,8 +45,9 @@ impl InitialQuantity {
 pub(super) struct Giver<'d> {
     /// Words for the table, such as "entry 2 of `[[initial]]`".
     pub what: String,
+    /// The place of the table.
     pub span: &'d Span,
-    /// What it gives takes the place of what earlier tables give.
+    /// True where its velocities take the place of those that earlier tables give.
     pub replaces: bool,
 }
 

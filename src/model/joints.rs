@@ -69,11 +69,11 @@ fn joint_equations<'d>(
 /// How far the ends of a joint that meet are apart: `true` where as far as coordinates of six digits are, `false` where no
 /// farther than rounding. Farther is an error.
 fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &mut Report<'d>) -> Option<bool> {
-    /// Half a unit of the sixth digit of either end, of the coordinates themselves ...
+    /// Coordinates written with six digits are off by half a unit of the sixth, at either end.
     const SIX_DIGITS: f64 = 1e-5;
-    /// ... but of a scene far from the origin no more than this part of its size.
+    /// In a scene far from the origin that may be no more than this part of its size.
     const MOST: f64 = 1e-4;
-    /// Of the scene's size: what is computed rather than written is nearer.
+    /// Coordinates that are computed rather than written are off by no more than this part of the size of the scene.
     const COMPUTED: f64 = 1e-9;
     let far = |reach: f64, node: &Node| reach.max((node.x - a).amax());
     let size = nodes.list.iter().fold(0.0, far);

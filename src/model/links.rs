@@ -12,6 +12,7 @@ use crate::deck::words::{Maybe, Numbers};
 use crate::elements::link::LinkLaw;
 use crate::math::Mat3;
 
+/// Reads `[[links]]`, and adds the nodes at their ends.
 pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Link> {
     let mut links = Vec::new();
     for (index, link) in scene.deck.links.iter().enumerate() {

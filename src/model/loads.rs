@@ -19,6 +19,7 @@ pub(super) struct Loads {
     pub pressures: Vec<Pressure>,
 }
 
+/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes.
 pub(super) fn loads<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut Report<'d>) -> Loads {
     let mut loads = Loads::default();
     for load in &scene.deck.loads {

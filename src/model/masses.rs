@@ -7,6 +7,7 @@ use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use crate::math::Mat3;
 
+/// Reads `[[masses]]`: point masses on nodes.
 pub(super) fn masses<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Mass> {
     let mut masses = Vec::new();
     for table in &scene.deck.masses {

@@ -76,6 +76,7 @@ fn said(mesh: &Mesh, path: &str, bytes: &[u8]) -> Vec<Diagnostic> {
 /// The mesh in the model: all its nodes, one after the other. Those that nothing names or uses leave the model in the end.
 #[derive(Clone, Copy)]
 pub(super) struct MeshNodes<'d> {
+    /// The mesh that was read; `None` where the deck names none.
     pub input: Option<&'d Input>,
     /// True where the deck names a mesh that could not be read.
     pub is_lost: bool,

@@ -15,10 +15,13 @@ use crate::diagnostic::{At, Diagnostic, Span};
 /// Names with a meaning of their own in lists of nodes and in `[[expect]]`.
 const RESERVED: [&str; 2] = ["all", "energy"];
 
+/// The names of a deck.
 pub(super) struct Names<'d> {
+    /// The deck itself.
     pub deck: &'d Deck,
+    /// The mesh, whose groups have names too.
     pub mesh: MeshNodes<'d>,
-    /// What each name stands for, and where it is declared.
+    /// The thing that each name stands for, and the place where it is declared.
     places: HashMap<&'d str, (Place, &'d Span)>,
     /// The node of each body.
     body_nodes: Vec<usize>,
@@ -297,6 +300,7 @@ impl<'d> Names<'d> {
         }
     }
 
+    /// The node of a body, by the index of the body.
     pub fn body_node(&self, body: usize) -> usize {
         self.body_nodes[body]
     }

@@ -12,6 +12,7 @@ pub(super) struct NodesAlongAxis {
 }
 
 impl NodesAlongAxis {
+    /// Sorts nodes along the global axis in which they extend farthest.
     pub fn new(of: &HashSet<usize>, nodes: &Nodes) -> Self {
         let (low, high) = of.iter().fold((Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN)), |(low, high), &node| {
             (low.inf(&nodes.x(node)), high.sup(&nodes.x(node)))

@@ -10,6 +10,7 @@ use super::spot::Spot;
 use crate::diagnostic::Span;
 use crate::math::Vec3;
 
+/// The nodes of a model that is being built.
 #[derive(Default)]
 pub(super) struct Nodes {
     /// The nodes.
@@ -140,6 +141,7 @@ pub(super) struct Topology {
 }
 
 impl Topology {
+    /// The nodes once all tables that connect them have been read.
     pub fn new(nodes: Nodes, report: &Report) -> Self {
         Topology { nodes, complete: report.connections_known() }
     }

@@ -21,6 +21,7 @@ pub(super) struct Selection {
     pub all_nodes: bool,
 }
 
+/// Reads `[output]`: which tables are written, on which nodes, and how often.
 pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool, report: &mut Report<'d>) -> Selection {
     let units = scene.deck.units.as_ref().map(|units| units.label().to_owned());
     let Some(table) = &scene.deck.output else {

@@ -11,12 +11,20 @@ use crate::deck::Deck;
 
 /// Names and materials are known; nodes, parts, sections and what is taken of the mesh grow from table to table.
 pub(super) struct PartContext<'a, 'd> {
+    /// The deck.
     pub deck: &'d Deck,
+    /// The names of points, bodies, sets and groups.
     pub names: &'a Names<'d>,
+    /// The materials by name.
     pub materials: &'a Materials<'d>,
+    /// The sections, computed where a beam names them first.
     pub sections: Sections<'a, 'd>,
+    /// The groups of the mesh, and the parts that take them.
     pub groups: Groups<'d>,
+    /// The nodes so far.
     pub nodes: &'a mut Nodes,
+    /// The parts so far.
     pub parts: Parts,
+    /// The report, to which errors go.
     pub report: &'a mut Report<'d>,
 }

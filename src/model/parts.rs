@@ -27,6 +27,7 @@ pub(super) struct PartEntry {
     pub rigid_elements: Option<Vec<Vec<usize>>>,
 }
 
+/// The deformable parts of a scene that is being built.
 #[derive(Default)]
 pub(super) struct Parts {
     /// The parts, in deck order.

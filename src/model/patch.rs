@@ -21,18 +21,23 @@ pub(super) struct Edges(Vec<Edge>);
 
 /// A grid of n × m elements over four corners, or a triangular one with n along each edge over three.
 pub(super) struct Patch<'b, 'd> {
+    /// The name of the shell.
     pub name: &'b str,
+    /// The shell, for messages.
     pub owner: &'b Owner<'d>,
+    /// The map from the grid to positions between the edges.
     pub map: Map,
-    /// Nodes at the corners.
+    /// The nodes at the corners.
     pub corners: Vec<usize>,
+    /// The numbers of elements along the first and the second edge.
     pub counts: [usize; 2],
-    /// Nodes made so far, which number their labels.
+    /// The number of nodes made so far, which numbers their labels.
     pub made: usize,
 }
 
 /// Nodes and normals of a patch, row by row; those of three corners leave half of the rows empty.
 pub(super) struct Grid {
+    /// The nodes; `None` where a row of a triangular grid has ended.
     pub nodes: Vec<Option<usize>>,
     normals: Vec<Vec3>,
     /// Nodes of each edge, in order along it.

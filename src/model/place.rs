@@ -2,6 +2,7 @@
 
 use crate::deck::parts::PartIndex;
 
+/// The thing that a name of the deck stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Place {
     /// A point by its node.

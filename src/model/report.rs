@@ -19,11 +19,13 @@ pub(super) struct Owner<'d> {
 }
 
 impl<'d> Owner<'d> {
+    /// The table at `span`, which messages call `what`.
     pub fn new(what: impl Into<String>, span: &'d Span) -> Self {
         Owner { what: what.into(), span }
     }
 }
 
+/// What is wrong with a deck, collected while its model is built; it also reads keys that may be wrong.
 pub(super) struct Report<'d> {
     deck: &'d Deck,
     problems: Vec<Diagnostic>,
@@ -38,6 +40,7 @@ pub(super) struct Report<'d> {
 const SEARCHES: usize = 1_000_000;
 
 impl<'d> Report<'d> {
+    /// A report without anything in it.
     pub fn new(deck: &'d Deck) -> Self {
         let is_table = |table: &Option<Span>| table.as_ref().is_none_or(|table| *table == ROOT);
         let connections_known = !deck.spoiled.iter().any(|entry| is_table(&entry.table));

@@ -14,11 +14,17 @@ use crate::deck::words::Maybe;
 use crate::deck::words::Names as List;
 use crate::diagnostic::At;
 
+/// Everything that names can refer to: the scene without what connects and loads it.
 pub(super) struct Scene<'d> {
+    /// The deck.
     pub deck: &'d Deck,
+    /// The analysis, on whose times loads and outputs depend.
     pub analysis: Analysis,
+    /// The names of points, bodies, sets and groups.
     pub names: Names<'d>,
+    /// The rigid bodies.
     pub bodies: Vec<Body>,
+    /// The deformable parts.
     pub parts: Parts,
 }
 

@@ -25,6 +25,7 @@ pub(super) struct Sections<'a, 'd> {
 }
 
 impl<'a, 'd> Sections<'a, 'd> {
+    /// The sections of a deck, none of which has been computed yet.
     pub fn new(deck: &'d Deck, materials: &'a Materials<'d>) -> Self {
         Sections { table: &deck.sections, materials, known: HashMap::new(), stiffnesses: Vec::new() }
     }

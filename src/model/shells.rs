@@ -19,6 +19,7 @@ const MOST_ELEMENTS: u64 = 10_000;
 const MOST_IN_ALL: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 5;
 
+/// Reads `[[shells]]`: divides each patch into elements, or takes those of a group of the mesh.
 pub(super) fn shells(cx: &mut PartContext) {
     let mut edges = Edges::default();
     for (index, shell) in cx.deck.shells.iter().enumerate() {

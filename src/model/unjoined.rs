@@ -231,7 +231,7 @@ impl Search<'_, '_> {
 
 /// True where a place lies on a segment or a triangle.
 fn lies_on(at: &Vec3, simplex: &[Vec3], reach: f64) -> bool {
-    /// Of a triangle, what rounding takes for outside.
+    /// Rounding takes this part of a triangle's edges for outside.
     const EDGE: f64 = 1e-6;
     let from = at - simplex[0];
     match simplex {

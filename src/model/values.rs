@@ -6,10 +6,12 @@ use crate::diagnostic::Span;
 use crate::math::Vec3;
 use crate::names::joined;
 
+/// The vector of three numbers of the deck.
 pub(super) fn vec3(value: &Vector) -> Vec3 {
     Vec3::from(value.0)
 }
 
+/// The vector behind a key, zero where it is not written.
 pub(super) fn vec3_or_zero(value: &Maybe<Vector>) -> Vec3 {
     value.as_ref().map_or_else(Vec3::zeros, |value| vec3(value))
 }

@@ -174,14 +174,14 @@ mod tests {
         assert!(error.to_string().contains(&format!("process {} on ", std::process::id())), "{error}");
         drop(lock);
         assert!(!dir.path().join(NAME).exists());
-        // Left by a process of this host that is gone: the system holds nothing.
+        // A lock that a process of this host has left is free: the system holds it no more.
         let this = Holder::this();
         for left in [this.text(), String::new(), "host ".into(), Holder { boot: "other".into(), ..this.clone() }.text()]
         {
             fs::write(dir.path().join(NAME), left).unwrap();
             drop(FolderLock::take(dir.path()).unwrap());
         }
-        // By another host: nobody here can tell.
+        // Of a process of another host nobody here can tell whether it runs.
         fs::write(dir.path().join(NAME), Holder { host: "elsewhere".into(), ..this }.text()).unwrap();
         let error = FolderLock::take(dir.path()).unwrap_err().to_string();
         assert!(error.contains("on elsewhere") && error.contains("remove `"), "{error}");
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn dates_are_civil() {
-        // `date -u -d @…`
+        // The dates are those of `date -u -d @…`.
         assert_eq!(date(0), "1970-01-01 00:00:00 UTC");
         assert_eq!(date(951_782_399), "2000-02-28 23:59:59 UTC");
         assert_eq!(date(951_782_400), "2000-02-29 00:00:00 UTC");

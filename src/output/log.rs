@@ -44,7 +44,7 @@ impl Log {
     /// Writes a warning about the deck or its results.
     ///
     /// # Errors
-    /// As of [`Log::say`].
+    /// The file cannot be written; the error names it.
     pub fn warn(&mut self, message: &str) -> io::Result<()> {
         self.say(&format!("warning: {message}"))
     }

@@ -91,7 +91,7 @@ impl TableFile {
     /// Ends a row. Where many wait, they are handed to the file.
     ///
     /// # Errors
-    /// As of [`TableFile::flush`].
+    /// Handing them over may fail, as [`TableFile::flush`] says.
     pub fn end(&mut self) -> io::Result<()> {
         self.rows.push(b'\n');
         if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }

@@ -189,7 +189,7 @@ mod tests {
         assert!(rows.truncated && rows.count == 2);
         std::fs::write(&path, "step\n").unwrap();
         assert!(!TableReader::open(&path).unwrap().truncated);
-        // Within a name of two lines, and before the header is whole.
+        // A table may end within a name of two lines, and before its header is whole.
         std::fs::write(&path, "step,name\n0,\"a\n").unwrap();
         let mut rows = TableReader::open(&path).unwrap();
         assert!(rows.next().unwrap().is_none() && rows.truncated);
@@ -208,11 +208,11 @@ mod tests {
             let rows = TableReader::open(&path).unwrap();
             (0..rows.header.len()).filter(|&i| rows.is_key(i)).map(|i| rows.header[i].clone()).collect()
         };
-        // An energy, whatever contacts.csv calls by this word; also of an older version, with `total`.
+        // `contact` is an energy here, whatever contacts.csv calls by this word; `total` is a column of an older version.
         assert!(keys("energy.csv", "step,time,kinetic,contact,total\n0,0.0,1.0,2.0,3.0\n").is_empty());
         assert_eq!(keys("contacts.csv", "step,time,contact,touching,gap\n"), ["contact"]);
         assert_eq!(keys("sections.csv", "step,time,beam,element,point,s\n"), ["beam", "element", "point"]);
-        // Not ours.
+        // Tables of other programs are read by the positions of their columns.
         assert!(keys("probe.csv", "time,contact,node\n0.0,1.0,2.0\n").is_empty());
         assert_eq!(keys("probe.csv", "step,time,who,where,link\n0,0.0,a,b,1.0\n"), ["who", "where"]);
         assert_eq!(keys("probe.csv", "time,who,ux,state\n0.0,a,1.0,open\n"), ["who"]);

@@ -39,11 +39,11 @@ pub fn read(given: &mut Given, hole: fn(&mut Given, f64) -> Option<(f64, &'stati
 pub struct HollowCylinder {
     /// Outer radius.
     pub radius: f64,
-    /// 0 where it is solid.
+    /// Inner radius, 0 where it is solid.
     pub inner_radius: f64,
     /// Length along the axis.
     pub length: f64,
-    /// Of length one.
+    /// Unit vector along the axis, in the axes of the body.
     pub axis: Vec3,
 }
 

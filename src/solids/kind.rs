@@ -34,13 +34,13 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
     }
 }
 
-/// Where a body touches a surface.
+/// The points by which a body touches a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Touching {
-    /// At so much from its centre.
+    /// The sphere of this radius about its centre.
     Ball(f64),
-    /// At these points.
+    /// These points, from its centre in its axes.
     Points(Vec<Vec3>),
-    /// At the nodes of the elements that make it up.
+    /// The nodes of the elements that make it up.
     Nodes,
 }

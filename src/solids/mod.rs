@@ -17,10 +17,10 @@ pub use kind::{Solid, SolidKind, SolidShape, Touching};
 use crate::math::Mat3;
 use std::sync::Arc;
 
-/// In the order of the reference.
+/// All solids, in the order of the reference.
 pub static SOLIDS: &[&SolidKind] = &[&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND];
 
-/// What a body is drawn as of which the deck gives no shape: the homogeneous cuboid of its mass and inertia.
+/// The shape in which a body is drawn whose deck gives none: the homogeneous cuboid of its mass and inertia.
 pub fn drawn_by_inertia(mass: f64, inertia: &Mat3) -> Arc<dyn SolidShape> {
     Arc::new(cuboid::SolidCuboid::of_inertia(mass, inertia))
 }

@@ -15,12 +15,12 @@ pub struct Outline {
     pub cells: Vec<OutlineCell>,
 }
 
-/// By the numbers of its corners.
+/// A cell of an outline by the numbers of its corners.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutlineCell {
     /// A line of two corners, or a face of more.
     Face(Vec<usize>),
-    /// Eight corners, as VTK counts them.
+    /// The eight points of the outline, in VTK's order.
     Hexahedron,
 }
 

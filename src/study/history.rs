@@ -169,14 +169,14 @@ mod tests {
     fn quantities_of_a_body_are_those_of_its_motion() {
         let names = ["x", "y", "z", "qw", "qx", "qy", "qz", "wx", "wy", "wz"];
         let column: HashMap<String, usize> = names.iter().enumerate().map(|(i, name)| (name.to_string(), i)).collect();
-        // A quarter turn about z: the body's x is global y.
+        // The body has made a quarter turn about z, so that its x is global y.
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let numbers = [1.0, 2.0, 3.0, half, 0.0, 0.0, half, 0.0, 5.0, 7.0];
         let moment = Moment { numbers: &numbers, column: &column, start: Vec3::new(0.5, 2.0, 1.0) };
         let value = |word| moment.value(&quantity(word, true));
         assert_eq!([value("ux"), value("uy"), value("uz"), value("x"), value("wy")], [0.5, 0.0, 2.0, 1.0, 5.0]);
         let omega = [value("body_wx"), value("body_wy"), value("body_wz")];
-        // Products of rounded square roots of a half.
+        // The matrix is made of products of rounded square roots of a half.
         let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
         assert!(near(omega[0], 5.0) && near(omega[1], 0.0) && near(omega[2], 7.0), "{omega:?}");
         assert!(near(value("r21"), 1.0) && near(value("r12"), -1.0) && near(value("r33"), 1.0));
@@ -186,7 +186,7 @@ mod tests {
     fn an_error_is_relative_to_the_largest_value() {
         let reference = [0.0, 0.0, 3.0, 4.0];
         let q = [0.1, 0.0, 3.0, 4.1];
-        // √((0.01 + 0.01)/2)/5, by round-off.
+        // The error is √((0.01 + 0.01)/2)/5 up to round-off.
         assert!((error(&q, &reference, 2, |_| true) - 0.02).abs() < 1e-15);
         assert!((error(&q, &reference, 2, |i| i == 0) - (0.01f64 / 2.0).sqrt() / 3.0).abs() < 1e-15);
     }

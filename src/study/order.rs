@@ -172,7 +172,7 @@ mod tests {
         let exact: Vec<f64> = (0..5).map(|k| 0.25_f64.powi(k)).collect();
         let found = order(&line(&exact)).unwrap();
         assert!((found.order - 2.0).abs() < 1e-12 && found.runs == 5 && found.floor.is_none(), "{found:?}");
-        // Too coarse at first, and a floor at the end.
+        // The first steps are too coarse, and the last come to a floor.
         let bent = [1.0, 0.9, 0.25, 0.0625, 0.0156, 0.012, 0.0119];
         let found = order(&line(&bent)).unwrap();
         assert!((found.order - 2.0).abs() < 0.08 && found.runs == 4, "{found:?}");
@@ -202,7 +202,7 @@ mod tests {
         };
         let of = |words: &str| {
             let status = |word| if word == 'd' { RunStatus::Done } else { RunStatus::NotConverged };
-            // Those behind the words were never run.
+            // Settings behind the last word were never run.
             let runs: Vec<StudyRun> = resolutions
                 .iter()
                 .zip(words.chars())

@@ -248,7 +248,7 @@ mod tests {
                 let (h0, h1, h2) = (r1 * r2, r2, 1.0_f64);
                 let difference = |a: f64, b: f64| a.powf(p) - b.powf(p);
                 let found = order(difference(h0, h1) / difference(h1, h2), r1, r2).unwrap();
-                // Bisection from 0.4 to 12 in 60 halvings: rounding is left.
+                // After 60 halvings of the interval from 0.4 to 12 only rounding is left.
                 assert!((found - p).abs() < 1e-9, "{found} for {p}");
             }
         }

@@ -96,7 +96,7 @@ pub fn read(
         while left.next_if(|row| row.time < time - near).is_some() {}
         match left.peek() {
             Some(row) if row.time <= time + near => values.extend(&row.values),
-            // The line that is named is that of the row before which it is missing; at the end, that of the last row.
+            // The error names the line of the row before which the time is missing; at the end, that of the last row.
             next => missing.push((time, next.map_or_else(|| rows.last(), |row| Some(*row)).map_or(1, |row| row.line))),
         }
     }

@@ -24,6 +24,7 @@ pub struct System {
     pub history: usize,
     /// Lumped inertia, at most one entry for each node, in ascending order of nodes.
     pub inertias: Vec<Inertia>,
+    /// The consistent mass matrices, element by element.
     pub(super) consistent: Vec<ConsistentMass>,
     /// The dependent nodes, ordered so that a master stands before the nodes that depend on it.
     pub rigid_links: Vec<RigidLink>,
@@ -33,9 +34,13 @@ pub struct System {
     pub(super) links: Vec<LinkElement>,
     /// Index of the first group of contacts; these stand last.
     pub(super) contacts: usize,
+    /// The loads on nodes.
     pub(super) loads: Vec<model::Load>,
+    /// The follower pressures on faces.
     pub(super) pressures: Vec<model::Pressure>,
+    /// The dampers between nodes and the ground.
     pub(super) nodal_damping: Vec<model::NodalDamping>,
+    /// The Rayleigh factor on the mass (per time).
     pub(super) mass_damping: f64,
     /// The tangent may hold the gyroscopic matrix C(r) (37).
     pub(super) gyroscopic: bool,
@@ -216,6 +221,8 @@ impl System {
         }
     }
 
+    /// Adds the forces on dependent nodes to those on their masters, the last in a chain first, and keeps them by themselves for
+    /// reactions.
     pub(super) fn transfer_to_masters(&self, nodes: &[Node], forces: &mut Forces) {
         let F = &mut forces.on_nodes[..];
         for (dependent, force) in self.rigid_links.iter().zip(&mut forces.on_dependents).rev() {
@@ -388,6 +395,7 @@ impl System {
         self.transfer_to_masters(nodes, forces);
     }
 
+    /// The consistent mass matrices, element by element.
     pub(crate) fn consistent_masses(&self) -> &[ConsistentMass] {
         &self.consistent
     }

@@ -13,16 +13,19 @@ pub struct Scale {
 }
 
 impl Scale {
+    /// Raises the scale of forces to the largest component of a force.
     #[inline]
     pub(super) fn include_force(&mut self, f: &Vec3) {
         self.force = f.iter().fold(self.force, |most, f| larger(most, f.abs()));
     }
 
+    /// Raises the scale of moments to the largest component of a moment.
     #[inline]
     pub(super) fn include_moment(&mut self, m: &Vec3) {
         self.moment = m.iter().fold(self.moment, |most, m| larger(most, m.abs()));
     }
 
+    /// Raises both scales to the largest components of forces and moments on nodes.
     #[inline]
     pub(super) fn include(&mut self, forces: &[Force]) {
         let mut most = [0.0; 6];

@@ -1,6 +1,6 @@
 //! A table of the deck that serde reads into a struct.
 
-use schemars::JsonSchema;
+use crate::diagnostic::schema_of_inner;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -9,9 +9,10 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 
 /// A table, and nothing else: serde would also fill a struct from a list, by position.
-#[derive(Debug, Clone, JsonSchema)]
-#[schemars(transparent)]
+#[derive(Debug, Clone)]
 pub struct Table<T>(T);
+
+schema_of_inner! { Table }
 
 impl<T> Deref for Table<T> {
     type Target = T;

@@ -8,7 +8,9 @@ use crate::state::Node;
 
 /// A group of beams of N nodes, whose sections are of type `S`.
 pub struct Beams<const N: usize, S = BeamStiffness> {
+    /// The shape functions at the integration points, the same for all elements.
     pub(super) shape: ShapeFunctions<N>,
+    /// The elements.
     pub(super) elements: Vec<Beam<N, S>>,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,

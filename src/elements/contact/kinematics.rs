@@ -10,10 +10,13 @@ use nalgebra::Quaternion;
 
 /// Points with equally many nodes against one surface.
 pub struct Contacts {
+    /// The contact law.
     pub(super) law: ContactLaw,
+    /// The surface, in the frame of the node that carries it.
     pub(super) surface: Surface,
     /// The node that carries the surface.
     pub(super) carrier: usize,
+    /// The points.
     pub(super) points: Vec<ContactPoint>,
     /// Nodes of each point, then the carrier.
     pub(super) nodes: Vec<[usize; MOST_NODES + 1]>,
@@ -74,6 +77,7 @@ impl Contacts {
         (d, v - carrier.v - carrier.omega.cross(&d))
     }
 
+    /// The gap of a point, where and how fast it closes or slides.
     #[inline]
     pub(super) fn kinematics(&self, point: &ContactPoint, nodes: &[Node]) -> ContactKinematics {
         let (d, w) = self.relative(point, nodes);

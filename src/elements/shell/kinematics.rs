@@ -60,9 +60,11 @@ pub(super) struct StrainHessian<const N: usize> {
 
 /// A group of shells of one interpolation `K`, whose sections are of type `S`.
 pub struct Shells<K, const N: usize, const V: usize, const M: usize, S = ShellStiffness<M>> {
+    /// The elements.
     pub(super) elements: Vec<Shell<N, V, M, S>>,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
+    /// The interpolation, which holds no data.
     pub(super) interpolation: PhantomData<K>,
 }
 

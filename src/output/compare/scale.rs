@@ -45,7 +45,7 @@ mod tests {
         let a = [range(-1.0, 1.0), range(-1e-14, 1e-14), range(5.0, 5.0)];
         let b = [range(-1.0, 3.0), range(0.0, 0.0), range(5.5, 5.5)];
         assert_eq!(scales("nodes.csv", &["ux", "uy", "gap"], [&a, &b]), [4.0, 3.0, 5.5]);
-        // Alone, the noise is all there is.
+        // Where there is no other column, the noise is all that it can be measured against.
         assert_eq!(scales("nodes.csv", &["uy"], [&a[1..2], &b[1..2]]), [2e-14]);
     }
 }

@@ -16,6 +16,7 @@ pub struct Explanation {
 }
 
 impl Explanation {
+    /// Adds a line to what is computed.
     pub(super) fn add(&mut self, label: &'static str, what: impl Into<String>) {
         self.computed.push((label, what.into()));
     }

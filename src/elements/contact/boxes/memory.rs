@@ -33,7 +33,7 @@ impl Memory {
         if size > 0.0 { size.atan2(0.5 * (M.trace() - 1.0)) / size * sine } else { Vec3::zeros() }
     }
 
-    /// Of a pair with friction.
+    /// Reads the history of a pair with friction.
     pub(super) fn read(old: PointHistory) -> Memory {
         let numbers = old.numbers();
         Memory {

@@ -30,8 +30,11 @@ pub struct Faces {
 
 /// Volume, centre, and variance of positions about it.
 pub struct Moments {
+    /// The volume.
     pub volume: f64,
+    /// The centre.
     pub mean: Vec3,
+    /// The mean of the products of positions about the centre.
     pub variance: Mat3,
 }
 
@@ -50,7 +53,7 @@ pub fn faces(pose: &BoxPose, T: &Mat3, origin: &Vec3) -> Faces {
 }
 
 impl Faces {
-    /// Those of a box, from its eight corners, so that neighbours share theirs to the last bit.
+    /// The faces of a box. They are made of its eight corners, so that neighbours share theirs to the last bit.
     fn of_box(center: &Vec3, axes: &Mat3, half: &Vec3) -> Faces {
         let corners: [Vec3; 8] = std::array::from_fn(|k| center + axes * corner(k).component_mul(half));
         let empty = ClippedFace { corners: [Vec3::zeros(); CORNERS], count: 0, normal: Vec3::zeros(), moves: false };
@@ -149,12 +152,12 @@ impl ClippedFace {
         }
     }
 
-    /// Its triangles.
+    /// The triangles about its first corner that make it up.
     fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
         (1..self.count.max(2) - 1).map(|k| [self.corners[0], self.corners[k], self.corners[k + 1]])
     }
 
-    /// Adds up q dS and q x dS over the face, exact for q of the second degree.
+    /// The integrals of q dS and q x dS over the face, exact for q of the second degree.
     pub fn integral(&self, q: &impl Fn(&Vec3) -> f64) -> (f64, Vec3) {
         let (mut sum, mut first) = (0.0, Vec3::zeros());
         for [a, b, c] in self.triangles() {
@@ -174,7 +177,7 @@ impl ClippedFace {
 }
 
 impl Faces {
-    /// Those of the solid.
+    /// The faces of the solid.
     pub fn iter(&self) -> impl Iterator<Item = &ClippedFace> {
         self.list[..self.count].iter()
     }

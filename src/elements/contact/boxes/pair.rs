@@ -29,20 +29,25 @@ pub struct BoxPairs {
     pub(super) law: ContactLaw,
     /// The node that carries the other box.
     pub(super) carrier: usize,
-    /// Its centre from that node and its axes, in the frame of that.
+    /// The centre of that box from its node, in the frame of the node.
     pub(super) center: Vec3,
+    /// The axes of that box (columns), in the frame of the node.
     pub(super) axes: Mat3,
+    /// Half the edges of that box.
     pub(super) half: Vec3,
+    /// The boxes that touch it.
     pub(in crate::elements::contact) boxes: Vec<TouchingBox>,
-    /// Each box's node, then the carrier.
+    /// The node of each of these, then the carrier.
     pub(super) nodes: Vec<[usize; 2]>,
 }
 
 /// A pair of boxes at an instant. E is the frame of the box that is touched: its columns are its axes, global components.
 pub(in crate::elements::contact) struct PairKinematics {
+    /// The frame of the box that is touched.
     pub E: Mat3,
     /// Position of the one body less that of the carrier, global components.
     pub d: Vec3,
+    /// The position of the one box relative to the other, in E.
     pub pose: BoxPose,
     /// Velocity of the one body relative to the frame E that moves with the carrier, and relative angular velocity, in E.
     pub rates: Vec6,
@@ -50,10 +55,13 @@ pub(in crate::elements::contact) struct PairKinematics {
 
 /// The force of a pair at an instant.
 pub(in crate::elements::contact) struct PairForce {
+    /// The depth D with its derivatives.
     pub depth: Depth,
-    /// Ḋ.
+    /// Ḋ, per time.
     pub rate: f64,
+    /// The normal force.
     pub normal: NormalForce,
+    /// The friction; `None` where there is none.
     pub rubbing: Option<Rubbing>,
     /// Force and moment on the one body at its node, in E.
     pub W: Vec6,
@@ -79,6 +87,7 @@ impl BoxPairs {
         })
     }
 
+    /// Where the boxes of a pair are to each other, and how they move.
     pub(super) fn kinematics(&self, e: usize, nodes: &[Node]) -> PairKinematics {
         let (one, carrier) = (&nodes[self.boxes[e].node], &nodes[self.carrier]);
         let d = one.relative_position(carrier);
@@ -156,10 +165,12 @@ impl BoxPairs {
         Some((at, force))
     }
 
+    /// The number of history variables of a pair.
     pub(super) fn width(&self) -> usize {
         if self.law.friction > 0.0 { super::memory::WIDTH } else { history::FRICTION_FORCE }
     }
 
+    /// The history of a pair, as a part of that of the block.
     pub(super) fn history<'a>(&self, e: usize, history: &'a [f64]) -> PointHistory<'a> {
         PointHistory::new(&history[e * self.width()..(e + 1) * self.width()])
     }

@@ -18,10 +18,11 @@ pub struct Rubbing {
     pub by_N: Vec6,
     /// Size of the force and moment of the spring, as a force.
     pub pull: f64,
-    /// What the spring keeps: its stretch and its twist.
+    /// The stretch that the spring keeps.
     pub stretch: Vec3,
+    /// The twist that the spring keeps, in radians.
     pub twist: f64,
-    /// The way that slipped.
+    /// The length of the way that slipped.
     pub slip: f64,
 }
 
