@@ -139,7 +139,7 @@ impl Job<'_> {
         watchers.progress.finish();
         watchers.files.finish()?;
 
-        let of_run = self.warnings_of(run);
+        let of_run = self.warnings_of(run, watchers.files.empty_fields());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
         let energy = energy_line(run.balance(), model);
@@ -182,10 +182,10 @@ impl Job<'_> {
         self.loaded.warnings.iter().filter(|said| said.is_warning()).map(|warning| warning.message.as_str())
     }
 
-    /// The warnings about the results of a run, after showing them.
-    fn warnings_of(&self, run: &Run) -> Vec<String> {
+    /// The warnings about the results of a run and about its files, after showing them.
+    fn warnings_of(&self, run: &Run, of_files: Vec<String>) -> Vec<String> {
         let doubts = run.warnings().iter().map(ToString::to_string);
-        let of_run: Vec<String> = doubts.chain(energy_warning(run.balance(), &self.loaded.model)).collect();
+        let of_run: Vec<String> = doubts.chain(energy_warning(run.balance(), &self.loaded.model)).chain(of_files).collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }

@@ -87,6 +87,9 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     if !model.output.energy {
         return Some("numerical dissipation: not measured, for `energy` of `[output]` is false".to_owned());
     }
+    if !(motion.is_finite() && balance.lost().is_finite()) {
+        return Some("numerical dissipation: not measured, for energies lie beyond the range of numbers".to_owned());
+    }
     if motion <= 0.0 {
         return None;
     }

@@ -4,10 +4,11 @@ use super::disk::at;
 use super::expect::needs;
 use super::fields::{Fields, LISTS};
 use super::table::{TableKind, WriteRows};
-use super::table_file::TableFile;
+use super::table_file::{EmptyFields, TableFile};
 use super::table_size::size_in_words;
 use super::tables::TABLES;
 use crate::model::{Cadence, Model, When};
+use crate::names::instant;
 use crate::plan::Plan;
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
@@ -53,6 +54,21 @@ impl Files {
     pub fn finish(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
         self.tables.iter_mut().try_for_each(|table| table.file.flush().and_then(|()| table.file.verify()))
+    }
+
+    /// A warning for each table with fields that had to stay empty, in words.
+    pub fn empty_fields(&self) -> Vec<String> {
+        let told = self.tables.iter().filter_map(|table| Some((table.kind.file, table.file.empty_fields()?)));
+        told.map(|(file, EmptyFields { since, count })| {
+            let fields = if count == 1 { "field is" } else { "fields are" };
+            format!(
+                "{count} {fields} empty in {file}, the first at t = {}: what they should hold lies beyond the range of numbers, \
+                 about 1e308; take units in which lengths, masses and times are of ordinary size, and look for a slip in those \
+                 of the deck",
+                instant(since)
+            )
+        })
+        .collect()
     }
 }
 

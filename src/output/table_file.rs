@@ -24,6 +24,18 @@ pub struct TableFile {
     /// The rows that wait, and the row that is being written.
     rows: Vec<u8>,
     digits: ryu::Buffer,
+    /// The time of the row that is being written.
+    time: f64,
+    empty: Option<EmptyFields>,
+}
+
+/// Fields that stayed empty because what they should hold is no finite number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EmptyFields {
+    /// The time of the first row that has one.
+    pub since: f64,
+    /// How many there are.
+    pub count: usize,
 }
 
 impl TableFile {
@@ -40,7 +52,7 @@ impl TableFile {
         };
         let (file, written) = file.map_err(|e| at(&path, e))?;
         let mut table =
-            TableFile { path, file, written, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new() };
+            TableFile { path, file, written, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new(), time: 0.0, empty: None };
         if keep_to.is_none() {
             let _ = writeln!(table.rows, "{header}");
             table.flush()?;
@@ -51,6 +63,7 @@ impl TableFile {
     /// Begins a row with the two columns that every table has.
     pub fn row(&mut self, step: usize, time: f64) -> &mut TableFile {
         let _ = write!(self.rows, "{step}"); // a Vec takes every byte
+        self.time = time;
         self.number(time)
     }
 
@@ -65,8 +78,15 @@ impl TableFile {
         self.rows.push(b',');
         if value.is_finite() {
             self.rows.extend_from_slice(self.digits.format_finite(value).as_bytes());
+        } else {
+            self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += 1;
         }
         self
+    }
+
+    /// The fields that stayed empty so far, if any did.
+    pub fn empty_fields(&self) -> Option<EmptyFields> {
+        self.empty
     }
 
     /// Adds a field for each of several numbers.
@@ -202,8 +222,9 @@ mod tests {
         let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name,none", None).unwrap();
         let names = ["portal[3]", "a, b", "the \"elbow\"", "two\nlines", "Träger"];
         for name in names {
-            table.row(0, 0.0).text(name).number(f64::NAN).end().unwrap();
+            table.row(0, 0.5).text(name).number(f64::NAN).end().unwrap();
         }
+        assert_eq!(table.empty_fields(), Some(EmptyFields { since: 0.5, count: names.len() }));
         table.flush().unwrap();
         let rows = read(&dir.path().join("t.csv"));
         assert!(rows[1..].iter().zip(names).all(|(row, name)| row[2] == name && row[3].is_empty()));

@@ -20,6 +20,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{self, Stage};
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::report::StepReport;
+use crate::solve::residual::Magnitudes;
 use crate::solve::size::Size;
 use crate::solve::warning::Warning;
 use crate::solve::workspace::Workspace;
@@ -41,6 +42,8 @@ pub struct Newton {
     searched: bool,
     /// The watch over the stability of equilibria in statics.
     stability: Option<Stability>,
+    /// The forces of the residual at hand and of load steps before.
+    magnitudes: Magnitudes,
 }
 
 /// The progress of the iteration of a step.
@@ -112,6 +115,7 @@ impl Newton {
             mass_weight: 0.0,
             searched: false,
             stability: Stability::for_statics(cx)?,
+            magnitudes: Magnitudes::default(),
         })
     }
 
@@ -156,6 +160,9 @@ impl Newton {
     ) -> Result<(), Failure> {
         let from = state.time;
         let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to);
+        if accepted.is_ok() {
+            self.magnitudes.keep();
+        }
         if let (Ok(()), Some(stability)) = (&accepted, &mut self.stability)
             && stability.check(cx, ws, state, from)
         {
@@ -207,7 +214,7 @@ impl Newton {
         motion::excite(cx, ws, state.time, to, stage.scheme.instant);
         let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none());
         loop {
-            progress.report.residual = evaluate_residual(cx, ws, state, stage, progress.report.to);
+            progress.report.residual = self.evaluate_residual(cx, ws, state, stage, progress.report.to);
             if !progress.report.residual.is_finite() {
                 if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                     return Err(residual::not_finite(cx, ws));
@@ -236,6 +243,16 @@ impl Newton {
                 }
             }
         }
+    }
+
+    /// Moves the trial motion to the increments at hand and writes its residual. Returns the relative size of the residual.
+    fn evaluate_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
+        motion::move_trial(cx, ws, state, stage);
+        let ahead = stage.scheme.instant * (to - state.time);
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+        self.magnitudes.see(scale);
+        residual::gather(cx, ws, &scale)
     }
 
     /// Shortens the last correction where it went too far; returns whether it did.
@@ -364,7 +381,7 @@ impl Newton {
         let fresh = report.factorizations > 0;
         let judgement = convergence.judge(size, report.residual);
         if *time_error <= cx.model.solution.iteration.tolerance
-            && has_converged(cx, ws, correction, (fresh, report.iterations >= *limit), report.residual, &judgement)
+            && self.has_converged(cx, ws, correction, (fresh, report.iterations >= *limit), report.residual, &judgement)
         {
             return Ok(Verdict::Converged);
         }
@@ -373,6 +390,34 @@ impl Newton {
         }
         let misled = judgement.seen && self.refresh.advise(fresh, &judgement) == Advice::Restart;
         Ok(if misled { Verdict::Restart } else { Verdict::GoOn })
+    }
+
+    /// Judges convergence. Where material yields, one contraction says little of the next, and what is small against
+    /// positions may be large against elastic strains: the residual must have decreased as well, or nothing but rounding be
+    /// left.
+    fn has_converged(
+        &self,
+        cx: &Context,
+        ws: &mut Workspace,
+        correction: Size,
+        (fresh, last): (bool, bool),
+        residual: f64,
+        judgement: &Judgement,
+    ) -> bool {
+        let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.solution.iteration.tolerance;
+        let small = is_rounding(cx, ws, correction, fresh && sure);
+        let rounding = judgement.stalled() && small;
+        if sure && judgement.converged() {
+            return true;
+        }
+        // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
+        let unbalanced = residual * self.magnitudes.part(cx.length);
+        let precise = cx.is_dynamic() || unbalanced <= UNBALANCED * cx.model.solution.iteration.tolerance;
+        if small && !precise && (last || rounding && judgement.is_stagnant()) {
+            ws.warnings.add(Warning::Unbalanced { residual: unbalanced });
+            return true;
+        }
+        rounding && precise
     }
 
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut Progress) {
@@ -407,45 +452,10 @@ impl Newton {
     }
 }
 
-/// Moves the trial motion to the increments at hand and writes its residual. Returns the relative size of the residual.
-fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
-    motion::move_trial(cx, ws, state, stage);
-    let ahead = stage.scheme.instant * (to - state.time);
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
-    let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
-    residual::gather(cx, ws, &scale)
-}
-
 /// The quantity on which the matrix of a step depends besides the motion: the length of the step, or the time over
 /// which its rates are taken.
 fn matrix_key(scheme: &Coefficients, dt: f64) -> f64 {
     if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
-}
-
-/// Judges convergence. Where material yields, one contraction says little of the next, and what is small against
-/// positions may be large against elastic strains: the residual must have decreased as well, or nothing but rounding be
-/// left.
-fn has_converged(
-    cx: &Context,
-    ws: &mut Workspace,
-    correction: Size,
-    (fresh, last): (bool, bool),
-    residual: f64,
-    judgement: &Judgement,
-) -> bool {
-    let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.solution.iteration.tolerance;
-    let small = is_rounding(cx, ws, correction, fresh && sure);
-    let rounding = judgement.stalled() && small;
-    if sure && judgement.converged() {
-        return true;
-    }
-    // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
-    let precise = cx.is_dynamic() || residual <= UNBALANCED * cx.model.solution.iteration.tolerance;
-    if small && !precise && (last || rounding && judgement.is_stagnant()) {
-        ws.warnings.add(Warning::Unbalanced { residual });
-        return true;
-    }
-    rounding && precise
 }
 
 /// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
