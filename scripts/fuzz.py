@@ -2,19 +2,39 @@
 """Decks that nobody would write: what does the program make of them?  scripts/fuzz.py PROGRAM [--checks N] [--runs N]
 
 Mutates the decks of decks/ (numbers, words, lines, lists, tables; one to four changes each, from a seed) and hands them to
-`rdsolve check`. Those that are accepted are run short. Faults are: a panic, a signal, an exit code that docs/messages.md does
-not know of here, a number that is not finite in a table, a run that does not come to an end. Runs that end with exit code 0 are judged by the balance of
-energy as written: what the scheme has added or removed, against the largest energy, without a warning. Faulty decks are kept.
+`rdsolve check`. Those that are accepted are run short: a dozen steps and a second of processor time, after which the system asks
+them to stop (exit code 75), for a deck that needs hours is a sound one. Faults are: a panic, a signal, an exit code that
+docs/messages.md does not know of here, a number that is not finite in a table, a program that does not stop when asked. Runs that
+end with exit code 0 are judged by energies and forces in their tables (balance.py). Faulty decks are kept.
 """
-import argparse, collections, concurrent.futures, csv, math, os, pathlib, random, re, shutil, subprocess, sys, tempfile
+
+import argparse
+import collections
+import concurrent.futures
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from balance import judge
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NUMBER = re.compile(r"(?<![\w.\"])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w\"])")
 WORD = re.compile(r'"[^"\n]*"')
 KEY = re.compile(r"^(\s*)([a-z_]+)(\s*=)", re.M)
-KNOWN = {"check": {0, 3}, "run": {0, 3, 4, 5}}
-SECONDS = 20  # of a check or a short run: a deck of the folder takes less than one
+# 2 and 3: where the short run itself is what does not fit the deck. The signal ends a deck so large that it is still being read.
+KNOWN = {"check": {0, 3}, "run": {0, 2, 3, 4, 75, -signal.SIGXCPU}}
 STEPS = 12  # of a short run
+SECONDS = 1  # of processor time, after which a run is asked to stop; decks of the folder stop within another
+GRACE = 20  # of processor time, after which it is killed
+WAIT = 600  # on the clock, for one that sleeps
+CHEAP = 0.05  # seconds: decks whose short run takes longer are run less often, for the same time in all
+ACCEPTED = 0.18  # share of mutated decks that `check` accepts, about
 
 
 def sources():
@@ -41,7 +61,7 @@ def other_number(rng, text):
         value *= rng.choice([0.5, 2.0, 1.0 + 1e-9, 1.01])
     else:
         value *= 10.0 ** rng.uniform(-2, 2)
-    return str(int(value)) if value == int(value) and abs(value) < 1e9 and rng.random() < 0.5 else repr(value)
+    return str(int(value)) if abs(value) < 1e9 and value == int(value) and rng.random() < 0.5 else repr(value)
 
 
 def mutate(rng, text, words):
@@ -78,9 +98,12 @@ def mutate(rng, text, words):
     return "\n".join(lines)
 
 
-def call(command):
+def call(command, stop_after=None):
+    """Exit code and standard error; beyond the limits of processor time the system asks, then kills."""
+    limits = f"ulimit -S -t {stop_after or GRACE}; ulimit -H -t {GRACE}; "
+    shell = ["sh", "-c", limits + 'exec "$@"', "sh"]
     try:
-        done = subprocess.run(command, capture_output=True, timeout=SECONDS)
+        done = subprocess.run(shell + command, capture_output=True, timeout=WAIT)
         return done.returncode, done.stderr.decode(errors="replace")
     except subprocess.TimeoutExpired:
         return "time-out", ""
@@ -92,32 +115,22 @@ def complaint(kind, code, said):
     return None if code in KNOWN[kind] else f"{kind}: {code}"
 
 
-def judge(folder, said):
-    """A fault in the tables of a run that came to its end."""
-    for path in folder.glob("*.csv"):
-        with path.open() as file:
-            for row in csv.reader(file):
-                if any(cell.lower().lstrip("-") in ("nan", "inf", "infinity") for cell in row):
-                    return f"not finite: {path.name}"
-    energy = folder / "energy.csv"
-    if not energy.exists():
-        return None
-    rows = list(csv.DictReader(energy.open()))
-    if not rows or "numerical" not in rows[0]:
-        return None
-    of = lambda row, *names: sum(abs(float(row[name] or 0.0)) for name in names if name in row)
-    peak = max(of(row, "kinetic", "strain", "links", "contact", "plastic", "viscoplastic") for row in rows)
-    lost = max(abs(float(row["numerical"] or 0.0)) for row in rows)
-    if not math.isfinite(peak) or (lost > 0.2 * peak and peak > 0.0 and "warning" not in said):
-        return f"energy: {lost:.2e} of {peak:.2e}"
-    return None
+def short_run(program, file, out, deck):
+    """Exit code, what was said, and the end time if it is not the deck's own."""
+    sets, end = ["--set", "expect=[]", "--set", "output.reactions=true"], None
+    if (step := re.search(r"^time_step\s*=\s*([-+.eE\d]+)", deck, re.M)) and float(step.group(1)) > 0:
+        end = STEPS * float(step.group(1))
+        sets += ["--set", f"analysis.end_time={end!r}"]
+    code, said = call([program, "run", str(file), "-o", str(out), "--threads", "1", *sets], SECONDS)
+    return code, said, end
 
 
 def one(job):
-    program, seed, run = job
+    program, seed, share = job
     rng = random.Random(seed)
     path, text = rng.choice(DECKS)
     deck = mutate(rng, text, WORDS)
+    run = rng.random() < share * min(1.0, CHEAP / COST.get(path, CHEAP))
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for mesh in path.parent.glob("*.msh"):
@@ -127,39 +140,45 @@ def one(job):
         code, said = call([program, "check", str(file)])
         fault = complaint("check", code, said)
         if fault or code != 0 or not run:
-            return seed, code, fault, deck
-        step = re.search(r"^time_step\s*=\s*([-+.eE\d]+)", deck, re.M)
-        sets = ["--set", f"analysis.end_time={STEPS * float(step.group(1))!r}"] if step and float(step.group(1)) > 0 else []
-        code, said = call([program, "run", str(file), "-o", str(out), *sets])
-        if code == 3 and sets:  # expectations, stops and amplitudes may lie behind the new end
-            return seed, "shortened", None, deck
+            return seed, f"check {code}", fault, deck
+        code, said, end = short_run(program, file, out, deck)
         fault = complaint("run", code, said)
         if not fault and code == 0:
-            fault = judge(out, said)
+            fault = judge(deck, out, end, said)
         return seed, f"run {code}", fault, deck
+
+
+def measure(program):
+    """Seconds that the short run of each deck takes as it stands."""
+    for path, text in DECKS:
+        with tempfile.TemporaryDirectory() as folder:
+            began = time.perf_counter()
+            short_run(program, path, pathlib.Path(folder) / "out", text)
+            COST[path] = time.perf_counter() - began
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program")
     parser.add_argument("--checks", type=int, default=2000)
-    parser.add_argument("--runs", type=int, default=200, help="of the accepted ones, the first so many are run")
+    parser.add_argument("--runs", type=int, default=200, help="so many, about, of the accepted ones are run")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--keep", default="fuzz_faults", help="folder for faulty decks")
+    parser.add_argument("--keep", default=ROOT / "target" / "fuzz_faults", help="folder for faulty decks")
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
-    counts, faults, ran = collections.Counter(), collections.Counter(), 0
+    measure(program)
+    chance = sum(min(1.0, CHEAP / COST[path]) for path, _ in DECKS) / len(DECKS)
+    share = options.runs / (ACCEPTED * chance * max(options.checks, 1))
+    counts, faults = collections.Counter(), collections.Counter()
     keep = pathlib.Path(options.keep)
-    # About one deck in five is accepted.
-    every = max(1, options.checks // (5 * max(options.runs, 1)))
-    jobs = ((program, options.seed * 10**9 + i, i % every == 0) for i in range(options.checks))
+    jobs = ((program, options.seed * 10**9 + i, share) for i in range(options.checks))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for seed, code, fault, deck in pool.map(one, jobs):
             counts[code] += 1
             if fault:
                 faults[fault.split(":")[0]] += 1
-                keep.mkdir(exist_ok=True)
+                keep.mkdir(parents=True, exist_ok=True)
                 (keep / f"{seed}.toml").write_text(f"# {fault}\n{deck}")
                 print(f"{seed}: {fault}", flush=True)
     print("ends:", dict(counts))
@@ -168,6 +187,7 @@ def main():
 
 
 DECKS = sources()
+COST = {}
 WORDS = sorted({word for _, text in DECKS for word in WORD.findall(text)})
 if __name__ == "__main__":
     sys.exit(main())
