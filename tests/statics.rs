@@ -267,7 +267,10 @@ points = {way}
 "#
             );
         if yields {
-            deck = deck.replace("model = \"elastic\"", "model = \"elastic-plastic\"\nyield_stress = 1.2e7\nhardening_modulus = 1e9");
+            deck = deck.replace(
+                "model = \"elastic\"",
+                "model = \"elastic-plastic\"\nyield_stress = 1.2e7\nhardening_modulus = 1e9",
+            );
         }
         let (model, outcome, state, warnings) = run(&deck);
         assert!(matches!(outcome, Outcome::Done) && warnings.is_empty(), "{way}: {outcome:?} {warnings:?}");

@@ -185,7 +185,8 @@ impl Job<'_> {
     /// The warnings about the results of a run and about its files, after showing them.
     fn warnings_of(&self, run: &Run, of_files: Vec<String>) -> Vec<String> {
         let doubts = run.warnings().iter().map(ToString::to_string);
-        let of_run: Vec<String> = doubts.chain(energy_warning(run.balance(), &self.loaded.model)).chain(of_files).collect();
+        let of_run: Vec<String> =
+            doubts.chain(energy_warning(run.balance(), &self.loaded.model)).chain(of_files).collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }

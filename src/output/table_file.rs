@@ -51,8 +51,15 @@ impl TableFile {
             Some(step) => reopen(&path, step),
         };
         let (file, written) = file.map_err(|e| at(&path, e))?;
-        let mut table =
-            TableFile { path, file, written, rows: Vec::with_capacity(2 * ENOUGH), digits: ryu::Buffer::new(), time: 0.0, empty: None };
+        let mut table = TableFile {
+            path,
+            file,
+            written,
+            rows: Vec::with_capacity(2 * ENOUGH),
+            digits: ryu::Buffer::new(),
+            time: 0.0,
+            empty: None,
+        };
         if keep_to.is_none() {
             let _ = writeln!(table.rows, "{header}");
             table.flush()?;
