@@ -1,6 +1,6 @@
 //! energy.csv: the energy balance and the momenta.
 
-use crate::model::{ExpectAt, PartKind};
+use crate::model::ExpectAt;
 use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
@@ -19,12 +19,15 @@ pub static TABLE: TableKind = TableKind {
     every_step: false,
     extent: |extent| {
         let model = extent.model;
-        let has = |kind| usize::from(model.has(kind));
         let moves = if extent.is_dynamic() { 1 + extent.components().iter().sum::<usize>() } else { 0 };
-        let deforms = usize::from(model.parts.iter().any(|part| part.kind().is_deformable()));
+        // Elements, contacts and links have a column each.
+        let kinds = || model.parts.iter().map(|part| part.kind());
+        let deforms = usize::from(kinds().any(|kind| kind.is_deformable()));
+        let touches = usize::from(kinds().any(|kind| kind.is_unilateral()));
+        let links = usize::from(kinds().any(|kind| !kind.is_deformable() && !kind.is_unilateral()));
         let yields = usize::from(model.yields());
         // Work of loads, numerical dissipation, mechanical energy.
-        let numbers = 3 + moves + deforms + yields + has(PartKind::Link) + has(PartKind::Contact);
+        let numbers = 3 + moves + deforms + yields + links + touches;
         Rows { rows: 1, letters: 0, numbers }
     },
     rows: |_| Box::new(write),
