@@ -2,6 +2,7 @@
 
 use super::go;
 use super::touch::{Touch, vector};
+use crate::support::{read_deck, run};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::ElementBlock;
@@ -11,7 +12,7 @@ use rdsolve::elements::contact::surfaces::Cuboid;
 use rdsolve::elements::contact::{ContactLaw, Surface, SurfaceShape};
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::solve::Frame;
+use rdsolve::solve::{Failure, Frame, Outcome};
 use rdsolve::state::{Configuration, Node};
 
 /// A box at any attitude, pushed a little into another.
@@ -337,4 +338,61 @@ fn friction_stops_a_spin() {
     let exact = 2.0 * 0.04 / 6.0 * 5.0 / (0.3 * 20.0 * 0.3826 * 0.2);
     // The disc of the same moment has a lever 0.6 % longer; then the spring of the friction takes over, a few steps.
     assert!((stopped / exact - 1.0).abs() < 0.03, "{stopped} for {exact}");
+}
+
+/// A plate thrown at a plate, both thin: where the springs do not hold it, it does not come out on the other side, whatever step ends
+/// within the overlap there.
+#[test]
+fn plates_do_not_jump_through_each_other() {
+    let thrown = |dt: f64, velocity: &str, spin: &str, other: &str| {
+        format!(
+            r#"
+            [analysis]
+            kind = "dynamic"
+            end_time = 0.03
+            time_step = {dt}
+            [integrator]
+            scheme = "newmark"
+            [[bodies]]
+            name = "plate"
+            center = [0.0, 0.0, 1.0]
+            mass = 1.25
+            shape = {{ kind = "box", size = [0.5, 0.5, 0.005] }}
+            velocity = {velocity}
+            angular_velocity = {spin}
+            [[bodies]]
+            name = "anvil"
+            center = [0.0, 0.0, -0.0025]
+            mass = 1e3
+            inertia = [100.0, 100.0, 100.0]
+            [[contacts]]
+            name = "hit"
+            surface = {{ shape = "box", size = [0.6, 0.6, 0.005], {other} }}
+            with = "plate"
+            stiffness = 1e4
+            "#
+        )
+    };
+    let (still, ground, body) = ("[0.0, 0.0, 0.0]", "center = [0.0, 0.0, -0.0025]", "body = \"anvil\"");
+    let cases = [
+        ("[0.0, 0.0, -60.0]", still, ground),
+        ("[0.0, 0.0, -60.0]", still, body),
+        ("[9.0, -7.0, -60.0]", still, ground),
+        ("[0.0, 0.0, -60.0]", "[3.0, 1.0, 0.0]", ground),
+        ("[0.0, 0.0, -41.3]", "[0.0, 0.0, 9.0]", body),
+    ];
+    for (k, (velocity, spin, other)) in cases.into_iter().enumerate() {
+        for dt in [1e-3, 5e-4, 2.5e-4, 1.7e-4, 1.25e-4, 6e-5] {
+            let mut least = f64::INFINITY;
+            let done = run(&read_deck(&thrown(dt, velocity, spin, other)), &mut |frame| {
+                least = least.min(frame.state.nodes[0].x.z);
+                Vec::new()
+            });
+            // The impact would press 0.3 in, and half a plate is the limit.
+            let Outcome::Failed { failure: Failure::ContactNotResolved { name }, .. } = done.outcome else {
+                panic!("case {k} at {dt}: {:?}, down to {least}", done.outcome)
+            };
+            assert!(name == "hit" && least > -0.0025, "case {k} at {dt}: {least}");
+        }
+    }
 }

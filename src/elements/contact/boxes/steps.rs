@@ -1,7 +1,8 @@
 //! Limits on the step length: no box passes through another, and impacts are resolved.
 
 use super::pair::BoxPairs;
-use super::pose::BoxPose;
+use super::pose::{BoxPose, LeastAxis};
+use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
 /// True where a step from `start` to `now` must be shorter: a box would pass through the other, or be more than half way through, or
@@ -33,7 +34,7 @@ fn is_missed(pairs: &BoxPairs, e: usize, start: &[Node], now: &Configuration) ->
         return false;
     }
     if last.gap >= 0.0 {
-        let through = first.gap <= 0.0 && first.axis.dot(&last.axis) < -0.5;
+        let through = first.gap <= 0.0 && is_opposite(&first.axis, &last.axis);
         return through || first.gap > 0.0 && passes(&from, &to, length);
     }
     let depth = -last.gap;
@@ -41,29 +42,59 @@ fn is_missed(pairs: &BoxPairs, e: usize, start: &[Node], now: &Configuration) ->
     if now.dt < old.safe_time() || depth > half && depth > -first.gap {
         return true;
     }
+    // Thin boxes may overlap already where the one is about to leave by the other side.
+    let entry = if first.gap > 0.0 {
+        Way { from: &from, to: &to }.entry(length).map(|(_, axis)| axis)
+    } else {
+        Some(first.axis)
+    };
+    if entry.is_some_and(|entry| is_opposite(&entry, &last.axis)) {
+        return true;
+    }
     let fast = 3.0 * law.floor;
     let landing = first.gap > 0.0 && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * law.resolution);
     landing && now.dt > law.resolution
 }
 
-/// True where boxes that are apart before and after have met on the way. No way is shorter than the gap, so the search goes on by
-/// that from either end.
-fn passes(from: &BoxPose, to: &BoxPose, length: f64) -> bool {
-    let gap = |t: f64| {
+/// True where the side on which boxes lie has changed for the other: the axes of neighbouring sides are at right angles.
+fn is_opposite(a: &Vec3, b: &Vec3) -> bool {
+    a.dot(b) < -0.5
+}
+
+/// The motion of a pair in a step, from 0 to 1.
+struct Way<'a> {
+    from: &'a BoxPose,
+    to: &'a BoxPose,
+}
+
+impl Way<'_> {
+    fn least_axis(&self, t: f64) -> LeastAxis {
+        let Way { from, to } = self;
         let (y, Q) = (from.y + t * (to.y - from.y), from.Q + t * (to.Q - from.Q));
-        BoxPose { y, Q, ..*from }.least_axis().gap
-    };
-    let reached = |at: &dyn Fn(f64) -> f64| {
+        BoxPose { y, Q, ..**from }.least_axis()
+    }
+
+    /// Where the boxes meet first on a way of this `length`, and the axis that held them apart until then. No way is shorter than
+    /// the gap, so the search goes on by that.
+    fn entry(&self, length: f64) -> Option<(f64, Vec3)> {
         let mut t = 0.0;
         while t < 1.0 {
-            let g = gap(at(t));
-            if g < 1e-3 * length {
-                return Some(t);
+            let at = self.least_axis(t);
+            if at.gap < 1e-3 * length {
+                return Some((t, at.axis));
             }
-            t += g / length;
+            t += at.gap / length;
         }
         None
+    }
+}
+
+/// True where boxes that are apart before and after have met on the way.
+fn passes(from: &BoxPose, to: &BoxPose, length: f64) -> bool {
+    let (Some((t0, _)), Some((back, _))) = (Way { from, to }.entry(length), Way { from: to, to: from }.entry(length))
+    else {
+        return false;
     };
-    let (Some(t0), Some(t1)) = (reached(&|t| t), reached(&|t| 1.0 - t).map(|t| 1.0 - t)) else { return false };
-    gap(0.5 * (t0 + t1)) < -0.02 * (t1 - t0) * length
+    let t1 = 1.0 - back;
+    Way { from, to }.least_axis(0.5 * (t0 + t1)).gap < -0.02 * (t1 - t0) * length
 }
