@@ -119,6 +119,47 @@ fn half_a_turn_of_a_bushing_is_refused() {
     }
 }
 
+/// A rotor that turns by more than half a turn, or by whole turns, in a step of the deck winds its spring all the same.
+#[test]
+fn turns_within_a_step_are_counted_or_the_step_is_cut() {
+    let rotor = |scheme: &str, dt: f64, spin: &str, stiffness: &str| {
+        opening(scheme, dt, 16.0 * dt, 16.0 * dt)
+            + &format!(
+                "[[bodies]]\nname = \"rotor\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = [2.0, 2.0, 2.0]\n\
+                 angular_velocity = {spin}\n[[links]]\nname = \"spring\"\nfrom = {{ ground = [0.0, 0.0, 0.0] }}\n\
+                 to = {{ body = \"rotor\" }}\nbushing = [100.0, 100.0, 100.0, {stiffness}]\n"
+            )
+    };
+    let axes = [("[100.0, 0.0, 0.0]", "0.01, 30.0, 30.0", 0), ("[0.0, -100.0, 0.0]", "5.0, 0.01, 7.0", 1)];
+    // 4, 5.1, 6.3 rad: a turn but for 5e-4, and 12.6.
+    for dt in [0.04, 0.051, 0.0628, 0.1257] {
+        for (scheme, (spin, stiffness, k)) in ["newmark", "bathe", "wilson-theta", "runge-kutta", "central-difference"]
+            .into_iter()
+            .flat_map(|s| axes.map(|a| (s, a)))
+        {
+            let model = read_deck(&rotor(scheme, dt, spin, stiffness));
+            let done = run_to_the_end(&model, &mut |frame| frame.derived.links[0].m.iter().copied().collect());
+            let frequency = (0.01f64 / 2.0).sqrt();
+            let angle = 100.0 / frequency * (frequency * 16.0 * dt).sin();
+            let end = done.rows.last().unwrap()[k].abs();
+            // Cut steps are 0.004 of a radian of the vibration: 1e-5; a full turn less would be 0.063.
+            assert!((end - 0.01 * angle).abs() < 2e-4, "{scheme}, {dt}: {end} for {}", 0.01 * angle);
+        }
+    }
+    // Where the moment ends at half a turn, a step beyond does not hide it: nearly one turn, one and a half, two.
+    for dt in [0.058, 0.09, 0.1257] {
+        for (spin, stiffness) in [("[100.0, 0.0, 0.0]", "0.01, 0.01, 0.01"), ("[0.0, 0.0, 100.0]", "3.0, 0.01, 0.02")] {
+            let done = run(&read_deck(&rotor("newmark", dt, spin, stiffness)), &mut |_| Vec::new());
+            let Outcome::Failed { time, failure } = done.outcome else { panic!("{dt}, {stiffness}: not refused") };
+            assert!(time < 0.0315, "half a turn at 100 rad a second: {time}, {failure}");
+        }
+    }
+    // A free axis counts nothing: no step is cut.
+    let done =
+        run_to_the_end(&read_deck(&rotor("newmark", 0.04, "[100.0, 0.0, 0.0]", "0.0, 30.0, 30.0")), &mut |_| vec![]);
+    assert_eq!(done.counts.cuts, 0);
+}
+
 fn free(inertia: &str, scheme: &str, dt: f64, end: f64, interval: f64) -> rdsolve::model::Model {
     read_deck(&format!(
         "{}[[bodies]]\nname = \"body\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = {inertia}\n\

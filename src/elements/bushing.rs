@@ -71,6 +71,24 @@ impl Bushing {
         self.spring.is_turned_over(&self.relative_rotation(start), &self.relative_rotation(end))
     }
 
+    /// True where the ends turn against each other by more than 2 rad in a step of length `dt` from `start` to `end`: the rotations
+    /// at its ends do not tell by how many full turns.
+    pub fn turns_too_far(&self, start: &[Node], end: &[Node], dt: f64) -> bool {
+        /// In radians. Half a turn is the limit; velocities at the ends of a step tell the angle between to a part of it only.
+        const LIMIT: f64 = 2.0;
+        if !self.spring.resists() {
+            return false;
+        }
+        let spin = |nodes: &[Node]| {
+            let [a, b] = self.nodes.map(|n| &nodes[n]);
+            self.axes.tr_mul(&a.R().tr_mul(&(b.omega - a.omega)))
+        };
+        // Of what vibrates from step to step the mean is the rotation all the same.
+        let spun = 0.5 * dt * (spin(start) + spin(end));
+        let rotations = [start, end].map(|nodes| self.relative_rotation(nodes));
+        self.spring.step_angle(&rotations, &spun) > LIMIT
+    }
+
     /// The coefficients of translation and of rotation.
     fn coefficients(values: &[f64; 6]) -> (Vec3, Vec3) {
         let [a, b, c, d, e, f] = *values;

@@ -74,6 +74,35 @@ impl RotationalSpring {
         passed || self.moment(after, 0.0).angle > LIMIT
     }
 
+    /// True where any rotation is resisted.
+    pub fn resists(&self) -> bool {
+        match self {
+            RotationalSpring::Isotropic { stiffness } => *stiffness != 0.0,
+            RotationalSpring::AboutAxis { .. } => true,
+        }
+    }
+
+    /// The largest angle, of those on which moments depend, of a step between two rotations, in which the second end turns by the
+    /// vector `spun` as velocities tell, components in the frame. A spin about a free axis is none of them.
+    pub fn step_angle(&self, rotations: &[Quaternion<f64>; 2], spun: &Vec3) -> f64 {
+        let [before, after] = rotations;
+        match *self {
+            RotationalSpring::Isotropic { .. } => rotation::log(&(after * before.conjugate())).norm().max(spun.norm()),
+            RotationalSpring::AboutAxis { axis, .. } => {
+                let [from, to] = [before, after].map(|Q| Swing::of(Q, axis));
+                // The axis moves across itself with the part of the spin that is not about it.
+                let swung = spun.cross(&from.b).norm().min(spun.cross(&to.b).norm());
+                let swing = from.b.cross(&to.b).norm().atan2(from.b.dot(&to.b)).max(swung);
+                if !self.counts_turns() {
+                    return swing;
+                }
+                let last = twist(before, axis);
+                let turned = counted(twist(after, axis), last) - last;
+                swing.max(turned.abs()).max(spun.dot(&from.h()).abs().min(spun.dot(&to.h()).abs()))
+            }
+        }
+    }
+
     /// The stiffness about the axis of twist: where there is some, full turns count.
     pub fn counts_turns(&self) -> bool {
         matches!(self, RotationalSpring::AboutAxis { axis, stiffness } if stiffness[*axis] != 0.0)

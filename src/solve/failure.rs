@@ -65,6 +65,13 @@ pub enum Failure {
         /// The name of the bushing.
         name: String,
     },
+    /// The ends of a bushing turn against each other by so much in a step that full turns are not told from none.
+    BushingTurnsTooFar {
+        /// The name of the bushing.
+        name: String,
+        /// The length of the step.
+        dt: f64,
+    },
     /// A step of central differences is longer than the critical time step.
     Unstable {
         /// The length of the step.
@@ -233,6 +240,10 @@ impl Failure {
             Failure::BushingTurnedOver { name } => format!(
                 "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \
                  defined; about an axis whose stiffness differs from the other two they may turn on without limit"
+            ),
+            Failure::BushingTurnsTooFar { name, dt } => format!(
+                "in a step of {dt:.3e} the ends of bushing `{name}` turn against each other by more than 2 radians, and full turns \
+                 cannot be told from none (a shorter `time_step`)"
             ),
             Failure::NoEquilibriumOnArc { .. }
             | Failure::NoLoadIncrement { .. }

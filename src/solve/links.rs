@@ -5,14 +5,19 @@ use super::failure::Failure;
 use super::workspace::Workspace;
 use crate::model::Link;
 use crate::state::State;
-use crate::system::results::bushing_turned_over;
+use crate::system::results::{bushing_turned_over, bushing_turns_too_far};
 
-/// Before the trial motion is taken.
+/// Before the trial motion is taken, at the end of a step of length `dt`.
 ///
 /// # Errors
-/// [`Failure::BushingTurnedOver`] where the ends of a bushing have turned against each other by half a turn.
-pub fn check(cx: &Context, ws: &Workspace, state: &State) -> Result<(), Failure> {
-    let turned = bushing_turned_over(cx.system, &state.nodes, &ws.trial);
-    let link = turned.and_then(|place| cx.model.each::<Link>().nth(place));
-    link.map_or(Ok(()), |link| Err(Failure::BushingTurnedOver { name: link.name.clone() }))
+/// [`Failure::BushingTurnedOver`] where the ends of a bushing have turned against each other by half a turn,
+/// [`Failure::BushingTurnsTooFar`] where they turn by so much in the step that it cannot be told from less.
+pub fn check(cx: &Context, ws: &Workspace, state: &State, dt: f64) -> Result<(), Failure> {
+    let name = |place: usize| cx.model.each::<Link>().nth(place).map(|link| link.name.clone());
+    // The longer step is the cause where both hold.
+    if let Some(name) = bushing_turns_too_far(cx.system, &state.nodes, &ws.trial, dt).and_then(name) {
+        return Err(Failure::BushingTurnsTooFar { name, dt });
+    }
+    let turned = bushing_turned_over(cx.system, &state.nodes, &ws.trial).and_then(name);
+    turned.map_or(Ok(()), |name| Err(Failure::BushingTurnedOver { name }))
 }

@@ -17,6 +17,12 @@ pub fn bushing_turned_over(system: &System, start: &[Node], end: &[Node]) -> Opt
     links::turned_over(&system.links, start, end)
 }
 
+/// The bushing, by its place among the links, whose ends turn against each other too far for a step of length `dt` from `start` to
+/// `end`.
+pub fn bushing_turns_too_far(system: &System, start: &[Node], end: &[Node], dt: f64) -> Option<usize> {
+    links::turns_too_far(&system.links, start, end, dt)
+}
+
 /// Writes the largest accumulated plastic strain of each element into `out`: all beams, bars and shells in deck
 /// order.
 pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>) {

@@ -113,7 +113,7 @@ impl CentralDifferenceStepper {
         }
         contacts::check_passage(cx, ws, state, dt)?;
         joints::check(cx, ws)?;
-        links::check(cx, ws, state)?;
+        links::check(cx, ws, state, dt)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         self.critical.count(aMa);
         offset_energy(&mut state.work, aMa, dt);

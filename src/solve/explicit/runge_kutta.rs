@@ -156,7 +156,7 @@ impl RungeKuttaStepper {
         }
         contacts::check_passage(cx, ws, state, dt)?;
         joints::check(cx, ws)?;
-        links::check(cx, ws, state)?;
+        links::check(cx, ws, state, dt)?;
         commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
         if cx.wants_forces {
             for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {

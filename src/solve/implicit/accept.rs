@@ -15,7 +15,7 @@ use crate::state::{Configuration, State};
 ///
 /// # Errors
 /// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, [`Failure::ContactNotResolved`] where something would have gone
-/// through a surface there, [`Failure::EquilibriumJumps`] where a load step does not end on the path that it began on; `state` is untouched.
+/// through a surface there, [`Failure::BushingTurnedOver`] or [`Failure::BushingTurnsTooFar`] where a bushing has lost count of its turns, [`Failure::EquilibriumJumps`] where a load step does not end on the path that it began on; `state` is untouched.
 pub fn accept(
     cx: &Context,
     ws: &mut Workspace,
@@ -38,7 +38,7 @@ pub fn accept(
         contacts::check_passage(cx, ws, state, dt)?;
     }
     joints::check(cx, ws)?;
-    links::check(cx, ws, state)?;
+    links::check(cx, ws, state, dt)?;
     jump::check_work(cx, ws, state, &account.dissipated, to)?;
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())

@@ -88,6 +88,14 @@ pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Optio
     links.iter().position(turned)
 }
 
+/// The bushing, by its place among the links, whose ends turn against each other so far in a step of length `dt` from `start` to
+/// `end` that they may have turned by a full turn more or less.
+pub fn turns_too_far(links: &[LinkElement], start: &[Node], end: &[Node], dt: f64) -> Option<usize> {
+    let turns =
+        |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.turns_too_far(start, end, dt));
+    links.iter().position(turns)
+}
+
 /// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
 pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration, out: &mut Vec<LinkState>) {
     out.clear();
