@@ -190,6 +190,80 @@ fn parts_that_touch_without_sharing_a_node_are_said() {
     is_silent(&(tip + "[[attachments]]\nbody = \"ball\"\nnodes = [\"b\"]\n"));
 }
 
+/// Along edges and paths, with like divisions and others; what crosses, is joined or runs through as a cable does is not said.
+#[test]
+fn parts_that_lie_along_one_another_are_said() {
+    let shell = |name: &str, corners: &str, elements: &str| {
+        format!(
+            "[[shells]]\nname = \"{name}\"\ncorners = [{corners}]\nelements = {elements}\nmaterial = \"steel\"\n\
+             thickness = 0.01\n"
+        )
+    };
+    let points = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]\n\
+                  e = [0.0, 0.0, 1.0]\nf = [1.0, 0.0, 1.0]\ng = [0.25, 0.0, 0.0]\nh = [0.75, 0.0, 0.0]\n\
+                  k = [0.5, -0.5, 0.0]\nl = [0.5, 1.5, 0.0]\nm = [0.3, 0.5, -0.5]\nn = [0.3, 0.5, 0.5]\n\
+                  o = [0.0, 0.5, -0.5]\np = [1.0, 0.5, -0.5]\nq = [1.0, 0.5, 0.5]\nr = [0.0, 0.5, 0.5]\n";
+    let plate = points.to_owned() + &shell("plate", "\"a\", \"b\", \"c\", \"d\"", "[4, 4]");
+    for elements in [1, 3, 4, 6] {
+        let rib = plate.clone() + &beam("rib", "\"a\", \"b\"", elements);
+        says(&rib, Severity::Warning, &["beam `rib`", "shell `plate`", "nothing holds the two together along"]);
+        let (_, said) = read(&rib);
+        assert_eq!(said.iter().filter(|(_, said)| said.contains("along")).count(), 1, "once: {said:?}");
+        let two = points.to_owned() + &beam("x", "\"a\", \"b\"", 4) + &beam("y", "\"a\", \"b\"", elements);
+        says(&two, Severity::Warning, &["beam `x`", "beam `y`"]);
+        // A web that cuts through a flange, on its lines and off them.
+        let web = shell("web", "\"o\", \"p\", \"q\", \"r\"", &format!("[{elements}, 2]"));
+        says(&(plate.clone() + &web), Severity::Warning, &["shell `web`", "shell `plate`"]);
+    }
+    // Patches of like corners share the nodes of an edge.
+    is_silent_about("along", &(plate.clone() + &shell("web", "\"a\", \"b\", \"f\", \"e\"", "[4, 2]")));
+    // In part.
+    let part = points.to_owned() + &beam("long", "\"a\", \"b\"", 4) + &beam("short", "\"g\", \"h\"", 2);
+    says(&part, Severity::Warning, &["beam `short`", "beam `long`"]);
+    // Crossing in one place, in the plane and through it; at an end.
+    is_silent_about("along", &(points.to_owned() + &beam("x", "\"a\", \"b\"", 4) + &beam("y", "\"k\", \"l\"", 4)));
+    is_silent_about("along", &(plate.clone() + &beam("pin", "\"m\", \"n\"", 4)));
+    is_silent_about("along", &(plate.clone() + &beam("post", "\"a\", \"e\"", 4)));
+    // Paths that name the same points share the nodes there.
+    let stations = "\"a\", \"g\", \"h\", \"b\"";
+    let joined = points.to_owned() + &beam("x", stations, 1) + &beam("y", stations, 1);
+    is_silent_about("along", &joined.replace("elements = 1", "elements = [1, 1, 1]"));
+}
+
+/// A drive that starts at once takes along what is joined to it; velocities that the deck gives are another matter.
+#[test]
+fn drives_that_start_at_once_are_no_contradiction() {
+    let crank = |velocity: &str, more: &str| {
+        format!(
+            "[analysis]\nkind = \"dynamic\"\nend_time = 0.02\ntime_step = 1e-3\n[integrator]\nscheme = \"newmark\"\n\
+             [[bodies]]\nname = \"crank\"\ncenter = [0.1, 0.0, 0.0]\nmass = 2.0\ninertia = [0.1, 0.2, 0.2]\n\
+             [[bodies]]\nname = \"rod\"\ncenter = [0.5, 0.0, 0.0]\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\n{velocity}\n\
+             [points]\no = [0.0, 0.0, 0.0]\n[[attachments]]\nbody = \"crank\"\nnodes = [\"o\"]\n\
+             [[joints]]\nname = \"bearing\"\nkind = \"revolute\"\nfrom = {{ ground = [0.0, 0.0, 0.0] }}\n\
+             to = {{ body = \"crank\" }}\naxis = [0.0, 0.0, 1.0]\n\
+             [[joints]]\nname = \"pin\"\nkind = \"revolute\"\nfrom = {{ body = \"crank\", point = [0.2, 0.0, 0.0] }}\n\
+             to = {{ body = \"rod\" }}\naxis = [0.0, 0.0, 1.0]\n{more}"
+        )
+    };
+    let drive = "[amplitudes.go]\nkind = \"constant\"\n[[supports]]\nat = \"crank\"\n\
+                 motion = { rz = { amplitude = \"go\", scale = 3.0, history = \"velocity\" } }\n";
+    let violated = |velocity: &str, more: &str| {
+        let (outcome, said) = crate::support::doubts(&crank(velocity, more));
+        assert!(matches!(outcome, rdsolve::solve::Outcome::Done), "{outcome:?}");
+        said.iter().any(|said| said.contains("initial velocities violate the joints"))
+    };
+    assert!(!violated("", drive), "only the drive moves");
+    // The pin moves at 3 × 0.2: a rod that flies along agrees, and one that flies elsewhere does not.
+    assert!(!violated("velocity = [0.0, 0.6, 0.0]", drive));
+    assert!(violated("velocity = [0.0, 2.0, 0.0]", drive));
+    assert!(violated("velocity = [0.7, 0.0, 0.0]", drive));
+    assert!(violated("velocity = [0.7, 0.0, 0.0]", ""), "without a drive");
+    // What is not joined to anything may fly as it likes.
+    let other = "[[bodies]]\nname = \"stone\"\ncenter = [5.0, 0.0, 0.0]\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\n\
+                 velocity = [1.0, 2.0, 3.0]\n";
+    assert!(!violated("", &(drive.to_owned() + other)));
+}
+
 #[test]
 fn sections_and_thicknesses_that_do_not_go_with_lengths_are_said() {
     let one = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n".to_owned() + &beam("l", "\"a\", \"b\"", 4);
@@ -270,5 +344,37 @@ fn dissipation_is_measured_against_the_motion() {
         for said in [&err, &log] {
             assert_eq!(said.contains("warning: numerical dissipation"), warned, "{time_step}: {said}");
         }
+    }
+}
+
+/// A hundred-thousandth of a joule where boxes of 4 kg come to rest is nothing; what an impact makes is something.
+#[test]
+fn energies_that_lift_nothing_are_not_said() {
+    let box_on = |gravity: f64, step: f64, rest: &str| {
+        format!(
+            "[analysis]\nkind = \"dynamic\"\nend_time = 0.1\ntime_step = {step}\n[integrator]\nscheme = \"newmark\"\n\
+             [environment]\ngravity = [0.0, 0.0, -{gravity:?}]\n{rest}"
+        )
+    };
+    let settling = "[[bodies]]\nname = \"b\"\ncenter = [0.1, 0.1, 0.05]\nmass = 4.0\n\
+                    shape = { kind = \"box\", size = [0.2, 0.2, 0.1] }\n[[contacts]]\nname = \"g\"\n\
+                    surface = { shape = \"box\", size = [0.4, 0.4, 0.1], center = [0.0, 0.0, -0.05] }\nwith = \"b\"\n\
+                    stiffness = 1e6\nfriction = 0.4\nrestitution = 0.3\n";
+    let struck = "[[bodies]]\nname = \"b\"\ncenter = [0.0, 0.0, 0.2]\nmass = 1.0\nvelocity = [0.0, 0.0, -50.0]\n\
+                  shape = { kind = \"sphere\", radius = 0.1 }\n[[contacts]]\nname = \"g\"\n\
+                  surface = { shape = \"plane\", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nwith = \"b\"\n\
+                  stiffness = 2.5e7\nrestitution = 0.8\n";
+    // Impacts of three steps each.
+    let cases = [(9.81, 5e-4, settling, false), (9.81, 2e-4, struck, true), (0.0, 2e-4, struck, true)];
+    for (gravity, step, rest, said) in cases {
+        let text = box_on(gravity, step, rest);
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("deck.toml"), &text).unwrap();
+        let run =
+            Command::cargo_bin("rdsolve").unwrap().current_dir(&folder).args(["run", "deck.toml"]).assert().code(0);
+        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+        let (out, err) = (text(&run.get_output().stdout), text(&run.get_output().stderr));
+        assert!(out.contains("numerical growth of energy: "), "{out}");
+        assert_eq!(err.contains("energy growth: "), said, "{err}{out}");
     }
 }

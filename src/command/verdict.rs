@@ -4,7 +4,7 @@ use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 use crate::names::{instant, short, to_digits};
 use crate::output::expect::Verdict;
 use crate::output::result_json::Status;
-use crate::solve::{Outcome, Run};
+use crate::solve::{Outcome, Run, settling_energy};
 use crate::system::energy::Balance;
 use std::io;
 
@@ -93,12 +93,21 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     if motion <= 0.0 {
         return None;
     }
-    let percent = |energy: f64| format!("{} % of the energy of the motion", to_digits(100.0 * energy / motion, 2));
+    let percent = |energy: f64| of_motion(energy, balance);
     Some(if balance.lost() < 0.0 {
         format!("numerical growth of energy: {}", percent(-balance.lost()))
     } else {
         format!("numerical dissipation: {}", percent(balance.lost()))
     })
+}
+
+/// A part of the energy of the motion in words. Of steady motion it is far from that of all energy, and neither alone says how much
+/// is missing: both are given.
+fn of_motion(energy: f64, balance: &Balance) -> String {
+    let percent = |of: f64| to_digits(100.0 * energy / of, 2);
+    let (motion, peak) = (balance.motion(), balance.peak);
+    let all = if motion < 0.5 * peak { format!(", {} % of the largest energy", percent(peak)) } else { String::new() };
+    format!("{} % of the energy of the motion{all}", percent(motion))
 }
 
 /// The warning about an energy balance that no one should take on trust; `None` where it is sound.
@@ -107,16 +116,15 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     const SEEN: f64 = 0.02;
     /// The same of the largest energy on the way, which is less strict: an impact takes some and gives it back within a step.
     const ON_THE_WAY: f64 = 0.2;
-    let motion = balance.motion();
-    let percent = |energy: f64, of: f64| to_digits(100.0 * energy / of, 2);
-    let part = |energy: f64| format!("{} % of the largest energy", percent(energy, balance.peak));
+    let (motion, unseen) = (balance.motion(), settling_energy(model));
+    let part = |energy: f64| format!("{} % of the largest energy", to_digits(100.0 * energy / balance.peak, 2));
     let shorter = match model.analysis.step_length {
         StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
         StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
     };
     let remedy = format!("see `numerical` in energy.csv, and try {shorter}");
-    if balance.generated > SEEN * balance.peak {
+    if balance.generated > SEEN * balance.peak.max(unseen) {
         let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
         // strain that comes out wrong by it: no motion is made.
@@ -128,11 +136,9 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         } else {
             format!("energy growth: the time integration has added {part}; {remedy}")
         })
-    } else if balance.lost() > SEEN * motion {
-        let lost = percent(balance.lost(), motion);
-        Some(format!(
-            "numerical dissipation: the time integration has removed {lost} % of the energy of the motion; {remedy}"
-        ))
+    } else if balance.lost() > SEEN * motion.max(unseen) {
+        let lost = of_motion(balance.lost(), balance);
+        Some(format!("numerical dissipation: the time integration has removed {lost}; {remedy}"))
     } else if balance.dissipated > ON_THE_WAY * balance.peak {
         Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.dissipated)))
     } else {

@@ -65,8 +65,16 @@ impl LawReader<'_, '_> {
         };
         let given = contact.stiffness.as_ref().map(|at| at.value);
         let stiffness = given.or(chosen.as_ref().map(|chosen| chosen.stiffness))?;
-        if chosen.is_some() {
+        if let Some(chosen) = &chosen {
             self.check_step(owner, &meeting, stiffness, report);
+            if chosen.rests_on_time {
+                let message = format!(
+                    "nothing in the deck says how fast or how hard {} is met, so its `stiffness` of {} rests on `end_time` alone",
+                    owner.what,
+                    short(stiffness)
+                );
+                report.warn(owner.span, message, "give `stiffness`: mass times the square of speed over depth");
+            }
         }
         Some((self.law(contact, &meeting, stiffness), chosen.map(|chosen| chosen.reason)))
     }
@@ -118,6 +126,16 @@ impl LawReader<'_, '_> {
         report.warn(owner.span, message, hint);
     }
 
+    /// The smallest dimension of bodies that touch and of what is touched.
+    pub fn size(&self, surface: (usize, &Surface), touching: (&[ContactPoint], &[TouchingBox])) -> f64 {
+        let (points, _) = with_boxes(touching);
+        self.meets(surface, &points).size_of_bodies()
+    }
+
+    fn meets<'a>(&'a self, surface: (usize, &'a Surface), points: &'a [ContactPoint]) -> Meets<'a, 'a> {
+        Meets { scene: self.scene, topology: self.topology, gravity: self.gravity.norm(), surface, points }
+    }
+
     /// The penetration under gravity, where the largest mass in contact rests on one point.
     pub fn depth_at_rest(&self, carrier: usize, touching: (&[ContactPoint], &[TouchingBox]), stiffness: f64) -> f64 {
         let (points, levers) = with_boxes(touching);
@@ -139,8 +157,7 @@ impl LawReader<'_, '_> {
         if meeting.mean <= 0.0 {
             return Err("nothing that touches has a mass to choose it by");
         }
-        let gravity = self.gravity.norm();
-        Ok(Meets { scene: self.scene, topology: self.topology, gravity, surface, points }.stiffness(meeting.mean))
+        Ok(self.meets(surface, points).stiffness(meeting.mean))
     }
 
     /// The mass that resists a motion of a node. Dependent nodes have that of what they depend on.

@@ -5,13 +5,14 @@ use super::nodes::{Nodes, Topology};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
+use super::sight::{Opening, Sight};
 use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, MOST_NODES, Toucher, TouchingBox};
 use crate::math::Vec3;
 use crate::solids::Touching;
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 /// Largest number of points between two nodes; more are taken for a typing error.
 const MOST_POINTS: usize = 100;
@@ -50,8 +51,8 @@ pub(super) struct Finder<'a, 'd> {
     pub on_box: Option<usize>,
     /// The boxes found.
     pub boxes: Vec<TouchingBox>,
-    /// The shapes of all that was found.
-    pub touchers: BTreeSet<Toucher>,
+    /// What is seen of all that was found.
+    pub sight: Sight,
 }
 
 impl<'d> Finder<'_, 'd> {
@@ -71,6 +72,7 @@ impl<'d> Finder<'_, 'd> {
             points => points.as_ref().map_or(0, |at| at.value as usize),
         };
         let given = contact.radius.as_ref().map(|_| self.report.not_negative("radius", &contact.radius, 0.0));
+        self.sight.radius = given;
         let names = self.report.require_nodes(owner, "with", &contact.with)?;
         if names.values.is_empty() {
             return self.report.error(&names.span, "`with` is empty, so nothing touches the surface");
@@ -163,7 +165,7 @@ impl<'d> Finder<'_, 'd> {
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
-        self.touchers.insert(match place {
+        self.sight.touchers.insert(match place {
             Place::Body(body) => self.toucher_of_body(body),
             Place::Part(_) | Place::Edge(..) => Toucher::Nodes,
             _ => Toucher::Ball,
@@ -172,12 +174,14 @@ impl<'d> Finder<'_, 'd> {
             Place::Body(body) => self.touches_of_body(body, name, between, at, found),
             Place::Part(part) => {
                 let radius = self.contact_radius(part);
+                self.open(&self.scene.parts.elements(part), part.kind.is_surface(), radius, Some(between));
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
                 let between = self.scene.parts.of(part).iter().flat_map(|part| part.places_between(between));
                 found.extend(between.map(|nodes| Touch { nodes, radius }));
             }
             Place::Edge(part, _) => {
                 let radius = self.contact_radius(part);
+                self.open(&[self.scene.nodes_of(place)], false, radius, None);
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
             }
             _ => found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0))),
@@ -193,6 +197,18 @@ impl<'d> Finder<'_, 'd> {
             Touching::Points(_) if is_drawn => Toucher::Rims,
             Touching::Points(_) | Touching::Ball(_) => Toucher::Ball,
         }
+    }
+
+    /// Notes the widest opening between the nodes of elements, with so many points `between` where there may be some.
+    fn open(&mut self, elements: &[Vec<usize>], is_surface: bool, radius: f64, between: Option<usize>) {
+        let x = |node: usize| self.topology.x(node);
+        let width = |nodes: &Vec<usize>| match is_surface {
+            // What goes through a mesh of a surface is as wide as its diagonal.
+            true => nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| (a, b))).fold(0.0, widest(&x)),
+            false => nodes.windows(2).map(|pair| (pair[0], pair[1])).fold(0.0, widest(&x)),
+        };
+        let width = elements.iter().map(width).fold(0.0, f64::max) / (between.unwrap_or(0) + 1) as f64;
+        self.sight.openings.push(Opening { width, radius, divides: between.is_some() });
     }
 
     fn contact_radius(&self, part: PartIndex) -> f64 {
@@ -211,8 +227,16 @@ impl<'d> Finder<'_, 'd> {
             }
             return;
         }
+        let width = shape.opening(between).filter(|_| is_drawn);
+        self.sight.openings.extend(width.map(|width| Opening { width, radius: 0.0, divides: true }));
         let corners = match shape.touching(between) {
             Touching::Nodes => {
+                let scene = self.scene;
+                for (part, _) in scene.parts.entries().filter(|(_, entry)| entry.rigid_elements.is_some()) {
+                    let mut elements = scene.parts.elements(part);
+                    elements.retain(|nodes| nodes.iter().all(|&of| self.topology.root(of) == node));
+                    self.open(&elements, part.kind.is_surface(), 0.0, None);
+                }
                 let dependents: HashMap<usize, usize> =
                     self.topology.dependents.iter().map(|r| (r.node, r.master)).collect();
                 let mut nodes: Vec<usize> = dependents.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
@@ -230,4 +254,9 @@ impl<'d> Finder<'_, 'd> {
             found.push(Touch::node(dependent, 0.0));
         }
     }
+}
+
+/// The longest of distances so far and of one more pair of nodes.
+fn widest(x: &impl Fn(usize) -> Vec3) -> impl Fn(f64, (usize, usize)) -> f64 + '_ {
+    |most, (a, b)| most.max((x(a) - x(b)).norm())
 }

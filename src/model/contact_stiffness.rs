@@ -20,6 +20,8 @@ pub(super) struct ChosenStiffness {
     pub stiffness: f64,
     /// The quantity by which it was chosen, in words.
     pub reason: String,
+    /// True where nothing but the time that the run lasts was there to choose it by.
+    pub rests_on_time: bool,
 }
 
 /// The things that meet in a contact.
@@ -53,7 +55,8 @@ impl Meets<'_, '_> {
             let depth = format!("a weight of {} presses {} in", short(mass * self.gravity), short(SUNK * size));
             choices.push((mass * self.gravity / (SUNK * size), depth));
         }
-        if choices.is_empty() {
+        let rests_on_time = choices.is_empty();
+        if rests_on_time {
             let pace = self.extent() / self.scene.analysis.end_time;
             let reason = format!(
                 "nothing moves at t = 0; at {}, the scene in the run, {} deep",
@@ -64,7 +67,7 @@ impl Meets<'_, '_> {
         }
         let largest = choices.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         let (stiffness, reason) = largest.unwrap_or_default();
-        ChosenStiffness { stiffness, reason }
+        ChosenStiffness { stiffness, reason, rests_on_time }
     }
 
     /// The least stiffness of the deformable parts that touch, by their names.
@@ -77,8 +80,22 @@ impl Meets<'_, '_> {
         parts.filter_map(|part| Some((stiffness(part)?, part.name()))).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
+    /// The smallest dimension of bodies that touch and of what is touched; that of the scene where neither has one. Parts count for
+    /// nothing: a sheet may be pressed in by more than its thickness and is still on its side.
+    pub fn size_of_bodies(&self) -> f64 {
+        let parts = &self.scene.parts.list;
+        let nodes = parts.iter().flat_map(|part| (0..part.elements()).flat_map(|element| part.nodes(element)));
+        let of_parts: HashSet<usize> = nodes.copied().collect();
+        self.smallest(|point| !point.nodes().iter().any(|node| of_parts.contains(node)))
+    }
+
     /// The smallest dimension of what touches and of what is touched; that of the scene where neither has one.
     fn size(&self) -> f64 {
+        self.smallest(|_| true)
+    }
+
+    /// The same of the points that count.
+    fn smallest(&self, counts: impl Fn(&ContactPoint) -> bool) -> f64 {
         let body = |point: &ContactPoint| {
             let root = self.topology.root(point.nodes[0]);
             let body = self.scene.bodies.iter().find(|body| body.node == root)?;
@@ -93,7 +110,7 @@ impl Meets<'_, '_> {
             radius if radius > 0.0 => 2.0 * radius,
             _ => body(point).unwrap_or(f64::INFINITY),
         };
-        let points = self.points.iter().map(of_point).fold(f64::INFINITY, f64::min);
+        let points = self.points.iter().filter(|point| counts(point)).map(of_point).fold(f64::INFINITY, f64::min);
         let size = points.min(self.surface.1.least());
         if size.is_finite() { size } else { self.extent() }
     }

@@ -7,14 +7,14 @@ use super::data::{Contact, Mass};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::Scene;
+use super::sight::Sight;
 use super::values::span;
 use crate::deck::contacts as words;
 use crate::elements::contact::boxes::BoxPose;
 use crate::elements::contact::restitution;
-use crate::elements::contact::{ContactPoint, Surface, Toucher, TouchingBox};
+use crate::elements::contact::{ContactPoint, Surface, TouchingBox};
 use crate::math::Vec3;
 use crate::names::short;
-use std::collections::BTreeSet;
 
 /// Reads `[[contacts]]`, after all constraints: nodes that depend on the surface's own body do not touch it, and
 /// restrained nodes have no mass.
@@ -38,17 +38,16 @@ pub(super) fn contacts<'d>(
         let surface = surface.and_then(|table| read_surface(&name, table, scene, topology, report));
         let carrier = surface.as_ref().map(|(node, _)| *node);
         let on_box = surface.as_ref().and_then(|(node, surface)| surface.as_box().map(|_| *node));
-        let mut finder = Finder { scene, topology, report, on_box, boxes: Vec::new(), touchers: BTreeSet::new() };
+        let mut finder = Finder { scene, topology, report, on_box, boxes: Vec::new(), sight: Sight::default() };
         let points = finder.touching(&owner, &name, contact, carrier);
-        let (boxes, touchers) = (finder.boxes, finder.touchers);
+        let (boxes, sight) = (finder.boxes, finder.sight);
         let is_zone = is_zone(&owner, contact, report);
         let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { continue };
-        if contact.points.is_none() {
-            check_sight(&owner, &touchers, &surface, report);
-        }
+        sight.check(&owner, contact.points.as_ref().map(|at| at.value), &surface, report);
         let (mut law, mut chosen) = (None, None);
+        let chooser = LawReader { scene, masses, at_nodes: &at_nodes, gravity, topology: &*topology };
+        let size = chooser.size((node, &surface), (&points, &boxes));
         if !is_zone {
-            let chooser = LawReader { scene, masses, at_nodes: &at_nodes, gravity, topology: &*topology };
             let found = chooser.contact_law(&owner, contact, (node, &surface), (&points, &boxes), report);
             let Some((found, reason)) = found else { continue };
             let at_rest = chooser.depth_at_rest(node, (&points, &boxes), found.stiffness);
@@ -58,18 +57,9 @@ pub(super) fn contacts<'d>(
             check_start(&owner, (node, &surface), (&points, &boxes), at_rest, topology, report);
             (law, chosen) = (Some(found), reason);
         }
-        contacts.push(Contact { name, node, surface, points, boxes, touchers, law, chosen });
+        contacts.push(Contact { name, node, surface, points, boxes, touchers: sight.touchers, law, size, chosen });
     }
     contacts
-}
-
-/// Warns of bodies that may pass a surface unseen between their points.
-fn check_sight(owner: &Owner, touchers: &BTreeSet<Toucher>, surface: &Surface, report: &mut Report) {
-    for toucher in touchers.iter().filter(|toucher| toucher.may_pass(&surface.shape)) {
-        let unseen = toucher.unseen(&surface.shape).unwrap_or_default();
-        let message = format!("{} does not see {unseen}, so a {} may enter there", owner.what, surface.shape.word());
-        report.warn(owner.span, message, "give `points`, so many that they lie closer than the surface is wide");
-    }
 }
 
 /// The mass at each node, and at what it depends on.

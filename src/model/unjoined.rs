@@ -1,28 +1,23 @@
 //! Parts that touch without sharing a node: the deck draws them as one, and they move apart.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::bodies::title;
 use super::cells::Cells;
+use super::coincidence::{Coincidence, corners, lies_on, pieces};
 use super::data::PartIndex;
 use super::nodes::Topology;
+use super::overlaps::{Overlap, overlaps};
 use super::report::Report;
 use super::scene::Scene;
 use super::ties::Ties;
 use crate::diagnostic::Span;
 use crate::math::Vec3;
 
-/// Places are the same within this part of the median length of an element, ...
-const OF_ELEMENT: f64 = 1e-4;
-/// ... within what six digits of a coordinate leave of the size of the scene, ...
-const OF_SCENE: f64 = 2e-6;
-/// ... and never within more than this part of the shortest element.
-const OF_SHORTEST: f64 = 0.05;
-
 /// Warns once for each pair of parts that touch where nothing holds them together. The deck is sound.
 pub(super) fn check_unjoined(scene: &Scene, topology: &Topology, ties: Ties, report: &mut Report) {
     let pieces = pieces(scene);
-    let Some(tolerance) = Tolerance::new(&pieces, topology) else { return };
+    let Some(tolerance) = Coincidence::new(&pieces, topology) else { return };
     let mut of_node: Vec<Option<PartIndex>> = vec![None; topology.list.len()];
     for (part, nodes) in pieces.iter() {
         nodes.iter().for_each(|&node| of_node[node] = of_node[node].or(Some(*part)));
@@ -31,45 +26,26 @@ pub(super) fn check_unjoined(scene: &Scene, topology: &Topology, ties: Ties, rep
     search.places();
     search.pieces(&pieces);
     search.report(report);
-}
-
-/// The nodes of every element with its part.
-fn pieces(scene: &Scene) -> Vec<(PartIndex, Vec<usize>)> {
-    let entries = scene.parts.entries().filter(|(at, _)| at.kind.is_deformable());
-    entries.flat_map(|(at, _)| scene.parts.elements(at).into_iter().map(move |nodes| (at, nodes))).collect()
-}
-
-/// Within which places count as one, and the size of cells for elements.
-struct Tolerance {
-    same: f64,
-    cell: f64,
-    origin: Vec3,
-}
-
-impl Tolerance {
-    /// `None` for a scene without extent.
-    fn new(pieces: &[(PartIndex, Vec<usize>)], topology: &Topology) -> Option<Tolerance> {
-        let x = |node: usize| topology.x(node);
-        let mut lengths: Vec<f64> = pieces
-            .iter()
-            .flat_map(|(_, nodes)| nodes.windows(2).map(|pair| (x(pair[1]) - x(pair[0])).norm()))
-            .collect();
-        let origin = topology.list.first()?.x;
-        let (low, high) = topology.list.iter().fold((origin, origin), |(low, high), n| (low.inf(&n.x), high.sup(&n.x)));
-        let size = (high - low).amax();
-        if size.is_nan() || size <= 0.0 {
-            return None;
+    let Search { mut ties, tolerance, found, .. } = search;
+    let said: HashSet<[String; 2]> = found.iter().map(|touch| touch.pair.clone()).collect();
+    for overlap in overlaps(topology, &mut ties, &tolerance, &pieces) {
+        let [own, other] = overlap.parts.map(|part| title(scene.deck, part));
+        if !said.contains(&[own.clone(), other.clone()]) && !said.contains(&[other.clone(), own.clone()]) {
+            report_overlap(scene, &overlap, [&own, &other], report);
         }
-        if lengths.is_empty() {
-            return Some(Tolerance { same: OF_SCENE * size, cell: size, origin: low });
-        }
-        let middle = lengths.len() / 2;
-        let median = *lengths.select_nth_unstable_by(middle, f64::total_cmp).1;
-        let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-        let same = (OF_ELEMENT * median).max(OF_SCENE * size).min(OF_SHORTEST * shortest);
-        (same > 0.0).then_some(Tolerance { same, cell: 1.5 * median.max(mean), origin: low })
     }
+}
+
+/// Warns of parts that lie along one another.
+fn report_overlap(scene: &Scene, overlap: &Overlap, [own, other]: [&str; 2], report: &mut Report) {
+    let place = scene.deck.part(overlap.parts[0]).map(|part| part.place());
+    let message = match overlap.edges {
+        1 => format!("an edge of {own} lies on {other}, and nothing holds the two together along it"),
+        edges => format!("{edges} edges of {own} lie on {other}, and nothing holds the two together along them"),
+    };
+    let hint = "parts share the nodes of a mesh and points that both name, not those between: name points of both there, or join \
+                them with `[[attachments]]` or `[[joints]]`";
+    report.warn(place.unwrap_or(&(0..0)), message, hint);
 }
 
 /// Two things that touch; the first node and how many.
@@ -79,18 +55,20 @@ struct Touch {
     /// True where the node lies between the nodes of the other.
     between: bool,
     count: usize,
+    /// The two by their names.
+    pair: [String; 2],
 }
 
 struct Search<'a, 'd> {
     scene: &'a Scene<'d>,
     topology: &'a Topology,
     ties: Ties,
-    tolerance: Tolerance,
+    tolerance: Coincidence,
     /// A part to which each node belongs.
     of_node: Vec<Option<PartIndex>>,
     found: Vec<Touch>,
     /// Index in `found` by the names of the two and whether they meet between nodes.
-    known: HashMap<(String, bool, String), usize>,
+    known: HashMap<([String; 2], bool), usize>,
 }
 
 impl Search<'_, '_> {
@@ -132,10 +110,7 @@ impl Search<'_, '_> {
         let (reach, mut near) = (self.tolerance.same, Vec::new());
         let cells = Cells::new(self.tolerance.cell, self.tolerance.origin, ends);
         for (part, nodes) in pieces {
-            // The inner nodes of a beam's element lie on the line of its ends.
-            let surface = part.kind.is_surface();
-            let corners = if surface { nodes.clone() } else { vec![nodes[0], nodes[nodes.len() - 1]] };
-            let x: Vec<Vec3> = corners.iter().map(|&node| self.topology.x(node)).collect();
+            let x: Vec<Vec3> = corners(*part, nodes).iter().map(|&node| self.topology.x(node)).collect();
             near.clear();
             cells.visit_along(&x, reach, &mut |end| {
                 if !nodes.contains(&end) {
@@ -146,10 +121,7 @@ impl Search<'_, '_> {
             near.dedup();
             for &end in &near {
                 let at = self.topology.x(end);
-                let inside = match x[..] {
-                    [a, b, c, d] => lies_on(&at, &[a, b, c], reach) || lies_on(&at, &[a, c, d], reach),
-                    _ => lies_on(&at, &x, reach),
-                };
+                let inside = lies_on(&at, &x, reach);
                 let is_node = || nodes.iter().any(|&node| (self.topology.x(node) - at).norm() <= reach);
                 if inside && !is_node() && !nodes.iter().any(|&node| self.ties.holds([end, node])) {
                     self.meet(end, nodes[0], Some(*part));
@@ -175,10 +147,10 @@ impl Search<'_, '_> {
             (None, None) => self.name(node, None),
         };
         let next = self.found.len();
-        let pair = (own, between.is_some(), self.name(node, between));
-        let index = *self.known.entry(pair).or_insert(next);
+        let names = [own, self.name(node, between)];
+        let index = *self.known.entry((names.clone(), between.is_some())).or_insert(next);
         if index == next {
-            self.found.push(Touch { node: end, other, between: between.is_some(), count: 1 });
+            self.found.push(Touch { node: end, other, between: between.is_some(), count: 1, pair: names });
         } else {
             self.found[index].count += 1;
         }
@@ -196,7 +168,7 @@ impl Search<'_, '_> {
     }
 
     fn report(&self, report: &mut Report) {
-        for Touch { node, other, between, count } in &self.found {
+        for Touch { node, other, between, count, .. } in &self.found {
             let (label, own) = (self.topology.label(*node), self.name(*node, None));
             let of = if own.ends_with(&format!("`{label}`")) { String::new() } else { format!(" of {own}") };
             let more = match count - 1 {
@@ -226,27 +198,5 @@ impl Search<'_, '_> {
             Some(&deck.bodies.get(index)?.span)
         };
         point.or_else(part).or_else(body).unwrap_or(&(0..0))
-    }
-}
-
-/// True where a place lies on a segment or a triangle.
-fn lies_on(at: &Vec3, simplex: &[Vec3], reach: f64) -> bool {
-    /// Rounding takes this part of a triangle's edges for outside.
-    const EDGE: f64 = 1e-6;
-    let from = at - simplex[0];
-    match simplex {
-        [a, b] => {
-            let along = b - a;
-            let s = from.dot(&along) / along.norm_squared();
-            (0.0..=1.0).contains(&s) && (from - s * along).norm() <= reach
-        }
-        [a, b, c] => {
-            let (u, v) = (b - a, c - a);
-            let normal = u.cross(&v);
-            let double = normal.norm_squared();
-            let (s, t) = (from.cross(&v).dot(&normal) / double, u.cross(&from).dot(&normal) / double);
-            s >= -EDGE && t >= -EDGE && s + t <= 1.0 + EDGE && from.dot(&normal).abs() <= reach * double.sqrt()
-        }
-        _ => false,
     }
 }

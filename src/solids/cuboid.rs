@@ -84,6 +84,13 @@ impl SolidShape for SolidCuboid {
         }
         Touching::Points(points)
     }
+
+    /// The diagonal of a mesh of the largest face.
+    fn opening(&self, between: usize) -> Option<f64> {
+        let mut size = self.size;
+        size.sort_by(f64::total_cmp);
+        Some(size[1].hypot(size[2]) / (between + 1) as f64)
+    }
 }
 
 #[cfg(test)]

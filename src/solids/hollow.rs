@@ -80,6 +80,12 @@ impl SolidShape for HollowCylinder {
         }
         Touching::Points(points)
     }
+
+    /// The diagonal of a mesh of its side. Its ends stay open, whatever is asked for.
+    fn opening(&self, between: usize) -> Option<f64> {
+        let along_rim = TAU * self.radius / RIM as f64;
+        Some(self.length.hypot(along_rim) / (between + 1) as f64)
+    }
 }
 
 #[cfg(test)]

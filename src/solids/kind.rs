@@ -28,6 +28,11 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
     /// `between`: how many points are asked for between corners or rims.
     fn touching(&self, between: usize) -> Touching;
 
+    /// The widest opening between its points that touch, where it touches at several: a ball of a smaller diameter passes there.
+    fn opening(&self, _between: usize) -> Option<f64> {
+        None
+    }
+
     /// Full edge lengths of a box along the axes of its body, where it is one.
     fn as_box(&self) -> Option<[f64; 3]> {
         None

@@ -1,5 +1,6 @@
 //! The end of a step: multipliers and reactions extrapolated to it, work accounted for, the state written once.
 
+use super::contacts;
 use super::context::Context;
 use super::projection::ConstraintProjection;
 use super::workspace::Workspace;
@@ -53,6 +54,7 @@ pub fn commit(
     }
     std::mem::swap(&mut state.nodes, &mut ws.trial);
     state.time = to;
+    contacts::note_depth(cx, ws, state);
 }
 
 /// Updates the algorithmic accelerations of schemes that have them.

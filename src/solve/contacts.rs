@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::failure::Failure;
 use super::workspace::Workspace;
+use crate::model::{Contact, Model, PartType};
 use crate::state::{Configuration, State};
 
 /// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.
@@ -26,6 +27,36 @@ pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) ->
     }
     let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
     cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
+}
+
+/// Notes how deep contacts are pressed in at the end of a step, and warns where that is seen.
+pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
+    /// Of the size of what touches, where the program has chosen the stiffness: five times what it chose it for.
+    const SEEN: f64 = 0.05;
+    /// The same where the deck gives it and may mean something soft, a tyre or a buffer: what is in to its middle has no side left.
+    const MEANT: f64 = 0.5;
+    if !cx.system.has_contacts() {
+        return;
+    }
+    for (part, gap) in cx.system.last_gaps(state) {
+        let Some(contact) = Contact::of(&cx.model.parts[part]).filter(|contact| gap < -SEEN * contact.size) else {
+            continue;
+        };
+        let limit = if contact.chosen.is_some() { SEEN } else { MEANT };
+        if -gap > limit * contact.size {
+            ws.warnings.deepen(&contact.name, -gap, contact.size);
+        }
+    }
+}
+
+/// An energy that no one sees where bodies come to rest on each other: it lifts them by a thousandth of their size, the depth by
+/// which stiffnesses are chosen. Zero without contacts or weight.
+pub fn settling_energy(model: &Model) -> f64 {
+    const SUNK: f64 = 1e-3;
+    let acting = model.each::<Contact>().filter(|contact| contact.law.is_some());
+    let size = acting.map(|contact| contact.size).fold(f64::INFINITY, f64::min);
+    let mass: f64 = model.bodies.iter().map(|body| body.mass).sum();
+    if size.is_finite() { SUNK * size * mass * model.loading.gravity.norm() } else { 0.0 }
 }
 
 fn too_long(cx: &Context, contact: usize) -> Failure {

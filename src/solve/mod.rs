@@ -33,6 +33,7 @@ mod workspace;
 
 pub use crate::system::{ContactState, JointState};
 pub use crate::system::{LinkState, SectionPoint, ShellState};
+pub use contacts::settling_energy;
 pub use derived::{Derived, Wanted};
 pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer};

@@ -37,7 +37,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
             ws.trial.clone_from(&state.nodes);
             joints::check(cx, ws)?;
             let change = project_velocities(cx, ws, &mut state.nodes);
-            if change > DIGITS {
+            if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
                 ws.warnings.add(Warning::InitialVelocities { change });
             }
             cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
@@ -132,8 +132,6 @@ fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut
 /// Replaces velocities by those that the joints allow, the nearest in kinetic energy; the mass matrix is factorized
 /// already. Returns the largest change relative to the largest velocity.
 fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f64 {
-    // Translations and rotations are judged together: where one of them is zero, rounding of the other is no change.
-    let speed = |v: &Vec3, omega: &Vec3| v.amax().max(omega.amax() * cx.length);
     let (mut change, mut largest) = (0.0f64, 0.0f64);
     // Redundant equations leave a fraction of the gaps to the next correction: three leave nothing.
     for _ in 0..3 {
@@ -147,15 +145,33 @@ fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f
         for (node, rows) in nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
             let entry = |i: usize| rows.get(i).map_or(0.0, |row| ws.r[row]);
             let (dv, domega) = (Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5)));
-            largest = largest.max(speed(&node.v, &node.omega));
+            largest = largest.max(speed(cx, &node.v, &node.omega));
             node.v += dv;
             node.omega += domega;
-            change = change.max(speed(&dv, &domega));
-            largest = largest.max(speed(&node.v, &node.omega));
+            change = change.max(speed(cx, &dv, &domega));
+            largest = largest.max(speed(cx, &node.v, &node.omega));
         }
         update_rates_of_dependent_nodes(cx, ws, nodes);
     }
     if change > 0.0 { change / largest } else { 0.0 }
+}
+
+/// True where joints have changed velocities that the deck gives, from `trial` to `nodes`. A drive that starts at once takes along
+/// what is joined to it and has none, which doubts nothing; without drives any change is one of what is given.
+fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool {
+    if ws.prescribed.start.iter().all(|given| given.v == 0.0) {
+        return true;
+    }
+    let largest = nodes.iter().map(|node| speed(cx, &node.v, &node.omega)).fold(0.0, f64::max);
+    let pairs = cx.model.nodes.iter().zip(ws.trial.iter().zip(nodes));
+    pairs
+        .filter(|(given, _)| speed(cx, &given.v, &given.omega) > 0.0)
+        .any(|(_, (before, after))| speed(cx, &(after.v - before.v), &(after.omega - before.omega)) > DIGITS * largest)
+}
+
+/// Translations and rotations are judged together: where one of them is zero, rounding of the other is no change.
+fn speed(cx: &Context, v: &Vec3, omega: &Vec3) -> f64 {
+    v.amax().max(omega.amax() * cx.length)
 }
 
 /// Takes the state over a jump of the loads. Velocities are continuous, accelerations jump by M Δa = Δf and reactions

@@ -1,6 +1,6 @@
 //! What a run has to say about its own results: they may not be the answer to the deck, or not to all of it.
 
-use crate::names::short;
+use crate::names::{short, to_digits};
 use std::fmt;
 use std::mem::discriminant;
 
@@ -16,6 +16,15 @@ pub enum Warning {
     Unbalanced {
         /// The residual, relative to the forces.
         residual: f64,
+    },
+    /// Something is pressed into a surface by more than is seen.
+    DeepContact {
+        /// The name of the contact.
+        name: String,
+        /// The largest depth.
+        depth: f64,
+        /// The smallest dimension of bodies that touch and of what is touched.
+        size: f64,
     },
     /// Load control has passed a load at which the equilibrium becomes unstable.
     Unstable(Instability),
@@ -65,6 +74,13 @@ impl fmt::Display for Warning {
                  larger loads, or stiffnesses nearer to each other, keep their digits",
                 short(*residual)
             ),
+            Warning::DeepContact { name, depth, size } => write!(
+                f,
+                "contact `{name}` is pressed in by up to {}, {} % of the smallest dimension of what meets there: bodies are in each \
+                 other, and where and when they meet is no better than that; give it a larger `stiffness`",
+                short(*depth),
+                to_digits(100.0 * depth / size, 2)
+            ),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);
                 write!(
@@ -85,6 +101,22 @@ impl Warnings {
     pub fn add(&mut self, warning: Warning) {
         if self.0.iter().all(|known| discriminant(known) != discriminant(&warning)) {
             self.0.push(warning);
+        }
+    }
+
+    /// Adds the depth of a contact, or keeps it where it is relatively deeper than the one known.
+    pub fn deepen(&mut self, contact: &str, depth: f64, size: f64) {
+        let known = self.0.iter_mut().find_map(|known| match known {
+            Warning::DeepContact { name, depth, size } => Some((name, depth, size)),
+            _ => None,
+        });
+        match known {
+            None => self.0.push(Warning::DeepContact { name: contact.to_owned(), depth, size }),
+            Some((name, old, of)) if depth / size > *old / *of => {
+                contact.clone_into(name);
+                (*old, *of) = (depth, size);
+            }
+            Some(_) => {}
         }
     }
 

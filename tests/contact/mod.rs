@@ -1,10 +1,12 @@
 //! Unilateral contact against closed forms.
 
 mod boxes;
+mod depth;
 mod edges;
 mod element;
 mod impact;
 mod rubbing;
+mod sight;
 mod stiffness;
 mod touch;
 

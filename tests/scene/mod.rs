@@ -100,6 +100,7 @@ pub fn model() -> Model {
                 points: vec![],
                 law: None,
                 chosen: None,
+                size: 1.0,
                 boxes: Vec::new(),
                 touchers: Default::default(),
             }),

@@ -168,6 +168,23 @@ pub fn run_to_the_end(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) 
     done
 }
 
+/// How a run of a deck ends, and what it doubts of its own results.
+pub fn doubts(text: &str) -> (Outcome, Vec<String>) {
+    struct Nobody;
+    impl Observer for Nobody {
+        fn on_step(&mut self, _: &Frame) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    let model = read_deck(text);
+    let system = System::new(&model).expect("a system");
+    let plan = Plan::new(&model, &system, 1);
+    let stop = AtomicBool::new(false);
+    let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
+    let (outcome, _) = run.run(&mut Nobody);
+    (outcome, run.warnings().iter().map(ToString::to_string).collect())
+}
+
 /// Number of a node by the name of its point or body.
 pub fn node(model: &Model, label: &str) -> usize {
     model.nodes.iter().position(|node| node.label == label).unwrap_or_else(|| panic!("no node `{label}`"))

@@ -2,6 +2,7 @@
 
 use super::boxes::{BoxPairs, BoxPose, TouchingBox};
 use super::force::touch;
+use super::history::{self, PointHistory};
 use super::kinematics::Contacts;
 use super::point::ContactPoint;
 use super::surface::Surface;
@@ -44,6 +45,20 @@ pub fn least_gap(surface: &Surface, carrier: usize, points: &[ContactPoint], nod
     let gap =
         |point: &ContactPoint| surface.distance(&R.tr_mul(&point.relative_position(carrier, nodes))) - point.radius;
     points.iter().map(gap).fold(f64::INFINITY, f64::min)
+}
+
+/// Least gap of points at the end of the last step, by the history of the block; infinite where none is near.
+pub fn last_gap(contacts: &Contacts, history: &[f64]) -> f64 {
+    least(history::each(contacts, history))
+}
+
+/// The same of pairs of boxes.
+pub fn last_pair_gap(pairs: &BoxPairs, history: &[f64]) -> f64 {
+    least((0..pairs.boxes.len()).map(|e| pairs.history(e, history)))
+}
+
+fn least<'a>(points: impl Iterator<Item = PointHistory<'a>>) -> f64 {
+    points.filter(|point| point.is_known()).map(PointHistory::gap).fold(f64::INFINITY, f64::min)
 }
 
 /// The resultant of the forces of all pairs of boxes on the box that is touched; each that touches counts once.

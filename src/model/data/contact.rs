@@ -22,6 +22,8 @@ pub struct Contact {
     pub touchers: BTreeSet<Toucher>,
     /// The contact law; `None` for a clearance monitor, which exerts no force.
     pub law: Option<ContactLaw>,
+    /// The smallest dimension of bodies that touch and of what is touched, by which depths are judged.
+    pub size: f64,
     /// By what the stiffness was chosen, where the deck leaves it to the program.
     pub chosen: Option<String>,
 }

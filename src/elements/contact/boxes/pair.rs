@@ -171,7 +171,7 @@ impl BoxPairs {
     }
 
     /// The history of a pair, as a part of that of the block.
-    pub(super) fn history<'a>(&self, e: usize, history: &'a [f64]) -> PointHistory<'a> {
+    pub(in crate::elements::contact) fn history<'a>(&self, e: usize, history: &'a [f64]) -> PointHistory<'a> {
         PointHistory::new(&history[e * self.width()..(e + 1) * self.width()])
     }
 }

@@ -1,6 +1,7 @@
 //! What a pair of shapes does not see of each other: for whatever touches, against each surface. `check` says it of every contact.
 
 use super::SurfaceShape;
+use super::kind::Touched;
 
 /// The shape of what touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,5 +53,19 @@ impl Toucher {
         matches!(self, Toucher::Box | Toucher::Rims)
             && self.unseen(surface).is_some()
             && !matches!(surface, SurfaceShape::Plane(_))
+    }
+}
+
+/// The least width of an opening through which a surface goes as a bar does, lengthways: the middle one of its dimensions. Plates
+/// have a smaller one, but go through a slit only where they stand on edge. Infinite for a plane.
+pub fn passing_width(surface: &SurfaceShape) -> f64 {
+    match surface {
+        SurfaceShape::Cuboid(cuboid) => {
+            let mut half = cuboid.half;
+            half.sort_by(f64::total_cmp);
+            2.0 * half[1]
+        }
+        SurfaceShape::Cylinder(cylinder) => 2.0 * cylinder.radius,
+        SurfaceShape::Plane(_) | SurfaceShape::Sphere(_) | SurfaceShape::Capsule(_) => surface.least(),
     }
 }

@@ -1,0 +1,90 @@
+//! What is pressed in too far is said, with contact and depth; what has a stiffness that holds it is not.
+
+use crate::support::{doubts, read_deck};
+use rdsolve::diagnostic::Source;
+use rdsolve::model;
+use rdsolve::solve::Outcome;
+
+/// A body pushed at a surface at first: nothing moves at t = 0.
+fn pushed(shape: &str, surface: &str, end_time: f64, stiffness: &str) -> String {
+    format!(
+        r#"
+        [analysis]
+        kind = "dynamic"
+        end_time = {end_time}
+        time_step = 1e-3
+        [integrator]
+        scheme = "newmark"
+        [[bodies]]
+        name = "thing"
+        center = [0.0, 0.0, 0.5]
+        mass = 1.0
+        shape = {{ {shape} }}
+        [[loads]]
+        at = "thing"
+        force = [0.0, 0.0, -1000.0]
+        amplitude = "push"
+        [amplitudes.push]
+        kind = "table"
+        points = [[0.0, 1.0], [0.01, 1.0], [0.01001, 0.0]]
+        [[contacts]]
+        name = "stop"
+        surface = {{ {surface} }}
+        with = "thing"
+        {stiffness}
+        "#
+    )
+}
+
+const BALL: &str = "kind = \"sphere\", radius = 0.1";
+const BRICK: &str = "kind = \"box\", size = [0.2, 0.3, 0.2]";
+const FLOOR: &str = "shape = \"plane\", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0]";
+const DRUM: &str =
+    "shape = \"cylinder\", center = [0.0, 0.0, -0.5], radius = 0.5, length = 2.0, axis = [0.0, 1.0, 0.0]";
+
+/// The depth in a warning, by its words.
+fn depth(said: &[String]) -> Option<f64> {
+    let said = said.iter().find(|said| said.contains("contact `stop` is pressed in by up to"))?;
+    assert!(said.contains("larger `stiffness`"), "{said}");
+    let rest = said.split("by up to ").nth(1)?;
+    rest.split(',').next()?.parse().ok()
+}
+
+#[test]
+fn what_is_pressed_in_by_more_than_is_seen_is_said() {
+    // 10 m/s: v √(m/k), which the chosen stiffness of a slow run cannot hold.
+    for (shape, surface, end_time) in [(BALL, FLOOR, 4.0), (BRICK, FLOOR, 4.0), (BALL, DRUM, 10.0)] {
+        let text = pushed(shape, surface, end_time, "");
+        let chosen = read_deck(&text).each::<model::Contact>().next().unwrap().law.unwrap().stiffness;
+        // A brick lies on four corners.
+        let corners = if shape == BRICK { 4.0 } else { 1.0 };
+        let exact = 10.0 / (corners * chosen).sqrt();
+        let (outcome, said) = doubts(&text);
+        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+        let found = depth(&said).unwrap_or_else(|| panic!("{shape}, {surface}: {said:?}, {exact}"));
+        // The steps hold some five per cent of the turning point; four digits are written.
+        assert!((found / exact - 1.0).abs() < 0.05, "{shape}, {surface}: {found} for {exact}");
+        let (_, read) = model::read(&Source::new("deck.toml", text, &[]));
+        assert!(read.iter().any(|said| said.message.contains("rests on `end_time` alone")), "{read:?}");
+    }
+}
+
+#[test]
+fn a_stiffness_given_may_yield_to_the_middle() {
+    // The ball of 0.2 goes in by 10/√k: 0.105, then 0.095.
+    for (stiffness, said) in [("stiffness = 9.07e3", true), ("stiffness = 1.108e4", false), ("stiffness = 1e6", false)]
+    {
+        let text = pushed(BALL, FLOOR, 0.2, stiffness);
+        let (outcome, doubts) = doubts(&text);
+        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+        assert_eq!(depth(&doubts).is_some(), said, "{stiffness}: {doubts:?}");
+        let (_, read) = model::read(&Source::new("deck.toml", text, &[]));
+        assert!(read.is_empty(), "{read:?}");
+    }
+    // Chosen for a fast run, and for gravity: it holds.
+    let fast = pushed(BALL, FLOOR, 0.08, "");
+    assert_eq!(depth(&doubts(&fast).1), None);
+    let heavy = fast.replace("[[loads]]", "[environment]\ngravity = [0.0, 0.0, -9.81]\n[[loads]]");
+    let (_, read) = model::read(&Source::new("deck.toml", heavy, &[]));
+    assert!(read.is_empty(), "{read:?}");
+}

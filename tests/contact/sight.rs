@@ -1,0 +1,100 @@
+//! Surfaces that pass between the points which are to touch them are said, whatever touches, with the points that would do.
+
+use rdsolve::diagnostic::Source;
+use rdsolve::model;
+
+const OPENING: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = 0.001
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+[sections.strip]
+shape = "rectangle"
+width = 0.03
+height = 0.01
+[points]
+a = [0.0, 0.0, 0.5]
+b = [1.0, 0.0, 0.5]
+c = [1.0, 1.0, 0.5]
+d = [0.0, 1.0, 0.5]
+"#;
+
+fn contact(surface: &str, with: &str, points: Option<u64>) -> String {
+    let points = points.map_or(String::new(), |points| format!("points = {points}\n"));
+    format!("[[contacts]]\nname = \"hit\"\nsurface = {{ {surface} }}\nwith = \"{with}\"\nstiffness = 1e6\n{points}")
+}
+
+fn said(thing: &str, contact: &str) -> Vec<[String; 2]> {
+    let (_, said) = model::read(&Source::new("deck.toml", format!("{OPENING}{thing}{contact}"), &[]));
+    let said = said.into_iter().filter(|said| !said.message.starts_with("nothing "));
+    said.map(|said| [said.message, said.hints.join(" ")]).collect()
+}
+
+const SPHERE: &str = "shape = \"sphere\", center = [0.5, 0.5, 0.2], radius = 0.05";
+
+fn beam(elements: usize) -> String {
+    format!(
+        "[[beams]]\nname = \"beam\"\npath = [\"a\", \"b\"]\nelements = {elements}\nmaterial = \"steel\"\n\
+         section = \"strip\"\norientation = [0.0, 1.0, 0.3]\n"
+    )
+}
+
+fn body(shape: &str) -> String {
+    format!("[[bodies]]\nname = \"body\"\ncenter = [0.5, 0.5, 0.5]\nmass = 1.0\nshape = {{ {shape} }}\n")
+}
+
+/// As many points as the hint asks for, and one less; the widest opening with them is known.
+#[test]
+fn surfaces_that_pass_between_points_are_said_until_there_are_enough() {
+    let plate = "[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [4, 4]\n\
+                 material = \"steel\"\nthickness = 0.01\n";
+    let (brick, roll) = (
+        body("kind = \"box\", size = [0.4, 0.3, 0.1]"),
+        body("kind = \"cylinder\", radius = 0.2, length = 1.0, axis = [1.0, 0.0, 0.0]"),
+    );
+    let rod = "shape = \"capsule\", ends = [[0.5, -1.0, 0.2], [0.5, 2.0, 0.2]], radius = 0.02";
+    let block = "shape = \"box\", center = [0.5, 0.0, 0.2], size = [0.1, 0.2, 0.15]";
+    let cases = [
+        // The diagonal of a mesh of the large face, or of an element, against the diameter.
+        (brick.clone(), "body", SPHERE, 0.5, 0.1),
+        (plate.to_owned(), "plate", SPHERE, 0.25 * 2f64.sqrt(), 0.1),
+        // A mesh of the side of a cylinder, 16 points around.
+        (roll, "body", SPHERE, 1f64.hypot(std::f64::consts::TAU * 0.2 / 16.0), 0.1),
+        // Nodes of a beam, four to an element at ±1 and ±1/√5, against the middle dimension of a box and the diameter of a capsule.
+        (beam(1), "beam", block, 1.0 / 5f64.sqrt(), 0.15),
+        (beam(4), "beam", rod, 0.25 / 5f64.sqrt(), 0.04),
+    ];
+    for (thing, with, surface, opening, width) in cases {
+        // Half a thickness is the radius of a part's points.
+        let radius = if with == "body" { 0.0 } else { 0.005 };
+        let enough = (opening / (width + 2.0 * radius) - 1.0 - 1e-6f64).ceil() as u64;
+        let few = said(&thing, &contact(surface, with, None));
+        assert!(few.iter().any(|[_, hint]| hint.contains(&format!("`points` = {enough} "))), "{enough}: {few:?}");
+        let one_less = said(&thing, &contact(surface, with, Some(enough - 1)));
+        assert!(one_less.iter().any(|[said, _]| said.contains("may pass between them")), "{enough}: {one_less:?}");
+        let silent = said(&thing, &contact(surface, with, Some(enough)));
+        assert!(silent.is_empty(), "{enough}: {silent:?}");
+    }
+}
+
+#[test]
+fn what_is_wider_than_the_openings_is_not_said() {
+    let big = "shape = \"box\", center = [0.5, 0.0, 0.2], size = [0.6, 0.5, 0.01]";
+    let plane = "shape = \"plane\", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0]";
+    // A plate that lies flat under a beam, though it is thin; a plane; a box against a box, which sees all.
+    assert!(said(&beam(2), &contact(big, "beam", None)).is_empty());
+    assert!(said(&beam(1), &contact(plane, "beam", None)).is_empty());
+    let brick = body("kind = \"box\", size = [0.4, 0.3, 0.1]");
+    let small = "shape = \"box\", center = [0.5, 0.5, 0.2], size = [0.05, 0.05, 0.05]";
+    assert!(said(&brick, &contact(small, "body", None)).is_empty());
+    // By the radius that the contact gives, and by that alone: 0.04 and twice the radius against 0.1118.
+    let thin = "shape = \"capsule\", ends = [[0.5, -1.0, 0.2], [0.5, 2.0, 0.2]], radius = 0.02";
+    let round = |radius: f64| contact(thin, "beam", None) + &format!("radius = {radius}\n");
+    assert!(said(&beam(4), &round(0.036)).is_empty());
+    assert_eq!(said(&beam(4), &round(0.035)).len(), 1);
+}
