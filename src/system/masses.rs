@@ -213,6 +213,20 @@ impl MassBlock {
         }
     }
 
+    /// The product aᵀ M a of the accelerations that forces give to the node. The rotation of a body that turns freely is followed
+    /// as it is, so that its own angular acceleration is no part of it: moments count, f²/m + m·J⁻¹m with m = J α + ω × J ω.
+    #[inline]
+    pub fn push_product(&self, node: &Node, a: &Vec6) -> f64 {
+        if self.kind != BlockKind::RigidBody {
+            return self.inner_product(node, a, a);
+        }
+        let R = node.R();
+        let [a, alpha, omega] = [linear(a), angular(a), node.omega].map(|v| R.tr_mul(&v));
+        let a = a + alpha.cross(&self.arm) + omega.cross(&omega.cross(&self.arm));
+        let m = self.J_pivot * alpha + omega.cross(&(self.J_pivot * omega));
+        self.mass * a.norm_squared() + m.dot(&(self.J_pivot_inverse * m))
+    }
+
     /// Mass and mean moment of inertia, a rough measure for comparisons.
     pub fn mean_mass(&self) -> [f64; 2] {
         [self.mass, self.J0.trace() / 3.0]

@@ -184,3 +184,42 @@ fn load_steps_and_preloads_balance() {
         assert!(most > 0.45 && taken < 0.1 * most, "{taken} of {most}");
     }
 }
+
+/// What forces do to a body counts as an offset of energies, and what it does by itself does not: a body that turns freely, with a
+/// mass at an arm or without, is followed as it is.
+#[test]
+fn bodies_that_turn_freely_have_no_offset_of_energies() {
+    let body = |inertia: &str, spin: &str, step: f64, more: &str| {
+        dynamic("20.0", &format!("{step}"), "central-difference")
+            + &format!(
+                "[[bodies]]\nname = \"body\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = {inertia}\n\
+                 angular_velocity = {spin}\n{more}"
+            )
+    };
+    let arm = "[points]\np = [0.0, 1.0, 0.3]\n[[attachments]]\nbody = \"body\"\nnodes = [\"p\"]\n[[masses]]\nat = \"p\"\nmass = 0.5\n";
+    let spring = "[[links]]\nname = \"spring\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { body = \"body\" }\n\
+                  bushing = [1.0, 1.0, 1.0, 20.0, 20.0, 20.0]\n";
+    let cases = [
+        // Bodies of revolution are exact: rounding.
+        ("[2.0, 1.0, 1.0]", "[1.0, 0.2, 0.3]", 0.3, "", 1e-12),
+        ("[2.0, 1.0, 1.0]", "[1.0, 0.2, 0.3]", 1.0, "", 1e-12),
+        // With a mass at an arm no axis is one of revolution: the square of the step, 1 rad a second.
+        ("[0.0001, 1.0, 1.0]", "[0.3, 1.0, 0.2]", 0.1, arm, 1e-3),
+        ("[0.0001, 1.0, 1.0]", "[0.3, 1.0, 0.2]", 0.3, arm, 6e-3),
+        // On a spring of 0.45 rad a step: the linear part of the offset, without that of gyroscopic moments, which is 1e-2.
+        ("[2.0, 1.0, 1.0]", "[0.4, 0.3, 0.0]", 0.1, spring, 2e-3),
+    ];
+    for (inertia, spin, step, more, bound) in cases {
+        let (mut balance, mut swing) = (Balance::default(), 0.0f64);
+        run_to_the_end(&scene(&body(inertia, spin, step, more), &[]), &mut |frame| {
+            let energy = frame.derived.energy.unwrap();
+            balance.update(&energy);
+            swing = swing.max(energy.numerical.abs());
+            Vec::new()
+        });
+        let made = balance.generated.max(balance.dissipated) / balance.peak;
+        println!("{inertia}, {step}: {made:.1e}, swings by {:.1e}", swing / balance.peak);
+        assert!(made < bound, "{inertia}, {step}: {made}");
+        assert!(more != spring || swing > 5.0 * bound * balance.peak, "the offset is needed: {swing}");
+    }
+}

@@ -29,7 +29,8 @@ pub fn times_applied(cx: &Context, forces: &Forces, motion: impl Fn(usize) -> Ve
     cx.independent_nodes.iter().map(times).sum()
 }
 
-/// The product aᵀ M a of the accelerations found for the trial motion, over the unknowns.
+/// The product aᵀ M a of the accelerations found for the trial motion, over the unknowns, without those that bodies which turn
+/// freely have by themselves.
 pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> f64 {
     let Accelerations { masses, operand, missing, .. } = accelerations;
     let trial = &ws.trial;
@@ -42,7 +43,7 @@ pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
     masses.blocks.iter().map(product).sum()
 }
 
-/// The product aᵀ M a of the accelerations of nodes, over the unknowns.
+/// The same of the accelerations of nodes.
 pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, nodes: &[Node]) -> f64 {
     let a = |node: usize| stack(&nodes[node].a, &nodes[node].alpha);
     let Some(masses) = &accelerations.masses else {
@@ -54,6 +55,5 @@ pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
 }
 
 fn aMa_of_block(cx: &Context, block: &MassBlock, node: &Node, a: &Vec6) -> f64 {
-    let a = cx.plan.dofs.of(block.node).mask(a);
-    block.inner_product(node, &a, &a)
+    block.push_product(node, &cx.plan.dofs.of(block.node).mask(a))
 }
