@@ -143,7 +143,7 @@ fn line(table: &ComparedTable, column: &ComparedColumn) -> [String; 7] {
     let numbers = if difference.is_finite() {
         [format!("{relative:.2e}"), format!("{difference:.2e}")]
     } else {
-        ["no number".to_string(), "on one side".to_string()]
+        ["no number".to_string(), "on one side, or NaN".to_string()]
     };
     let [relative, absolute] = numbers;
     let place = place(column.worst.time, &column.worst.key);

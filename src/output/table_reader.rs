@@ -153,14 +153,17 @@ pub fn text(field: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The number of a field. An empty field, which stands for no number, is NaN; any other text is a NaN that carries its hash, so
-/// that equal texts have equal bits.
+/// What a field holds that says NaN: the result of a computation that has failed, where an empty field says that there is none.
+pub const FAILED: u64 = 0x7ff8_0000_0000_0002;
+
+/// The number of a field. An empty field, which stands for no number, is NaN; one that says NaN has the bits [`FAILED`]; any other
+/// text is a NaN that carries its hash, so that equal texts have equal bits.
 pub fn number(field: &[u8]) -> f64 {
     if field.is_empty() {
         return f64::NAN;
     }
     match std::str::from_utf8(field).ok().and_then(|text| text.parse::<f64>().ok()) {
-        Some(number) if number.is_nan() => f64::NAN,
+        Some(number) if number.is_nan() => f64::from_bits(FAILED),
         Some(number) => number,
         None => {
             let hash = field
@@ -224,6 +227,7 @@ mod tests {
         assert_eq!(number(b"-1.5e-3"), -1.5e-3);
         assert_eq!(number(b"ux").to_bits(), number(b"ux").to_bits());
         assert!(number(b"ux").is_nan() && number(b"ux").to_bits() != number(b"uy").to_bits());
-        assert_eq!(number(b"NaN").to_bits(), number(b"").to_bits());
+        assert!(number(b"").is_nan() && number(b"").to_bits() != FAILED);
+        assert!([&b"NaN"[..], b"nan", b"-NaN"].iter().all(|text| number(text).to_bits() == FAILED));
     }
 }

@@ -1,6 +1,7 @@
 //! Two tables are joined row by row: the rows of one time belong together, and among them those of one name.
 
 use super::prefetch::Cursor;
+use crate::output::table_reader::FAILED;
 use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 use std::io;
@@ -12,7 +13,7 @@ const ROUNDING: f64 = 1e-3;
 /// The largest difference of a column, and where it stands.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Worst {
-    /// The absolute difference in the unit of the column; infinite where only one side has a number.
+    /// The absolute difference in the unit of the column; infinite where only one side has a number, or any is NaN.
     pub difference: f64,
     /// The time of the row, the earlier of the two.
     pub time: f64,
@@ -163,7 +164,7 @@ fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::R
 /// Enters the differences between two rows into the largest so far.
 fn tally(worst: &mut [Worst], a: &[f64], b: &[f64], time: f64, key: &[u8]) {
     for ((worst, &a), &b) in worst.iter_mut().zip(a).zip(b) {
-        let difference = if a == b || a.to_bits() == b.to_bits() {
+        let difference = if a == b || a.to_bits() == b.to_bits() && a.to_bits() != FAILED {
             continue;
         } else if a.is_finite() && b.is_finite() {
             (a - b).abs()
