@@ -154,7 +154,7 @@ fn a_long_flight_leaves_strains_alone() {
 #[test]
 fn nothing_comes_of_nothing() {
     for kind in ["dynamic", "static"] {
-        for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe"] {
+        for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe", "esdirk3"] {
             let (kind, scheme) = (format!("analysis.kind=\"{kind}\""), format!("integrator.scheme=\"{scheme}\""));
             let model = variant("extreme/zero_loads", &[&kind, &scheme]);
             let done = run_to_the_end(&model, &mut |frame| {
@@ -165,7 +165,11 @@ fn nothing_comes_of_nothing() {
                 nodes.flat_map(moved).chain(frame.reactions.iter().copied()).collect()
             });
             assert!(done.rows.iter().flatten().all(|&x| x == 0.0), "{kind}, {scheme}");
-            let stages = if kind.contains("dynamic") && scheme.contains("bathe") { 2 } else { 1 };
+            let stages = match (kind.contains("dynamic"), scheme.contains("bathe"), scheme.contains("esdirk3")) {
+                (true, true, _) => 2,
+                (true, _, true) => 4,
+                _ => 1,
+            };
             assert_eq!(done.counts.iterations, stages * done.counts.steps, "{kind}, {scheme}");
         }
     }
@@ -181,6 +185,7 @@ fn any_time_step() {
         ("{scheme=\"hht-alpha\",alpha=-0.3}", 4.0, true),
         ("{scheme=\"generalized-alpha\",spectral_radius=0.5}", 4.0, true),
         ("{scheme=\"bathe\"}", 1.0, true),
+        ("{scheme=\"esdirk3\"}", 1.0, true),
     ];
     println!(
         "{:52} error of 1.25 after one period, steps of 1e-4, 1e-3, 1e-2 of it; after 100 of 10, 100, 1e4; peak",
@@ -420,7 +425,7 @@ fn slivers_pass_the_patch_test() {
 #[test]
 fn a_needle_spins() {
     let exact = [0.8827444972254422, 0.04418573450609401, -0.02335675531724422, 0.46718758059842375];
-    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe"] {
+    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe", "esdirk3"] {
         let errors = [1e-4, 5e-5, 2.5e-5].map(|dt| {
             let sets = [format!("integrator.scheme=\"{scheme}\""), format!("analysis.time_step={dt:e}")];
             let mut model = read("extreme/needle", &sets);

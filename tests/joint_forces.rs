@@ -3,7 +3,7 @@
 use crate::support::{node, position, read_deck, run_to_the_end, slope};
 use rdsolve::model::Model;
 
-const IMPLICIT: [&str; 5] = ["newmark", "hht-alpha", "generalized-alpha", "bathe", "wilson-theta"];
+const IMPLICIT: [&str; 6] = ["newmark", "hht-alpha", "generalized-alpha", "bathe", "wilson-theta", "esdirk3"];
 
 /// The opening of a deck: out of the plane too, with weight.
 fn opening(scheme: &str, time_step: f64, end_time: f64) -> String {

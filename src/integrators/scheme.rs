@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::coefficients::Coefficients;
+use super::stage_tableau::StageTableau;
 use super::tableau::Tableau;
 use crate::math::rotation::RotationUpdate;
 use crate::words::kinds::{Given, Kind};
@@ -54,6 +55,8 @@ pub enum Stepping<'a> {
     OneStage,
     /// Implicit, in two stages, in each of which equilibrium is solved for.
     Composite(&'a dyn TwoStages),
+    /// Implicit, in several stages with one matrix, each from the start of the step.
+    DiagonallyImplicit(&'static StageTableau),
     /// Explicit, by central differences in the form of velocity Verlet: one evaluation of the forces a step, and a length that is limited by
     /// stability.
     Verlet,

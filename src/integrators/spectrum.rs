@@ -2,6 +2,7 @@
 
 use super::coefficients::Coefficients;
 use super::scheme::{Scheme, Stepping};
+use super::stage_tableau::StageTableau;
 use nalgebra::{Complex, Matrix4};
 
 /// The numerical properties of a scheme at one ratio of step to period.
@@ -21,11 +22,10 @@ pub fn spectrum(scheme: &dyn Scheme, turn: f64) -> Spectrum {
     Spectrum { elongation: turn / phase - 1.0, damping: log / phase.hypot(log) }
 }
 
-/// The error constant c of a scheme of second order: a step of smooth motion makes an error c Δt³ |q‴| of a
-/// displacement.
+/// The error constant c of a scheme of order p: a step of smooth motion makes an error c Δtᵖ⁺¹ |q⁽ᵖ⁺¹⁾| of a displacement.
 pub fn error_constant(scheme: &dyn Scheme) -> f64 {
     const TURN: f64 = 0.1; // small, and far above the rounding of eigenvalues
-    (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(3)
+    (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(scheme.order() as i32 + 1)
 }
 
 /// The eigenvalue that stands for e^{iωΔt}.
@@ -41,6 +41,9 @@ fn step(scheme: &dyn Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
     let omega2 = turn * turn;
     if scheme.is_explicit() {
         return explicit(&scheme.coefficients(1.0), omega2, start);
+    }
+    if let Stepping::DiagonallyImplicit(tableau) = scheme.stepping() {
+        return implicit_stages(tableau, omega2, start);
     }
     let (mut end, q0) = stage(&scheme.coefficients(1.0), omega2, start, [start[1], start[2]]);
     if let Some([of_a, of_start, of_end]) = scheme.algorithmic_acceleration() {
@@ -59,6 +62,22 @@ fn stage(c: &Coefficients, omega2: f64, [u, _, _, b]: [f64; 4], slots: [f64; 2])
     let end = |[c1, c2, c3, c4]: [f64; 4]| c1 * q + c2 * w1 + c3 * w2 + c4 * at;
     let a = end(c.end[2]);
     ([u + end(c.end[0]), end(c.end[1]), a, a], end(c.end[0]))
+}
+
+/// A step of length 1 in implicit stages, from (u, v, a, q̈).
+fn implicit_stages(tableau: &StageTableau, omega2: f64, [u, v, a, b]: [f64; 4]) -> [f64; 4] {
+    let (gamma, mut rates) = (tableau.gamma, vec![[v, a]]);
+    let mut end = [u, v, a, b];
+    for weights in tableau.a {
+        let sum = |of: usize| weights.iter().map(|&(stage, weight)| weight * rates[stage][of]).sum::<f64>();
+        let (from, rate_from) = (u + sum(0), v + sum(1));
+        // u = from + γ v, v = rate_from − γ ω² u
+        let u = (from + gamma * rate_from) / (1.0 + gamma * gamma * omega2);
+        let (v, a) = (rate_from - gamma * omega2 * u, -omega2 * u);
+        rates.push([v, a]);
+        end = [u, v, a, a];
+    }
+    end
 }
 
 /// A step that takes positions as predicted.

@@ -3,6 +3,7 @@
 use super::contacts;
 use super::context::Context;
 use super::projection::ConstraintProjection;
+use super::work::WorkQuadrature;
 use super::workspace::Workspace;
 use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
@@ -17,6 +18,8 @@ pub struct Account {
     pub dissipated: Dissipation,
     /// Power of viscous damping at the instant of equilibrium; `None` where the caller accounts for work itself.
     pub damping_power: Option<f64>,
+    /// Work of loads and damping by quadrature over the stages; `None`: by the trapezoidal rule over the step.
+    pub work: Option<WorkQuadrature>,
 }
 
 /// Makes the trial motion the state at the time `to`.
@@ -47,7 +50,12 @@ pub fn commit(
         reaction_changes = projection.reaction_changes();
     }
     if let Some(damping_power) = account.damping_power.filter(|_| cx.wants_forces) {
+        let before = state.work;
         update_reactions_and_work(cx, ws, state, (scheme, dt), damping_power, reaction_changes);
+        if let Some(work) = account.work {
+            (state.work.external, state.work.damping) = (before.external, before.damping);
+            work.add_to(&mut state.work);
+        }
     }
     if cx.system.history > 0 {
         std::mem::swap(&mut state.history, &mut ws.history);

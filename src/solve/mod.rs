@@ -28,7 +28,9 @@ mod run;
 mod size;
 mod start;
 mod time_stepper;
+mod trials;
 mod warning;
+mod work;
 mod workspace;
 
 pub use crate::system::{ContactState, JointState};
@@ -39,4 +41,5 @@ pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer};
 pub use outcome::{Counts, Outcome};
 pub use run::Run;
+pub use trials::StepError;
 pub use warning::{Warning, Warnings};

@@ -16,12 +16,14 @@ pub struct Stage<'s> {
     /// Velocities and accelerations by node that stand in place of those at the start of the step, where a second stage
     /// looks back beyond it.
     pub start_rates: Option<&'s [[Vec6; 2]]>,
+    /// Predicted increments by node that stand in place of those of the scheme.
+    pub prediction: Option<&'s [Vec6]>,
 }
 
 impl<'s> From<&'s Coefficients> for Stage<'s> {
     /// A stage with the rates of the state alone.
     fn from(scheme: &'s Coefficients) -> Stage<'s> {
-        Stage { scheme, start_rates: None }
+        Stage { scheme, start_rates: None, prediction: None }
     }
 }
 
@@ -75,10 +77,15 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
 }
 
 /// Writes the predicted increments, and the multipliers of the last step as a first guess.
-pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
+pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
     for &node in &cx.independent_nodes {
-        let [v, a] = rates_of(&state.nodes[node]);
-        ws.increments[node].q = scheme.predict(&v, &a, &state.jerk[node]);
+        ws.increments[node].q = match stage.prediction {
+            Some(prediction) => prediction[node],
+            None => {
+                let [v, a] = rates_of(&state.nodes[node]);
+                stage.scheme.predict(&v, &a, &state.jerk[node])
+            }
+        };
     }
     measure_reach(cx, ws, state);
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);

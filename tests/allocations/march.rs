@@ -25,6 +25,11 @@ impl Observer for Counts {
         self.0.push((allocations(), frame.cuts > 0));
         Ok(())
     }
+
+    fn restart(&mut self, _: &Model) -> std::io::Result<()> {
+        self.0.clear();
+        Ok(())
+    }
 }
 
 fn lively(rng: &mut StdRng) -> Model {
@@ -135,7 +140,7 @@ fn contacts_neither() {
 /// A closed loop of hinges with rows that say the same twice, by every kind of scheme.
 fn joints_neither() {
     let deck = include_str!("../../decks/four_bar/deck.toml");
-    for scheme in ["wilson-theta", "newmark", "generalized-alpha", "bathe"] {
+    for scheme in ["wilson-theta", "newmark", "generalized-alpha", "bathe", "esdirk3"] {
         let source = Source::new("deck.toml", deck, &[format!("integrator.scheme=\"{scheme}\"")]);
         let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
         model.analysis.end_time = 0.5;

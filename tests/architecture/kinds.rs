@@ -20,7 +20,16 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
     ("elements/contact/surfaces", &["kind", "sight"]),
     (
         "integrators",
-        &["alpha_family", "coefficients", "load_steps", "scheme", "spectrum", "stability_limit", "tableau"],
+        &[
+            "alpha_family",
+            "coefficients",
+            "load_steps",
+            "scheme",
+            "spectrum",
+            "stability_limit",
+            "stage_tableau",
+            "tableau",
+        ],
     ),
     ("materials/models", &["kind"]),
     ("output/tables", &["shell_order"]),

@@ -70,7 +70,7 @@ fn a_block_slides_off_a_table() {
 /// any scheme.
 #[test]
 fn long_steps_do_not_throw_a_ball() {
-    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe"] {
+    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe", "esdirk3"] {
         for height in [0.002, 0.01] {
             let text = format!(
                 r#"

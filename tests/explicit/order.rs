@@ -169,7 +169,7 @@ fn order_with_rotations_of_its_own() {
     };
     assert_order(&ladder("central-difference"), 1.8..2.2);
     // Implicit schemes tie the rotation vectors of a step, which is of first order in the rates.
-    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe"] {
+    for scheme in ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe", "esdirk3"] {
         assert_order(&ladder(scheme), 0.9..1.1);
     }
     // Stages of Runge-Kutta do not keep to it: said, not done.

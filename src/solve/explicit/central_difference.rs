@@ -141,7 +141,7 @@ impl CentralDifferenceStepper {
     ) -> Result<usize, Failure> {
         let dt = to - state.time;
         excite(cx, ws, state.time, to, 1.0);
-        predict(cx, ws, state, scheme);
+        predict(cx, ws, state, &Stage::from(scheme));
         self.turn_bodies(ws, state, dt);
         if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);

@@ -7,7 +7,6 @@ mod dense_projection;
 mod inner_product;
 mod runge_kutta;
 mod stiffening;
-mod work;
 
 pub use central_difference::CentralDifferenceStepper;
 pub use runge_kutta::RungeKuttaStepper;

@@ -2,7 +2,6 @@
 
 use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
-use super::work::{WorkQuadrature, weight_of};
 use crate::integrators::tableau::{StageWeights, Tableau};
 use crate::linear::TooLarge;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
@@ -13,6 +12,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{excite, measure_reach, rates_of, update_dependent_nodes};
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
+use crate::solve::work::{WorkQuadrature, weight_of};
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, links, residual};
 use crate::state::{Configuration, Increment, Node, State};

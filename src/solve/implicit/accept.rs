@@ -7,11 +7,13 @@ use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, differentiate, move_to_step_end, move_trial, rates_of};
 use crate::solve::projection::ConstraintProjection;
+use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, links};
 use crate::state::{Configuration, State};
 
-/// Accepts the equilibrium that was found: the state moves to the time `to`, written once.
+/// Accepts the equilibrium that was found: the state moves to the time `to`, written once. `work` is that of loads and damping where the
+/// stages of the step tell it better than its ends.
 ///
 /// # Errors
 /// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, [`Failure::ContactNotResolved`] where something would have gone
@@ -23,9 +25,10 @@ pub fn accept(
     state: &mut State,
     stage: &Stage,
     to: f64,
+    work: Option<WorkQuadrature>,
 ) -> Result<(), Failure> {
     let dt = to - state.time;
-    let account = account(cx, ws, state, stage, dt);
+    let account = Account { work, ..account(cx, ws, state, stage, dt) };
     for &node in &cx.independent_nodes {
         let [v, a] = stage.start_rates(cx, state, node, rates_of(&state.nodes[node]));
         ws.increments[node] = stage.scheme.finish(&ws.increments[node], &v, &a);

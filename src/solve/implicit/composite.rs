@@ -64,7 +64,7 @@ impl<'a> Composite<'a> {
         let first = newton.stage(cx, ws, state, &Stage::from(&cx.model.solution.scheme.coefficients(dt)), between)?;
         self.look_back(cx, ws, state, dt);
         let scheme = self.scheme.second(dt);
-        let stage = Stage { scheme: &scheme, start_rates: Some(&self.start_rates) };
+        let stage = Stage { scheme: &scheme, start_rates: Some(&self.start_rates), prediction: None };
         let second = newton.stage(cx, ws, state, &stage, to)?;
         Ok(first.then(second))
     }

@@ -6,6 +6,8 @@ pub struct Convergence {
     /// True where the scene is linear: one correction is exact.
     exact: bool,
     last: Option<Correction>,
+    /// The contraction that the first correction is judged by.
+    usual: f64,
     /// Number of corrections whose residual was not half of that before.
     stagnant: usize,
 }
@@ -21,7 +23,7 @@ struct Correction {
 /// The judgement on a correction.
 #[derive(Debug, Clone, Copy)]
 pub struct Judgement {
-    /// Ratio of size or residual to that of the correction before, the larger; 0.5 without one before.
+    /// Ratio of size or residual to that of the correction before, the larger; the usual one without one before.
     pub contraction: f64,
     /// True where there was a correction before.
     pub seen: bool,
@@ -33,9 +35,9 @@ pub struct Judgement {
 }
 
 impl Convergence {
-    /// A criterion with a relative tolerance.
-    pub fn new(tolerance: f64, exact: bool) -> Self {
-        Convergence { tolerance, exact, last: None, stagnant: 0 }
+    /// A criterion with a relative tolerance; the first correction is judged by the `usual` contraction.
+    pub fn new(tolerance: f64, exact: bool, usual: f64) -> Self {
+        Convergence { tolerance, exact, last: None, usual, stagnant: 0 }
     }
 
     /// Forgets the corrections so far, after a return to the prediction.
@@ -47,7 +49,7 @@ impl Convergence {
     pub fn judge(&mut self, size: f64, residual: f64) -> Judgement {
         let contraction = match self.last {
             _ if self.exact => 0.0,
-            None => 0.5,
+            None => self.usual,
             Some(last) => (size / last.size).max(residual / last.residual),
         };
         self.stagnant = match self.last {

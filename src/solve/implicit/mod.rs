@@ -6,12 +6,14 @@ mod arc_length;
 mod composite;
 mod convergence;
 mod correction;
+mod ending;
 mod jump;
 mod line_search;
 mod mechanism;
 mod mode;
 mod newton;
 mod refresh;
+mod runge_kutta;
 mod stability;
 mod stepper;
 

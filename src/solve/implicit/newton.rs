@@ -6,6 +6,7 @@ use super::anderson::Anderson;
 use super::arc_length::{ArcLengthConstraint, Condition};
 use super::convergence::{Convergence, Judgement};
 use super::correction::{correct, is_rounding, relative, size_of_correction};
+use super::ending::Ending;
 use super::jump;
 use super::line_search::LineSearch;
 use super::mechanism;
@@ -23,6 +24,7 @@ use crate::solve::report::StepReport;
 use crate::solve::residual::Magnitudes;
 use crate::solve::size::Size;
 use crate::solve::warning::Warning;
+use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, State};
@@ -40,6 +42,8 @@ pub struct Newton {
     pub mass_weight: f64,
     /// True once the first matrix of the run has been searched for mechanisms.
     searched: bool,
+    /// When the iteration ends.
+    pub ending: Ending,
     /// The watch over the stability of equilibria in statics.
     stability: Option<Stability>,
     /// The forces of the residual at hand and of load steps before.
@@ -67,10 +71,10 @@ enum Verdict {
 }
 
 impl Progress {
-    fn begin(cx: &Context, to: f64, exact: bool) -> Progress {
+    fn begin(cx: &Context, to: f64, exact: bool, ending: &Ending) -> Progress {
         Progress {
             report: StepReport::begin(to),
-            convergence: Convergence::new(cx.model.solution.iteration.tolerance, exact),
+            convergence: Convergence::new(ending.tolerance, exact, ending.usual()),
             limit: cx.model.solution.iteration.limit,
             time_error: 0.0,
         }
@@ -114,6 +118,7 @@ impl Newton {
             projection: ConstraintProjection::for_motion(cx)?,
             mass_weight: 0.0,
             searched: false,
+            ending: Ending::new(model.solution.iteration.tolerance),
             stability: Stability::for_statics(cx)?,
             magnitudes: Magnitudes::default(),
         })
@@ -131,19 +136,35 @@ impl Newton {
         stage: &Stage,
         to: f64,
     ) -> Result<StepReport, Failure> {
-        let ahead = stage.scheme.instant * (to - state.time);
-        contacts::check_length(cx, state, ahead)?;
-        self.predict(cx, ws, state, stage.scheme);
-        let report = self.equilibrate(cx, ws, state, stage, to, None)?;
-        contacts::check_passage(cx, ws, state, ahead)?;
+        let report = self.find(cx, ws, state, stage, to)?;
         self.accept(cx, ws, state, stage, to)?;
         Ok(report)
     }
 
+    /// Finds the equilibrium of a stage, from its prediction; `state` is only read.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn find(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let ahead = stage.scheme.instant * (to - state.time);
+        contacts::check_length(cx, state, ahead)?;
+        self.predict(cx, ws, state, stage);
+        let report = self.equilibrate(cx, ws, state, stage, to, None)?;
+        contacts::check_passage(cx, ws, state, ahead)?;
+        Ok(report)
+    }
+
     /// Writes the prediction of a step and forgets earlier corrections.
-    pub fn predict(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
+    pub fn predict(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
         self.forget_corrections();
-        motion::predict(cx, ws, state, scheme);
+        motion::predict(cx, ws, state, stage);
     }
 
     /// Accepts the equilibrium that was found.
@@ -158,8 +179,24 @@ impl Newton {
         stage: &Stage,
         to: f64,
     ) -> Result<(), Failure> {
+        self.accept_with(cx, ws, state, stage, to, None)
+    }
+
+    /// Accepts the equilibrium that was found at the end of a step whose stages tell the work of loads and damping.
+    ///
+    /// # Errors
+    /// As for [`accept`]; `state` is untouched.
+    pub fn accept_with(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        stage: &Stage,
+        to: f64,
+        work: Option<WorkQuadrature>,
+    ) -> Result<(), Failure> {
         let from = state.time;
-        let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to);
+        let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to, work);
         if accepted.is_ok() {
             self.magnitudes.keep();
         }
@@ -212,7 +249,7 @@ impl Newton {
         mut constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
         motion::excite(cx, ws, state.time, to, stage.scheme.instant);
-        let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none());
+        let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none(), &self.ending);
         loop {
             progress.report.residual = self.evaluate_residual(cx, ws, state, stage, progress.report.to);
             if !progress.report.residual.is_finite() {
@@ -380,7 +417,8 @@ impl Newton {
         }
         let fresh = report.factorizations > 0;
         let judgement = convergence.judge(size, report.residual);
-        if *time_error <= cx.model.solution.iteration.tolerance
+        self.ending.note(&judgement);
+        if *time_error <= self.ending.tolerance
             && self.has_converged(cx, ws, correction, (fresh, report.iterations >= *limit), report.residual, &judgement)
         {
             return Ok(Verdict::Converged);
@@ -404,7 +442,7 @@ impl Newton {
         residual: f64,
         judgement: &Judgement,
     ) -> bool {
-        let sure = cx.system.history == 0 || residual <= 1e3 * cx.model.solution.iteration.tolerance;
+        let sure = cx.system.history == 0 || residual <= (1e3 * self.ending.tolerance).min(1e-3);
         let small = is_rounding(cx, ws, correction, fresh && sure);
         let rounding = judgement.stalled() && small;
         if sure && judgement.converged() {
@@ -412,7 +450,7 @@ impl Newton {
         }
         // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
         let unbalanced = residual * self.magnitudes.part(cx.length);
-        let precise = cx.is_dynamic() || unbalanced <= UNBALANCED * cx.model.solution.iteration.tolerance;
+        let precise = cx.is_dynamic() || unbalanced <= UNBALANCED * self.ending.tolerance;
         if small && !precise && (last || rounding && judgement.is_stagnant()) {
             ws.warnings.add(Warning::Unbalanced { residual: unbalanced });
             return true;
@@ -421,7 +459,7 @@ impl Newton {
     }
 
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut Progress) {
-        self.predict(cx, ws, state, stage.scheme);
+        self.predict(cx, ws, state, stage);
         progress.convergence.forget();
     }
 

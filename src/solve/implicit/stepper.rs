@@ -2,6 +2,7 @@
 
 use super::composite::Composite;
 use super::newton::Newton;
+use super::runge_kutta::StageStepper;
 use crate::integrators::{Coefficients, Stepping, load_steps};
 use crate::linear::TooLarge;
 use crate::solve::context::Context;
@@ -11,29 +12,48 @@ use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
-/// Takes load steps of a static analysis, and time steps of one stage or two.
+/// Takes load steps of a static analysis, and time steps of one stage or several.
 pub struct Implicit<'a> {
     /// The equilibrium iteration.
     pub newton: Newton,
-    /// The second stage of a scheme that has two.
-    composite: Option<Composite<'a>>,
+    stages: Stages<'a>,
+}
+
+/// The stages of a step, with what they need besides the iteration.
+enum Stages<'a> {
+    One,
+    Composite(Composite<'a>),
+    RungeKutta(StageStepper),
 }
 
 impl<'a> Implicit<'a> {
     /// # Errors
     /// There is no memory for the projection onto joints.
     pub fn new(cx: &Context<'a>) -> Result<Self, TooLarge> {
-        let composite = match cx.model.solution.scheme.stepping() {
-            Stepping::Composite(stages) if cx.is_dynamic() => Some(Composite::new(stages, cx.model.nodes.len())),
-            _ => None,
+        let stages = match cx.model.solution.scheme.stepping() {
+            Stepping::Composite(scheme) if cx.is_dynamic() => {
+                Stages::Composite(Composite::new(scheme, cx.model.nodes.len()))
+            }
+            Stepping::DiagonallyImplicit(tableau) if cx.is_dynamic() => {
+                Stages::RungeKutta(StageStepper::new(cx, tableau))
+            }
+            _ => Stages::One,
         };
-        Ok(Implicit { newton: Newton::new(cx)?, composite })
+        Ok(Implicit { newton: Newton::new(cx)?, stages })
+    }
+
+    /// The stages of a Runge-Kutta scheme; `None` for others.
+    pub fn stages(&self) -> Option<&StageStepper> {
+        match &self.stages {
+            Stages::RungeKutta(stages) => Some(stages),
+            Stages::One | Stages::Composite(_) => None,
+        }
     }
 
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     pub fn restart(&mut self, state: &State) {
         self.newton.discard_matrix();
-        if let Some(composite) = &mut self.composite {
+        if let Stages::Composite(composite) = &mut self.stages {
             composite.begin(state);
         }
     }
@@ -49,9 +69,10 @@ impl<'a> Implicit<'a> {
         state: &mut State,
         to: f64,
     ) -> Result<StepReport, Failure> {
-        match &mut self.composite {
-            Some(composite) => composite.step(&mut self.newton, cx, ws, state, to),
-            None => {
+        match &mut self.stages {
+            Stages::Composite(composite) => composite.step(&mut self.newton, cx, ws, state, to),
+            Stages::RungeKutta(stages) => stages.step(&mut self.newton, cx, ws, state, to),
+            Stages::One => {
                 let scheme = coefficients(cx, to - state.time);
                 self.newton.stage(cx, ws, state, &Stage::from(&scheme), to)
             }

@@ -7,7 +7,7 @@ use crate::state::{Configuration, Node, State, Work};
 use crate::system::{Forces, Prescribed};
 
 /// The work of a step so far.
-#[derive(Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct WorkQuadrature {
     external: f64,
     damping: f64,
