@@ -42,8 +42,8 @@ impl Scene {
         ))
     }
 
-    /// Asserts that errors are those asked for, by no more than the factors given; prints what they cost.
-    fn check(&self, name: &str, finest: usize, tolerances: &[f64], [below, above]: [f64; 2]) -> Vec<(f64, usize)> {
+    /// Asserts that errors are at most twice those asked for, and not smaller by more than the factor `below`; prints what they cost.
+    fn check(&self, name: &str, finest: usize, tolerances: &[f64], below: f64) -> Vec<(f64, usize)> {
         let reference = self.fixed(finest).rows;
         let of = |done: &Done| (error(&done.rows, &reference, self.skip), done.counts.iterations);
         tolerances
@@ -52,7 +52,7 @@ impl Scene {
                 let (e, iterations) = of(&self.automatic(tolerance));
                 println!("{name} asked for {tolerance:e}: {e:.2e} in {iterations} iterations");
                 assert!(
-                    e < above * tolerance && below * e > tolerance,
+                    e < 2.0 * tolerance && below * e > tolerance,
                     "{name}: {e:e} where {tolerance:e} was asked for"
                 );
                 (e, iterations)
@@ -100,7 +100,7 @@ fn right_angle_cantilever() {
         probe: Box::new(move |model, frame| vec![elbow(model, frame), tip(model, frame)]),
         skip: 0,
     };
-    let found = scene.check("B1", 32, &[1e-2, 1e-3], [5.0, 5.0]);
+    let found = scene.check("B1", 32, &[1e-2, 1e-3], 5.0);
     let reference = scene.fixed(32).rows;
     scene.check_cost("B1", &reference, &[2, 4, 8], &found);
 }
@@ -117,7 +117,7 @@ fn portal_and_block() {
         probe: Box::new(move |model, frame| vec![knee(model, frame), block(model, frame) - 0.5]),
         skip: 0,
     };
-    let found = scene.check("C4", 256, &[3e-3, 1e-3], [5.0, 5.0]);
+    let found = scene.check("C4", 256, &[3e-3, 1e-3], 30.0);
     let reference = scene.fixed(256).rows;
     scene.check_cost("C4", &reference, &[2, 3, 4, 6, 8], &found);
 }
@@ -178,8 +178,9 @@ fn small_vibrations_are_not_followed() {
     println!("alone {alone:.2e} in {least}, with a small vibration {with:.2e} in {iterations}");
     // Out of phase an oscillation is wrong by √2 times its root mean square at most: by its amplitude.
     assert!(alone < 2.0 * tolerance && with < 2.0 * tolerance, "{alone:e} {with:e}");
-    // Followed, it would take ten times as many; steps after its start are short until it is known to go on like that.
-    assert!(iterations <= 2 * least, "{iterations} for {least}");
+    // Followed, it would take ten times as many; steps after its start are short until it is known to go on like that, and what it adds to
+    // the error may have the run made again.
+    assert!(iterations <= 4 * least, "{iterations} for {least}");
     let (followed, more) = pair(5.0 * tolerance, tolerance);
     println!("with a larger one {followed:.2e} in {more}");
     // Left alone it would be wrong by its amplitude, five times the tolerance.
@@ -187,7 +188,7 @@ fn small_vibrations_are_not_followed() {
 }
 
 /// A top at 150 rad/s: α turns and hardly changes, and what errs is the rotation vector within a step. Errors of velocities last, and
-/// those of places grow with them, to some eight times what was asked for.
+/// those of places grow with them: the error of the run is known by a second one alone, and the run is made again.
 #[test]
 fn spinning_top() {
     let [x, y, z] = [0, 1, 2].map(|axis| displacement("top", axis));
@@ -198,7 +199,8 @@ fn spinning_top() {
         probe: Box::new(move |model, frame| vec![x(model, frame), y(model, frame), z(model, frame)]),
         skip: 0,
     };
-    scene.check("top", 64, &[1e-3, 1e-4], [5.0, 10.0]);
+    // The samples ask for more steps than the error.
+    scene.check("top", 64, &[1e-3, 1e-4], 1e4);
 }
 
 /// What no step resolves is left alone: a spring of 1e7 at rest beside one of 1. The fastest period is 2e-3, that of the motion
@@ -214,10 +216,10 @@ fn stiff_spring_chain() {
             probe: Box::new(move |model, frame| vec![u2(model, frame), u3(model, frame)]),
             skip: 10,
         };
-        let found = scene.check(&format!("X1 {scheme}"), 64, &[1e-2, 1e-3, 1e-4], [5.0, 5.0]);
+        let found = scene.check(&format!("X1 {scheme}"), 64, &[1e-2, 1e-3, 1e-4], 30.0);
         scene.check_cost("X1", &scene.fixed(64).rows, &[2, 4, 8, 16, 32], &found);
-        // Steps of the fastest period would be 26,000.
-        assert!(found[2].1 < 10_000, "{found:?}");
+        // Steps of the fastest period would be 26,000, of one iteration each at least, in two stages with Bathe's scheme.
+        assert!(found[2].1 < 20_000, "{found:?}");
     }
 }
 
@@ -254,7 +256,6 @@ fn no_blow_is_missed() {
     let p = node(&model, "p");
     let done = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[p].v.z]);
     let v = done.rows.last().expect("rows")[0];
-    // Wilson-theta takes the load past the end of a step on a straight line: across a kink that errs with the steps there.
     assert!((v - 0.25).abs() < 1e-2 * 0.25, "{v}");
 }
 
@@ -264,11 +265,12 @@ fn rest_is_cheap() {
     let mut model = small(HIT);
     model.loading.nodal.clear();
     let done = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[0].x.z]);
-    assert!(done.counts.steps <= 60 && done.rows.iter().all(|row| row[0] == 0.0), "{:?}", done.counts);
+    // Fifty, and sixteen times at which runs are compared.
+    assert!(done.counts.steps <= 66 && done.rows.iter().all(|row| row[0] == 0.0), "{:?}", done.counts);
 }
 
 /// A load applied at once to one mass on a spring: 1 − cos ωt. Wilson-theta in long steps would overshoot that by far, which must not be
-/// taken for the size of the motion. What errs is the phase, steadily: an error of up to five times what was asked for.
+/// taken for the size of the motion. What errs is the phase, steadily.
 #[test]
 fn sudden_loads() {
     for (scheme, period) in [("wilson-theta", 1.0), ("wilson-theta", 0.1), ("newmark", 0.1), ("bathe", 0.05)] {
@@ -295,6 +297,52 @@ fn sudden_loads() {
         let sum: f64 = done.rows.iter().map(|row| (row[0] - row[1]).powi(2)).sum();
         let e = (sum / done.rows.len() as f64).sqrt() / 2.0;
         println!("{scheme}, period {period}: {e:.2e} in {} steps", done.counts.steps);
-        assert!(e < 5e-3 && e > 2e-4, "{scheme}, period {period}: {e:e}");
+        assert!(e < 2e-3 && e > 3e-5, "{scheme}, period {period}: {e:e}");
+    }
+}
+
+/// The scheme for automatic steps where the deck names none, on scenes of every kind: twice the error asked for is not passed, and the
+/// run's own estimate is no less than a third of the truth.
+#[test]
+fn errors_are_those_asked_for() {
+    type Columns = Box<dyn Fn(&Model) -> Vec<(usize, usize)>>;
+    let of = |names: &'static [(&'static str, usize)]| -> Columns {
+        Box::new(move |model| names.iter().map(|&(name, axis)| (node(model, name), axis)).collect())
+    };
+    let scenes: [(&str, f64, usize, Columns); 5] = [
+        ("two_bodies_on_springs", 5.0, 400, of(&[("a", 0), ("a", 1), ("b", 0), ("b", 2)])),
+        ("heavy_top/pivot", 2.0, 1000, of(&[("top", 0), ("top", 1), ("top", 2)])),
+        ("right_angle_cantilever", 12.0, 128, of(&[("elbow", 2), ("tip", 2)])),
+        ("block_on_cantilever", 1.0, 100, of(&[("block", 0), ("block", 2), ("tip", 2)])),
+        ("extreme/stiff_spring_chain", 52.36, 32, of(&[("m2", 0), ("m3", 0)])),
+    ];
+    for (deck, end, finest, columns) in scenes {
+        let run = |step: &str| {
+            let sets = [
+                "expect=[]".to_owned(),
+                "integrator={scheme=\"esdirk3\"}".to_owned(),
+                format!("output.interval={:?}", end / 20.0),
+                format!("analysis={{kind=\"dynamic\",end_time={end:?},{step}}}"),
+            ];
+            let model = read(deck, &sets);
+            let columns = columns(&model);
+            run_to_the_end(&model, &mut |frame| {
+                columns
+                    .iter()
+                    .map(|&(node, axis)| frame.state.nodes[node].x[axis] - model.nodes[node].x[axis])
+                    .collect()
+            })
+        };
+        let reference = run(&format!("time_step={:?}", end / 20.0 / finest as f64)).rows;
+        for tolerance in [1e-2, 1e-3, 1e-4] {
+            let done = run(&format!("time_step=\"auto\",error_tolerance={tolerance}"));
+            let (e, estimate) = (error(&done.rows, &reference, 0), done.step_error.and_then(|error| error.estimate));
+            println!(
+                "{deck} asked for {tolerance:e}: {e:.2e}, estimated {estimate:?}, {} iterations",
+                done.counts.iterations
+            );
+            assert!(e < 2.0 * tolerance, "{deck}: {e:e} where {tolerance:e} was asked for");
+            assert!(estimate.is_some_and(|estimate| 3.0 * estimate > e), "{deck}: {estimate:?} for {e:e}");
+        }
     }
 }

@@ -15,15 +15,17 @@ use super::signals::{end_with_input, stop_on_signals};
 use super::verdict::{End, end, energy_line, energy_warning, line};
 use super::version::VERSION;
 use crate::diagnostic::Diagnostic;
-use crate::model::Part;
+use crate::model::{Model, Part};
 use crate::output::expect::Expectations;
 use crate::output::log::Log;
 use crate::output::progress::Progress;
-use crate::output::result_json::{ReportedCounts, RunOrigin, RunResult, Sizes, Status, Timings, peak_memory_bytes};
+use crate::output::result_json::{
+    ReportedCounts, ReportedStepError, RunOrigin, RunResult, Sizes, Status, Timings, peak_memory_bytes,
+};
 use crate::output::{Files, claim, listed, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
-use crate::solve::{Frame, Observer, Run};
+use crate::solve::{Frame, Observer, Run, StepError};
 use crate::study::LIFELINE;
 use crate::system::System;
 
@@ -167,6 +169,7 @@ impl Job<'_> {
                 total_s: self.began.elapsed().as_secs_f64(),
                 ..self.timings
             },
+            step_error: run.step_error().map(step_error),
             joint_violation: run.joint_violation(),
             rotation_drift: (run.rotation_drift() > 0.0).then(|| run.rotation_drift()),
             peak_memory_bytes: peak_memory_bytes(),
@@ -228,6 +231,20 @@ impl Job<'_> {
     }
 }
 
+/// The error of automatic steps that the result reports.
+fn step_error(error: StepError) -> ReportedStepError {
+    let StepError { asked, tolerance, estimate, others, effort } = error;
+    ReportedStepError {
+        asked,
+        estimate,
+        tolerance,
+        other_runs: others,
+        other_steps: effort.steps,
+        other_iterations: effort.iterations,
+        other_factorizations: effort.factorizations,
+    }
+}
+
 /// The counts of the solver that the result reports.
 fn counts(run: &Run) -> ReportedCounts {
     let counts = run.counts();
@@ -254,5 +271,13 @@ impl Observer for Watchers {
         self.progress.on_step(frame)?;
         self.log.on_step(frame)?;
         self.files.on_step(frame)
+    }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        self.log.say(
+            "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps",
+        )?;
+        self.expectations.restart(model)?;
+        self.files.restart(model)
     }
 }

@@ -11,6 +11,7 @@ use super::bars::bars;
 use super::beams::beams;
 use super::bodies::bodies;
 use super::check::{check_content, check_static, check_use};
+use super::choose_scheme::choose_scheme;
 use super::contact_points::connect_touching_points;
 use super::contacts::contacts;
 use super::control::{control, iterate_along};
@@ -115,7 +116,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let mut model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
         analysis,
-        solution: Solution { scheme, iteration },
+        solution: Solution { scheme, scheme_is_chosen: false, iteration },
         nodes,
         bodies: scene.bodies,
         masses,
@@ -130,7 +131,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
         study,
     };
     model.parts.extend(links.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
-    finish(&mut model, all_nodes);
+    finish(&mut model, all_nodes, deck.integrator.is_none());
     model
 }
 
@@ -219,8 +220,12 @@ fn lead_on(
     }
 }
 
-/// Completes what only the whole model tells: stable steps, nodes that nothing needs, and the list of all that are left.
-fn finish(model: &mut Model, all_nodes: bool) {
+/// Completes what only the whole model tells: the scheme of automatic steps, stable steps, nodes that nothing needs, and the list of all that are left.
+fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
+    if scheme_is_free && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
+        model.solution.scheme = choose_scheme(model);
+        model.solution.scheme_is_chosen = true;
+    }
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
     }

@@ -12,6 +12,7 @@ mod bodies;
 mod build;
 mod cells;
 mod check;
+mod choose_scheme;
 mod coincidence;
 mod contact_law;
 mod contact_points;

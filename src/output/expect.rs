@@ -122,6 +122,11 @@ impl Observer for Expectations {
         }
         Ok(())
     }
+
+    fn restart(&mut self, _: &Model) -> io::Result<()> {
+        self.watches.iter_mut().for_each(|watch| watch.sample = None);
+        Ok(())
+    }
 }
 
 impl Watch {

@@ -238,6 +238,20 @@ impl Fields {
         if frame.drawn { self.write(frame) } else { Ok(()) }
     }
 
+    /// Takes away the grids written so far, which a run that begins again does not write at the same steps.
+    ///
+    /// # Errors
+    /// One of them cannot be removed.
+    pub fn withdraw(&mut self) -> io::Result<()> {
+        let names = self.listed.lines().filter_map(|line| line.split_once("file=\"")?.1.split('"').next());
+        for name in names {
+            let path = self.dir.join(name);
+            fs::remove_file(&path).map_err(|e| at(&path, e))?;
+        }
+        self.listed.clear();
+        Ok(())
+    }
+
     fn write(&mut self, frame: &Frame) -> io::Result<()> {
         let (text, bytes) = (&mut self.text, &mut self.bytes);
         let time = frame.state.time;

@@ -13,7 +13,7 @@ use crate::plan::Plan;
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Finished rows reach their files at least this often, and at [`Files::finish`].
@@ -28,6 +28,7 @@ struct OpenTable {
 
 /// Writes what the deck asks for. [`Files::finish`] ends the run however it went.
 pub struct Files {
+    dir: PathBuf,
     tables: Vec<OpenTable>,
     fields: Option<Fields>,
     flushed: Instant,
@@ -44,7 +45,7 @@ impl Files {
         let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
         let tables = wanted.map(open).collect::<io::Result<_>>()?;
         let fields = model.output.fields.map(|_| Fields::open(dir, model, keep_to)).transpose()?;
-        Ok(Files { tables, fields, flushed: Instant::now() })
+        Ok(Files { dir: dir.to_owned(), tables, fields, flushed: Instant::now() })
     }
 
     /// Hands over the rows still waiting: at the end of a run, and before a checkpoint.
@@ -91,6 +92,14 @@ impl Observer for Files {
         // The clock is looked at where there is something to write.
         let writes = frame.due || frame.step.is_multiple_of(64);
         if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
+    }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        if let Some(fields) = &mut self.fields {
+            fields.withdraw()?;
+        }
+        *self = Files::open(&self.dir, model, None)?;
+        Ok(())
     }
 }
 

@@ -61,6 +61,9 @@ pub struct RunResult {
     pub counts: ReportedCounts,
     /// The time that the run took.
     pub timings: Timings,
+    /// The error of automatic steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_error: Option<ReportedStepError>,
     /// Largest departure from orthogonality that a first- or second-order rotation update left to be corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_drift: Option<f64>,
@@ -132,6 +135,25 @@ pub struct ReportedCounts {
     pub cuts: usize,
 }
 
+/// What automatic steps leave of error, relative to the largest motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ReportedStepError {
+    /// `error_tolerance` of the deck.
+    pub asked: f64,
+    /// Estimated error of the run; `None` where it has not been found.
+    pub estimate: Option<f64>,
+    /// The tolerance that the steps followed.
+    pub tolerance: f64,
+    /// Number of runs made besides this one, by which the error is known, ...
+    pub other_runs: usize,
+    /// ... their steps, ...
+    pub other_steps: usize,
+    /// ... iterations ...
+    pub other_iterations: usize,
+    /// ... and factorizations.
+    pub other_factorizations: usize,
+}
+
 /// The time that the run took, in seconds of the wall clock.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Timings {
@@ -186,6 +208,7 @@ mod tests {
             counts: ReportedCounts { steps: 3, ..ReportedCounts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },
             rotation_drift: None,
+            step_error: None,
             joint_violation: None,
             peak_memory_bytes: None,
             warnings: vec![],

@@ -44,6 +44,12 @@ pub struct Frame<'a> {
 pub trait Observer {
     /// Receives each accepted step. An error is an input/output error; it ends the run with exit code 6.
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()>;
+
+    /// Forgets what it has received: the run begins again at t = 0, with shorter steps. Nothing is done where nothing is kept. An error is
+    /// one of input/output.
+    fn restart(&mut self, _: &Model) -> std::io::Result<()> {
+        Ok(())
+    }
 }
 
 impl Observer for () {

@@ -1,7 +1,7 @@
 //! A run of one scene from t = 0 to the end time.
 
 use super::context::Context;
-use super::control::Controller;
+use super::control::{Controller, Interval, comparison_times, intervals, trial_intervals};
 use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::Observer;
@@ -9,10 +9,11 @@ use super::march::March;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::start::start;
+use super::trials::{Kept, LOOSER, MOST_RUNS, StepError, Trace};
 use super::warning::Warnings;
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
-use crate::model::{AnalysisKind, Model};
+use crate::model::{AnalysisKind, Model, StepLength};
 use crate::plan::Plan;
 use crate::state::State;
 use crate::system::System;
@@ -26,6 +27,8 @@ pub struct Run<'a> {
     workspace: Workspace,
     controller: Controller<'a>,
     recorder: Recorder,
+    wanted: Wanted,
+    step_error: Option<StepError>,
     stop: &'a AtomicBool,
 }
 
@@ -49,26 +52,106 @@ impl<'a> Run<'a> {
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);
-        Ok(Run { context, workspace, controller, recorder, stop })
+        Ok(Run { context, workspace, controller, recorder, wanted, step_error: None, stop })
     }
 
     /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
-    /// not start.
+    /// not start. Where steps follow a tolerance, their error is estimated by a second run, and the run is made again where it is
+    /// too large.
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
-        let Run { context: cx, workspace: ws, controller, recorder, stop } = self;
+        match (&self.context.model.analysis.step_length, self.controller.by_tolerance()) {
+            (&StepLength::ErrorControlled { tolerance, .. }, Some(_)) => self.within(tolerance, observer),
+            _ => self.once(observer, &intervals(self.context.model, std::iter::empty())),
+        }
+    }
+
+    /// One run over these intervals.
+    fn once(&mut self, observer: &mut dyn Observer, intervals: &[Interval]) -> (Outcome, Option<State>) {
+        let Run { context: cx, workspace: ws, controller, recorder, stop, .. } = self;
         let mut state = match start(cx, ws) {
             Ok(state) => state,
             Err(failure) => return (Outcome::Failed { time: 0.0, failure }, None),
         };
         recorder.begin(cx, &state);
         let mut march = March { cx, ws, state: &mut state, recorder, observer, stop };
-        let mut outcome = controller.run(&mut march);
+        let mut outcome = controller.run(&mut march, intervals);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }
         recorder.counts.factorizations = ws.factorizations;
         recorder.counts.solves = ws.solves;
         (outcome.err().unwrap_or(Outcome::Done), Some(state))
+    }
+
+    /// Runs with steps that follow a tolerance until the error is the one asked for.
+    fn within(&mut self, asked: f64, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
+        let model = self.context.model;
+        let power = model.solution.scheme.order() + 1;
+        let ends = intervals(model, comparison_times(model.analysis.end_time));
+        let mut error = StepError::new(asked);
+        let mut before: Option<Kept> = None;
+        self.follow(asked, None);
+        loop {
+            let mut trace = Trace::new(observer, power);
+            let (outcome, state) = self.once(&mut trace, &ends);
+            let run = trace.into_kept();
+            if !matches!(outcome, Outcome::Done) {
+                return (outcome, state);
+            }
+            let other = match before.take() {
+                Some(other) => Some(other),
+                None => match self.trial(&mut error, run.longest(), power) {
+                    Ok(other) => other,
+                    Err(outcome) => return (outcome, state),
+                },
+            };
+            let next = other.and_then(|other| error.judge(&run, &other, self.context.length));
+            self.step_error = Some(error);
+            let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
+                self.workspace.warnings.extend(error.doubt());
+                return (outcome, state);
+            };
+            error.add(self.recorder.counts);
+            error.tolerance = tolerance;
+            self.recorder = Recorder::new(model, self.wanted);
+            self.follow(tolerance, None);
+            if let Err(error) = observer.restart(model) {
+                return (Outcome::Io(error), state);
+            }
+            before = Some(run);
+        }
+    }
+
+    /// Runs with longer steps, unseen, for the sake of the error of the run before; `None` where that run does not come to its end.
+    ///
+    /// # Errors
+    /// [`Outcome::Stopped`].
+    fn trial(&mut self, error: &mut StepError, longest: f64, power: usize) -> Result<Option<Kept>, Outcome> {
+        let model = self.context.model;
+        let recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, Wanted::NOTHING));
+        let warnings = std::mem::take(&mut self.workspace.warnings);
+        let seen = (self.workspace.rotation_drift, self.workspace.joint_violation);
+        self.follow(error.tolerance * LOOSER, Some(2.0 * longest));
+        let mut nobody = ();
+        let mut trace = Trace::new(&mut nobody, power);
+        let (outcome, _) = self.once(&mut trace, &trial_intervals(model));
+        error.add(self.recorder.counts);
+        (self.recorder, self.workspace.warnings) = (recorder, warnings);
+        (self.workspace.rotation_drift, self.workspace.joint_violation) = seen;
+        match outcome {
+            Outcome::Done => Ok(Some(trace.into_kept())),
+            Outcome::Stopped { .. } => Err(outcome),
+            Outcome::Failed { .. } | Outcome::Io(_) => Ok(None),
+        }
+    }
+
+    /// Prepares for a run by this tolerance, whose counts begin anew.
+    fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
+        let ws = &mut self.workspace;
+        (ws.factorizations, ws.solves) = (0, 0);
+        if let Some(controller) = self.controller.by_tolerance() {
+            controller.follow(tolerance, longest);
+        }
     }
 
     /// The effort of the run, once it has ended.
@@ -94,6 +177,11 @@ impl<'a> Run<'a> {
     /// Largest gap of a joint at the end of a step, relative to the largest coordinate; `None` without joints.
     pub fn joint_violation(&self) -> Option<f64> {
         (!self.context.system.joints.is_empty()).then_some(self.workspace.joint_violation)
+    }
+
+    /// The error of steps that follow a tolerance; `None` for others.
+    pub fn step_error(&self) -> Option<StepError> {
+        self.step_error
     }
 
     /// Doubts about the results.

@@ -12,6 +12,13 @@ pub enum Warning {
         /// The largest change over the largest velocity.
         change: f64,
     },
+    /// The error of steps that follow a tolerance is above what was asked for.
+    StepError {
+        /// The error asked for, relative to the largest motion.
+        asked: f64,
+        /// The estimated error; `None` where it could not be found.
+        estimate: Option<f64>,
+    },
     /// A load step ended where rounding leaves a residual.
     Unbalanced {
         /// The residual, relative to the forces.
@@ -81,6 +88,19 @@ impl fmt::Display for Warning {
                 short(*depth),
                 to_digits(100.0 * depth / size, 2)
             ),
+            Warning::StepError { asked, estimate: Some(estimate) } => write!(
+                f,
+                "the steps leave an error of about {} of the largest motion, more than the {} of `error_tolerance`: the motion magnifies \
+                 errors of single steps. Ask for less error, or take the results as one motion of many",
+                short(*estimate),
+                short(*asked)
+            ),
+            Warning::StepError { asked, estimate: None } => write!(
+                f,
+                "whether the error is below the {} of `error_tolerance` is not known: the trial runs with longer steps that would tell did not \
+                 come to their end. Compare with a run at a smaller `error_tolerance`",
+                short(*asked)
+            ),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);
                 write!(
@@ -117,6 +137,13 @@ impl Warnings {
                 (*old, *of) = (depth, size);
             }
             Some(_) => {}
+        }
+    }
+
+    /// Adds a warning, if there is one.
+    pub fn extend(&mut self, warning: Option<Warning>) {
+        if let Some(warning) = warning {
+            self.add(warning);
         }
     }
 

@@ -48,6 +48,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             plane: false,
         },
         solution: Solution {
+            scheme_is_chosen: false,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {
                 method: Method::TangentStiffness,

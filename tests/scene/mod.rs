@@ -58,6 +58,7 @@ pub fn model() -> Model {
             plane: false,
         },
         solution: Solution {
+            scheme_is_chosen: false,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {
                 method: Method::TangentStiffness,

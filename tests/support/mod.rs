@@ -10,7 +10,7 @@ use rdsolve::model::{self, Model};
 use rdsolve::output::expect::{Expectations, Verdict};
 use rdsolve::output::{Files, wanted};
 use rdsolve::plan::Plan;
-use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run};
+use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, StepError};
 use rdsolve::state::Node;
 use rdsolve::system::System;
 use std::collections::HashMap;
@@ -95,6 +95,7 @@ pub struct Done {
     pub rows: Vec<Vec<f64>>,
     pub verdicts: Vec<Verdict>,
     pub counts: Counts,
+    pub step_error: Option<StepError>,
     pub unknowns: usize,
     /// Wall-clock seconds of the time stepping alone.
     pub seconds: f64,
@@ -113,6 +114,11 @@ impl Observer for Watchers<'_> {
         }
         self.expectations.on_step(frame)
     }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        self.rows.clear();
+        self.expectations.restart(model)
+    }
 }
 
 /// Runs a model, asking `probe` at every output time.
@@ -128,6 +134,7 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
         outcome,
         seconds: (began.elapsed() - run.observing()).as_secs_f64(),
         counts: run.counts(),
+        step_error: run.step_error(),
         unknowns: plan.dofs.unknowns(),
         verdicts: watchers.expectations.verdicts(),
         rows: watchers.rows,
@@ -147,6 +154,10 @@ impl Observer for Writer<'_> {
             self.stop.store(true, Ordering::Relaxed);
         }
         self.files.on_step(frame)
+    }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        self.files.restart(model)
     }
 }
 

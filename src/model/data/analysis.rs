@@ -37,6 +37,8 @@ impl Analysis {
 pub struct Solution {
     /// The time integration scheme.
     pub scheme: Arc<dyn Scheme>,
+    /// True where the deck names none and its automatic steps leave the choice.
+    pub scheme_is_chosen: bool,
     /// The equilibrium iteration.
     pub iteration: Iteration,
 }

@@ -1,6 +1,6 @@
 //! Springs, dampers, gaps and bushings between two nodes.
 
-use super::part_answers::{Drawing, PartAnswers};
+use super::part_answers::{Drawing, LinearSpring, PartAnswers};
 use crate::elements::link::LinkLaw;
 use crate::math::{Mat3, Vec3};
 use crate::quantities::{Column, LINK};
@@ -68,6 +68,15 @@ impl PartAnswers for Link {
     fn may_release(&self) -> bool {
         let releases = |law: &LinkLaw| matches!(law, LinkLaw::Table { .. }) || law.force(0.0).0 != 0.0;
         matches!(&self.kind, LinkKind::Line { law, .. } if releases(law))
+    }
+
+    fn linear_spring(&self) -> Option<LinearSpring> {
+        match self.kind {
+            LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, damping, .. } => {
+                Some(LinearSpring { ends: self.ends, stiffness, damping })
+            }
+            LinkKind::Line { .. } | LinkKind::Bushing { .. } => None,
+        }
     }
 
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {

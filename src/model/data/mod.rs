@@ -37,7 +37,7 @@ pub use model::{MeshFile, Model, Origin, Rigid};
 pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Output};
 pub use part::{Part, PartType, quantities_of};
-pub use part_answers::{Drawing, NodeWeights};
+pub use part_answers::{Drawing, LinearSpring, NodeWeights};
 pub use shell::{Shell, ShellElement};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, FIRST_STEP, StepLength};
 pub use study::{Choice, Quantity, Study};

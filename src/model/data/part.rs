@@ -7,7 +7,7 @@ use super::contact::Contact;
 use super::integrals::MassIntegrals;
 use super::link::Link;
 use super::node::Node;
-use super::part_answers::{Drawing, NodeWeights, PartAnswers};
+use super::part_answers::{Drawing, LinearSpring, NodeWeights, PartAnswers};
 use super::shell::Shell;
 use crate::deck::part_table::MassKind;
 use crate::deck::parts::PartKind;
@@ -108,6 +108,11 @@ impl Part {
     /// The mass of an element at t = 0, whether or not the deck asks to keep it.
     pub fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {
         ask!(self, element_mass element, nodes, stiffnesses)
+    }
+
+    /// The part as a linear spring along a line; `None` for all that is not just that.
+    pub fn linear_spring(&self) -> Option<LinearSpring> {
+        ask!(self, linear_spring)
     }
 
     /// The stiffness against stretching of the whole part, E A over its extent at t = 0, E times the thickness of a shell; `None`

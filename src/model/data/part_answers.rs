@@ -23,6 +23,16 @@ pub enum Drawing<'p> {
     },
 }
 
+/// A spring and a damper between two nodes whose force is linear.
+pub struct LinearSpring {
+    /// Its nodes.
+    pub ends: [usize; 2],
+    /// Force over elongation.
+    pub stiffness: f64,
+    /// Force over rate of elongation.
+    pub damping: f64,
+}
+
 /// A place on an element: its nodes, each with its weight.
 pub type NodeWeights = Vec<(usize, f64)>;
 
@@ -57,6 +67,10 @@ pub trait PartAnswers {
 
     fn element_mass(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> f64 {
         0.0
+    }
+
+    fn linear_spring(&self) -> Option<LinearSpring> {
+        None
     }
 
     fn stretching(&self, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> Option<f64> {

@@ -22,7 +22,8 @@ pub fn explain(text: &mut Explanation, model: &Model) {
                 _ => format!("in {steps} steps of {}", analysis.nominal_step()),
             };
             text.add("analysis", format!("dynamic, to t = {end} {how}"));
-            text.add("scheme", model.solution.scheme.in_words());
+            let chosen = if model.solution.scheme_is_chosen { ", chosen for automatic steps" } else { "" };
+            text.add("scheme", format!("{}{chosen}", model.solution.scheme.in_words()));
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
     }

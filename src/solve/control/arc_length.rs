@@ -173,7 +173,7 @@ impl ArcLengthController {
         condition: Option<Condition>,
     ) -> Result<(StepReport, Option<usize>), Failure> {
         let scheme = load_steps::coefficients();
-        self.newton.predict(cx, ws, state, &scheme);
+        self.newton.predict(cx, ws, state, &Stage::from(&scheme));
         let mut report = self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?;
         let mut reached = None;
         for _ in 0..MOST_TARGETS {

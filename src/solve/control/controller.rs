@@ -4,8 +4,9 @@ use super::arc_length::ArcLengthController;
 use super::embedded_error::EmbeddedErrorController;
 use super::error_controlled::ErrorController;
 use super::fixed::FixedController;
-use super::intervals::{CoverInterval, intervals};
+use super::intervals::{CoverInterval, Interval};
 use super::stability_limited::StabilityController;
+use super::tolerance::FollowTolerance;
 use crate::linear::TooLarge;
 use crate::model::StepLength;
 use crate::solve::context::Context;
@@ -52,16 +53,25 @@ impl<'a> Controller<'a> {
         })
     }
 
-    /// Leads the run from its state at t = 0 to its end.
+    /// The controller as one whose steps follow a tolerance; `None` for others.
+    pub fn by_tolerance(&mut self) -> Option<&mut dyn FollowTolerance> {
+        match self {
+            Controller::ErrorControlled(controller) => Some(controller.as_mut()),
+            Controller::EmbeddedError(controller) => Some(controller),
+            Controller::Fixed(_) | Controller::StabilityLimited(_) | Controller::ArcLength(_) => None,
+        }
+    }
+
+    /// Leads the run from its state at t = 0 to its end, over the intervals.
     ///
     /// # Errors
     /// The outcome that ends it early.
-    pub fn run(&mut self, march: &mut March) -> Result<(), Outcome> {
+    pub fn run(&mut self, march: &mut March, intervals: &[Interval]) -> Result<(), Outcome> {
         match self {
-            Controller::Fixed(controller) => through_intervals(controller, march),
-            Controller::ErrorControlled(controller) => through_intervals(controller.as_mut(), march),
-            Controller::EmbeddedError(controller) => through_intervals(controller, march),
-            Controller::StabilityLimited(controller) => through_intervals(controller, march),
+            Controller::Fixed(controller) => through_intervals(controller, march, intervals),
+            Controller::ErrorControlled(controller) => through_intervals(controller.as_mut(), march, intervals),
+            Controller::EmbeddedError(controller) => through_intervals(controller, march, intervals),
+            Controller::StabilityLimited(controller) => through_intervals(controller, march, intervals),
             Controller::ArcLength(controller) => {
                 controller.apply_initial_loads(march)?;
                 march.notify_start()?;
@@ -80,11 +90,15 @@ impl<'a> Controller<'a> {
 }
 
 /// Covers one interval after the other; after a jump of the loads with the accelerations that the jump leaves.
-fn through_intervals(controller: &mut impl CoverInterval, march: &mut March) -> Result<(), Outcome> {
+fn through_intervals(
+    controller: &mut impl CoverInterval,
+    march: &mut March,
+    intervals: &[Interval],
+) -> Result<(), Outcome> {
     controller.restart(march.cx, march.ws, march.state);
     march.notify_start()?;
-    for interval in intervals(march.cx.model) {
-        controller.cover(march, &interval)?;
+    for interval in intervals {
+        controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {
             start::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
             controller.restart(march.cx, march.ws, march.state);

@@ -1,6 +1,7 @@
 //! Steps of Runge-Kutta schemes by the error estimate of their embedded schemes.
 
 use super::adaptive::StepController;
+use super::tolerance::FollowTolerance;
 use crate::solve::context::Context;
 use crate::solve::explicit::RungeKuttaStepper;
 use crate::solve::failure::Failure;
@@ -25,12 +26,22 @@ pub struct EmbeddedErrorController {
     next: f64,
     /// Largest displacement and rotation so far.
     motion: Size,
+    /// Length of the first step of a run, and the longest allowed.
+    first: f64,
+    longest: f64,
 }
 
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.
     pub fn new(stepper: Box<RungeKuttaStepper>, tolerance: f64, first: f64) -> EmbeddedErrorController {
-        EmbeddedErrorController { stepper, tolerance, next: first, motion: Size::default() }
+        EmbeddedErrorController {
+            stepper,
+            tolerance,
+            next: first,
+            motion: Size::default(),
+            first,
+            longest: f64::INFINITY,
+        }
     }
 
     /// Judges the trial motion of a step of `dt` and chooses the next length. Returns the largest motion including it.
@@ -67,12 +78,19 @@ impl EmbeddedErrorController {
     }
 }
 
+impl FollowTolerance for EmbeddedErrorController {
+    fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
+        (self.tolerance, self.next) = (tolerance, self.first);
+        self.longest = longest.unwrap_or(f64::INFINITY);
+    }
+}
+
 impl StepController for EmbeddedErrorController {
     fn restart(&mut self, _: &Context, _: &mut Workspace, _: &mut State) {}
 
     fn propose(&mut self, cx: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
         // The length does not fall below the least step: if that fails too, its failure says why.
-        Ok(self.next.max(cx.model.analysis.least_step))
+        Ok(self.next.min(self.longest).max(cx.model.analysis.least_step))
     }
 
     fn step(

@@ -11,6 +11,7 @@
 use super::adaptive::StepController;
 use super::error_measure::ErrorMeasure;
 use super::lasting_error::LastingError;
+use super::tolerance::FollowTolerance;
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{AlphaFamily, RotationUpdate};
 use crate::math::{Vec3, Vec6, stack};
@@ -37,6 +38,8 @@ const WEIGHT: f64 = 0.002;
 /// Fraction of the sum of all errors that remains at the end: steady growth to 1 of an oscillation has a root mean
 /// square of 1/√6 over a run; a little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
 const MEAN: f64 = 0.3;
+/// The same for Runge-Kutta schemes, whose errors damp the motion in the main: they cancel less.
+const MEAN_OF_STAGES: f64 = 0.6;
 /// Least number of steps of a run.
 const FEWEST: f64 = 50.0;
 /// Lengths of the trial steps that measure the motion ahead when motion begins, as fractions of the run; the first are
@@ -59,9 +62,15 @@ pub struct ErrorController<'a> {
     tolerance: f64,
     /// The error constant c of the scheme.
     constant: f64,
+    /// The order p of the scheme.
+    order: i32,
     /// Length of the next step, and the longest allowed.
     length: f64,
     longest: f64,
+    /// Length of the first step of a run.
+    first: f64,
+    /// The longest step at the tolerance of the deck.
+    most: f64,
     /// Error of a step relative to its allowance and to the square of its length: means over the last steps, of the
     /// lasting errors and of all.
     lasting_intensity: Option<f64>,
@@ -86,13 +95,17 @@ struct Estimate {
 impl<'a> ErrorController<'a> {
     /// A controller with this tolerance and first step.
     pub fn new(cx: &Context, stepper: Box<Implicit<'a>>, tolerance: f64, first: f64) -> Self {
-        let nodes = cx.model.nodes.len();
+        let (nodes, scheme) = (cx.model.nodes.len(), &*cx.model.solution.scheme);
+        let mean = if stepper.stages().is_some() { MEAN_OF_STAGES } else { MEAN };
         ErrorController {
             stepper,
             tolerance,
-            constant: MEAN * error_constant(&*cx.model.solution.scheme),
+            constant: mean * error_constant(scheme),
+            order: scheme.order() as i32,
             length: first,
             longest: cx.model.analysis.end_time / FEWEST,
+            first,
+            most: cx.model.analysis.end_time / FEWEST,
             lasting_intensity: None,
             intensity: None,
             motion: Size::default(),
@@ -107,10 +120,11 @@ impl<'a> ErrorController<'a> {
     fn judge(&mut self, dt: f64, time: f64, end_time: f64, estimate: &Estimate) -> bool {
         let part = dt / end_time;
         let ratio = estimate.error / (self.tolerance * part);
-        let all = ratio / (dt * dt);
+        let all = ratio / dt.powi(self.order);
         let sudden = self.intensity.is_none_or(|usual| all > TOO_MUCH * usual);
         if ratio > TOO_MUCH && sudden || !ratio.is_finite() {
-            self.length = dt * if ratio.is_finite() { (SAFETY / ratio).sqrt().max(0.1) } else { 0.1 };
+            self.length =
+                dt * if ratio.is_finite() { (SAFETY / ratio).powf(1.0 / f64::from(self.order)).max(0.1) } else { 0.1 };
             self.lasting_intensity = Some(all).filter(|all| all.is_finite());
             return false;
         }
@@ -118,18 +132,18 @@ impl<'a> ErrorController<'a> {
         let (before, after) = (self.measure.whole(self.motion), self.measure.whole(estimate.motion));
         let grown = if before > 0.0 { after / before } else { 1.0 };
         self.motion = estimate.motion;
-        let factor = self.constant * dt.powi(3);
-        let tau = (self.constant * dt * dt * end_time).cbrt();
+        let factor = self.constant * dt.powi(self.order + 1);
+        let tau = (self.constant * dt.powi(self.order) * end_time).powf(1.0 / f64::from(self.order + 1));
         self.lasting.update(&self.errors[0], factor, dt, tau);
         let lasting = factor * self.measure.relative(self.lasting.value(), self.motion, time);
-        let lasting = lasting / (self.tolerance * part) / (dt * dt);
+        let lasting = lasting / (self.tolerance * part) / dt.powi(self.order);
         let weight = (part / SPAN).clamp(WEIGHT, 1.0);
         let update =
             |mean: Option<f64>, now: f64| mean.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
         let mean = update(self.lasting_intensity, lasting);
         self.lasting_intensity = Some(mean);
         self.intensity = Some(update(self.intensity, all));
-        self.choose_length(dt, 1.0 / mean.sqrt());
+        self.choose_length(dt, mean.powf(-1.0 / f64::from(self.order)));
         true
     }
 
@@ -195,21 +209,27 @@ impl<'a> ErrorController<'a> {
         Estimate { error, motion }
     }
 
-    /// Writes c Δt³ q‴ of the step of length `dt` that led to `state`, by node.
+    /// Writes c Δtᵖ⁺¹ q⁽ᵖ⁺¹⁾ of the step of length `dt` that led to `state`, by node.
     fn write_errors(&mut self, cx: &Context, state: &State, dt: f64) {
         let errors = &mut self.errors[0];
         errors.fill(Vec6::zeros());
-        let factor = self.constant * dt.powi(3);
-        for &node in &cx.independent_nodes {
-            let rows = cx.plan.dofs.of(node);
-            let (start, end) = (&self.start.nodes[node], &state.nodes[node]);
-            // The rotation vector of a step has Θ‴ = α̇ − ½ ω×α: a spinning body turns α without changing it.
-            let across = 0.25 * (start.omega.cross(&start.alpha) + end.omega.cross(&end.alpha));
-            let third = state.jerk[node] - stack(&Vec3::zeros(), &across);
-            errors[node] = Vec6::from_fn(|i, _| if rows.has(i) { factor * third[i] } else { 0.0 });
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            let error = match self.stepper.stages() {
+                Some(stages) => stages.fourth_derivative(cx, k) * (self.constant * dt * dt),
+                None => third_derivative(&self.start, state, node) * (self.constant * dt.powi(3)),
+            };
+            errors[node] = cx.plan.dofs.of(node).mask(&error);
         }
         cx.system.project(&state.nodes, errors);
     }
+}
+
+/// The third derivative of the increment of a node in a step from `start` to `end`.
+fn third_derivative(start: &State, end: &State, node: usize) -> Vec6 {
+    let (first, last) = (&start.nodes[node], &end.nodes[node]);
+    // The rotation vector of a step has Θ‴ = α̇ − ½ ω×α: a spinning body turns α without changing it.
+    let across = 0.25 * (first.omega.cross(&first.alpha) + last.omega.cross(&last.alpha));
+    end.jerk[node] - stack(&Vec3::zeros(), &across)
 }
 
 /// Filters the errors by node, e ← (K + w M)⁻¹ w M e, with w the weight of the mass in the matrix at hand.
@@ -226,6 +246,18 @@ fn filter(cx: &Context, ws: &mut Workspace, state: &State, mass_weight: f64, err
         errors[node] = rows.gather(&ws.r);
     }
     cx.system.project(&state.nodes, errors);
+}
+
+impl FollowTolerance for ErrorController<'_> {
+    /// The motion of earlier runs stays known: errors at the start are small against it, whatever they are against the motion so far.
+    fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
+        self.tolerance = tolerance;
+        self.stepper.newton.ending.follow(tolerance);
+        self.length = self.first;
+        self.longest = longest.unwrap_or(self.most);
+        (self.lasting_intensity, self.intensity) = (None, None);
+        self.lasting.forget();
+    }
 }
 
 impl StepController for ErrorController<'_> {

@@ -41,13 +41,46 @@ impl Interval {
     }
 }
 
-/// Divides [0, end] at output times, at the times of expectations and where loads jump, each interval into steps no
+/// Divides [0, end] at output times, at the times of expectations, at `others` and where loads jump, each interval into steps no
 /// longer than the deck's.
-pub fn intervals(model: &Model) -> Vec<Interval> {
-    let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
-    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
-    let ending = |to: f64, due: bool, jump: bool| Interval { from: 0.0, to, steps: 0, due, jump };
-    let mut out = vec![ending(end, true, false)];
+pub fn intervals(model: &Model, others: impl Iterator<Item = f64>) -> Vec<Interval> {
+    let mut out: Vec<Interval> = others.map(|time| ending(time, false, false)).collect();
+    add_output_times(model, &mut out);
+    add_jumps_and_kinks(model, &mut out);
+    divide(model, out)
+}
+
+/// Number of times at which runs of one scene are compared.
+pub const COMPARISONS: usize = 16;
+
+/// The k-th time of comparison in a run of this length, k = 1..=[`COMPARISONS`]: spread evenly, but equidistant with no vibration, which
+/// might pass through its extremes at all of them, where an error of phase does not show.
+pub fn comparison_time(k: usize, end_time: f64) -> f64 {
+    /// The part of the golden section of which multiples are spread most evenly between whole numbers.
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    end_time * ((k as f64 - 0.6 * (k as f64 * GOLDEN).fract()) / COMPARISONS as f64)
+}
+
+/// All times of comparison.
+pub fn comparison_times(end_time: f64) -> impl Iterator<Item = f64> {
+    (1..=COMPARISONS).map(move |k| comparison_time(k, end_time))
+}
+
+/// The intervals of a trial run, of which nothing is written.
+pub fn trial_intervals(model: &Model) -> Vec<Interval> {
+    let mut out: Vec<Interval> =
+        comparison_times(model.analysis.end_time).map(|time| ending(time, false, false)).collect();
+    add_jumps_and_kinks(model, &mut out);
+    divide(model, out)
+}
+
+fn ending(to: f64, due: bool, jump: bool) -> Interval {
+    Interval { from: 0.0, to, steps: 0, due, jump }
+}
+
+fn add_output_times(model: &Model, out: &mut Vec<Interval>) {
+    let end = model.analysis.end_time;
+    out.push(ending(end, true, false));
     if let Cadence::Interval(interval) = model.output.cadence {
         let count = (end / interval + 1e-9).floor() as usize;
         out.extend((1..=count).map(|k| ending(multiple(k, interval), true, false)));
@@ -57,6 +90,9 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
             out.push(ending(t, true, false));
         }
     }
+}
+
+fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Interval>) {
     let driving = || {
         let loads = model.loading.nodal.iter().filter_map(|load| load.amplitude);
         let pressures = model.loading.pressures.iter().filter_map(|load| load.amplitude);
@@ -77,6 +113,12 @@ pub fn intervals(model: &Model) -> Vec<Interval> {
             out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| ending(time, false, false)));
         }
     }
+}
+
+/// Puts the ends of intervals in order, each once, and counts steps between them.
+fn divide(model: &Model, mut out: Vec<Interval>) -> Vec<Interval> {
+    let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
     out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));
     out.sort_by(|a, b| a.to.total_cmp(&b.to));
     out.dedup_by(|next, kept| {

@@ -22,6 +22,12 @@ impl LastingError {
         LastingError { first: zeros.clone(), value: zeros.clone(), rate: zeros, tau: None }
     }
 
+    /// Forgets all errors.
+    pub fn forget(&mut self) {
+        self.tau = None;
+        self.rate.fill(Vec6::zeros());
+    }
+
     /// The lasting errors over c Δt³, by node.
     pub fn value(&self) -> &[Vec6] {
         &self.value

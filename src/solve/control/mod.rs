@@ -11,5 +11,7 @@ mod intervals;
 mod lasting_error;
 mod stability_limited;
 mod targets;
+mod tolerance;
 
 pub use controller::Controller;
+pub use intervals::{COMPARISONS, Interval, comparison_time, comparison_times, intervals, trial_intervals};

@@ -1,0 +1,89 @@
+//! The error that steps leave at the end of a run, where they follow a tolerance.
+//!
+//! The error of one step can be estimated from the step; what becomes of it cannot: tops and mechanisms magnify it, errors of velocity
+//! grow to errors of position, vibrations that are out of phase err by no more than their amplitude. So a second run is made with
+//! longer steps, a trial: the difference of two runs is the error of the worse one, and a known multiple of that of the better
+//! (L. F. Richardson, 1911). Where the error is more than was asked for, the run is made again with a tolerance that follows from it.
+
+mod trace;
+
+pub use trace::{Kept, Trace};
+
+use super::outcome::Counts;
+use super::warning::Warning;
+
+/// Largest number of runs, the trial aside.
+pub const MOST_RUNS: usize = 4;
+/// Part of the error asked for that a second run aims at.
+const AIM: f64 = 0.5;
+/// An error of up to this multiple of what was asked for passes.
+const WITHIN: f64 = 1.5;
+/// Errors fall at least with this power of what the steps leave.
+const SLOPE: f64 = 0.8;
+/// Ratio of the tolerances of the trial and the run: for a scheme of third order its steps are twice as long.
+pub const LOOSER: f64 = 8.0;
+/// Least and largest ratio of the tolerances of two runs in a row.
+const CHANGE: [f64; 2] = [1e-3, 0.3];
+/// Ratio of the tolerances where two runs have nothing in common.
+const LOST: f64 = 0.03;
+/// The difference of two runs that have nothing in common, relative to the motion.
+const SATURATED: f64 = 0.3;
+
+/// The error of the steps of a run, relative to its largest motion, and what it took to know it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepError {
+    /// The error that the deck asks for.
+    pub asked: f64,
+    /// The tolerance that the steps followed.
+    pub tolerance: f64,
+    /// The estimated error of the run; `None` where no other run came to its end.
+    pub estimate: Option<f64>,
+    /// Number of runs besides the last.
+    pub others: usize,
+    /// The effort of these.
+    pub effort: Counts,
+}
+
+impl StepError {
+    /// The error of a run by this tolerance, of which nothing is known yet.
+    pub fn new(asked: f64) -> StepError {
+        StepError { asked, tolerance: asked, estimate: None, others: 0, effort: Counts::default() }
+    }
+
+    /// Takes account of another run.
+    pub fn add(&mut self, effort: Counts) {
+        self.others += 1;
+        let sum = &mut self.effort;
+        sum.steps += effort.steps;
+        sum.iterations += effort.iterations;
+        sum.factorizations += effort.factorizations;
+        sum.solves += effort.solves;
+        sum.cuts += effort.cuts;
+    }
+
+    /// Estimates the error from the difference to another run. Returns the tolerance of a further run; `None` where this one is good enough,
+    /// or no further one would be better.
+    pub fn judge(&mut self, run: &Kept, other: &Kept, extent: f64) -> Option<f64> {
+        let difference = run.difference(other, extent);
+        let apart = (other.left() / run.left()).powf(SLOPE);
+        // Runs that went the same steps tell nothing of each other.
+        let estimate = if apart > 1.1 { difference / (apart - 1.0) } else { f64::NAN };
+        let before = self.estimate.replace(estimate).filter(|_| estimate.is_finite());
+        if !estimate.is_finite() {
+            self.estimate = None;
+            return None;
+        }
+        // Runs that have nothing in common tell little of how much shorter steps must be, and a few of them that there is no such length.
+        let lost = difference > SATURATED;
+        let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
+        let [least, most] = CHANGE;
+        let factor = if lost { LOST } else { (AIM * self.asked / estimate).clamp(least, most) };
+        (estimate > WITHIN * self.asked && !hopeless).then_some(self.tolerance * factor)
+    }
+
+    /// What the run has to say where its error is not what was asked for.
+    pub fn doubt(&self) -> Option<Warning> {
+        let StepError { asked, estimate, .. } = *self;
+        estimate.is_none_or(|estimate| estimate > WITHIN * asked).then_some(Warning::StepError { asked, estimate })
+    }
+}

@@ -1,0 +1,140 @@
+//! The motion of a run at a few times, by which runs with different steps are compared.
+
+use crate::math::Vec3;
+use crate::model::Model;
+use crate::solve::control::{COMPARISONS, comparison_time};
+use crate::solve::frame::{Frame, Observer};
+use nalgebra::Quaternion;
+use std::io;
+
+/// Largest number of nodes that are compared; of more nodes every second, third, ... is.
+const MOST_NODES: usize = 20_000;
+
+/// Positions of nodes and rotations of bodies at a few times, kept while another observer receives the same steps.
+pub struct Trace<'o> {
+    observer: &'o mut dyn Observer,
+    kept: Kept,
+    /// The error of a step goes with this power of its length.
+    power: i32,
+}
+
+/// What a trace keeps. It is allocated with the first step.
+#[derive(Debug, Clone, Default)]
+pub struct Kept {
+    /// Displacements of the compared nodes, one time after the other.
+    displacements: Vec<Vec3>,
+    /// Rotations of the bodies, likewise.
+    rotations: Vec<Quaternion<f64>>,
+    /// Number of times so far.
+    times: usize,
+    /// Sum over the steps of the power of their length with which their errors go.
+    left: f64,
+    longest: f64,
+}
+
+impl<'o> Trace<'o> {
+    /// An empty trace in front of another observer; the error of a step goes with this power of its length.
+    pub fn new(observer: &'o mut dyn Observer, power: usize) -> Self {
+        Trace { observer, kept: Kept::default(), power: power as i32 }
+    }
+
+    /// What was kept.
+    pub fn into_kept(self) -> Kept {
+        self.kept
+    }
+}
+
+impl Observer for Trace<'_> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        self.kept.left += frame.dt.powi(self.power);
+        self.kept.longest = self.kept.longest.max(frame.dt);
+        self.kept.look(frame);
+        self.observer.on_step(frame)
+    }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        self.kept = Kept::default();
+        self.observer.restart(model)
+    }
+}
+
+impl Kept {
+    /// Keeps the motion where a time of comparison is reached.
+    fn look(&mut self, frame: &Frame) {
+        let Frame { model, state, .. } = frame;
+        let stride = model.nodes.len().div_ceil(MOST_NODES).max(1);
+        if self.displacements.capacity() == 0 {
+            self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
+            self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
+        }
+        let end = model.analysis.end_time;
+        if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, end) - 1e-9 * end {
+            return;
+        }
+        let compared = state.nodes.iter().zip(&model.nodes).step_by(stride);
+        self.displacements.extend(compared.map(|(node, start)| node.moved(&start.x)));
+        self.rotations.extend(model.bodies.iter().map(|body| state.nodes[body.node].rotation));
+        self.times += 1;
+    }
+
+    /// What the steps leave of error, up to a factor of the scene.
+    pub fn left(&self) -> f64 {
+        self.left
+    }
+
+    /// The longest step.
+    pub fn longest(&self) -> f64 {
+        self.longest
+    }
+
+    /// The difference of two runs, relative to the largest motion of both: the root mean square over the times of the largest over
+    /// nodes and bodies, displacements over the largest displacement, rotations of bodies over the largest rotation; `extent` is the
+    /// length of the scene, by which both are compared. Infinite where one ended early.
+    pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
+        if self.times < COMPARISONS || other.times < COMPARISONS {
+            return f64::INFINITY;
+        }
+        let (displacement, rotation) = self.motion().max(other.motion());
+        let (displacement, rotation) =
+            (displacement.max(1e-6 * rotation * extent), rotation.max(displacement / extent));
+        let relative = |difference: f64, of: f64| if difference == 0.0 { 0.0 } else { difference / of };
+        let at = |time: usize| {
+            let moved =
+                self.displacements_at(time).iter().zip(other.displacements_at(time)).map(|(a, b)| (a - b).norm());
+            let turned = self.rotations_at(time).iter().zip(other.rotations_at(time));
+            let turned = turned.map(|(a, b)| angle(&(b * a.conjugate())));
+            let moved = relative(moved.fold(0.0, f64::max), displacement);
+            moved.max(relative(turned.fold(0.0, f64::max), rotation))
+        };
+        ((0..COMPARISONS).map(|time| at(time).powi(2)).sum::<f64>() / COMPARISONS as f64).sqrt()
+    }
+
+    fn displacements_at(&self, time: usize) -> &[Vec3] {
+        let count = self.displacements.len() / COMPARISONS;
+        &self.displacements[time * count..(time + 1) * count]
+    }
+
+    fn rotations_at(&self, time: usize) -> &[Quaternion<f64>] {
+        let count = self.rotations.len() / COMPARISONS;
+        &self.rotations[time * count..(time + 1) * count]
+    }
+
+    /// The largest displacement of a node and the largest rotation of a body.
+    fn motion(&self) -> Motion {
+        let moved = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
+        Motion(moved, self.rotations.iter().map(angle).fold(0.0, f64::max))
+    }
+}
+
+struct Motion(f64, f64);
+
+impl Motion {
+    fn max(self, other: Motion) -> (f64, f64) {
+        (self.0.max(other.0), self.1.max(other.1))
+    }
+}
+
+/// The angle of a rotation, in radians, up to π.
+fn angle(rotation: &Quaternion<f64>) -> f64 {
+    2.0 * rotation.imag().norm().atan2(rotation.w.abs())
+}
