@@ -124,7 +124,7 @@ fn in_words(cadence: Cadence) -> String {
     }
 }
 
-/// What the tables, fields and expectations of a model need to be computed.
+/// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS);

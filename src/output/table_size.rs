@@ -1,4 +1,4 @@
-//! How large the tables of a run become, before it begins, and the times of their rows where the deck leaves them open.
+//! The sizes of tables are predicted before a run begins, and choose the times of their rows where the deck leaves these open.
 
 use super::extent::{Extent, Rows};
 use super::fields;
@@ -7,22 +7,24 @@ use super::tables::TABLES;
 use crate::model::{Cadence, Model, StepLength};
 use crate::plan::Plan;
 
-/// Bytes of a number with its comma: most have sixteen or seventeen digits.
+/// The number of bytes of a number with its comma: most have sixteen or seventeen digits.
 const NUMBER: usize = 19;
-/// Bytes of a number that stays zero: `,0.0`.
+/// The number of bytes of a number that stays zero: `,0.0`.
 const ZERO: usize = 4;
-/// Bytes of a count with its comma, of the time, and of a step at the start of a row.
+/// The number of bytes of a count with its comma.
 const COUNT: usize = 2;
+/// The number of bytes of the time with its comma.
 const TIME: usize = 15;
+/// The number of bytes of the step at the start of a row.
 const STEP: usize = 5;
-/// Bytes to which tables may grow where the deck leaves the times of their rows open.
+/// The number of bytes to which tables may grow where the deck leaves the times of their rows open.
 const MOST: f64 = 20e6;
-/// Times that they have even if they grow beyond: what charts need.
+/// The number of times that tables have even if they grow beyond that, for charts need as many.
 const FEWEST: f64 = 200.0;
-/// Tables and fields that are smaller in all need no list of the largest.
+/// The number of bytes below which tables and fields, taken together, need no list of the largest.
 const SMALL: f64 = 10e6;
 
-/// Bytes of the rows of a table.
+/// The number of bytes of the rows of a table.
 fn bytes(kind: &TableKind, rows: &Rows) -> usize {
     let (keys, columns) = (kind.columns().filter(|column| column.is_key()).count(), kind.columns().count());
     // Every key has a comma and, if it is not a name, a digit or two; step and time are not keys.
@@ -40,15 +42,15 @@ pub fn settle_cadence(model: &mut Model, plan: &Plan) {
     }
 }
 
-/// Bytes that each table takes for one time.
+/// The number of bytes that each table takes for one time.
 fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
     let extent = Extent::new(model, plan);
     let wanted = TABLES.iter().filter(|kind| (kind.wanted)(model));
     wanted.map(|kind| (kind.file, bytes(kind, &(kind.extent)(&extent)))).collect()
 }
 
-/// Bytes that each table takes in a whole run, and all grids of the fields, about; none where nobody knows how many steps there
-/// will be. With automatic steps that are longer than the time between rows it is less.
+/// About how many bytes each table takes in a whole run, and all grids of the fields; `None` where nobody knows how many steps
+/// there will be. With automatic steps that are longer than the time between rows it is less.
 pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f64)>> {
     let times = times(model, model.output.cadence)?;
     let mut all: Vec<_> = sizes(model, plan).into_iter().map(|(file, size)| (file, size as f64 * times)).collect();
@@ -58,7 +60,7 @@ pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f
     Some(all)
 }
 
-/// "about 157 MB in all (nodes.csv 120 MB, energy.csv 30 MB); …".
+/// The expected sizes in words: "about 157 MB in all (nodes.csv 120 MB, energy.csv 30 MB)".
 pub fn size_in_words(model: &Model, plan: &Plan) -> String {
     let Some(mut all) = expected_sizes(model, plan) else {
         let once: usize = sizes(model, plan).iter().map(|(_, size)| size).sum();
@@ -77,6 +79,7 @@ pub fn size_in_words(model: &Model, plan: &Plan) -> String {
     words
 }
 
+/// A number of bytes with its unit, to two or three digits.
 fn amount(bytes: f64) -> String {
     match bytes {
         1e9.. => format!("{:.1} GB", bytes / 1e9),
@@ -87,7 +90,7 @@ fn amount(bytes: f64) -> String {
     }
 }
 
-/// Times of a cadence, where the deck tells.
+/// The number of times of a cadence; `None` where the deck does not tell.
 fn times(model: &Model, cadence: Cadence) -> Option<f64> {
     let end = model.analysis.end_time;
     match (cadence, &model.analysis.step_length) {
