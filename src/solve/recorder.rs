@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
 use super::energy_growth::{EnergyGrowth, checks_energy_growth};
+use super::failure::Failure;
 use super::frame::{Frame, Observer};
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
@@ -17,6 +18,8 @@ pub struct Recorder {
     wanted: Wanted,
     /// The effort so far.
     pub counts: Counts,
+    /// Largest number of steps; a run that takes more is given up.
+    pub most_steps: usize,
     /// Time spent in the observer.
     pub observing: Duration,
     /// The balance of energy.
@@ -76,6 +79,7 @@ impl Recorder {
         Recorder {
             wanted,
             counts: Counts::default(),
+            most_steps: usize::MAX,
             observing: Duration::ZERO,
             growth: EnergyGrowth::default(),
             initial_energy: None,
@@ -108,6 +112,9 @@ impl Recorder {
         if step.report.iterations > 0 {
             self.counts.steps += 1;
             self.counts.iterations += step.report.iterations;
+        }
+        if self.counts.steps > self.most_steps {
+            return Err(Outcome::Failed { time: state.time, failure: Failure::ErrorTooLarge { dt: step.dt } });
         }
         let (due, drawn) = self.is_due(cx.model, step, state.time);
         self.pending = (!due).then_some(step.dt);

@@ -9,7 +9,7 @@ use super::march::March;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::start::start;
-use super::trials::{Kept, LOOSER, MOST_RUNS, StepError, Trace};
+use super::trials::{Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace};
 use super::warning::Warnings;
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
@@ -95,6 +95,9 @@ impl<'a> Run<'a> {
             let mut trace = Trace::new(observer, power);
             let (outcome, state) = self.once(&mut trace, &ends);
             let run = trace.into_kept();
+            if self.recorder.counts.steps > self.recorder.most_steps {
+                return self.settle(error, &ends, observer);
+            }
             if !matches!(outcome, Outcome::Done) {
                 return (outcome, state);
             }
@@ -106,20 +109,54 @@ impl<'a> Run<'a> {
                 },
             };
             let next = other.and_then(|other| error.judge(&run, &other, self.context.length));
-            self.step_error = Some(error);
             let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
                 self.workspace.warnings.extend(error.doubt());
+                self.step_error = Some(error);
                 return (outcome, state);
             };
-            error.add(self.recorder.counts);
-            error.tolerance = tolerance;
-            self.recorder = Recorder::new(model, self.wanted);
-            self.follow(tolerance, None);
-            if let Err(error) = observer.restart(model) {
+            let most_steps = MOST_LONGER * self.recorder.counts.steps;
+            if let Err(error) = self.begin_again(&mut error, tolerance, observer) {
                 return (Outcome::Io(error), state);
             }
+            self.recorder.most_steps = most_steps;
             before = Some(run);
         }
+    }
+
+    /// Makes the run by the tolerance before once more, for that of the run under way asks for far too many steps.
+    fn settle(
+        &mut self,
+        mut error: StepError,
+        ends: &[Interval],
+        observer: &mut dyn Observer,
+    ) -> (Outcome, Option<State>) {
+        let tolerance = error.before;
+        if let Err(error) = self.begin_again(&mut error, tolerance, observer) {
+            return (Outcome::Io(error), None);
+        }
+        let (outcome, state) = self.once(observer, ends);
+        self.workspace.warnings.extend(error.doubt());
+        self.step_error = Some(error);
+        (outcome, state)
+    }
+
+    /// Prepares for a run by another tolerance, of which nothing has been seen yet.
+    ///
+    /// # Errors
+    /// The observer cannot forget what it has received.
+    fn begin_again(
+        &mut self,
+        error: &mut StepError,
+        tolerance: f64,
+        observer: &mut dyn Observer,
+    ) -> std::io::Result<()> {
+        let model = self.context.model;
+        error.add(self.recorder.counts);
+        error.before = error.tolerance;
+        error.tolerance = tolerance;
+        self.recorder = Recorder::new(model, self.wanted);
+        self.follow(tolerance, None);
+        observer.restart(model)
     }
 
     /// Runs with longer steps, unseen, for the sake of the error of the run before; `None` where that run does not come to its end.

@@ -23,7 +23,9 @@ const SLOPE: f64 = 0.8;
 /// Ratio of the tolerances of the trial and the run: for a scheme of third order its steps are twice as long.
 pub const LOOSER: f64 = 8.0;
 /// Least and largest ratio of the tolerances of two runs in a row.
-const CHANGE: [f64; 2] = [1e-3, 0.3];
+const CHANGE: [f64; 2] = [0.01, 0.3];
+/// A run of more than so many times the steps of the one before is given up: what it would follow no step was to resolve.
+pub const MOST_LONGER: usize = 30;
 /// Ratio of the tolerances where two runs have nothing in common.
 const LOST: f64 = 0.03;
 /// The difference of two runs that have nothing in common, relative to the motion.
@@ -36,6 +38,8 @@ pub struct StepError {
     pub asked: f64,
     /// The tolerance that the steps followed.
     pub tolerance: f64,
+    /// That of the run before.
+    pub before: f64,
     /// The estimated error of the run; `None` where no other run came to its end.
     pub estimate: Option<f64>,
     /// Number of runs besides the last.
@@ -47,7 +51,7 @@ pub struct StepError {
 impl StepError {
     /// The error of a run by this tolerance, of which nothing is known yet.
     pub fn new(asked: f64) -> StepError {
-        StepError { asked, tolerance: asked, estimate: None, others: 0, effort: Counts::default() }
+        StepError { asked, tolerance: asked, before: asked, estimate: None, others: 0, effort: Counts::default() }
     }
 
     /// Takes account of another run.
