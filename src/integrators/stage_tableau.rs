@@ -54,7 +54,7 @@ impl StageTableau {
         let times: Vec<f64> = std::iter::once(0.0).chain(self.c.iter().copied()).collect();
         let columns = DMatrix::from_fn(times.len(), 3, |stage, power| times[stage].powi(power as i32));
         // Rows of the pseudo-inverse are the coefficients of 1, c, c²; it exists, for the times differ.
-        let fit = columns.pseudo_inverse(f64::EPSILON).map_or_else(|_| DMatrix::zeros(3, times.len()), |fit| fit);
+        let fit = columns.pseudo_inverse(f64::EPSILON).unwrap_or_else(|_| DMatrix::zeros(3, times.len()));
         fit.row(2).iter().map(|weight| 2.0 * weight).collect()
     }
 

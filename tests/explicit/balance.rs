@@ -190,7 +190,7 @@ fn load_steps_and_preloads_balance() {
 #[test]
 fn bodies_that_turn_freely_have_no_offset_of_energies() {
     let body = |inertia: &str, spin: &str, step: f64, more: &str| {
-        dynamic("20.0", &format!("{step}"), "central-difference")
+        dynamic("20.0", step, "central-difference")
             + &format!(
                 "[[bodies]]\nname = \"body\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = {inertia}\n\
                  angular_velocity = {spin}\n{more}"
