@@ -449,10 +449,9 @@ fn a_needle_spins() {
 #[test]
 fn overloads_end_soon_and_say_where() {
     let force = |at: &str, f: &str| format!("loads=[{{at=\"{at}\",force=[{f}]}}]");
-    let scenes: [(&str, Vec<String>, &str); 6] = [
+    let scenes: [(&str, Vec<String>, &str); 5] = [
         ("extreme/overloaded", vec![], "strip["),
         ("extreme/overloaded_in_motion", vec![], "beam["),
-        ("bend_45_degrees", vec![force("tip", "0.0,0.0,6e8")], "`p"),
         ("clamped_beam_step_load", vec![force("middle", "0.0,0.0,320e6")], "["),
         ("block_on_cantilever", vec!["environment.gravity=[0.0,0.0,-9.81e6]".to_owned()], "beam["),
         (

@@ -349,3 +349,28 @@ fn negative_eigenvalues_off_the_diagonal_are_counted() {
     solver.factor().unwrap();
     assert_eq!(solver.negative_eigenvalues(), 5);
 }
+
+/// Against the determinant of the same matrix by LU with exchange of rows.
+#[test]
+fn the_sign_of_a_determinant_is_told_of_matrices_that_are_not_symmetric() {
+    let mut random = Random(23);
+    let mut negative = 0;
+    for structure in [chain(7, 3), chain(5, 6), frame(2, 2, 2, 6)] {
+        for _ in 0..20 {
+            let mut solver = Solver::new(&structure, Factorization::BlockLu, 1).unwrap();
+            let n: usize = structure.sizes.iter().sum();
+            let mut A = DMatrix::zeros(n, n);
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                if let Some(slot) = solver.slot(i, j) {
+                    A[(i, j)] = random.number();
+                    solver.values()[slot] = A[(i, j)];
+                }
+            }
+            solver.factor().unwrap();
+            let expected = A.determinant() < 0.0;
+            assert_eq!(solver.is_determinant_negative(), expected);
+            negative += usize::from(expected);
+        }
+    }
+    assert!((20..40).contains(&negative), "{negative}");
+}

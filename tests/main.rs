@@ -36,6 +36,7 @@ mod resultants;
 mod safety_cab;
 mod schemes;
 mod shells;
+mod stability;
 mod statics;
 mod study;
 mod table_sizes;

@@ -12,7 +12,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, load, plan, too_large};
 use super::signals::{end_with_input, stop_on_signals};
-use super::verdict::{End, end, energy_line, energy_warning, line};
+use super::verdict::{End, end, energy_line, energy_warning, line, work_warning};
 use super::version::VERSION;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Model, Part};
@@ -141,6 +141,7 @@ impl Job<'_> {
         watchers.progress.finish();
         watchers.files.finish()?;
 
+        run.remarks().iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
         let of_run = self.warnings_of(run, watchers.files.empty_fields());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
@@ -188,8 +189,8 @@ impl Job<'_> {
     /// The warnings about the results of a run and about its files, after showing them.
     fn warnings_of(&self, run: &Run, of_files: Vec<String>) -> Vec<String> {
         let doubts = run.warnings().iter().map(ToString::to_string);
-        let of_run: Vec<String> =
-            doubts.chain(energy_warning(run.balance(), &self.loaded.model)).chain(of_files).collect();
+        let of_balance = energy_warning(run.balance(), &self.loaded.model);
+        let of_run: Vec<String> = doubts.chain(of_balance).chain(work_warning(run)).chain(of_files).collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }

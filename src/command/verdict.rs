@@ -110,12 +110,32 @@ fn of_motion(energy: f64, balance: &Balance) -> String {
     format!("{} % of the energy of the motion{all}", percent(motion))
 }
 
+/// The warning about a static analysis whose loads do other work than is stored and dissipated.
+pub fn work_warning(run: &Run) -> Option<String> {
+    /// Part of the energy that is missed by steps which jump, or bend between their ends; a gap that closes in one of twenty leaves 0.03.
+    const SEEN: f64 = 0.04;
+    let (missed, energy) = run.missed_work()?;
+    if missed.abs() <= SEEN * energy {
+        return None;
+    }
+    let percent = to_digits(100.0 * missed.abs() / energy, 2);
+    let how = if missed > 0.0 { "more" } else { "less" };
+    Some(format!(
+        "loads and supports do {how} work than is stored and dissipated at the end, by {percent} % of the energy. Either load steps are \
+         too long for their work to be summed from their ends, and displacements may still be right, or a step jumps from one equilibrium \
+         to another; see `numerical` in energy.csv, and try shorter steps"
+    ))
+}
+
 /// The warning about an energy balance that no one should take on trust; `None` where it is sound.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     /// A larger part of the energy of the motion at the end is seen in the results.
     const SEEN: f64 = 0.02;
     /// The same of the largest energy on the way, which is less strict: an impact takes some and gives it back within a step.
     const ON_THE_WAY: f64 = 0.2;
+    if model.analysis.kind != AnalysisKind::Dynamic {
+        return None;
+    }
     let (motion, unseen) = (balance.motion(), settling_energy(model));
     let part = |energy: f64| format!("{} % of the largest energy", to_digits(100.0 * energy / balance.peak, 2));
     let shorter = match model.analysis.step_length {

@@ -107,7 +107,7 @@ impl YieldingBars {
 
     /// True where a tension-only bar would be compressed elastically, so that it has no force.
     fn is_slack(&self, strain: f64, old: &[f64]) -> bool {
-        self.tension_only && self.law.stress(Uniaxial, &[strain], 0.0, old)[0] <= 0.0 && strain <= old[0]
+        self.tension_only && self.law.stress(Uniaxial, &[strain], 0.0, old)[0] < 0.0 && strain <= old[0]
     }
 
     /// The axial force and its derivatives.
@@ -141,6 +141,10 @@ struct Tension {
 }
 
 impl ElementBlock for YieldingBars {
+    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
+        self.is_slack(self.strain(e, now.nodes).strain, &now.history[self.history_range(e)])
+    }
+
     fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
         !self.tension_only && self.strain(e, before).e.dot(&self.strain(e, now).e) < 0.0
     }

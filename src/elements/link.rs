@@ -19,14 +19,14 @@ pub enum LinkLaw {
         /// The points (δ, N), at least two, δ rising.
         points: Vec<[f64; 2]>,
     },
-    /// N = k (δ + gap) for δ < −gap, else zero.
+    /// N = k (δ + gap) for δ ≤ −gap, else zero: what just touches is closed, for only then can it hold what presses on it.
     CompressionOnly {
         /// k, force per length.
         stiffness: f64,
         /// The shortening at which the link closes.
         gap: f64,
     },
-    /// N = k (δ − gap) for δ > gap, else zero.
+    /// N = k (δ − gap) for δ ≥ gap, else zero.
     TensionOnly {
         /// k, force per length.
         stiffness: f64,
@@ -41,8 +41,8 @@ impl LinkLaw {
     pub fn force(&self, delta: f64) -> (f64, f64) {
         match self {
             LinkLaw::Linear { stiffness, preload } => (stiffness * delta + preload, *stiffness),
-            LinkLaw::CompressionOnly { stiffness, gap } if delta < -gap => (stiffness * (delta + gap), *stiffness),
-            LinkLaw::TensionOnly { stiffness, gap } if delta > *gap => (stiffness * (delta - gap), *stiffness),
+            LinkLaw::CompressionOnly { stiffness, gap } if delta <= -gap => (stiffness * (delta + gap), *stiffness),
+            LinkLaw::TensionOnly { stiffness, gap } if delta >= *gap => (stiffness * (delta - gap), *stiffness),
             LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. } => (0.0, 0.0),
             LinkLaw::Table { points } => {
                 let i = points.partition_point(|p| p[0] <= delta).clamp(1, points.len() - 1);
@@ -142,16 +142,16 @@ impl Link {
     ) -> Self {
         let span = start[1] - start[0];
         let initial_length = direction.map_or_else(|| span.norm(), |d| d.dot(&span));
-        Link {
-            nodes,
-            law,
-            damping,
-            direction,
-            start,
-            span,
-            initial_length,
-            initial_elongation: initial_length - free_length,
-        }
+        let elongation = initial_length - free_length;
+        // What touches but for the rounding of its coordinates touches.
+        let touching = match law {
+            LinkLaw::CompressionOnly { gap, .. } => Some(-gap),
+            LinkLaw::TensionOnly { gap, .. } => Some(gap),
+            _ => None,
+        };
+        let rounding = 1e-12 * initial_length.abs().max(free_length.abs());
+        let initial_elongation = touching.filter(|at| (elongation - at).abs() <= rounding).unwrap_or(elongation);
+        Link { nodes, law, damping, direction, start, span, initial_length, initial_elongation }
     }
 
     #[inline]
@@ -210,6 +210,12 @@ impl ElementBlock for Links {
 
     fn is_damped(&self) -> bool {
         self.0.iter().any(|l| l.damping > 0.0)
+    }
+
+    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
+        let link = &self.0[e];
+        let one_sided = matches!(link.law, LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. });
+        one_sided && link.law.force(link.line(now.nodes).delta).1 == 0.0
     }
 
     fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {

@@ -7,7 +7,10 @@
 
 use super::elimination::Elimination;
 use super::graph::Graph;
-use super::kernel::{DenseBlock, DenseColumn, gemm, gemv, invert, multiply, negative_eigenvalues, product, row_scale};
+use super::kernel::{
+    DenseBlock, DenseColumn, gemm, gemv, invert, is_determinant_negative, multiply, negative_eigenvalues, product,
+    row_scale,
+};
 use super::pivot::Singular;
 use super::stats::Stats;
 
@@ -164,6 +167,12 @@ impl<const B: usize> BlockLu<B> {
     /// The negative eigenvalues of the diagonal blocks D_k, as A = L D Lᵀ; a block and its inverse have equally many.
     pub(super) fn negative_eigenvalues(&self) -> usize {
         (0..self.elimination.groups()).map(|k| negative_eigenvalues(&self.blocks[self.start[k]])).sum()
+    }
+
+    /// The determinant of A is the product of those of the blocks D_k.
+    pub(super) fn is_determinant_negative(&self) -> bool {
+        let negative = |k: &usize| is_determinant_negative(&self.blocks[self.start[*k]]);
+        (0..self.elimination.groups()).filter(negative).count() % 2 == 1
     }
 
     /// The size of the factorisation, for `check`.

@@ -161,6 +161,10 @@ impl Cholesky {
         }
     }
 
+    pub(super) fn is_determinant_negative(&self) -> bool {
+        self.negative_eigenvalues() % 2 == 1
+    }
+
     /// The number of negative entries of D: none where K = L Lᵀ.
     pub(super) fn negative_eigenvalues(&self) -> usize {
         if self.definite { 0 } else { self.diagonal.iter().filter(|&&at| self.L[at] < 0.0).count() }

@@ -135,6 +135,26 @@ fn exchange<const B: usize>(M: &mut [[f64; LANES]; B], row: &mut [usize; B], k: 
     }
 }
 
+/// True where the determinant of A, which need not be symmetric, is negative: by elimination with exchange of rows.
+pub(super) fn is_determinant_negative<const B: usize>(A: &DenseBlock<B>) -> bool {
+    let mut M = *A;
+    let mut negative = false;
+    for k in 0..B {
+        let largest = (k..B).max_by(|&i, &j| M[i][k].abs().total_cmp(&M[j][k].abs())).unwrap_or(k);
+        if largest != k {
+            M.swap(k, largest);
+            negative = !negative;
+        }
+        let pivot = M[k];
+        negative ^= pivot[k] < 0.0;
+        for row in M.iter_mut().skip(k + 1).filter(|_| pivot[k] != 0.0) {
+            let factor = row[k] / pivot[k];
+            row.iter_mut().zip(&pivot).skip(k).for_each(|(of, p)| *of -= factor * p);
+        }
+    }
+    negative
+}
+
 /// The number of negative eigenvalues of the symmetric part of A, by the signs of the pivots of an elimination with diagonal
 /// pivoting. Where no diagonal entry is large enough, two rows are eliminated at once: one of their eigenvalues is negative.
 /// J. R. Bunch & B. N. Parlett, SIAM J. Numer. Anal. 8 (1971).

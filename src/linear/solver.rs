@@ -105,6 +105,11 @@ impl Solver {
         each!(self, inner => inner.negative_eigenvalues())
     }
 
+    /// True where the determinant of the matrix factored last is negative.
+    pub fn is_determinant_negative(&self) -> bool {
+        each!(self, inner => inner.is_determinant_negative())
+    }
+
     /// Size and operations of the factorisation.
     pub fn stats(&self) -> Stats {
         each!(self, inner => inner.stats())

@@ -15,7 +15,7 @@ use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{self, Assembly};
 use crate::system::{DofMap, NodeRows, System};
 use dof_status::DofStatus;
-pub use sideways::Sideways;
+pub use sideways::{Sideways, deforms_in_plane};
 pub use unreachable_targets::unreachable_targets;
 
 /// The decisions about a model. They are constant over a run.

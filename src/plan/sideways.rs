@@ -20,20 +20,15 @@ pub struct Sideways {
 
 impl Sideways {
     /// The equations that the plan leaves out; `None` where it leaves out nothing that deforms, and where there are joints,
-    /// whose forces out of the plane are not known, materials that yield, or loads without a potential.
+    /// whose forces out of the plane are not known.
     ///
     /// # Errors
     /// There is no memory for the solver.
     pub fn new(model: &Model, plane: &System, plan: &Plan) -> Result<Option<Sideways>, TooLarge> {
-        let deforms = plane.groups.iter().any(|group| group.kind.is_deformable());
-        if plane.plane.is_none() || !deforms || !plane.joints.is_empty() {
+        if !deforms_in_plane(plane) || !plane.joints.is_empty() {
             return Ok(None);
         }
         let Ok(system) = System::in_space(model) else { return Ok(None) };
-        // Sections that yield have fewer points in a plane, so that their history is not that of a motion in space.
-        if system.history != plane.history || !system.loads_have_potential(None) {
-            return Ok(None);
-        }
         let statuses = super::dof_status::classify(model, &system);
         let unknown = statuses.iter().enumerate().map(|(node, status)| {
             let left_out = |dof: usize| status[dof] == super::DofStatus::Unknown && !plan.is_unknown(node, dof);
@@ -44,8 +39,18 @@ impl Sideways {
             return Ok(None);
         }
         let structure = super::structure(&system, &dofs);
-        let solver = Solver::new(&structure, Factorization::choose(&structure), plan.threads)?;
+        // Without a potential the tangent is not symmetric, and its determinant tells of stability.
+        let kind = match system.loads_have_potential(None) {
+            true => Factorization::choose(&structure),
+            false => Factorization::BlockLu,
+        };
+        let solver = Solver::new(&structure, kind, plan.threads)?;
         let assembly = Assembly::new(&system, &dofs, &solver, plan.threads);
         Ok(Some(Sideways { system, dofs, solver, assembly }))
     }
+}
+
+/// True where something deforms in a plane motion.
+pub fn deforms_in_plane(system: &System) -> bool {
+    system.plane.is_some() && system.groups.iter().any(|group| group.kind.is_deformable())
 }

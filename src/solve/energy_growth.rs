@@ -9,8 +9,8 @@ use crate::state::State;
 use crate::system::System;
 use crate::system::energy::{Balance, Energy};
 
-/// The balance of energy of a dynamic analysis. In statics the work of a step is that of its ends, whatever lies
-/// between.
+/// The balance of energy of an analysis. In statics the work of a step is that of its ends, whatever lies between: what the balance
+/// misses is told at the end.
 #[derive(Default)]
 pub struct EnergyGrowth {
     /// The largest departures from the balance so far.
@@ -33,10 +33,13 @@ impl EnergyGrowth {
         last: bool,
     ) -> Option<Failure> {
         const FAR: f64 = 100.0;
+        self.balance.update_work(state.work.external);
         if model.analysis.kind != AnalysisKind::Dynamic {
+            if last {
+                self.balance.update(&energy.unwrap_or_else(|| Energy::of(system, state, initial, plan.threads)));
+            }
             return None;
         }
-        self.balance.update_work(state.work.external);
         let letting_go = || {
             (checks_energy_growth(model) && model.parts.iter().any(Part::may_release))
                 .then(|| Energy::of(system, state, initial, plan.threads))

@@ -16,11 +16,17 @@ pub enum Failure {
         direction: &'static str,
         /// A part there that would resist, but is open or slack.
         open: Option<String>,
+        /// True for the first matrix of a run that nothing has moved yet: shorter steps do not help.
+        at_start: bool,
     },
     /// The iteration did not converge.
     NotConverged {
         /// The number of iterations.
         iterations: usize,
+        /// True for a load step, beyond which there may be no equilibrium nearby.
+        load_control: bool,
+        /// The part that has opened or gone slack last, while it is.
+        open: Option<String>,
         /// The largest residual forces.
         largest: Vec<NamedResidual>,
     },
@@ -138,14 +144,26 @@ pub struct NamedResidual {
 }
 
 impl Failure {
-    pub(super) fn singular(model: &Model, plan: &Plan, system: &System, row: usize, open: Option<String>) -> Failure {
+    /// A pivot that vanishes, by its row; the part that is open there, and whether nothing has moved yet.
+    pub(super) fn singular(
+        model: &Model,
+        plan: &Plan,
+        system: &System,
+        row: usize,
+        (open, at_start): (Option<String>, bool),
+    ) -> Failure {
         let (label, direction) = name(model, plan, system, row);
-        Failure::Singular { label, direction, open }
+        Failure::Singular { label, direction, open, at_start }
     }
 
     /// A motion that nothing resists, by the node and the degree of freedom that it moves most.
-    pub(super) fn mechanism(model: &Model, (node, dof): (usize, usize), open: Option<String>) -> Failure {
-        Failure::Singular { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof], open }
+    pub(super) fn mechanism(
+        model: &Model,
+        (node, dof): (usize, usize),
+        open: Option<String>,
+        at_start: bool,
+    ) -> Failure {
+        Failure::Singular { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof], open, at_start }
     }
 }
 
@@ -211,7 +229,7 @@ impl Failure {
     /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
     fn message(&self) -> String {
         match self {
-            Failure::Singular { label, direction, open } => {
+            Failure::Singular { label, direction, open, .. } => {
                 let open = open.as_ref().map_or_else(String::new, |name| {
                     format!(
                         "; `{name}` is open or slack there: close it, or hold the node by a soft spring until it closes"
@@ -219,11 +237,20 @@ impl Failure {
                 });
                 format!(
                     "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
-                     a mechanism, a bifurcation, or a motion beyond what the model can bear){open}"
+                     a mechanism, a bifurcation, or a motion beyond what the model can bear; what its own tension holds, such as \
+                     a cable, needs pretension, or a dynamic analysis){open}"
                 )
             }
-            Failure::NotConverged { iterations, .. } => {
-                format!("no convergence in {iterations} iterations; the largest unbalanced forces are")
+            Failure::NotConverged { iterations, load_control, open, .. } => {
+                let limit = match (open, load_control) {
+                    (Some(name), _) => format!(
+                        " (`{name}` has opened or gone slack, and may have been all that held the structure: add a support or a \
+                         soft spring)"
+                    ),
+                    (None, true) => " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned(),
+                    (None, false) => String::new(),
+                };
+                format!("no convergence in {iterations} iterations{limit}; the largest unbalanced forces are")
             }
             Failure::NotFinite { .. } => {
                 "the motion left the range of numbers; the largest unbalanced forces are".to_owned()

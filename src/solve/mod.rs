@@ -17,6 +17,7 @@ mod implicit;
 mod joints;
 mod linear_system;
 mod links;
+mod load_steps;
 mod march;
 mod motion;
 mod outcome;

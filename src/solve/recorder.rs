@@ -92,8 +92,12 @@ impl Recorder {
 
     /// Sums the energy at the start of the run.
     pub fn begin(&mut self, cx: &Context, state: &State) {
-        if self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model) {
-            self.initial_energy = Some(Energy::of(cx.system, state, None, cx.plan.threads).mechanical);
+        if !cx.is_dynamic() || self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model) {
+            let energy = Energy::of(cx.system, state, None, cx.plan.threads);
+            if !cx.is_dynamic() {
+                self.growth.balance.update(&energy);
+            }
+            self.initial_energy = Some(energy.mechanical);
         }
     }
 

@@ -6,44 +6,6 @@ use super::workspace::Workspace;
 use crate::math::larger;
 use crate::system::Scale;
 
-/// The forces and moments that a residual is summed from, and the largest of the load steps so far. Where loads go back to
-/// zero nothing but rounding is left of the forces, and it is the rounding of those that have been.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Magnitudes {
-    now: Scale,
-    before: Scale,
-}
-
-impl Magnitudes {
-    /// Takes those of the residual at hand.
-    pub fn see(&mut self, now: Scale) {
-        self.now = now;
-    }
-
-    /// Keeps those of a load step that was accepted.
-    pub fn keep(&mut self) {
-        self.before = self.largest();
-    }
-
-    /// The part, at most 1, that the forces at hand are of the largest so far; `length`: the model's.
-    pub fn part(&self, length: f64) -> f64 {
-        let (now, largest) = (references(&self.now, length), references(&self.largest(), length));
-        let part = |i: usize| if largest[i] > 0.0 { now[i] / largest[i] } else { 1.0 };
-        part(0).max(part(1))
-    }
-
-    fn largest(&self) -> Scale {
-        let Magnitudes { now, before } = self;
-        Scale { force: larger(now.force, before.force), moment: larger(now.moment, before.moment) }
-    }
-}
-
-/// The force and the moment that residuals are judged by. Forces and moments are judged apart; where one has no scale of its
-/// own, the other counts over the model's length.
-fn references(scale: &Scale, length: f64) -> [f64; 2] {
-    [scale.force.max(1e-3 * scale.moment / length), scale.moment.max(1e-3 * scale.force * length)]
-}
-
 /// Writes the residual by unknown into `ws.r`. Returns its largest entry relative to the forces or moments that it is
 /// summed from.
 pub fn gather(cx: &Context, ws: &mut Workspace, scale: &Scale) -> f64 {
@@ -58,7 +20,9 @@ pub fn gather(cx: &Context, ws: &mut Workspace, scale: &Scale) -> f64 {
             moment = larger(moment, size);
         }
     }
-    let [forces, moments] = references(scale, cx.length);
+    // Forces and moments are judged apart; where one has no scale of its own, the other counts over the model's length.
+    let forces = scale.force.max(1e-3 * scale.moment / cx.length);
+    let moments = scale.moment.max(1e-3 * scale.force * cx.length);
     let ratio = |size: f64, of: f64| if size == 0.0 { 0.0 } else { size / of.max(f64::MIN_POSITIVE) };
     ratio(force, forces).max(ratio(moment, moments))
 }

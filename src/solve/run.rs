@@ -10,7 +10,7 @@ use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::start::start;
 use super::trials::{Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace};
-use super::warning::Warnings;
+use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
 use crate::model::{AnalysisKind, Model, StepLength};
@@ -224,6 +224,26 @@ impl<'a> Run<'a> {
     /// Doubts about the results.
     pub fn warnings(&self) -> &Warnings {
         &self.workspace.warnings
+    }
+
+    /// What the work of the load steps of a static analysis has too much, or lacks, for what is stored and dissipated at the end, and the
+    /// energy to which that is compared. `None` in dynamics, where the tangent is constant, and along a path of given arc length, which
+    /// does not jump; and where forces are rounding.
+    pub fn missed_work(&self) -> Option<(f64, f64)> {
+        let (cx, ws) = (&self.context, &self.workspace);
+        let along = cx.model.analysis.step_length.is_arc_length();
+        if cx.is_dynamic() || cx.plan.linear || along || !ws.load_steps.peak.stressed {
+            return None;
+        }
+        let (missed, energy) = self.balance().missed_in_statics();
+        // Loads that act at once do work before they are in equilibrium.
+        let beyond = (missed.abs() - ws.load_steps.works.sudden).max(0.0);
+        Some((beyond.copysign(missed), energy.max(ws.load_steps.works.largest)))
+    }
+
+    /// What was not judged.
+    pub fn remarks(&self) -> &[Remark] {
+        self.workspace.warnings.remarks()
     }
 
     /// The displacement at the end of a path that did not reach its `stop`.

@@ -281,7 +281,7 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<
         match matrix.solver.factor() {
             Ok(()) => return Ok(massless),
             Err(singular) if oblique.contains(&singular.row) => {
-                return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row, None));
+                return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row, (None, true)));
             }
             Err(singular) => oblique.push(singular.row),
         }

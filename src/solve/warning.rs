@@ -42,8 +42,12 @@ pub enum Warning {
 /// Where and how an equilibrium becomes unstable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instability {
-    /// Time at which the first mode buckles, estimated between the ends of a step.
+    /// Time at which the first mode buckles, estimated between the ends of a step; its start where it was unstable already.
     pub time: f64,
+    /// True where the start of the step was unstable already.
+    pub already: bool,
+    /// False where loads have no potential and only the symmetric part of the tangent tells: the equilibrium may be stable yet.
+    pub certain: bool,
     /// Number of unstable modes at the end of that step.
     pub modes: usize,
     /// Time at the end of that step.
@@ -56,24 +60,30 @@ pub struct Instability {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Warning::Unstable(Instability { time, modes, seen, label, direction }) => write!(
+            Warning::Unstable(Instability { time, already, certain, modes, seen, label, direction }) => write!(
                 f,
-                "the equilibrium is unstable from t = {} on, where the structure buckles: the mode moves `{label}` most, in \
+                "the equilibrium {} unstable {} t = {} on, where the structure buckles: the mode moves `{label}` most, in \
                  direction {direction} (negative eigenvalues of the tangent: {modes}, at t = {}). What follows is not what a \
                  structure does; follow the path that buckles by a small load or an offset in that direction, with `control` = \
                  \"arc-length\" where the load falls",
+                if *certain { "is" } else { "may be" },
+                if *already { "already from" } else { "from" },
                 short(*time),
                 short(*seen)
             ),
-            Warning::UnstableOutOfPlane(Instability { time, modes, seen, label, direction }) => write!(
-                f,
-                "the structure buckles out of its plane at t = {}: the mode moves `{label}` most, in direction {direction} \
+            Warning::UnstableOutOfPlane(Instability { time, already, certain, modes, seen, label, direction }) => {
+                write!(
+                    f,
+                    "the structure {} out of its plane at t = {}{}: the mode moves `{label}` most, in direction {direction} \
                  (negative eigenvalues of the tangent out of the plane: {modes}, at t = {}). What follows holds only where \
                  something keeps it in its plane; give a small load or an offset in that direction to follow the motion out of \
                  it, or hold it there",
-                short(*time),
-                short(*seen)
-            ),
+                    if *certain { "buckles" } else { "may buckle" },
+                    short(*time),
+                    if *already { " or before" } else { "" },
+                    short(*seen)
+                )
+            }
             Warning::Unbalanced { residual } => write!(
                 f,
                 "a load step ends with unbalanced forces of {} of the largest: displacements are so small, or \
@@ -114,24 +124,27 @@ impl fmt::Display for Warning {
 
 /// The warnings of a run, each kind once: the first tells.
 #[derive(Debug, Clone, Default)]
-pub struct Warnings(Vec<Warning>);
+pub struct Warnings {
+    warnings: Vec<Warning>,
+    remarks: Vec<Remark>,
+}
 
 impl Warnings {
     /// Adds a warning, unless there is one of its kind already.
     pub fn add(&mut self, warning: Warning) {
-        if self.0.iter().all(|known| discriminant(known) != discriminant(&warning)) {
-            self.0.push(warning);
+        if self.warnings.iter().all(|known| discriminant(known) != discriminant(&warning)) {
+            self.warnings.push(warning);
         }
     }
 
     /// Adds the depth of a contact, or keeps it where it is relatively deeper than the one known.
     pub fn deepen(&mut self, contact: &str, depth: f64, size: f64) {
-        let known = self.0.iter_mut().find_map(|known| match known {
+        let known = self.warnings.iter_mut().find_map(|known| match known {
             Warning::DeepContact { name, depth, size } => Some((name, depth, size)),
             _ => None,
         });
         match known {
-            None => self.0.push(Warning::DeepContact { name: contact.to_owned(), depth, size }),
+            None => self.warnings.push(Warning::DeepContact { name: contact.to_owned(), depth, size }),
             Some((name, old, of)) if depth / size > *old / *of => {
                 contact.clone_into(name);
                 (*old, *of) = (depth, size);
@@ -147,8 +160,60 @@ impl Warnings {
         }
     }
 
+    /// Adds a remark, unless it was made already.
+    pub fn remark(&mut self, remark: Remark) {
+        if !self.remarks.contains(&remark) {
+            self.remarks.push(remark);
+        }
+    }
+
+    /// The remarks in the order in which they arose.
+    pub fn remarks(&self) -> &[Remark] {
+        &self.remarks
+    }
+
     /// The warnings in the order in which they arose.
     pub fn iter(&self) -> impl Iterator<Item = &Warning> {
-        self.0.iter()
+        self.warnings.iter()
+    }
+}
+
+/// What a run does not judge, and says in its log: no doubt about results, but no more than was looked at.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remark {
+    /// Motion out of the plane is not held there, as at t = 0 alone: buckling is judged as if it were.
+    HeldOutOfPlane {
+        /// Nodes and directions.
+        places: Vec<(String, &'static str)>,
+    },
+    /// Hardly anything holds the scene in its plane.
+    NotHeldOutOfPlane {
+        /// A node that is not held, and the direction.
+        place: (String, &'static str),
+    },
+    /// Joints in a plane scene.
+    JointsOutOfPlane,
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Remark::HeldOutOfPlane { places } => {
+                let place = |(label, direction): &(String, &str)| format!("`{label}` in direction {direction}");
+                let places: Vec<String> = places.iter().map(place).collect();
+                write!(
+                    f,
+                    "motion out of the plane is not held: buckling out of it is judged as if a support held {}",
+                    places.join(", ")
+                )
+            }
+            Remark::NotHeldOutOfPlane { place: (label, direction) } => write!(
+                f,
+                "motion out of the plane is not held at `{label}` in direction {direction}: buckling out of it is not judged"
+            ),
+            Remark::JointsOutOfPlane => {
+                write!(f, "buckling out of the plane is not judged in a scene with joints: `plane` = \"off\" judges it")
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::context::{self, Context};
 use super::linear_system::LinearSystem;
+use super::load_steps::LoadSteps;
 use super::warning::Warnings;
 use crate::linear::TooLarge;
 use crate::state::{Increment, Node};
@@ -27,8 +28,8 @@ pub struct Workspace {
     /// Largest coordinate of a node at the start of the step, counted from the first node at t = 0. The rounding of
     /// distances is measured by it.
     pub reach: f64,
-    /// Time and stored energy at the end of the last load step of a static analysis.
-    pub stored: Option<(f64, f64)>,
+    /// What load steps leave to those after them.
+    pub load_steps: LoadSteps,
     /// The matrix of the step: its tangent, or that of masses and joints.
     pub matrix: LinearSystem,
     /// Number of factorizations so far.
@@ -68,7 +69,7 @@ impl Workspace {
             loads: AtTimes::default(),
             prescribed: AtTimes::default(),
             reach: cx.length,
-            stored: None,
+            load_steps: LoadSteps::default(),
             matrix: LinearSystem { solver, assembly },
             factorizations: 0,
             solves: 0,

@@ -170,6 +170,12 @@ impl Balance {
         if self.lost > GONE * exchanged { self.peak } else { exchanged.max(OF_PEAK * self.peak) }
     }
 
+    /// What the work of a static analysis lacks, or has too much, for what is stored and dissipated at its end, and the energy to which
+    /// that is compared: the largest work, or the change of what is stored.
+    pub fn missed_in_statics(&self) -> (f64, f64) {
+        (self.lost, self.external.max(self.exchanged[1].width()))
+    }
+
     /// Algorithmic dissipation up to now. In the middle of an impact it may have been larger: schemes that take equilibrium
     /// between the ends of steps give some of it back.
     pub fn lost(&self) -> f64 {

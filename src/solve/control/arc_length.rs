@@ -151,7 +151,7 @@ impl ArcLengthController {
             Ok((report, reached)) => return Ok(Some(Found { report, reached, motion })),
             Err(failure) => {
                 let unrestrained =
-                    self.unit.is_none() && cx.system.history == 0 && matches!(failure, Failure::Singular { .. });
+                    cx.system.history == 0 && matches!(failure, Failure::Singular { at_start: true, .. });
                 if !may_cut || unrestrained {
                     return Err(march.failed(failure));
                 }
@@ -215,6 +215,7 @@ impl ArcLengthController {
         let to = found.report.to;
         self.targets.pass(cx, ws, state, to, found.reached);
         self.constraint.keep_motion(cx, ws, &found.motion);
+        self.newton.grows = self.constraint.loads_grow(cx, ws);
         // A first step may have ended early at a target, even before loads begin.
         let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
         let is_one = self.unit.is_some() || to > self.begin;

@@ -171,8 +171,7 @@ impl Substeps {
         // Smaller loads do not help an unrestrained structure; they may help one that yields.
         let unrestrained = analysis.kind == AnalysisKind::Static
             && march.cx.system.history == 0
-            && march.state.time == 0.0
-            && matches!(failure, Failure::Singular { .. });
+            && matches!(failure, Failure::Singular { at_start: true, .. });
         let violated = matches!(failure, Failure::ConstraintsViolated { .. });
         if violated && self.violated_at_full_length.is_none() {
             self.violated_at_full_length = Some(failure.clone());

@@ -203,7 +203,7 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Fa
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
     ws.factorizations += 1;
     let factored = matrix.solver.factor();
-    factored.map_err(|singular| Failure::singular(cx.model, cx.plan, cx.system, singular.row, None))
+    factored.map_err(|singular| Failure::singular(cx.model, cx.plan, cx.system, singular.row, (None, true)))
 }
 
 /// Writes the accelerations of dependent nodes from those of their masters.

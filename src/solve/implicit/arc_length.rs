@@ -201,6 +201,16 @@ impl ArcLengthConstraint {
         linear(x).dot(&linear(y)) + self.weight * angular(x).dot(&angular(y))
     }
 
+    /// True where loads grow along the path at the end of the step that was found.
+    pub fn loads_grow(&self, cx: &Context, ws: &Workspace) -> bool {
+        let mut along = 0.0;
+        for &node in &cx.independent_nodes {
+            let rate = cx.plan.dofs.of(node).gather(&self.rate);
+            along += self.dot(&unknown_part(cx, node, &ws.increments[node].q), &unknown_part(cx, node, &rate));
+        }
+        along >= 0.0
+    }
+
     /// The extent of the step that was found.
     pub fn motion(&self, cx: &Context, ws: &Workspace) -> StepMotion {
         let (mut along, mut last, mut now) = (0.0, 0.0, 0.0);

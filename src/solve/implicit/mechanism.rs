@@ -8,7 +8,7 @@ use crate::math::{Vec6, angular, linear};
 use crate::model::Model;
 use crate::state::Configuration;
 use crate::system::assembly::TangentWeights;
-use crate::system::{DofMap, System};
+use crate::system::{DofMap, Group, System};
 
 /// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred
 /// times the rounding of the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.
@@ -52,7 +52,7 @@ fn opens_joints(system: &System, now: &Configuration, motions: &[Vec6], length: 
 }
 
 /// True where elements are strained, by their energy or by the forces on one of them.
-fn strains_elements(
+pub fn strains_elements(
     system: &System,
     now: &Configuration,
     weights: TangentWeights,
@@ -90,6 +90,32 @@ fn strains_elements(
         }
     }
     energy.abs() > ENERGY * terms || largest > FORCE
+}
+
+/// The number of elements that neither push nor pull as they lie: links and tension-only bars that are open or slack, contacts that do
+/// not touch.
+pub fn open_elements(system: &System, now: &Configuration) -> usize {
+    let open = |group: &Group| {
+        let now = &group.configuration(now);
+        (0..group.block.len()).filter(|&e| group.block.is_inactive(e, now)).count()
+    };
+    system.groups.iter().map(open).sum()
+}
+
+/// The name of a part that is open or slack `now`, and was not `before`, where that is given.
+pub fn opened_part(
+    model: &Model,
+    system: &System,
+    before: Option<&Configuration>,
+    now: &Configuration,
+) -> Option<String> {
+    system.groups.iter().find_map(|group| {
+        let block = &group.block;
+        let (before, now) = (before.map(|before| group.configuration(before)), group.configuration(now));
+        let was_open = |e: usize| before.as_ref().is_some_and(|before| block.is_inactive(e, before));
+        let e = (0..block.len()).find(|&e| block.is_inactive(e, &now) && !was_open(e))?;
+        Some(group.part_of(e, model).name().to_owned())
+    })
 }
 
 /// The name of a part at a node, or at a node that follows it, which neither pushes nor pulls as it lies: a link whose gap is open, a rope

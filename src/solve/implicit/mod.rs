@@ -12,10 +12,12 @@ mod line_search;
 mod mechanism;
 mod mode;
 mod newton;
+mod out_of_plane;
 mod refresh;
 mod runge_kutta;
 mod stability;
 mod stepper;
+mod tangent;
 
 pub use arc_length::{ArcLengthConstraint, Condition, StepMotion};
 pub use newton::Newton;

@@ -21,7 +21,6 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{self, Stage};
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::report::StepReport;
-use crate::solve::residual::Magnitudes;
 use crate::solve::size::Size;
 use crate::solve::warning::Warning;
 use crate::solve::work::WorkQuadrature;
@@ -40,14 +39,16 @@ pub struct Newton {
     pub projection: Option<ConstraintProjection>,
     /// The factor of the mass in the matrix at hand.
     pub mass_weight: f64,
-    /// True once the first matrix of the run has been searched for mechanisms.
-    searched: bool,
     /// When the iteration ends.
     pub ending: Ending,
+    /// The number of elements that were open when a matrix was last searched for mechanisms; none before the first of the run.
+    searched: Option<usize>,
+    /// The part that has opened or gone slack last.
+    opened: Option<String>,
     /// The watch over the stability of equilibria in statics.
     stability: Option<Stability>,
-    /// The forces of the residual at hand and of load steps before.
-    magnitudes: Magnitudes,
+    /// True where loads grow along the path at the equilibrium at hand; a path of given arc length may go back.
+    pub grows: bool,
 }
 
 /// The progress of the iteration of a step.
@@ -117,10 +118,11 @@ impl Newton {
             line_search: searches.then(line_search),
             projection: ConstraintProjection::for_motion(cx)?,
             mass_weight: 0.0,
-            searched: false,
             ending: Ending::new(model.solution.iteration.tolerance),
-            stability: Stability::for_statics(cx)?,
-            magnitudes: Magnitudes::default(),
+            searched: None,
+            opened: None,
+            stability: Stability::for_statics(cx, update != Update::Iteration || method == Method::InitialLoad)?,
+            grows: true,
         })
     }
 
@@ -197,11 +199,8 @@ impl Newton {
     ) -> Result<(), Failure> {
         let from = state.time;
         let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to, work);
-        if accepted.is_ok() {
-            self.magnitudes.keep();
-        }
         if let (Ok(()), Some(stability)) = (&accepted, &mut self.stability)
-            && stability.check(cx, ws, state, from)
+            && stability.check(cx, ws, state, from, self.grows)
         {
             self.discard_matrix();
         }
@@ -233,7 +232,10 @@ impl Newton {
         let found = self.iterate(cx, ws, state, stage, to, constraint);
         let found = found.and_then(|report| jump::check_motion(cx, ws, state, report.to).map(|()| report));
         match &found {
-            Ok(report) => self.refresh.accepted(report.iterations),
+            Ok(report) => {
+                ws.load_steps.peak.keep(report.residual);
+                self.refresh.accepted(report.iterations);
+            }
             Err(_) => self.discard_matrix(),
         }
         found
@@ -249,9 +251,12 @@ impl Newton {
         mut constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
         motion::excite(cx, ws, state.time, to, stage.scheme.instant);
+        if !cx.is_dynamic() {
+            ws.load_steps.peak.begin_step(&ws.loads.instant, &ws.prescribed.end, cx.length);
+        }
         let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none(), &self.ending);
         loop {
-            progress.report.residual = self.evaluate_residual(cx, ws, state, stage, progress.report.to);
+            progress.report.residual = evaluate_residual(cx, ws, state, stage, progress.report.to);
             if !progress.report.residual.is_finite() {
                 if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                     return Err(residual::not_finite(cx, ws));
@@ -274,22 +279,12 @@ impl Newton {
                 Verdict::Restart => self.restart(cx, ws, state, stage, &mut progress),
                 Verdict::Exhausted => {
                     if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
-                        return Err(not_converged(cx, ws, &progress.report));
+                        return Err(not_converged(cx, ws, &progress.report, self.opened.clone()));
                     }
                     progress.limit += cx.model.solution.iteration.limit;
                 }
             }
         }
-    }
-
-    /// Moves the trial motion to the increments at hand and writes its residual. Returns the relative size of the residual.
-    fn evaluate_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
-        motion::move_trial(cx, ws, state, stage);
-        let ahead = stage.scheme.instant * (to - state.time);
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
-        let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
-        self.magnitudes.see(scale);
-        residual::gather(cx, ws, &scale)
     }
 
     /// Shortens the last correction where it went too far; returns whether it did.
@@ -342,27 +337,47 @@ impl Newton {
         self.mass_weight = acceleration;
         let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
         let mut moduli = self.refresh.moduli();
+        // What lifts off, or goes slack, may leave a mechanism behind.
+        let open = if cx.is_dynamic() { 0 } else { mechanism::open_elements(cx.system, &now) };
+        match self.searched {
+            Some(known) if open > known => {
+                // Where nothing was open before, it may have opened as the last step ended.
+                let before = (known > 0).then(|| state.configuration());
+                self.opened = mechanism::opened_part(cx.model, cx.system, before.as_ref(), &now).or(self.opened.take());
+            }
+            Some(known) if open < known => self.opened = None,
+            _ => {}
+        }
+        let search = !cx.is_dynamic() && self.searched.is_none_or(|known| open > known);
+        // Shorter steps do not change what holds the scene before it moves.
+        let at_start =
+            self.searched.is_none() && state.time == 0.0 && ws.prescribed.instant.iter().all(|given| given.u == 0.0);
         loop {
             let weights = TangentWeights { stiffness: true, rate, acceleration, moduli };
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             ws.factorizations += 1;
             match matrix.solver.factor() {
-                Ok(()) if self.searched || cx.is_dynamic() => return Ok(()),
+                Ok(()) if !search => {
+                    self.searched = self.searched.map(|_| open);
+                    return Ok(());
+                }
                 Ok(()) => {
                     let (solver, dofs) = (&mut matrix.solver, &cx.plan.dofs);
                     let mechanism = mechanism::find(cx.system, dofs, solver, &now, weights, cx.length);
-                    self.searched = mechanism.is_none();
-                    return mechanism.map_or(Ok(()), |place| {
-                        let open = mechanism::open_part(cx.model, cx.system, &now, place.0);
-                        Err(Failure::mechanism(cx.model, place, open))
-                    });
+                    let Some(place) = mechanism else {
+                        self.searched = Some(open);
+                        return Ok(());
+                    };
+                    let open = mechanism::open_part(cx.model, cx.system, &now, place.0).or_else(|| self.opened.clone());
+                    return Err(Failure::mechanism(cx.model, place, open, at_start));
                 }
                 Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => moduli = Moduli::Elastic,
                 Err(singular) => {
                     let place = cx.plan.dofs.nodal_dofs().get(singular.row);
                     let open = place.and_then(|&(node, _)| mechanism::open_part(cx.model, cx.system, &now, node));
-                    return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row, open));
+                    let open = open.or_else(|| self.opened.clone());
+                    return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row, (open, at_start)));
                 }
             }
         }
@@ -449,10 +464,11 @@ impl Newton {
             return true;
         }
         // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
-        let unbalanced = residual * self.magnitudes.part(cx.length);
-        let precise = cx.is_dynamic() || unbalanced <= UNBALANCED * self.ending.tolerance;
+        let precise = cx.is_dynamic()
+            || residual <= UNBALANCED * self.ending.tolerance
+            || ws.load_steps.peak.is_unstressed(residual);
         if small && !precise && (last || rounding && judgement.is_stagnant()) {
-            ws.warnings.add(Warning::Unbalanced { residual: unbalanced });
+            ws.warnings.add(Warning::Unbalanced { residual });
             return true;
         }
         rounding && precise
@@ -490,6 +506,16 @@ impl Newton {
     }
 }
 
+/// Moves the trial motion to the increments at hand and writes its residual. Returns the relative size of the residual.
+fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
+    motion::move_trial(cx, ws, state, stage);
+    let ahead = stage.scheme.instant * (to - state.time);
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+    let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+    let scale = if cx.is_dynamic() { scale } else { ws.load_steps.peak.scale(scale) };
+    residual::gather(cx, ws, &scale)
+}
+
 /// The quantity on which the matrix of a step depends besides the motion: the length of the step, or the time over
 /// which its rates are taken.
 fn matrix_key(scheme: &Coefficients, dt: f64) -> f64 {
@@ -499,12 +525,13 @@ fn matrix_key(scheme: &Coefficients, dt: f64) -> f64 {
 /// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
 const UNBALANCED: f64 = 1e3;
 
-fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport) -> Failure {
+fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport, open: Option<String>) -> Failure {
     // Forces balance while the joints are open: the constraints contradict each other.
     if report.residual < 1e-3
         && let Err(violated) = joints::check(cx, ws)
     {
         return violated;
     }
-    Failure::NotConverged { iterations: report.iterations, largest: residual::largest(cx, ws) }
+    let load_control = !cx.is_dynamic() && !cx.model.analysis.step_length.is_arc_length();
+    Failure::NotConverged { iterations: report.iterations, load_control, open, largest: residual::largest(cx, ws) }
 }

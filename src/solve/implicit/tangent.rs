@@ -1,0 +1,135 @@
+//! The tangent at an equilibrium, and what its eigenvalues tell of stability between two of them.
+
+use super::mode::Mode;
+use crate::elements::Moduli;
+use crate::model::DIRECTIONS;
+use crate::solve::context::Context;
+use crate::solve::linear_system::LinearSystem;
+use crate::solve::warning::Instability;
+use crate::state::Configuration;
+use crate::system::assembly::TangentWeights;
+use crate::system::{DofMap, Forces, Loading, System};
+
+/// Number of bisections for the load at which the first eigenvalue is negative: 1e-5 of the step.
+const BISECTIONS: usize = 17;
+/// Number of points in a step at which a determinant is looked at: two modes that buckle one after the other leave its sign.
+const SCANS: usize = 16;
+/// An eigenvalue that is negative by less than this part of the diagonal is rounding; that of a thousand elements in bending is 1e-12.
+const ROUNDING: f64 = 1e-14;
+
+/// Statics: no rates, no masses.
+pub const WEIGHTS: TangentWeights =
+    TangentWeights { stiffness: true, rate: 0.0, acceleration: 0.0, moduli: Moduli::Algorithmic };
+
+/// What of a tangent tells of stability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Criterion {
+    /// Loads have a potential: the tangent is symmetric, and its negative eigenvalues count.
+    Eigenvalues,
+    /// Follower loads, and moments about axes fixed in space: a negative determinant shows a motion that grows.
+    Determinant,
+    /// The same where only the symmetric part is stored: a negative eigenvalue may show one.
+    SymmetricPart,
+}
+
+/// A tangent to be formed: of the plane of motion, or out of it.
+pub struct Tangent<'t> {
+    pub system: &'t System,
+    pub dofs: &'t DofMap,
+    pub matrix: &'t mut LinearSystem,
+    pub forces: &'t mut Forces,
+    /// Places on the diagonal with the stiffness of supports that are added there.
+    pub springs: &'t [(usize, f64)],
+    pub criterion: Criterion,
+}
+
+/// The two ends of a step: its configurations, loads and times.
+pub struct Ends<'s> {
+    pub configurations: [Configuration<'s>; 2],
+    pub loads: [&'s Loading; 2],
+    pub times: [f64; 2],
+}
+
+impl Tangent<'_> {
+    /// Writes the tangent into the matrix.
+    pub fn form(&mut self, now: &Configuration, loads: &Loading) {
+        self.system.residual(now, loads, self.forces);
+        let LinearSystem { solver, assembly } = &mut *self.matrix;
+        assembly.tangent(self.system, now, loads, self.forces, WEIGHTS, solver);
+        for &(slot, stiffness) in self.springs {
+            solver.values()[slot] += stiffness;
+        }
+    }
+
+    /// The number of unstable modes that the matrix shows; `None` where it is singular.
+    pub fn unstable_modes(&mut self) -> Option<usize> {
+        self.matrix.solver.factor().ok().map(|()| self.count())
+    }
+
+    /// The same for the matrix factored last. Each multiplier has a negative eigenvalue of its own.
+    pub fn count(&self) -> usize {
+        let (solver, multipliers) = (&self.matrix.solver, self.system.multipliers());
+        match self.criterion {
+            Criterion::Determinant => usize::from(solver.is_determinant_negative() == multipliers.is_multiple_of(2)),
+            _ => solver.negative_eigenvalues().saturating_sub(multipliers),
+        }
+    }
+
+    /// The first instability in the step; `None` where the tangents between its ends show none.
+    pub fn locate(&mut self, cx: &Context, ends: &Ends) -> Option<Instability> {
+        let [begin, end] = [0, 1].map(|i| {
+            self.form(&ends.configurations[i], ends.loads[i]);
+            self.matrix.solver.values().to_vec()
+        });
+        let combine = |tangent: &mut Self, theta: f64| {
+            let values = tangent.matrix.solver.values().iter_mut();
+            values.zip(&begin).zip(&end).for_each(|((k, k0), k1)| *k = k0 + theta * (k1 - k0));
+        };
+        let unstable_at = |tangent: &mut Self, theta: f64| {
+            combine(tangent, theta);
+            tangent.unstable_modes()
+        };
+        let points = if self.criterion == Criterion::Determinant { SCANS } else { 1 };
+        let mut scanned = (0..points).map(|k| 1.0 - k as f64 / points as f64);
+        let (mut unstable, modes) = scanned.find_map(|theta| {
+            let modes = unstable_at(self, theta).filter(|modes| *modes > 0)?;
+            combine(self, theta);
+            self.add_rounding();
+            (self.unstable_modes() != Some(0)).then_some((theta, modes))
+        })?;
+        let mut stable = 0.0;
+        let already = unstable_at(self, 0.0).is_some_and(|modes| modes > 0);
+        if already {
+            unstable = 0.0;
+        } else {
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (stable + unstable);
+                match unstable_at(self, middle) {
+                    Some(0) => stable = middle,
+                    _ => unstable = middle,
+                }
+            }
+        }
+        unstable_at(self, unstable);
+        let mode = Mode::softest(&mut self.matrix.solver, self.dofs, cx.length);
+        let (label, direction) = match mode.and_then(|mode| mode.largest(self.dofs)) {
+            Some((node, dof)) => (cx.model.nodes[node].label.clone(), DIRECTIONS[dof]),
+            None => (String::new(), ""),
+        };
+        let [from, to] = ends.times;
+        let time = from + unstable * (to - from);
+        let certain = self.criterion != Criterion::SymmetricPart;
+        Some(Instability { time, already, certain, modes, seen: to, label, direction })
+    }
+
+    /// Adds to the diagonal what rounding may have taken from it.
+    fn add_rounding(&mut self) {
+        let solver = &mut self.matrix.solver;
+        for row in 0..self.dofs.nodal_dofs().len() {
+            if let Some(slot) = solver.slot(row, row) {
+                let value = &mut solver.values()[slot];
+                *value += ROUNDING * value.abs();
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! What the load steps of a static analysis leave to those after them: the largest loads and forces so far, and their works.
+//!
+//! Where the loads have gone back to zero, what is left in an elastic structure is rounding, which balances nothing: the forces that it
+//! had are then the measure.
+
+use crate::system::{Loading, Prescribed, Scale};
+
+/// Loads and motions below this part of the largest so far are those of a structure that has been let go: amplitudes come back to zero
+/// with the rounding of their times.
+const GONE: f64 = 1e-12;
+/// Supports that have moved by more than this part of the model's length, or in radians, stress what they deform a million times more than
+/// rounding does.
+const SEEN: f64 = 1e-9;
+/// A residual above this part of the forces that it is summed from leaves no digit of them.
+const ROUNDING: f64 = 0.1;
+
+/// The largest of each kind so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Peak {
+    /// Gravity, the factors of loads, pressures, prescribed displacements and rotations.
+    acting: [f64; 4],
+    forces: Scale,
+    /// The forces of the residual evaluated last.
+    last: Scale,
+    /// True where nothing acts any more in the step at hand.
+    released: bool,
+    /// True where no loads act in the step at hand, and supports are where they were or have moved so far that stresses would be seen.
+    unloaded: bool,
+    /// True where the last equilibrium had no forces but those of rounding.
+    pub unstressed: bool,
+    /// True once an equilibrium had others.
+    pub stressed: bool,
+}
+
+/// What load steps leave to those after them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct LoadSteps {
+    /// Time and stored energy at the end of the last one.
+    pub stored: Option<(f64, f64)>,
+    /// Time at the start of the last one that was refused for its work, and what was missed.
+    pub doubtful: Option<(f64, f64)>,
+    /// The largest loads and forces so far.
+    pub peak: Peak,
+    /// The works of loads and supports.
+    pub works: Works,
+}
+
+/// The works of loads and of supports in the load steps of a static analysis.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Works {
+    loads: f64,
+    supports: f64,
+    /// The largest sum of their magnitudes: what supports do to loads may leave nothing of either.
+    pub largest: f64,
+    /// What loads may have done before they were in equilibrium, where they act at once.
+    pub sudden: f64,
+}
+
+impl Works {
+    /// Adds those of a step.
+    pub fn add(&mut self, loads: f64, supports: f64) {
+        self.loads += loads;
+        self.supports += supports;
+        self.largest = self.largest.max(self.loads.abs() + self.supports.abs());
+    }
+}
+
+impl Peak {
+    /// Looks at what acts at the end of a load step in a model of this length.
+    pub fn begin_step(&mut self, loads: &Loading, prescribed: &[Prescribed], length: f64) {
+        let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let moved = prescribed.iter().fold(0.0, |most: f64, given| most.max(given.u.abs()));
+        let acting = [loads.field.amax(), largest(&loads.factors), largest(&loads.pressures), moved];
+        let gone: [bool; 4] = std::array::from_fn(|i| acting[i] <= GONE * self.acting[i]);
+        self.released = gone == [true; 4];
+        self.unloaded = gone[..3] == [true; 3] && (moved == 0.0 || moved > SEEN * length);
+        self.acting.iter_mut().zip(acting).for_each(|(most, now)| *most = most.max(now));
+    }
+
+    /// The forces by which a residual is measured whose own forces are `scale`.
+    pub fn scale(&mut self, scale: Scale) -> Scale {
+        self.last = scale;
+        match self.released {
+            true => larger(scale, self.forces),
+            false => scale,
+        }
+    }
+
+    /// True where an equilibrium with this residual has no forces but those of rounding, as where nothing acts yet, or supports move all
+    /// that hangs on them as one.
+    pub fn is_unstressed(&self, residual: f64) -> bool {
+        self.unloaded && residual > ROUNDING
+    }
+
+    /// Keeps the forces of an equilibrium.
+    pub fn keep(&mut self, residual: f64) {
+        self.unstressed = self.is_unstressed(residual);
+        self.stressed |= !self.unstressed;
+        self.forces = larger(self.forces, self.last);
+    }
+}
+
+fn larger(a: Scale, b: Scale) -> Scale {
+    Scale { force: a.force.max(b.force), moment: a.moment.max(b.moment) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_of_the_run_count_where_nothing_acts_any_more() {
+        let mut none = Peak::default();
+        none.begin_step(&Loading { factors: vec![0.0], ..Loading::default() }, &[], 1.0);
+        assert!(
+            none.is_unstressed(1.0) && !none.is_unstressed(1e-3) && none.scale(Scale::default()) == Scale::default()
+        );
+        let loads = |factor: f64| Loading { factors: vec![factor, 0.0], ..Loading::default() };
+        let of = |force: f64| Scale { force, moment: 0.0 };
+        let mut peak = Peak::default();
+        for (factor, own, measure) in
+            [(1.0, 30.0, 30.0), (0.5, 15.0, 15.0), (1e-9, 3e-8, 3e-8), (1e-16, 3e-9, 30.0), (0.0, 1e-9, 30.0)]
+        {
+            peak.begin_step(&loads(factor), &[], 1.0);
+            assert_eq!(peak.scale(of(own)), of(measure), "{factor}");
+            peak.keep(1e-9);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Buckling is told of whatever matrix leads the iteration, whatever else acts, in the plane of a motion and out of it.
+
+use crate::statics::{Said, beam, column, head, said, truss};
+use rdsolve::solve::Outcome;
+
+/// π² EI/4 with EI of the weak axis: a column of 1 m that is clamped, or one of 2 m on pins.
+fn weak() -> f64 {
+    std::f64::consts::PI.powi(2) * 2.1e11 * 0.03 * 0.005f64.powi(3) / 12.0 / 4.0
+}
+
+/// The time that a warning tells.
+fn time(text: &str) -> f64 {
+    text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap()
+}
+
+/// Runs a deck that is to end; its only warning.
+fn only_warning(deck: &str) -> String {
+    let (_, _, Said { outcome, warnings, .. }) = said(deck);
+    assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+    let [text] = &warnings[..] else { panic!("{warnings:?}\n{deck}") };
+    text.clone()
+}
+
+const ALONG_X: &str = "[0.0, 1.0, 0.0]";
+
+#[test]
+fn the_tangent_is_asked_whatever_matrix_leads_the_iteration() {
+    let yields = |deck: String| {
+        deck.replace(
+            "model = \"elastic\"",
+            "model = \"elastic-plastic\"\nyield_stress = 275e6\nhardening_modulus = 1e9",
+        )
+    };
+    let update = |deck: String, update: &str| deck + &format!("[iteration]\nupdate = \"{update}\"\n");
+    let column = |step: f64, more: &str| column(1000.0, step, ALONG_X, more);
+    for deck in [
+        yields(column(1.0, "plane = \"off\"")),
+        yields(column(0.5, "plane = \"off\"")),
+        yields(column(0.1, "")),
+        update(column(0.1, ""), "never"),
+        update(column(0.5, ""), "step"),
+        update(column(0.5, ""), "auto"),
+        // Loads grow along the path, so that it is no limit point that changes the signs of pivots.
+        column(0.02, "control = \"arc-length\""),
+    ] {
+        let text = only_warning(&deck);
+        assert!(
+            (1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3 && text.contains("`b` most, in direction ux"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn limit_points_of_a_path_are_not_told_as_buckling() {
+    let (_, _, said) = said(&truss(60.0, 0.1).replace("time_step", "control = \"arc-length\"\ntime_step"));
+    assert!(
+        matches!(said.outcome, Outcome::Done) && said.warnings.is_empty(),
+        "{:?} {:?}",
+        said.outcome,
+        said.warnings
+    );
+}
+
+#[test]
+fn loads_without_a_potential_do_not_hide_buckling() {
+    for (axis, load, plane) in [
+        (ALONG_X, "force = [0.0, 0.0, 1e-3]\nfollower = true", ""),
+        (ALONG_X, "force = [0.0, 0.0, 1e-3]\nfollower = true", "plane = \"off\""),
+        (ALONG_X, "moment = [0.0, 0.0, 1e-6]", "plane = \"off\""),
+        ("[1.0, 0.0, 0.0]", "force = [0.0, 0.0, 1e-3]\nfollower = true", ""),
+    ] {
+        let text = only_warning(&(column(1000.0, 0.1, axis, plane) + &format!("[[loads]]\nat = \"b\"\n{load}\n")));
+        assert!((1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3, "{text}");
+    }
+    // Beck's column: a follower force does not buckle it, it flutters at 20.05 EI/L², which is 8.1 times this.
+    for factor in [2.0, 6.0] {
+        let deck = column(factor * weak(), 0.1, ALONG_X, "").replace("force", "follower = true\nforce");
+        assert_eq!(said(&deck).2.warnings, Vec::<String>::new(), "{factor}");
+    }
+}
+
+/// A column of 2 m on pins, whose plane is that of its strong axis.
+fn on_pins(hold: &str) -> String {
+    let points = "[points]\na = [0.0, 0.0, 0.0]\nm = [0.0, 0.0, 1.0]\nb = [0.0, 0.0, 2.0]\n";
+    let beam = format!(
+        "[[beams]]\nname = \"c\"\npath = [\"a\", \"m\", \"b\"]\nelements = 6\nsection = \"s\"\nmaterial = \"steel\"\norientation = [1.0, 0.0, 0.0]\n"
+    );
+    let rest = format!(
+        "[[supports]]\nat = \"a\"\nfix = [\"ux\", \"uy\", \"uz\"{hold}]\n[[supports]]\nat = \"b\"\nfix = [\"ux\", \"uy\"]\n\
+         [[loads]]\nat = \"b\"\nforce = [0.0, 0.0, -1000.0]\n[[loads]]\nat = \"m\"\nforce = [1.0, 0.0, 0.0]\n"
+    );
+    format!("{}{points}{beam}{rest}", head(0.1, ""))
+}
+
+#[test]
+fn a_part_that_may_turn_about_its_axis_is_still_seen_to_buckle() {
+    for (hold, turns) in [("", true), (", \"rz\"", false)] {
+        let text = only_warning(&on_pins(hold));
+        assert!(
+            (1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3 && text.contains("`m` most, in direction uy"),
+            "{text}"
+        );
+        let remarks = said(&on_pins(hold)).2.remarks;
+        assert_eq!(remarks.iter().any(|text| text.contains("direction rz")), turns, "{remarks:?}");
+    }
+}
+
+#[test]
+fn what_is_not_held_in_its_plane_is_said_not_to_be_judged() {
+    let portal = |fix: &str| {
+        let points = "[points]\na = [0.0, 0.0, 0.0]\nb = [0.0, 0.0, 2.0]\nc = [2.0, 0.0, 2.0]\nd = [2.0, 0.0, 0.0]\n";
+        let beam = beam("f", ["a", "d"], 6)
+            .replace("\"a\", \"d\"", "\"a\", \"b\", \"c\", \"d\"")
+            .replace("[0.0, 1.0, 0.0]", "[1.0, 0.0, 0.0]");
+        let beam = beam.replace("[1.0, 0.0, 0.0]", "[0.0, 1.0, 0.0]");
+        let section = head(0.1, "").replace("width = 0.03", "width = 0.005").replace("height = 0.005", "height = 0.05");
+        format!(
+            "{section}{points}{beam}[[supports]]\nat = [\"a\", \"d\"]\nfix = {fix}\n[[loads]]\nat = [\"b\", \"c\"]\nforce = [1.0, 0.0, -400.0]\n"
+        )
+    };
+    let (_, _, pinned) = said(&portal("[\"ux\", \"uy\", \"uz\"]"));
+    assert!(pinned.warnings.is_empty(), "{:?}", pinned.warnings);
+    assert!(
+        pinned.remarks.iter().any(|text| text.contains("in direction uy") && text.contains("not judged")),
+        "{:?}",
+        pinned.remarks
+    );
+    let text = only_warning(&portal("\"all\""));
+    assert!(text.contains("out of its plane"), "{text}");
+}
+
+#[test]
+fn what_is_unstable_from_the_start_is_said_to_be() {
+    // Two links press a mass from both sides by 1e4 N each way; across, springs of 1e3 N/m hold it, where the pressure takes 2e4 N/m away.
+    let deck = r#"
+title = "pressed"
+[analysis]
+kind = "static"
+end_time = 1.0
+time_step = 0.25
+[points]
+m = [1.0, 0.0, 0.0]
+[[masses]]
+at = "m"
+mass = 1.0
+[[links]]
+name = "l1"
+from = { ground = [0.0, 0.0, 0.0] }
+to = { node = "m" }
+stiffness = 1e6
+free_length = 1.01
+[[links]]
+name = "l2"
+from = { node = "m" }
+to = { ground = [2.0, 0.0, 0.0] }
+stiffness = 1e6
+free_length = 1.01
+[[links]]
+name = "ly"
+from = { node = "m" }
+to = { ground = [1.0, 1.0, 0.0] }
+stiffness = 1e3
+direction = [0.0, 1.0, 0.0]
+[[links]]
+name = "lz"
+from = { node = "m" }
+to = { ground = [1.0, 0.0, 1.0] }
+stiffness = 1e3
+direction = [0.0, 0.0, 1.0]
+[[loads]]
+at = "m"
+force = [10.0, 0.0, 0.0]
+"#;
+    let text = only_warning(deck);
+    assert!(text.contains("already from t = 0 on"), "{text}");
+}
