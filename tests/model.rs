@@ -18,9 +18,9 @@ const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/everything.toml")
 fn everything() -> Model {
     let (model, problems) = model::read(&Source::new(PATH, ALL, &[]));
     let source = Source::new(PATH, ALL, &[]);
-    // Frame, leg, wall and roof lie on each other and share corners alone, which is said.
-    let other =
-        problems.iter().filter(|problem| !problem.message.contains("nothing holds the two together along them"));
+    // Parts lie on each other and share corners alone, and contacts are small beside what touches them, which is said.
+    let said = ["nothing holds the two together along them", "it may pass between them"];
+    let other = problems.iter().filter(|problem| !said.iter().any(|said| problem.message.contains(said)));
     let drawn: Vec<String> = other.map(|problem| problem.draw(&source, false)).collect();
     assert!(drawn.is_empty(), "{}", drawn.join("\n\n"));
     model.unwrap()

@@ -83,9 +83,8 @@ fn loads_without_a_potential_do_not_hide_buckling() {
 /// A column of 2 m on pins, whose plane is that of its strong axis.
 fn on_pins(hold: &str) -> String {
     let points = "[points]\na = [0.0, 0.0, 0.0]\nm = [0.0, 0.0, 1.0]\nb = [0.0, 0.0, 2.0]\n";
-    let beam = format!(
-        "[[beams]]\nname = \"c\"\npath = [\"a\", \"m\", \"b\"]\nelements = 6\nsection = \"s\"\nmaterial = \"steel\"\norientation = [1.0, 0.0, 0.0]\n"
-    );
+    let beam = "[[beams]]\nname = \"c\"\npath = [\"a\", \"m\", \"b\"]\nelements = 6\nsection = \"s\"\nmaterial = \"steel\"\n\
+                orientation = [1.0, 0.0, 0.0]\n";
     let rest = format!(
         "[[supports]]\nat = \"a\"\nfix = [\"ux\", \"uy\", \"uz\"{hold}]\n[[supports]]\nat = \"b\"\nfix = [\"ux\", \"uy\"]\n\
          [[loads]]\nat = \"b\"\nforce = [0.0, 0.0, -1000.0]\n[[loads]]\nat = \"m\"\nforce = [1.0, 0.0, 0.0]\n"

@@ -57,6 +57,21 @@ pub struct Instability {
     pub direction: &'static str,
 }
 
+/// The error that steps leave, beside the one asked for.
+fn step_error(asked: f64, estimate: Option<f64>) -> String {
+    let asked = short(asked);
+    match estimate.map(short) {
+        Some(estimate) => format!(
+            "the steps leave an error of about {estimate} of the largest motion, more than the {asked} of `error_tolerance`: the motion \
+             magnifies errors of single steps. Ask for less error, or take the results as one motion of many"
+        ),
+        None => format!(
+            "whether the error is below the {asked} of `error_tolerance` is not known: the run with longer steps that would tell did not come \
+             to its end. Compare with a run at a smaller `error_tolerance`"
+        ),
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -98,19 +113,7 @@ impl fmt::Display for Warning {
                 short(*depth),
                 to_digits(100.0 * depth / size, 2)
             ),
-            Warning::StepError { asked, estimate: Some(estimate) } => write!(
-                f,
-                "the steps leave an error of about {} of the largest motion, more than the {} of `error_tolerance`: the motion magnifies \
-                 errors of single steps. Ask for less error, or take the results as one motion of many",
-                short(*estimate),
-                short(*asked)
-            ),
-            Warning::StepError { asked, estimate: None } => write!(
-                f,
-                "whether the error is below the {} of `error_tolerance` is not known: the trial runs with longer steps that would tell did not \
-                 come to their end. Compare with a run at a smaller `error_tolerance`",
-                short(*asked)
-            ),
+            Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);
                 write!(
@@ -181,24 +184,24 @@ impl Warnings {
 /// What a run does not judge, and says in its log: no doubt about results, but no more than was looked at.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Remark {
-    /// Motion out of the plane is not held there, as at t = 0 alone: buckling is judged as if it were.
-    HeldOutOfPlane {
+    /// Motion out of the plane is not held there, as at t = 0 alone: buckling out of the plane is judged as if it were.
+    JudgedAsHeld {
         /// Nodes and directions.
         places: Vec<(String, &'static str)>,
     },
-    /// Hardly anything holds the scene in its plane.
-    NotHeldOutOfPlane {
+    /// Hardly anything holds the scene in its plane: buckling out of it is not judged.
+    NotHeld {
         /// A node that is not held, and the direction.
         place: (String, &'static str),
     },
-    /// Joints in a plane scene.
-    JointsOutOfPlane,
+    /// A plane scene has joints: buckling out of it is not judged.
+    Jointed,
 }
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Remark::HeldOutOfPlane { places } => {
+            Remark::JudgedAsHeld { places } => {
                 let place = |(label, direction): &(String, &str)| format!("`{label}` in direction {direction}");
                 let places: Vec<String> = places.iter().map(place).collect();
                 write!(
@@ -207,11 +210,11 @@ impl fmt::Display for Remark {
                     places.join(", ")
                 )
             }
-            Remark::NotHeldOutOfPlane { place: (label, direction) } => write!(
+            Remark::NotHeld { place: (label, direction) } => write!(
                 f,
                 "motion out of the plane is not held at `{label}` in direction {direction}: buckling out of it is not judged"
             ),
-            Remark::JointsOutOfPlane => {
+            Remark::Jointed => {
                 write!(f, "buckling out of the plane is not judged in a scene with joints: `plane` = \"off\" judges it")
             }
         }

@@ -62,9 +62,9 @@ impl OutOfPlane {
             let held = self.hold(cx, trial, &loads.start);
             match held {
                 Ok(places) if places.is_empty() => {}
-                Ok(places) => warnings.remark(Remark::HeldOutOfPlane { places }),
+                Ok(places) => warnings.remark(Remark::JudgedAsHeld { places }),
                 Err(place) => {
-                    warnings.remark(Remark::NotHeldOutOfPlane { place });
+                    warnings.remark(Remark::NotHeld { place });
                     return false;
                 }
             }

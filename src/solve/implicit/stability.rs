@@ -70,7 +70,7 @@ impl Stability {
     /// Returns true where the matrix of the step has been overwritten.
     pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64, grows: bool) -> bool {
         if from == 0.0 && deforms_in_plane(cx.system) && !cx.system.joints.is_empty() {
-            ws.warnings.remark(Remark::JointsOutOfPlane);
+            ws.warnings.remark(Remark::Jointed);
         }
         if self.sideways.as_mut().is_some_and(|out| !out.check(cx, ws, state, from)) {
             self.sideways = None;
