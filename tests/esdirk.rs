@@ -77,7 +77,7 @@ fn order_with_joints() {
     assert!(points[2].1 < 5e-6, "{points:?}");
 }
 
-/// A mass on a spring and a damper under a load that varies: work by quadrature over the stages closes the balance with the order of the
+/// A mass on a spring and a damper under a load that varies, its base driven: work by quadrature over the stages closes the balance with the order of the
 /// scheme.
 #[test]
 fn energies_are_of_third_order() {
@@ -87,12 +87,12 @@ fn energies_are_of_third_order() {
             analysis = {{ kind = "dynamic", end_time = 2.0, time_step = {dt} }}
             integrator = {{ scheme = "esdirk3" }}
             iteration = {{ tolerance = 1e-13 }}
-            points = {{ p = [1.0, 0.0, 0.0] }}
+            points = {{ p = [1.0, 0.0, 0.0], base = [0.0, 0.0, 0.0] }}
             masses = [{{ at = "p", mass = 1.0 }}]
-            links = [{{ name = "s", from = {{ ground = [0.0, 0.0, 0.0] }}, to = {{ node = "p" }}, stiffness = 40.0, damping = 0.5, direction = [1.0, 0.0, 0.0] }}]
-            supports = [{{ at = "p", fix = ["uy", "uz"] }}]
+            links = [{{ name = "s", from = {{ node = "base" }}, to = {{ node = "p" }}, stiffness = 40.0, damping = 0.5, direction = [1.0, 0.0, 0.0] }}]
+            supports = [{{ at = "p", fix = ["uy", "uz"] }}, {{ at = "base", fix = ["uy", "uz"] }}, {{ at = "base", motion = {{ ux = {{ amplitude = "drive", scale = 0.3 }} }} }}]
             loads = [{{ at = "p", force = [30.0, 0.0, 0.0], amplitude = "wave" }}]
-            amplitudes = {{ wave = {{ kind = "sine", frequency = 0.7 }} }}
+            amplitudes = {{ wave = {{ kind = "sine", frequency = 0.7 }}, drive = {{ kind = "sine", frequency = 0.4 }} }}
             output = {{ energy = true }}
             "#
         );

@@ -95,7 +95,8 @@ impl<'a> Run<'a> {
             let mut trace = Trace::new(observer, power);
             let (outcome, state) = self.once(&mut trace, &ends);
             let run = trace.into_kept();
-            if self.recorder.counts.steps > self.recorder.most_steps {
+            // What fails with shorter steps did come to its end with those before.
+            if before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
                 return self.settle(error, &ends, observer);
             }
             if !matches!(outcome, Outcome::Done) {
@@ -105,7 +106,7 @@ impl<'a> Run<'a> {
                 Some(other) => Some(other),
                 None => match self.trial(&mut error, run.longest(), power) {
                     Ok(other) => other,
-                    Err(outcome) => return (outcome, state),
+                    Err(_) => return (Outcome::Stopped { time: model.analysis.end_time }, state),
                 },
             };
             let next = other.and_then(|other| error.judge(&run, &other, self.context.length));
@@ -123,7 +124,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes the run by the tolerance before once more, for that of the run under way asks for far too many steps.
+    /// Makes the run by the tolerance before once more, for the run under way fails or asks for far too many steps.
     fn settle(
         &mut self,
         mut error: StepError,
@@ -155,6 +156,8 @@ impl<'a> Run<'a> {
         error.before = error.tolerance;
         error.tolerance = tolerance;
         self.recorder = Recorder::new(model, self.wanted);
+        let ws = &mut self.workspace;
+        (ws.warnings, ws.rotation_drift, ws.joint_violation) = (Warnings::default(), 0.0, 0.0);
         self.follow(tolerance, None);
         observer.restart(model)
     }
