@@ -4,7 +4,7 @@
 use crate::math::Vec3;
 use crate::model::Model;
 use crate::state::Node;
-use crate::system::assembly;
+use crate::system::dependents;
 use crate::system::{DofMap, System};
 
 /// An equation is redundant where less than this fraction of its gradient is linearly independent of earlier ones.
@@ -18,8 +18,8 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let directions = dofs.nodal_dofs().len();
     let count = dofs.unknowns() - directions;
     let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
-    let independent_nodes = assembly::independent_nodes(system, nodes.len());
-    let projections = assembly::projections(system, &nodes, &independent_nodes);
+    let independent_nodes = dependents::independent_nodes(&system.rigid_links, nodes.len());
+    let projections = dependents::projections(&system.rigid_links, &nodes, &independent_nodes);
     let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
     // The size of the scene makes rotations comparable with translations.
     let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);

@@ -3,6 +3,7 @@
 //! rigid bodies.
 
 use super::block_scatter::BlockScatter;
+use super::dependents::{Arms, Followers, Projection, independent_nodes, update_projections};
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::group::Group;
@@ -30,8 +31,7 @@ pub struct Assembly {
     diagonals: Vec<Diagonal>,
     scatter: Scatter,
     blocks: BlockScatter,
-    /// For each node the independent nodes that it moves with: itself, or its masters in the end.
-    independent_nodes: Vec<Vec<usize>>,
+    arms: Arms,
     threads: bool,
     /// True where the gyroscopic matrix C(r) (37) is part of the tangent; it is in the residual always.
     gyroscopic: bool,
@@ -40,8 +40,8 @@ pub struct Assembly {
 
 /// The destination of a local matrix.
 struct Destination {
-    /// The independent nodes that it is projected onto first; empty where no node is dependent.
-    targets: Vec<usize>,
+    /// The projection that comes first; none where no node is dependent.
+    projection: Option<Projection>,
     entries: Entries,
     /// A range of [`BlockScatter`] in place of entries, where the matrix is scattered by blocks.
     blocks: [u32; 2],
@@ -96,86 +96,106 @@ impl Scatter {
 struct Destinations<'a> {
     dofs: &'a DofMap,
     solver: &'a Solver,
-    independent_nodes: &'a [Vec<usize>],
+    followers: &'a Followers,
     scatter: Scatter,
     blocks: BlockScatter,
-    /// Largest number of nodes that a matrix is projected onto.
+    arms: Arms,
+    /// Largest number of entries of a matrix that is projected.
     most: usize,
 }
 
 impl<'a> Destinations<'a> {
-    fn new(dofs: &'a DofMap, solver: &'a Solver, independent_nodes: &'a [Vec<usize>]) -> Self {
-        let most = independent_nodes.iter().map(Vec::len).max().unwrap_or(0);
-        Destinations {
-            dofs,
-            solver,
-            independent_nodes,
-            scatter: Scatter(Vec::new()),
-            blocks: BlockScatter::new(),
-            most,
-        }
+    fn new(dofs: &'a DofMap, solver: &'a Solver, followers: &'a Followers) -> Self {
+        let (scatter, blocks, arms) = (Scatter(Vec::new()), BlockScatter::new(), Arms::new());
+        Destinations { dofs, solver, followers, scatter, blocks, arms, most: 0 }
     }
 
-    /// The destination of a matrix over 6×6 blocks of independent nodes, each column-major; `keep` says which entries
-    /// of a block count.
-    fn projected(&mut self, of: &[usize], keep: &dyn Fn(usize, usize) -> bool) -> Destination {
-        let mut targets: Vec<usize> = Vec::new();
-        for independent in of.iter().flat_map(|&n| &self.independent_nodes[n]) {
-            if !targets.contains(independent) {
-                targets.push(*independent);
-            }
-        }
-        let (m, dofs) = (targets.len(), self.dofs);
-        self.most = self.most.max(m);
-        let entry = |k: usize| {
-            let (block, i, j) = (k / 36, k % 6, k / 6 % 6);
-            let (row, column) = (targets[block / m], targets[block % m]);
-            if keep(i, j) { dofs.row(row, i).zip(dofs.row(column, j)) } else { None }
-        };
-        let entries = self.scatter.push(self.solver, 36 * m * m, entry);
-        Destination { targets, entries, blocks: [0; 2] }
-    }
-
-    /// The destination of an element's matrix with `d` degrees of freedom a node, row-major.
+    /// The destination of a matrix with `d` degrees of freedom a node, row-major.
     fn local(&mut self, of: &[usize], d: usize) -> Destination {
-        if of.iter().any(|&n| self.independent_nodes[n] != [n]) {
-            return self.projected(of, &|_, _| true);
-        }
+        self.square(of, d, |k, size| (k / size, k % size))
+    }
+
+    /// The destination of a matrix whose k-th entry, of so many rows, stands where `place` says.
+    fn square(&mut self, of: &[usize], d: usize, place: fn(usize, usize) -> (usize, usize)) -> Destination {
         let dofs = self.dofs;
-        let firsts = || of.iter().map(|&n| dofs.of(n).first_of_six()).collect::<Option<Vec<usize>>>();
-        if let (6, Some(rows)) = (d, firsts()) {
-            let from = self.blocks.len() as u32;
-            if self.blocks.push(self.solver, &rows) {
-                let none = Entries { from: 0, halves: 0, to: 0 };
-                return Destination { targets: Vec::new(), entries: none, blocks: [from, self.blocks.len() as u32] };
-            }
+        let (projection, rows) = if of.iter().all(|&n| self.followers.is_independent(n)) {
+            (None, of.iter().flat_map(|&n| (0..d).map(move |i| (n, i))).collect())
+        } else {
+            let (projection, rows) = self.arms.push(self.followers, dofs, of, d);
+            self.most = self.most.max(rows.len().pow(2));
+            (Some(projection), rows)
+        };
+        if let Some(blocks) = self.whole_blocks(&rows) {
+            return Destination { projection, entries: Entries { from: 0, halves: 0, to: 0 }, blocks };
         }
-        let size = d * of.len();
-        let row = |i: usize| dofs.row(of[i / d], i % d);
-        let entries = self.scatter.push(self.solver, size * size, |k| row(k / size).zip(row(k % size)));
-        Destination { targets: Vec::new(), entries, blocks: [0; 2] }
+        let size = rows.len();
+        let row = |i: usize| dofs.row(rows[i].0, rows[i].1);
+        let entry = |k: usize| {
+            let (i, j) = place(k, size);
+            row(i).zip(row(j))
+        };
+        let entries = self.scatter.push(self.solver, size * size, entry);
+        Destination { projection, entries, blocks: [0; 2] }
+    }
+
+    /// The blocks of a matrix whose rows are those of different nodes with six unknowns each.
+    fn whole_blocks(&mut self, rows: &[(usize, usize)]) -> Option<[u32; 2]> {
+        let is_whole = |six: &[(usize, usize)]| (0..6).all(|i| six.get(i) == Some(&(six[0].0, i)));
+        if !rows.chunks(6).all(is_whole) {
+            return None;
+        }
+        let firsts: Option<Vec<usize>> = rows.chunks(6).map(|six| self.dofs.of(six[0].0).first_of_six()).collect();
+        let firsts = firsts?;
+        if (1..firsts.len()).any(|k| firsts[..k].contains(&firsts[k])) {
+            return None;
+        }
+        let from = self.blocks.len() as u32;
+        self.blocks.push(self.solver, &firsts).then(|| [from, self.blocks.len() as u32])
+    }
+
+    /// The destination of a consistent mass matrix: of its entries themselves, which count for each translation, or of the
+    /// matrix of translations that is made of them.
+    fn mass(&mut self, of: &[usize]) -> Destination {
+        if of.iter().any(|&n| !self.followers.is_independent(n)) {
+            return self.local(of, 3);
+        }
+        let (n, dofs) = (of.len(), self.dofs);
+        let entry = |k: usize| {
+            let (pair, axis) = (k / 3, k % 3);
+            dofs.row(of[pair / n], axis).zip(dofs.row(of[pair % n], axis))
+        };
+        let entries = self.scatter.push(self.solver, 3 * n * n, entry);
+        self.scatter.0[entries.from..entries.to].iter_mut().for_each(|[k, _]| *k /= 3);
+        self.most = self.most.max(n * n);
+        Destination { projection: None, entries, blocks: [0; 2] }
     }
 
     /// The destinations of the matrices of nodes, which inertia, nodal damping, follower loads and arms have. Inertia
     /// and damping couple neither translations with one another nor with rotations; arms and followers do.
     fn nodal(&mut self, system: &System) -> Vec<(usize, Destination)> {
-        let nodes = self.independent_nodes.len();
+        let nodes = self.followers.independent_nodes.len();
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
         system.inertias.iter().for_each(|i| has_own[i.node] = true);
         system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
         system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
         system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
-        let apart = |i: usize, j: usize| i == j || (i > 2 && j > 2);
         let with_own = (0..nodes).filter(|&n| has_own[n] || is_full[n]);
-        let destination = |n: usize| {
-            let full = is_full[n] || self.independent_nodes[n] != [n];
-            let mut destination = self.projected(&[n], &|i, j| full || apart(i, j));
-            if self.independent_nodes[n] == [n] {
-                destination.targets.clear();
-            }
-            (n, destination)
+        with_own.map(|n| (n, self.node(n, is_full[n]))).collect()
+    }
+
+    /// The destination of the matrix of a node, column-major.
+    fn node(&mut self, node: usize, is_full: bool) -> Destination {
+        if is_full || !self.followers.is_independent(node) {
+            return self.square(&[node], 6, |k, size| (k % size, k / size));
+        }
+        let dofs = self.dofs;
+        let couples = |i: usize, j: usize| i == j || (i > 2 && j > 2);
+        let entry = |k: usize| {
+            let (i, j) = (k % 6, k / 6);
+            if couples(i, j) { dofs.row(node, i).zip(dofs.row(node, j)) } else { None }
         };
-        with_own.map(destination).collect()
+        let entries = self.scatter.push(self.solver, 36, entry);
+        Destination { projection: None, entries, blocks: [0; 2] }
     }
 }
 
@@ -186,8 +206,8 @@ struct Scratch {
     own: Vec<Mat6>,
     /// For each node and each of its independent nodes, the matrix by which the motion of that moves the node.
     projections: Vec<Vec<Mat6>>,
-    /// A projected matrix as 6×6 blocks, each column-major.
-    projected: Vec<[f64; 36]>,
+    /// A projected matrix, or one that is made of few numbers.
+    projected: Vec<f64>,
 }
 
 /// The weights of the terms of a tangent.
@@ -203,52 +223,10 @@ pub struct TangentWeights {
     pub moduli: Moduli,
 }
 
-/// The independent nodes that each node moves with: itself, or those at the end of its chain of masters (and itself for
-/// degrees of freedom of its own).
-pub fn independent_nodes(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    let mut independent_nodes: Vec<Vec<usize>> = (0..nodes).map(|n| vec![n]).collect();
-    for dependent in &system.rigid_links {
-        let mut of = independent_nodes[dependent.master].clone();
-        if !dependent.rigid {
-            of.push(dependent.node);
-        }
-        independent_nodes[dependent.node] = of;
-    }
-    independent_nodes
-}
-
-/// The projection matrices: for each node and each of its independent nodes, the matrix by which the motion of that
-/// moves the node.
-pub fn projections(system: &System, nodes: &[Node], independent_nodes: &[Vec<usize>]) -> Vec<Vec<Mat6>> {
-    let mut projections: Vec<_> = independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect();
-    update_projections(system, nodes, independent_nodes, &mut projections);
-    projections
-}
-
-/// Updates the projection matrices of dependent nodes along the chains of arms.
-fn update_projections(
-    system: &System,
-    nodes: &[Node],
-    independent_nodes: &[Vec<usize>],
-    projections: &mut [Vec<Mat6>],
-) {
-    for dependent in &system.rigid_links {
-        let D = dependent.D(nodes);
-        for k in 0..independent_nodes[dependent.master].len() {
-            projections[dependent.node][k] = D * projections[dependent.master][k];
-        }
-        if !dependent.rigid {
-            let own = independent_nodes[dependent.node].len() - 1;
-            let free = dependent.dofs.map(|taken| if taken { 0.0 } else { 1.0 });
-            projections[dependent.node][own] = Mat6::from_diagonal(&free.into());
-        }
-    }
-}
-
 /// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by
 /// their independent nodes. `nodes` counts the joints too: their multipliers are nodes after all others.
 pub fn connectivity(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    coupled(system, nodes, &independent_nodes(system, nodes))
+    coupled(system, nodes, &independent_nodes(&system.rigid_links, nodes))
 }
 
 /// The connectivity with multipliers in place of elimination: every dependent node moves by itself, tied to its master
@@ -286,8 +264,8 @@ impl Assembly {
     /// Finds the destinations of all matrices.
     pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
         let nodes = dofs.each().len();
-        let independent_nodes = independent_nodes(system, nodes);
-        let mut find = Destinations::new(dofs, solver, &independent_nodes);
+        let followers = Followers::new(&system.rigid_links, nodes);
+        let mut find = Destinations::new(dofs, solver, &followers);
         let group = |group: &Group| {
             let (block, d) = (&group.block, group.block.dofs());
             (0..block.len()).map(|e| find.local(block.nodes(e), d)).collect()
@@ -299,31 +277,31 @@ impl Assembly {
         let joints: Vec<Destination> =
             joints.map(|(joint, own)| find.local(&[joint.nodes[0], joint.nodes[1], own], 6)).collect();
         let diagonals =
-            system.joints.iter().map(|joint| Diagonal::new(joint, &independent_nodes, dofs, solver)).collect();
+            system.joints.iter().map(|joint| Diagonal::new(joint, &followers.independent_nodes, dofs, solver)).collect();
         let own = find.nodal(system);
-        let masses = system.consistent_masses().iter();
-        let masses: Vec<Destination> = masses.map(|m| find.projected(&m.nodes, &|_, _| true)).collect();
-        let Destinations { scatter, blocks, most, .. } = find;
+        let of_masses = system.consistent_masses().iter().map(|m| find.mass(&m.nodes)).collect();
+        let Destinations { scatter, blocks, arms, most, .. } = find;
         let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
-        let local = system.groups.iter().map(|g| size(&*g.block)).max().unwrap_or(0);
+        let masses = system.consistent_masses().iter().map(|m| 9 * m.m.len());
+        let local = system.groups.iter().map(|g| size(&*g.block)).chain(masses).max().unwrap_or(0);
         Assembly {
             groups,
             nodes: own,
-            masses,
+            masses: of_masses,
             faces,
             joints,
             diagonals,
             scatter,
             blocks,
+            arms,
             threads: system.uses_threads(threads),
             gyroscopic: system.gyroscopic && !solver.is_symmetric(),
             scratch: Scratch {
                 local: vec![0.0; local],
                 own: vec![Mat6::zeros(); nodes],
-                projections: independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect(),
-                projected: vec![[0.0; 36]; most * most],
+                projections: followers.independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect(),
+                projected: vec![0.0; most],
             },
-            independent_nodes,
         }
     }
 
@@ -341,7 +319,7 @@ impl Assembly {
         let nodes = now.nodes;
         let values = solver.values();
         values.fill(0.0);
-        update_projections(system, nodes, &self.independent_nodes, &mut self.scratch.projections);
+        update_projections(&system.rigid_links, nodes, &mut self.scratch.projections);
         if weights.stiffness {
             self.add_elements(system, now, weights, values);
             self.add_pressures(system, nodes, loading, values);
@@ -379,15 +357,10 @@ impl Assembly {
                 } else {
                     local.chunks_mut(length).enumerate().for_each(fill);
                 }
-                for (e, K) in (first..last).zip(local.chunks(length)).filter(|(e, _)| !inactive(*e)) {
-                    add_local(
-                        K,
-                        block.nodes(e),
-                        &destinations[e],
-                        (&self.scatter, &self.blocks, &self.independent_nodes, projections),
-                        projected,
-                        values,
-                    );
+                let width = d * block.nodes(0).len();
+                let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+                for (e, K) in (first..last).zip(local.chunks_mut(length)).filter(|(e, _)| !inactive(*e)) {
+                    how.add((K, width), &destinations[e], projected, values);
                 }
             }
         }
@@ -395,20 +368,15 @@ impl Assembly {
 
     fn add_pressures(&mut self, system: &System, nodes: &[Node], loading: &Loading, values: &mut [f64]) {
         let Scratch { projections, projected, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         let mut destinations = self.faces.iter();
         for (load, p) in system.pressures.iter().zip(&loading.pressures) {
             for (face, destination) in load.faces.iter().zip(&mut destinations) {
                 let mut K = [0.0; 12 * 12];
-                let K = &mut K[..(3 * face.nodes().len()).pow(2)];
+                let width = 3 * face.nodes().len();
+                let K = &mut K[..width * width];
                 face.stiffness(*p, nodes, K);
-                add_local(
-                    K,
-                    face.nodes(),
-                    destination,
-                    (&self.scatter, &self.blocks, &self.independent_nodes, projections),
-                    projected,
-                    values,
-                );
+                how.add((K, width), destination, projected, values);
             }
         }
     }
@@ -424,11 +392,10 @@ impl Assembly {
     ) {
         let Scratch { projections, projected, .. } = &mut self.scratch;
         let projections = &projections[..];
-        let own = nodes.len();
-        let add = |j: usize, K: &[f64], values: &mut [f64]| {
-            let [a, b] = system.joints[j].nodes;
-            let how = (&self.scatter, &self.blocks, &self.independent_nodes[..], projections);
-            add_local(K, &[a, b, own + j], &self.joints[j], how, projected, values);
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+        let destinations = &self.joints;
+        let add = |j: usize, K: &mut [f64], values: &mut [f64]| {
+            how.add((K, joints::WIDTH), &destinations[j], projected, values);
         };
         let multipliers = &mut forces.multipliers;
         joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights.stiffness, values, add);
@@ -477,96 +444,63 @@ impl Assembly {
 
     fn add_nodes(&mut self, values: &mut [f64]) {
         let Scratch { own, projections, projected, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         for (node, destination) in &self.nodes {
-            if destination.targets.is_empty() {
-                self.scatter.add(own[*node].as_slice(), destination.entries, values);
-            } else {
-                project(
-                    &[*node],
-                    &destination.targets,
-                    &self.independent_nodes,
-                    projections,
-                    |_, _| own[*node],
-                    projected,
-                );
-                self.scatter.add(projected.as_flattened(), destination.entries, values);
-            }
+            how.add((own[*node].as_mut_slice(), 6), destination, projected, values);
         }
     }
 
     fn add_masses(&mut self, system: &System, weights: TangentWeights, values: &mut [f64]) {
         let w = weights.acceleration + system.mass_damping * weights.rate;
+        let Scratch { projections, projected, local, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         for (mass, destination) in system.consistent_masses().iter().zip(&self.masses) {
+            if destination.projection.is_none() {
+                let m = &mut projected[..mass.m.len()];
+                m.iter_mut().zip(&mass.m).for_each(|(scaled, m)| *scaled = w * m);
+                how.scatter.add(m, destination.entries, values);
+                continue;
+            }
             let n = mass.nodes.len();
-            let pair = |a: usize, b: usize| {
-                let m = w * mass.m[a * n + b];
-                Mat6::from_diagonal(&[m, m, m, 0.0, 0.0, 0.0].into())
-            };
-            let projected = &mut self.scratch.projected;
-            project(
-                &mass.nodes,
-                &destination.targets,
-                &self.independent_nodes,
-                &self.scratch.projections,
-                pair,
-                projected,
-            );
-            self.scatter.add(projected.as_flattened(), destination.entries, values);
+            let K = &mut local[..9 * n * n];
+            K.fill(0.0);
+            for (k, m) in mass.m.iter().enumerate() {
+                for axis in 0..3 {
+                    K[(3 * (k / n) + axis) * 3 * n + 3 * (k % n) + axis] = w * m;
+                }
+            }
+            how.add((K, 3 * n), destination, projected, values);
         }
     }
 }
 
-/// Adds an element's matrix, row-major with 3 or 6 degrees of freedom a node.
-fn add_local(
-    K: &[f64],
-    nodes: &[usize],
-    destination: &Destination,
-    (scatter, blocks, independent_nodes, projections): (&Scatter, &BlockScatter, &[Vec<usize>], &[Vec<Mat6>]),
-    projected: &mut [[f64; 36]],
-    values: &mut [f64],
-) {
-    let [from, to] = destination.blocks;
-    if from < to {
-        return blocks.add(K, from as usize..to as usize, values);
-    }
-    if destination.targets.is_empty() {
-        return scatter.add(K, destination.entries, values);
-    }
-    let width = K.len().isqrt();
-    let d = width / nodes.len();
-    let pair = |a: usize, b: usize| {
-        let at = |i: usize, j: usize| K[(d * a + i) * width + d * b + j];
-        Mat6::from_fn(|i, j| if i < d && j < d { at(i, j) } else { 0.0 })
-    };
-    project(nodes, &destination.targets, independent_nodes, projections, pair, projected);
-    scatter.add(projected.as_flattened(), destination.entries, values);
+/// The places of local matrices in the system's.
+struct Places<'a> {
+    scatter: &'a Scatter,
+    blocks: &'a BlockScatter,
+    arms: &'a Arms,
+    projections: &'a [Vec<Mat6>],
 }
 
-/// Projects K̂ = 𝒯ᵀ K 𝒯 onto the independent nodes `targets`, with `pair(a, b)` the element's 6×6 block of its nodes a
-/// and b.
-fn project(
-    nodes: &[usize],
-    targets: &[usize],
-    independent_nodes: &[Vec<usize>],
-    projections: &[Vec<Mat6>],
-    pair: impl Fn(usize, usize) -> Mat6,
-    projected: &mut [[f64; 36]],
-) {
-    let m = targets.len();
-    projected[..m * m].fill([0.0; 36]);
-    let destination = |independent: usize| targets.iter().position(|&t| t == independent).unwrap_or(0);
-    let stays = |node: usize| independent_nodes[node] == [node];
-    for (a, &node_a) in nodes.iter().enumerate() {
-        for (b, &node_b) in nodes.iter().enumerate() {
-            let k = pair(a, b);
-            for (&independent_a, T_a) in independent_nodes[node_a].iter().zip(&projections[node_a]) {
-                let left = if stays(node_a) { k } else { T_a.tr_mul(&k) };
-                for (&independent_b, T_b) in independent_nodes[node_b].iter().zip(&projections[node_b]) {
-                    let block = if stays(node_b) { left } else { left * T_b };
-                    let sum = &mut projected[destination(independent_a) * m + destination(independent_b)];
-                    sum.iter_mut().zip(block.as_slice()).for_each(|(sum, k)| *sum += k);
-                }
+impl Places<'_> {
+    /// Adds a local matrix of this number of rows, row-major. It is used up where it has dependent nodes.
+    #[inline]
+    fn add(
+        &self,
+        (K, width): (&mut [f64], usize),
+        destination: &Destination,
+        projected: &mut [f64],
+        values: &mut [f64],
+    ) {
+        let (K, width) = match &destination.projection {
+            None => (&*K, width),
+            Some(projection) => {
+                (self.arms.project(projection, self.projections, (K, width), projected), projection.width())
             }
+        };
+        match destination.blocks {
+            [from, to] if from < to => self.blocks.add(K, width, from as usize..to as usize, values),
+            _ => self.scatter.add(K, destination.entries, values),
         }
     }
 }

@@ -41,10 +41,10 @@ impl BlockScatter {
         true
     }
 
-    /// Adds the symmetric part of an element's matrix `K`, row-major, to `values`; `range` holds its blocks.
+    /// Adds the symmetric part of an element's matrix `K` of this number of rows, row-major, to `values`; `range` holds its
+    /// blocks.
     #[inline]
-    pub fn add(&self, K: &[f64], range: std::ops::Range<usize>, values: &mut [f64]) {
-        let width = K.len().isqrt();
+    pub fn add(&self, K: &[f64], width: usize, range: std::ops::Range<usize>, values: &mut [f64]) {
         for Pair { nodes: [p, q], slot } in &self.0[range] {
             let (p, q) = (6 * usize::from(*p), 6 * usize::from(*q));
             for j in 0..6 {

@@ -130,7 +130,7 @@ impl System {
 }
 
 /// The slots of the diagonal of the matrix on which a joint acts: for each independent node that one of its nodes moves
-/// with, the end, the node, the index in [`super::assembly::independent_nodes`] and the slots of its six degrees of
+/// with, the end, the node, the index in [`super::dependents::independent_nodes`] and the slots of its six degrees of
 /// freedom.
 pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
 
@@ -221,7 +221,7 @@ pub(super) fn tangents(
     multipliers: &mut Multipliers,
     stiffness: bool,
     values: &mut [f64],
-    mut add: impl FnMut(usize, &[f64], &mut [f64]),
+    mut add: impl FnMut(usize, &mut [f64], &mut [f64]),
 ) {
     set_penalties(system, nodes, (diagonals, projections), multipliers, values);
     let mut K = [0.0; WIDTH * WIDTH];
@@ -251,7 +251,7 @@ pub(super) fn tangents(
             }
             K[(12 + k) * (WIDTH + 1)] = -REGULARIZATION * s;
         }
-        add(j, &K, values);
+        add(j, &mut K, values);
         first += joint.equations.len();
     }
 }

@@ -6,6 +6,7 @@ mod block_scatter;
 mod build;
 pub mod constraint_schur;
 mod contacts;
+pub mod dependents;
 mod dofs;
 pub mod energy;
 mod equations;
