@@ -276,8 +276,11 @@ impl Assembly {
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
         let joints: Vec<Destination> =
             joints.map(|(joint, own)| find.local(&[joint.nodes[0], joint.nodes[1], own], 6)).collect();
-        let diagonals =
-            system.joints.iter().map(|joint| Diagonal::new(joint, &followers.independent_nodes, dofs, solver)).collect();
+        let diagonals = system
+            .joints
+            .iter()
+            .map(|joint| Diagonal::new(joint, &followers.independent_nodes, dofs, solver))
+            .collect();
         let own = find.nodal(system);
         let of_masses = system.consistent_masses().iter().map(|m| find.mass(&m.nodes)).collect();
         let Destinations { scatter, blocks, arms, most, .. } = find;

@@ -74,15 +74,13 @@ impl Followers {
         let mut armed = vec![Vec::new(); nodes];
         for dependent in links {
             let of = carriers[dependent.master];
-            carriers[dependent.node] =
-                std::array::from_fn(|i| if dependent.dofs[i] { of[i] } else { dependent.node });
+            carriers[dependent.node] = std::array::from_fn(|i| if dependent.dofs[i] { of[i] } else { dependent.node });
             if !dependent.dofs[..3].contains(&true) {
                 continue;
             }
             let turns = |k: &usize| of[3..].contains(&independent_nodes[dependent.master][*k]);
             let masters = 0..independent_nodes[dependent.master].len();
-            armed[dependent.node] =
-                masters.filter(|k| turns(k) || armed[dependent.master].contains(k)).collect();
+            armed[dependent.node] = masters.filter(|k| turns(k) || armed[dependent.master].contains(k)).collect();
         }
         Followers { independent_nodes, carriers, armed }
     }
