@@ -327,5 +327,9 @@ fn a_study_knows_its_quantities_and_settings() {
     assert_eq!(schemes[2].1, format!("{{ scheme = \"wilson-theta\", theta = 1.5, {rotation}"));
     assert_eq!(study.methods, [Method::Auto, Method::InitialLoad]);
     assert_eq!((study.meshes.as_slice(), study.wanted_errors.as_slice()), (&[1.0, 2.0][..], &[1e-2, 1e-3][..]));
+    assert_eq!(study.iteration_tolerances.len(), 5);
+    assert_eq!((study.iteration_tolerances[0], study.iteration_tolerances[4]), (1e-4, 1e-8));
+    assert_eq!(study.beam_orders, [1, 3]);
+    assert!(matches!(study.confirm, Some(rdsolve::model::study::Confirm::Auto)));
     assert!(model.output.parts);
 }

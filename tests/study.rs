@@ -1,5 +1,7 @@
 //! `rdsolve study`: orders against exact answers, the bar of its own reference, what failed, what it writes.
 
+mod settings;
+
 use crate::support;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -327,8 +329,8 @@ fn files_are_whole() {
     let header = fs::read_to_string(out.join("study.csv")).unwrap();
     assert_eq!(
         header.lines().next().unwrap(),
-        "run,scheme,method,mesh,unknowns,time_step,error_tolerance,status,error,resolved,order,reference_error,loop_s,loop_median_s,process_s,repeats,steps,\
-         iterations,factorizations,cuts,folder,reason,error:mass.x,error:mass.vx"
+        "run,scheme,method,iteration_tolerance,mesh,beam_order,unknowns,time_step,error_tolerance,status,error,resolved,order,reference_error,loop_s,loop_median_s,process_s,repeats,steps,\
+         iterations,factorizations,cuts,other_runs,other_steps,other_iterations,other_factorizations,estimate,folder,reason,error:mass.x,error:mass.vx"
     );
     for row in table(&out.join("study.csv")) {
         assert_eq!((row["repeats"].as_str(), row["status"].as_str()), ("2", "done"));

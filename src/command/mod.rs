@@ -8,6 +8,7 @@ mod exit;
 mod folder;
 mod hint;
 mod load;
+mod recommend;
 mod report;
 mod run;
 mod schema;

@@ -11,13 +11,19 @@ use super::console::{complain, counted, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::load;
+use super::recommend;
 use super::signals::stop_on_signals;
+use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::Model;
 use crate::output::FolderLock;
 use crate::plan::Plan;
-use crate::study::{Options, RunStatus, StudyFault, rigidify, study as studied, text};
+use crate::study::{
+    Cost, Found, Options, RunStatus, StudyAdvice, StudyFault, recommend as recommended, rigidify, study as studied,
+    text,
+};
 use crate::system::System;
+use crate::words::{PER_DECADE, rungs};
 
 #[derive(Debug, Args)]
 #[command(
@@ -26,10 +32,11 @@ other settings, its time, of which the least counts. Error = rms over equidistan
 together, relative to the reference of `[study]`, or else to what the finest runs tend to (Richardson extrapolation), with a \
 bound of its own error. An option overrides the key of the same name in the deck's `[study]`.
 
-Written: study.csv (a row for each run), study.svg, study.html; or rigidify.csv; and study.list, the files that the study has \
+Written: study.csv (a row for each run), phase.csv (errors split into phase and amplitude), study.svg, asked.svg (automatic \
+steps), study.html; or rigidify.csv; and study.list, the files that the study has \
 written. Runs that failed are listed as failed.
 
-Exit codes: 0 done, 2 usage, 3 deck invalid, 4 no run came to its end, 6 input/output, 75 stopped by a signal, with what there is."
+Exit codes: 0 done, 2 usage, 3 deck invalid, 4 no run came to its end, 5 no setting reaches the error of --recommend, 6 input/output, 75 stopped by a signal, with what there is."
 )]
 pub struct StudyArgs {
     /// The deck, a TOML file
@@ -43,18 +50,24 @@ pub struct StudyArgs {
     /// Iteration methods: tangent-stiffness,initial-load,auto
     #[arg(long, value_name = "METHOD", value_delimiter = ',')]
     methods: Vec<String>,
-    /// Time steps; with --halvings, the longest one
-    #[arg(long, value_name = "DT", value_delimiter = ',', value_parser = positive)]
-    time_steps: Vec<f64>,
-    /// Further runs with an automatic time step, at these error tolerances
-    #[arg(long, value_name = "TOL", value_delimiter = ',', value_parser = positive)]
-    error_tolerances: Vec<f64>,
+    /// Time steps; with --halvings, the longest one; 1e-2..1e-4: by factors of 10^(1/4)
+    #[arg(long, value_name = "DT", value_delimiter = ',', value_parser = climbed)]
+    time_steps: Vec<Climbed>,
+    /// Further runs with an automatic time step, at these error tolerances, or a ladder of them: 1e-1..1e-4
+    #[arg(long, value_name = "TOL", value_delimiter = ',', value_parser = climbed)]
+    error_tolerances: Vec<Climbed>,
     /// Number of times the time step is halved
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=30))]
     halvings: Option<u64>,
+    /// Tolerances of the iteration, or a ladder of them: 1e-2,1e-4,1e-8
+    #[arg(long, value_name = "TOL", value_delimiter = ',', value_parser = climbed)]
+    iteration_tolerances: Vec<Climbed>,
     /// Factors on the numbers of elements: 1,2,4
     #[arg(long, value_name = "FACTOR", value_delimiter = ',', value_parser = positive)]
     meshes: Vec<f64>,
+    /// Polynomial degrees of the elements of all beams: 1,2,3
+    #[arg(long, value_name = "ORDER", value_delimiter = ',', value_parser = clap::value_parser!(u64).range(1..=4))]
+    beam_orders: Vec<u64>,
     /// CSV file of reference values, relative to the current folder
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
@@ -70,6 +83,15 @@ pub struct StudyArgs {
     /// Name the cheapest setting for these errors
     #[arg(long, value_name = "ERROR", value_delimiter = ',', value_parser = positive)]
     wanted_error: Vec<f64>,
+    /// What the picture draws errors against: seconds, or counts, which do not scatter
+    #[arg(long, value_name = "COST", value_enum, default_value_t)]
+    axis: Cost,
+    /// Confirm the reference by a scheme of another family, or auto: its error grows to the difference of the two
+    #[arg(long, value_name = "SCHEME", num_args = 0..=1, default_missing_value = "auto")]
+    confirm: Option<String>,
+    /// Print the deck lines of the cheapest setting that reaches this error, and nothing else; exit code 5 where none does
+    #[arg(long, value_name = "ERROR", value_parser = positive, conflicts_with = "wanted_error")]
+    recommend: Option<f64>,
     /// Runs of each setting
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     repeats: u16,
@@ -77,7 +99,7 @@ pub struct StudyArgs {
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
     /// Instead of a grid of settings, run with each part rigid in turn: its share of the elastic energy, error, time saved
-    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "meshes", "reference", "finest", "wanted_error"])]
+    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "iteration_tolerances", "meshes", "beam_orders", "reference", "finest", "wanted_error", "axis", "confirm", "recommend"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
@@ -101,6 +123,18 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A number of a list, or a ladder of them.
+#[derive(Debug, Clone)]
+struct Climbed(Vec<f64>);
+
+/// Reads a number above zero, or a ladder from one to another.
+fn climbed(text: &str) -> Result<Climbed, String> {
+    match text.split_once("..") {
+        None => positive(text).map(|number| Climbed(vec![number])),
+        Some((from, to)) => Ok(Climbed(rungs(positive(from)?, positive(to)?, PER_DECADE))),
+    }
+}
+
 /// Runs the studies of a deck and prints their outcome.
 ///
 /// # Errors
@@ -111,7 +145,13 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         sets.push(format!("study.{}={value}", name.trim_start_matches("--").replace('-', "_")));
         names.push(name.to_owned());
     }
-    let loaded = load(&args.deck, &sets, names)?;
+    let mut loaded = load(&args.deck, &sets, names.clone())?;
+    if let Some(wanted) = args.recommend {
+        // The last of the overrides stand for options: what completes them goes before.
+        let defaults = recommend::defaults(&loaded.model, wanted);
+        sets.splice(args.sets.len()..args.sets.len(), defaults);
+        loaded = load(&args.deck, &sets, names)?;
+    }
     let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "study"));
     require_free(&folder, args.overwrite)?;
     if !args.quiet {
@@ -129,14 +169,12 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     stop_on_signals(&stop).map_err(|error| exit(error.into(), &loaded.source))?;
     let (model, options) = (&loaded.model, args.options(&folder));
     let _lock = lock(&folder).map_err(|error| exit(error.into(), &loaded.source))?;
-    let found = if args.rigidify {
-        let advice = rigidify(model, &deck, &options, &stop);
-        advice.map(|advice| (advice.text(), advice.stopped, advice.base.status == RunStatus::Done))
+    let outcome = if args.rigidify {
+        rigidify(model, &deck, &options, &stop).map(Outcome::of_advice)
     } else {
-        let found = studied(model, &deck, &options, &stop);
-        found.map(|found| (text(&found), found.stopped, found.runs.iter().any(|run| run.status == RunStatus::Done)))
+        studied(model, &deck, &options, &stop).map(|found| Outcome::of_grid(&found, &deck, args.recommend))
     };
-    let (text, stopped, any) = found.map_err(|fault| exit(fault, &loaded.source))?;
+    let Outcome { text, stopped, any, lacking } = outcome.map_err(|fault| exit(fault, &loaded.source))?;
     print(&text)?;
     if !args.quiet {
         say(&format!("results in {}", folder.display()));
@@ -149,7 +187,41 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         complain("no run completed");
         return Err(Exit::NotConverged);
     }
+    if let Some(lacking) = lacking {
+        complain(&lacking);
+        return Err(Exit::CheckFailed);
+    }
     Ok(())
+}
+
+/// What a study ends with.
+struct Outcome {
+    /// The text for standard output.
+    text: String,
+    /// Whether a signal has stopped it.
+    stopped: bool,
+    /// Whether any run came to its end.
+    any: bool,
+    /// Why nothing is recommended, where a recommendation was asked for.
+    lacking: Option<String>,
+}
+
+impl Outcome {
+    fn of_advice(advice: StudyAdvice) -> Outcome {
+        let any = advice.base.status == RunStatus::Done;
+        Outcome { text: advice.text(), stopped: advice.stopped, any, lacking: None }
+    }
+
+    fn of_grid(found: &Found, deck: &Deck, wanted: Option<f64>) -> Outcome {
+        let any = found.runs.iter().any(|run| run.status == RunStatus::Done);
+        let stopped = found.stopped;
+        let (text, lacking) = match wanted.map(|wanted| recommended(found, deck, wanted)) {
+            None => (text(found), None),
+            Some(Ok(lines)) => (lines, None),
+            Some(Err(reason)) => (String::new(), Some(reason)),
+        };
+        Outcome { text, stopped, any, lacking }
+    }
 }
 
 /// Makes the folder of a study and locks it, for two studies in one folder would take each other's runs.
@@ -204,6 +276,7 @@ impl StudyArgs {
             threads: usize::from(self.threads),
             repeats: usize::from(self.repeats),
             budget: self.budget,
+            axis: self.axis,
             quiet: self.quiet,
         }
     }
@@ -216,6 +289,7 @@ impl StudyArgs {
             let list: Vec<String> = list.iter().map(|number| format!("{number:?}")).collect();
             format!("[{}]", list.join(", "))
         };
+        let ladder = |list: &[Climbed]| numbers(&list.iter().flat_map(|of| of.0.iter().copied()).collect::<Vec<_>>());
         let mut keys = Vec::new();
         let mut add = |name, given: bool, value: String| {
             if given {
@@ -224,15 +298,19 @@ impl StudyArgs {
         };
         add("--schemes", !self.schemes.is_empty(), texts(&self.schemes));
         add("--methods", !self.methods.is_empty(), texts(&self.methods));
-        add("--time-steps", !self.time_steps.is_empty(), numbers(&self.time_steps));
+        add("--time-steps", !self.time_steps.is_empty(), ladder(&self.time_steps));
         // A list of time steps on the command line is complete, whatever the deck would halve.
         let halvings = self.halvings.or((!self.time_steps.is_empty()).then_some(0));
         add("--halvings", halvings.is_some(), halvings.unwrap_or_default().to_string());
-        add("--error-tolerances", !self.error_tolerances.is_empty(), numbers(&self.error_tolerances));
+        add("--error-tolerances", !self.error_tolerances.is_empty(), ladder(&self.error_tolerances));
+        add("--iteration-tolerances", !self.iteration_tolerances.is_empty(), ladder(&self.iteration_tolerances));
+        add("--beam-orders", !self.beam_orders.is_empty(), format!("{:?}", self.beam_orders));
         add("--meshes", !self.meshes.is_empty(), numbers(&self.meshes));
         add("--quantities", !self.quantities.is_empty(), texts(&self.quantities));
         add("--samples", self.samples.is_some(), self.samples.unwrap_or_default().to_string());
-        add("--wanted-error", !self.wanted_error.is_empty(), numbers(&self.wanted_error));
+        let wanted: Vec<f64> = self.recommend.into_iter().chain(self.wanted_error.iter().copied()).collect();
+        add("--wanted-error", !wanted.is_empty(), numbers(&wanted));
+        add("--confirm", self.confirm.is_some(), serde_json::Value::from(self.confirm.clone()).to_string());
         add("--finest", self.finest, "true".into());
         if let Some(file) = &self.reference {
             // A path in the deck starts at the deck; one on the command line starts at the current folder.

@@ -75,6 +75,10 @@ impl PartTable for Beam {
         self.elements.as_ref()
     }
 
+    fn has_order(&self) -> bool {
+        true
+    }
+
     fn rigid(&self) -> Option<bool> {
         Some(self.rigid.as_ref().is_some_and(|at| at.value))
     }

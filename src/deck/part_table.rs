@@ -39,6 +39,11 @@ pub trait PartTable {
         None
     }
 
+    /// Whether the part has the key `order`, the polynomial degree of its elements.
+    fn has_order(&self) -> bool {
+        false
+    }
+
     /// The key `rigid`; `None` for a part that cannot be a body by itself.
     fn rigid(&self) -> Option<bool> {
         None

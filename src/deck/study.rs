@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 use super::analysis::{Integrator, Method};
 use super::set;
 use super::words::kinds::OneOf;
-use super::words::{Maybe, Named, Names, OneOrMany};
+use super::words::{Ladder, Maybe, Named, Names, OneOrMany};
 use crate::diagnostic::{At, Diagnostic, Span};
 
 /// What `rdsolve study` goes over: time steps, schemes, iteration methods, meshes.
@@ -32,15 +32,14 @@ pub struct Study {
     pub columns: Named<String>,
     /// Intervals between the times at which errors are taken, from 0 to the end. Default: as the reference has them, or 200.
     pub samples: Maybe<u64>,
-    /// Time steps; none may be longer than an interval of the samples. Default: 8 times that of `[analysis]`, as far as that
-    /// goes, and six halvings of it.
-    pub time_steps: Maybe<OneOrMany<f64>>,
+    /// Time steps; none may be longer than an interval of the samples. A ladder goes by factors of 10^(1/4):
+    /// `{ from = 1e-2, to = 1e-4 }`. Default: 8 times that of `[analysis]`, as far as that goes, and six halvings of it.
+    pub time_steps: Maybe<Ladder>,
     /// Halve one time step so many times, instead of a list.
     pub halvings: Maybe<u64>,
-    /// With an automatic time step, lines of their own over these tolerances. Default: where the deck's step is
-    /// automatic, its own
-    /// tolerance times 10, 1, 0.1 and 0.01.
-    pub error_tolerances: Maybe<OneOrMany<f64>>,
+    /// With an automatic time step, lines of their own over these tolerances, or a ladder of them. Default: where the
+    /// deck's step is automatic, its own tolerance times 10, 1, 0.1 and 0.01.
+    pub error_tolerances: Maybe<Ladder>,
     /// Tables like `[integrator]`, or words with parameters: "wilson-theta", "newmark:gamma=0.6:beta=0.31". Default: the
     /// deck's own. A scheme without parameters has those of `[integrator]` where that names it too.
     #[serde(default)]
@@ -49,8 +48,15 @@ pub struct Study {
     /// Methods of `[iteration]`. Default: the deck's own.
     #[serde(default)]
     pub methods: Vec<At<Method>>,
+    /// Values of `tolerance` of `[iteration]`, or a ladder of them. Default: the deck's own.
+    pub iteration_tolerances: Maybe<Ladder>,
     /// Factors on the `elements` of all beams and shells, and of bars that have several on a segment. Default: 1.
     pub meshes: Maybe<OneOrMany<f64>>,
+    /// Polynomial degrees of the elements of all beams, 1 to 4: their `order`. Default: the deck's own.
+    pub beam_orders: Maybe<OneOrMany<u64>>,
+    /// A scheme of another family that the reference is confirmed by, or "auto": what it tends to is compared with what the
+    /// finest runs tend to, or with the file. Default: none.
+    pub confirm: Maybe<String>,
     /// Errors for which the cheapest setting is named. Default: 1e-2, 1e-3 and 1e-4.
     pub wanted_error: Maybe<OneOrMany<f64>>,
 }

@@ -12,7 +12,7 @@ const PHASE: f64 = 3000.0;
 const EQUATIONS: usize = 60;
 
 /// The scheme for automatic steps of this model.
-pub(super) fn choose_scheme(model: &Model) -> Arc<dyn Scheme> {
+pub fn choose_scheme(model: &Model) -> Arc<dyn Scheme> {
     automatic_scheme(!is_soft(model))
 }
 

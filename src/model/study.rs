@@ -2,17 +2,18 @@
 //! [`crate::study`] alone.
 
 use super::analysis::{can_be_kept, check_yielding, scheme as read_scheme};
-pub use super::data::{Choice, Quantity, Study};
-use super::data::{Method, Node, Part};
+pub use super::choose_scheme::choose_scheme;
+use super::data::{AnalysisKind, Method, Node, Part};
+pub use super::data::{Choice, Confirm, Quantity, Study};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use crate::deck::analysis as deck;
 use crate::deck::study::Study as Written;
-use crate::deck::words::kinds::OneOf;
-use crate::deck::words::{Maybe, OneOrMany};
+use crate::deck::words::kinds::{Given, OneOf, Values};
+use crate::deck::words::{Ladder, Maybe, OneOrMany, PER_DECADE, rungs};
 use crate::diagnostic::{At, Span};
-use crate::integrators::{SCHEMES, Scheme};
+use crate::integrators::{RotationUpdate, SCHEMES, Scheme};
 use crate::names::nearest;
 use crate::quantities::{self, MOTION};
 use std::sync::Arc;
@@ -23,6 +24,8 @@ const DERIVED: [&str; 12] =
 
 /// Largest number of entries of a list; more are taken for a typing error.
 const MOST_ENTRIES: usize = 60;
+/// Largest number of steps of a ladder in a decade.
+const MOST_PER_DECADE: u64 = 20;
 const MOST_SAMPLES: u64 = 1_000_000;
 
 /// Checks `[study]` of a deck whose own scheme is known.
@@ -47,9 +50,9 @@ struct Reader<'a, 'd> {
 impl<'d> Reader<'_, 'd> {
     fn study(&mut self, study: &'d Written) -> Study {
         let (quantities, columns) = self.quantities(study);
-        let time_steps = self.sorted("time_steps", &study.time_steps).into_iter().rev().collect::<Vec<_>>();
+        let time_steps = self.climbed("time_steps", &study.time_steps).into_iter().rev().collect::<Vec<_>>();
         let error_tolerances: Vec<f64> =
-            self.sorted("error_tolerances", &study.error_tolerances).into_iter().rev().collect();
+            self.climbed("error_tolerances", &study.error_tolerances).into_iter().rev().collect();
         if let (Some(at), Some(&largest)) = (&study.error_tolerances, error_tolerances.first())
             && largest >= 1.0
         {
@@ -79,7 +82,10 @@ impl<'d> Reader<'_, 'd> {
             }
         }
         let methods = self.methods(&study.methods);
+        let iteration_tolerances = self.iteration_tolerances(study);
         let meshes = self.sorted("meshes", &study.meshes);
+        let beam_orders = self.beam_orders(&study.beam_orders);
+        let confirm = self.confirm(study);
         let wanted_errors = self.sorted("wanted_error", &study.wanted_error).into_iter().rev().collect();
         Study {
             quantities,
@@ -91,7 +97,10 @@ impl<'d> Reader<'_, 'd> {
             halvings,
             schemes,
             methods,
+            iteration_tolerances,
             meshes,
+            beam_orders,
+            confirm,
             wanted_errors,
         }
     }
@@ -170,20 +179,111 @@ impl<'d> Reader<'_, 'd> {
     /// Numbers above zero, each once, sorted.
     fn sorted(&mut self, key: &str, list: &'d Maybe<OneOrMany<f64>>) -> Vec<f64> {
         let Some(list) = list else { return Vec::new() };
-        if list.values.is_empty() {
-            self.report.error::<()>(&list.span, format!("`{key}` is empty"));
+        self.ascending(key, &list.span, &list.values)
+    }
+
+    /// The numbers of a list or a ladder, each once, sorted.
+    fn climbed(&mut self, key: &str, ladder: &'d Maybe<Ladder>) -> Vec<f64> {
+        let Some(at) = ladder else { return Vec::new() };
+        match &at.value {
+            Ladder::Listed(values) => self.ascending(key, &at.span, values),
+            Ladder::Rungs(ladder) => {
+                let mut sound = true;
+                for end in [&ladder.from, &ladder.to].into_iter().filter(|end| !(end.value > 0.0)) {
+                    self.report.error::<()>(&end.span, format!("`{key}` must be above zero"));
+                    sound = false;
+                }
+                let per_decade = ladder.per_decade.as_ref().map_or(PER_DECADE, |at| at.value);
+                if !(1..=MOST_PER_DECADE).contains(&per_decade) {
+                    let place = ladder.per_decade.as_ref().map_or(&at.span, |at| &at.span);
+                    let message = format!("`per_decade` must lie between 1 and {MOST_PER_DECADE}");
+                    return self.report.error(place, message).unwrap_or_default();
+                }
+                let count = (ladder.to.value / ladder.from.value).log10().abs() * per_decade as f64;
+                if sound && count > MOST_ENTRIES as f64 {
+                    let message =
+                        format!("`{key}` has {count:.0} steps from {} to {}", ladder.from.value, ladder.to.value);
+                    self.report.error_with::<()>(&at.span, message, format!("at most {MOST_ENTRIES} are allowed"));
+                    sound = false;
+                }
+                if !sound {
+                    return Vec::new();
+                }
+                let mut numbers = rungs(ladder.from.value, ladder.to.value, per_decade);
+                numbers.sort_by(f64::total_cmp);
+                numbers.dedup();
+                numbers
+            }
         }
-        if list.values.len() > MOST_ENTRIES {
-            let message = format!("`{key}` has {} entries", list.values.len());
-            self.report.error_with::<()>(&list.span, message, format!("at most {MOST_ENTRIES} are allowed"));
+    }
+
+    /// Listed numbers above zero, each once, sorted.
+    fn ascending(&mut self, key: &str, place: &'d Span, list: &'d [At<f64>]) -> Vec<f64> {
+        if list.is_empty() {
+            self.report.error::<()>(place, format!("`{key}` is empty"));
         }
-        for value in list.values.iter().filter(|value| value.value <= 0.0) {
+        if list.len() > MOST_ENTRIES {
+            let message = format!("`{key}` has {} entries", list.len());
+            self.report.error_with::<()>(place, message, format!("at most {MOST_ENTRIES} are allowed"));
+        }
+        for value in list.iter().filter(|value| value.value <= 0.0) {
             self.report.error::<()>(&value.span, format!("`{key}` must be above zero"));
         }
-        let mut numbers: Vec<f64> = list.values.iter().map(|value| value.value).collect();
+        let mut numbers: Vec<f64> = list.iter().map(|value| value.value).collect();
         numbers.sort_by(f64::total_cmp);
         numbers.dedup();
         numbers
+    }
+
+    /// The degrees of the elements of beams, each once, ascending.
+    fn beam_orders(&mut self, list: &'d Maybe<OneOrMany<u64>>) -> Vec<u64> {
+        let Some(list) = list else { return Vec::new() };
+        if list.values.is_empty() {
+            self.report.error::<()>(&list.span, "`beam_orders` is empty");
+        }
+        for at in list.values.iter().filter(|at| !(1..=4).contains(&at.value)) {
+            self.report.error::<()>(&at.span, "`beam_orders` can be 1, 2, 3 or 4");
+        }
+        let mut orders: Vec<u64> = list.values.iter().map(|at| at.value).collect();
+        orders.sort_unstable();
+        orders.dedup();
+        orders
+    }
+
+    /// The tolerances of the iteration, largest first.
+    fn iteration_tolerances(&mut self, study: &'d Written) -> Vec<f64> {
+        let tolerances = self.climbed("iteration_tolerances", &study.iteration_tolerances);
+        if let (Some(at), Some(&largest)) = (&study.iteration_tolerances, tolerances.last())
+            && largest >= 1.0
+        {
+            self.report.error_with::<()>(&at.span, "`iteration_tolerances` must lie below 1", "they are relative");
+        }
+        tolerances.into_iter().rev().collect()
+    }
+
+    /// The scheme that is to confirm the reference.
+    fn confirm(&mut self, study: &'d Written) -> Option<Confirm> {
+        let at = study.confirm.as_ref()?;
+        if self.scene.analysis.kind == AnalysisKind::Static {
+            let hint = "a finer ladder of load steps is what there is";
+            return self.report.error_with(&at.span, "no scheme can confirm a static analysis", hint);
+        }
+        if at.value == "auto" {
+            return Some(Confirm::Auto);
+        }
+        match scheme_of(&at.value) {
+            Some(scheme) => {
+                let yields = self.scene.parts.list.iter().any(Part::yields);
+                check_yielding(&*scheme, &at.span, yields, self.report);
+                Some(Confirm::By(scheme))
+            }
+            None => {
+                let known = || SCHEMES.iter().map(|kind| kind.word).chain(["auto"]);
+                let near = nearest(&at.value, known()).map(|near| format!("did you mean `{near}`?"));
+                let hint = near.unwrap_or_else(|| format!("there are {}", known().collect::<Vec<_>>().join(", ")));
+                self.report.error_with(&at.span, format!("no scheme is named `{}`", at.value), hint)
+            }
+        }
     }
 
     fn halvings(&mut self, study: &'d Written, time_steps: usize) -> usize {
@@ -255,6 +355,14 @@ impl<'d> Reader<'_, 'd> {
 pub fn obstacle(model: &super::data::Model) -> Option<&'static str> {
     let along = model.analysis.step_length.is_arc_length();
     along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
+}
+
+/// The scheme of this word, with its own defaults.
+pub fn scheme_of(word: &str) -> Option<Arc<dyn Scheme>> {
+    let kind = SCHEMES.iter().find(|kind| kind.word == word)?;
+    let (place, values) = (0..0, Values::default());
+    let mut given = Given::new("a scheme", &place, &values, Vec::new());
+    Some((kind.make.scheme)(&mut given, RotationUpdate::default()))
 }
 
 /// The keys of an integrator besides its scheme, as TOML.

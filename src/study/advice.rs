@@ -1,9 +1,8 @@
 //! The outcome of running a deck with each part rigid in turn, in words and as rigidify.csv.
 
+use super::cells::{field, maybe, seconds};
 use super::columns::columns;
 use super::run::{RunStatus, StudyRun};
-use super::study_csv::{field, maybe};
-use super::table::seconds;
 use crate::model::study::Quantity;
 
 /// A beam, bar or shell that deforms.

@@ -1,7 +1,11 @@
 //! The outcome of a study.
 
+use super::asked::Asked;
+use super::cheapest::Cheapest;
 use super::grid::StudyGrid;
-use super::order::{Cheapest, Order};
+use super::joint::Joint;
+use super::order::Order;
+use super::phase::Phase;
 use super::reference::Reference;
 use super::run::StudyRun;
 use crate::model::study::Quantity;
@@ -24,6 +28,12 @@ pub struct Found {
     pub orders: Vec<Result<Order, &'static str>>,
     /// For each error asked for, the lines that come to it, the cheapest first.
     pub cheapest: Vec<(f64, Vec<Cheapest>)>,
+    /// What automatic steps were asked for and reached.
+    pub asked: Vec<Asked>,
+    /// The joint fits over meshes and steps.
+    pub joints: Vec<Joint>,
+    /// The errors of all runs, split into phase and amplitude; empty where there is no reference.
+    pub phases: Vec<Phase>,
     /// True where a signal has ended it before all runs were done.
     pub stopped: bool,
 }

@@ -1,14 +1,14 @@
-//! The grid of settings that a study runs: lines of schemes, methods and meshes, each over the same time steps, as overrides of
-//! the deck.
+//! The grid of settings that a study runs: lines of settings ([`StudyLine`]), each over the same time steps or tolerances, as
+//! overrides of the deck.
 
+use super::cells::float;
+use super::confirming;
+use super::lines::{StudyLine, lines};
 use crate::deck::Deck;
 use crate::deck::analysis::{Analysis, Plane};
-use crate::deck::words::OneOrMany;
 use crate::diagnostic::Diagnostic;
-use crate::integrators::{Scheme, Stepping};
 use crate::model::study::{Quantity, Study, obstacle};
 use crate::model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
-use std::sync::Arc;
 
 /// The number of intervals between samples where the deck gives none.
 pub const SAMPLES: usize = 200;
@@ -16,27 +16,6 @@ pub const SAMPLES: usize = 200;
 const LONGEST: f64 = 8.0;
 /// The number of times that this step is halved.
 const HALVINGS: usize = 6;
-/// Over a load step only material that yields makes an error, of first order in general and never above second.
-const OF_LOAD_STEPS: f64 = 2.0;
-
-/// A line of settings: a scheme, a method and a mesh, run over all time steps or all tolerances of the grid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StudyLine {
-    /// The words that distinguish it from the other lines.
-    pub label: String,
-    /// The label of the scheme, with its parameters; `static` in a static analysis.
-    pub scheme: String,
-    /// The word of the iteration method.
-    pub method: String,
-    /// The factor on the numbers of elements of the deck.
-    pub mesh: f64,
-    /// True where the step is automatic, and the grid goes over its tolerance.
-    pub automatic: bool,
-    /// The order of the scheme in the time step; of load steps, the highest that they can have.
-    pub order: f64,
-    /// The overrides of the deck that make this line, `KEY=VALUE`.
-    pub sets: Vec<String>,
-}
 
 /// The grid of settings of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,7 +88,13 @@ impl StudyGrid {
             .filter(|(_, none)| !none)
             .map(|(automatic, _)| *automatic)
             .collect();
-        let lines = lines(model, deck, study, &kinds, &mut problems);
+        let mut lines = lines(model, deck, study, &kinds, &mut problems);
+        if let Some(confirm) = study.confirm.as_ref().filter(|_| problems.is_empty()) {
+            match confirming::line(model, deck, confirm, &lines) {
+                Ok(line) => lines.extend(line),
+                Err(problem) => problems.push(problem),
+            }
+        }
         if !problems.is_empty() {
             return Err(problems);
         }
@@ -118,20 +103,34 @@ impl StudyGrid {
         Ok(StudyGrid { lines, time_steps, error_tolerances, end_time, samples, sets, analysis, fitted })
     }
 
+    /// A made-up grid of fixed steps.
+    #[cfg(test)]
+    pub fn of_steps(lines: Vec<StudyLine>, time_steps: Vec<f64>, end_time: f64, samples: usize) -> StudyGrid {
+        let (error_tolerances, sets, analysis, fitted) = (time_steps.clone(), Vec::new(), String::new(), Vec::new());
+        StudyGrid { lines, time_steps, error_tolerances, end_time, samples, sets, analysis, fitted }
+    }
+
     /// The time steps, or tolerances, that a line goes over.
     pub fn resolutions(&self, line: usize) -> &[f64] {
-        if self.lines[line].automatic { &self.error_tolerances } else { &self.time_steps }
+        let of = &self.lines[line];
+        let all = if of.automatic { &self.error_tolerances } else { &self.time_steps };
+        if of.confirms { confirming::finest(all) } else { all }
     }
 
     /// All overrides of a run.
     pub fn overrides(&self, line: usize, resolution: f64) -> Vec<String> {
+        self.setting(line, resolution).into_iter().chain(self.sets.iter().cloned()).collect()
+    }
+
+    /// The overrides that make a run what it is, without those that all have.
+    pub fn setting(&self, line: usize, resolution: f64) -> Vec<String> {
         let of = &self.lines[line];
         let step = match of.automatic {
             false => format!("time_step = {}", float(resolution)),
             true => format!("time_step = \"auto\", error_tolerance = {}", float(resolution)),
         };
         let analysis = format!("analysis={{ {}, {step} }}", self.analysis);
-        of.sets.iter().chain(&self.sets).cloned().chain([analysis]).collect()
+        of.sets.iter().cloned().chain([analysis]).collect()
     }
 
     /// A guess of the work of a run: its number of steps times the factor on the numbers of elements.
@@ -161,11 +160,6 @@ pub fn output(quantities: &[Quantity], interval: f64, parts: bool) -> String {
 /// A text as TOML writes it, which reads the quotes of JSON as its own.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
-}
-
-/// The shortest text that reads back to the same number.
-pub fn float(number: f64) -> String {
-    ryu::Buffer::new().format(number).to_owned()
 }
 
 /// The time steps asked for, or the default ones, longest first; `interval` is the time between two samples.
@@ -227,111 +221,6 @@ fn analysis(model: &Model, deck: &Deck) -> String {
 /// The longest step up to this one that fits an interval a whole number of times.
 fn fitting(interval: f64, step: f64) -> f64 {
     interval / (interval / step - 1e-9).ceil().max(1.0)
-}
-
-/// The lines of a grid: all schemes with all methods, meshes and `kinds` of steps (true: automatic).
-fn lines(model: &Model, deck: &Deck, study: &Study, kinds: &[bool], problems: &mut Vec<Diagnostic>) -> Vec<StudyLine> {
-    let word = model.solution.scheme.word().to_owned();
-    let is_static = model.analysis.kind == AnalysisKind::Static;
-    let scheme = |label: &str, scheme: &Arc<dyn Scheme>, set: Option<String>| (label.to_owned(), scheme.clone(), set);
-    let schemes: Vec<_> = match study.schemes[..] {
-        [] if is_static => vec![scheme("static", &model.solution.scheme, None)],
-        [] => vec![scheme(&word, &model.solution.scheme, None)],
-        ref list => {
-            list.iter().map(|of| scheme(&of.label, &of.scheme, Some(format!("integrator={}", of.table)))).collect()
-        }
-    };
-    if !is_static && kinds.contains(&true) {
-        problems.extend(schemes.iter().filter_map(|(label, scheme, _)| no_tolerance(label, &**scheme)));
-    }
-    let methods: Vec<_> = match study.methods[..] {
-        [] => vec![(model.solution.iteration.method.word(), None)],
-        ref list => list.iter().map(|of| (of.word(), Some(format!("iteration.method=\"{}\"", of.word())))).collect(),
-    };
-    let meshes: Vec<f64> = if study.meshes.is_empty() { vec![1.0] } else { study.meshes.clone() };
-    let refined: Vec<Vec<String>> = meshes.iter().map(|&mesh| refine(deck, mesh, problems)).collect();
-    let mut lines = Vec::new();
-    for (scheme, which, of_scheme) in &schemes {
-        let order = if is_static { OF_LOAD_STEPS } else { which.order() as f64 };
-        for (method, of_method) in &methods {
-            let meshes = meshes.iter().zip(&refined).flat_map(|of| kinds.iter().map(move |kind| (of, *kind)));
-            for ((&mesh, of_mesh), automatic) in meshes {
-                let mut words = Vec::new();
-                if schemes.len() > 1 || (methods.len() == 1 && refined.len() == 1) {
-                    words.push(scheme.clone());
-                }
-                if methods.len() > 1 {
-                    words.push((*method).to_owned());
-                }
-                if refined.len() > 1 {
-                    words.push(format!("mesh x {mesh}"));
-                }
-                if automatic {
-                    words.push("automatic".to_owned());
-                }
-                let label = words.join(", ");
-                let sets = of_scheme.iter().chain(of_method).chain(of_mesh).cloned().collect();
-                let (scheme, method) = (scheme.clone(), (*method).to_owned());
-                lines.push(StudyLine { label, scheme, method, mesh, automatic, order, sets });
-            }
-        }
-    }
-    lines
-}
-
-/// Why a scheme cannot be studied over tolerances; `None` where it can.
-fn no_tolerance(label: &str, scheme: &dyn Scheme) -> Option<Diagnostic> {
-    let (message, hint) = match scheme.stepping() {
-        Stepping::Verlet => (
-            format!("`{label}` has no error tolerance: its automatic steps follow the critical time step"),
-            "give time steps (--time-steps): those above the critical time step are cut back",
-        ),
-        _ if scheme.order() < 2 => (
-            format!("`{label}` is of first order, and automatic steps want second"),
-            "use a scheme of second order, such as \"generalized-alpha\", or give time steps (--time-steps)",
-        ),
-        _ => return None,
-    };
-    Some(Diagnostic::error(message).hint(hint))
-}
-
-/// The overrides that multiply all numbers of elements.
-fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<String> {
-    if factor == 1.0 {
-        return Vec::new();
-    }
-    let mut sets = Vec::new();
-    for part in deck.parts() {
-        if part.table.group().is_some() {
-            let message = format!("`meshes` cannot refine `{}`: its elements are those of the mesh file", part.label());
-            problems.push(Diagnostic::error(message));
-        } else if let Some(elements) = part.table.elements() {
-            match multiplied(elements, factor) {
-                Some(numbers) => sets.push(format!("{}.elements={numbers}", part.table_path())),
-                None => {
-                    let count: Vec<String> = elements.values.iter().map(|count| count.value.to_string()).collect();
-                    let (count, label) = (count.join(", "), part.label());
-                    let message = format!("{factor} times the {count} elements of `{label}` is no whole number");
-                    problems.push(Diagnostic::error(message));
-                }
-            }
-        }
-    }
-    if sets.is_empty() && problems.is_empty() {
-        problems.push(Diagnostic::error("`meshes` has nothing to refine: the deck has no elements"));
-    }
-    sets
-}
-
-/// The numbers of elements times a factor, as a deck writes them; `None` where one is not whole.
-fn multiplied(elements: &OneOrMany<u64>, factor: f64) -> Option<String> {
-    let whole = elements.values.iter().map(|count| {
-        let scaled = count.value as f64 * factor;
-        let whole = scaled.round();
-        ((scaled - whole).abs() < 1e-9 && whole >= 1.0).then(|| (whole as u64).to_string())
-    });
-    let numbers = whole.collect::<Option<Vec<String>>>()?;
-    Some(if elements.single { numbers.concat() } else { format!("[{}]", numbers.join(", ")) })
 }
 
 #[cfg(test)]

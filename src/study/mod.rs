@@ -6,31 +6,61 @@
 //! interpolated. The reference is a file, or what the finest runs tend to, with a bound of its own error ([`reference`]).
 
 mod advice;
+mod asked;
+mod asked_picture;
+mod cells;
+mod chart;
+mod cheapest;
 mod columns;
+mod confirm;
+mod confirmation;
+mod confirming;
+mod cost;
+mod family;
 mod found;
 mod grid;
 mod history;
+mod joint;
+mod joint_fit;
+mod limit;
+mod lines;
 mod manifest;
+mod meshes;
 mod options;
 mod order;
 mod page;
+mod phase;
+mod phase_fit;
 mod picture;
 mod process;
 mod progress;
+mod recommend;
 mod reference;
 mod reference_file;
 mod rigidify;
 mod run;
 mod run_all;
+mod section;
 mod study_csv;
 mod table;
 
 pub use advice::{AdvisedPart, StudyAdvice};
+pub use asked::{Asked, AskedRun};
+pub use cheapest::Cheapest;
+pub use confirmation::{Confirmation, Difference};
+pub use cost::Cost;
+pub use family::Family;
 pub use found::Found;
-pub use grid::{StudyGrid, StudyLine};
+pub use grid::StudyGrid;
+pub use joint::{CheapestPair, Joint};
+pub use joint_fit::{JointFit, Pair, Part};
+pub use lines::{StudyLine, follows_tolerance};
 pub use options::{Options, StudyFault};
-pub use order::{Cheapest, Order};
+pub use order::Order;
+pub use phase::Phase;
+pub use phase_fit::Split;
 pub use process::LIFELINE;
+pub use recommend::recommend;
 pub use reference::Reference;
 pub use rigidify::rigidify;
 pub use run::{RunStatus, StudyRun};
@@ -46,7 +76,11 @@ use std::sync::atomic::AtomicBool;
 const TABLE: &str = "study.csv";
 /// The picture of error against run time.
 const PICTURE: &str = "study.svg";
-/// The page with both.
+/// The table of errors split into phase and amplitude.
+const PHASES: &str = "phase.csv";
+/// The picture of what automatic steps were asked for and reached.
+const ASKED: &str = "asked.svg";
+/// The page with all.
 const PAGE: &str = "study.html";
 
 /// Runs the grid of settings of a sound deck and writes study.csv, study.svg and study.html. Raising `stop` ends it with the runs
@@ -68,24 +102,57 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
             return Err(StudyFault::Deck([given.err(), grid.err()].into_iter().flatten().flatten().collect()));
         }
     };
-    let mut manifest = Manifest::begin(&options.folder, &[TABLE, PICTURE, PAGE], &run_all::folders(&grid))?;
+    let mut manifest =
+        Manifest::begin(&options.folder, &[TABLE, PHASES, PICTURE, ASKED, PAGE], &run_all::folders(&grid))?;
     let (mut runs, stopped) = run_all::run_all(&grid, &quantities, options, &mut manifest, stop)?;
     let reference = match given {
         Some(given) => Ok(given.into()),
         None => reference::extrapolate(&grid, &runs, &quantities),
     };
+    let reference = reference.map(|mut reference| {
+        confirm::confirm(&mut reference, &grid, &runs);
+        reference
+    });
     if let Ok(reference) = &reference {
         runs.iter_mut().for_each(|run| run.judge(&reference.values, reference.error_bound, quantities.len()));
     }
     let orders = order::orders(&grid, &runs);
     let wanted = if asked.wanted_errors.is_empty() { vec![1e-2, 1e-3, 1e-4] } else { asked.wanted_errors.clone() };
-    let cheapest = order::cheapest(&grid, &runs, &wanted);
+    let cheapest = cheapest::cheapest(&grid, &runs, &wanted);
+    let (asked_for, joints) = (asked::asked(&grid, &runs), joint::joints(&grid, &runs, &wanted));
+    let phases = match &reference {
+        Ok(reference) => phase::phases(&grid, &runs, reference, quantities.len()),
+        Err(_) => Vec::new(),
+    };
     let title = if model.title.is_empty() { options.deck.display().to_string() } else { model.title.clone() };
     let deck = options.deck.display().to_string();
-    let found = Found { title, deck, quantities, grid, runs, reference, orders, cheapest, stopped };
-    manifest.write(TABLE, study_csv::table(&found).as_bytes())?;
-    let picture = picture::draw(&found);
-    manifest.write(PICTURE, picture.as_bytes())?;
-    manifest.write(PAGE, page::page(&found, &picture).as_bytes())?;
+    let found = Found {
+        title,
+        deck,
+        quantities,
+        grid,
+        runs,
+        reference,
+        orders,
+        cheapest,
+        asked: asked_for,
+        joints,
+        phases,
+        stopped,
+    };
+    write(&found, options, &mut manifest)?;
     Ok(found)
+}
+
+/// Writes the tables, the pictures and the page.
+fn write(found: &Found, options: &Options, manifest: &mut Manifest) -> std::io::Result<()> {
+    manifest.write(TABLE, study_csv::table(found).as_bytes())?;
+    if !found.phases.is_empty() {
+        manifest.write(PHASES, phase::table(&found.phases, &found.quantities).as_bytes())?;
+    }
+    manifest.write(PICTURE, picture::draw(found, options.axis).as_bytes())?;
+    if let Some(picture) = asked_picture::draw(&found.grid, &found.asked) {
+        manifest.write(ASKED, picture.as_bytes())?;
+    }
+    manifest.write(PAGE, page::page(found, options.axis).as_bytes())
 }

@@ -1,5 +1,6 @@
 //! The options of a study, the names of its folders, and the reasons why there may be none.
 
+use super::cost::Cost;
 use crate::diagnostic::Diagnostic;
 use std::io;
 use std::path::PathBuf;
@@ -26,6 +27,8 @@ pub struct Options {
     pub repeats: usize,
     /// The time, in seconds, that the runs of a setting may take together before it is run again.
     pub budget: f64,
+    /// The cost that the picture draws errors against.
+    pub axis: Cost,
     /// True where no progress is shown.
     pub quiet: bool,
 }

@@ -1,4 +1,4 @@
-//! The outcome of a line of runs: its order where it has one, and the cost of an error.
+//! The order of a line of runs, where it has one.
 
 use super::grid::StudyGrid;
 use super::run::{RunStatus, StudyRun};
@@ -21,21 +21,6 @@ pub struct Order {
     pub to: f64,
     /// The error below which shorter steps gain little, where the line comes to it.
     pub floor: Option<f64>,
-}
-
-/// The cost of an error on one line, interpolated between its runs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cheapest {
-    /// The index of the line in [`StudyGrid::lines`].
-    pub line: usize,
-    /// The seconds of the time stepping.
-    pub loop_s: f64,
-    /// The seconds of the whole process.
-    pub process_s: f64,
-    /// The time step or the tolerance.
-    pub resolution: f64,
-    /// True where the coarsest setting of the grid is better than asked for already.
-    pub at_the_top: bool,
 }
 
 /// The order of each line; or in words why it has none.
@@ -104,52 +89,6 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2))
 }
 
-/// For each error asked for, the lines that come to it, the cheapest first. Costs are interpolated on straight lines between
-/// neighbours of log error and log time, and never extrapolated beyond the grid.
-pub fn cheapest(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
-    let of = |error: f64| {
-        let lines = 0..grid.lines.len();
-        let mut found: Vec<Cheapest> =
-            lines.filter_map(|line| cost(grid.resolutions(line), runs, line, error)).collect();
-        found.sort_by(|a, b| a.loop_s.total_cmp(&b.loop_s));
-        (error, found)
-    };
-    wanted.iter().map(|&error| of(error)).collect()
-}
-
-/// The least cost at which a line comes to an error.
-fn cost(resolutions: &[f64], runs: &[StudyRun], line: usize, wanted: f64) -> Option<Cheapest> {
-    // Errors that are bounds count as they are: the true error is at most as large.
-    let points: Vec<(&StudyRun, f64)> =
-        runs.iter().filter(|run| run.line == line).filter_map(|run| Some((run, run.error?))).collect();
-    let reached = points.iter().filter(|(_, error)| *error <= wanted);
-    let at = |run: &StudyRun, at_the_top| Cheapest {
-        line,
-        loop_s: run.loop_s,
-        process_s: run.process_s,
-        resolution: run.resolution,
-        at_the_top,
-    };
-    let mut best = reached.map(|(run, _)| at(run, false)).min_by(|a, b| a.loop_s.total_cmp(&b.loop_s))?;
-    best.at_the_top = resolutions.first() == Some(&best.resolution);
-    for pair in points.windows(2) {
-        let ((coarse, above), (fine, below)) = (pair[0], pair[1]);
-        let neighbours = resolutions.windows(2).any(|pair| pair == [coarse.resolution, fine.resolution]);
-        if !(neighbours && above > wanted && below <= wanted && below > 0.0) {
-            continue;
-        }
-        let part = (above / wanted).ln() / (above / below).ln();
-        let between = |a: f64, b: f64| (a.ln() + part * (b.ln() - a.ln())).exp();
-        let loop_s = between(coarse.loop_s, fine.loop_s);
-        if loop_s < best.loop_s {
-            let process_s = between(coarse.process_s, fine.process_s);
-            let resolution = between(coarse.resolution, fine.resolution);
-            best = Cheapest { line, loop_s, process_s, resolution, at_the_top: false };
-        }
-    }
-    Some(best)
-}
-
 /// The order between a run and the one before it on its line.
 pub fn local(before: Option<&StudyRun>, run: &StudyRun) -> Option<f64> {
     let before = before.filter(|before| before.resolved && run.resolved)?;
@@ -160,7 +99,6 @@ pub fn local(before: Option<&StudyRun>, run: &StudyRun) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::run::Measured;
     use super::*;
 
     fn line(errors: &[f64]) -> Vec<(f64, f64)> {
@@ -186,19 +124,15 @@ mod tests {
     fn settings_that_failed_part_a_line() {
         let resolutions = [0.08, 0.04, 0.02, 0.01, 0.005];
         let run = |resolution: f64, status| StudyRun {
-            line: 0,
-            resolution,
-            folder: String::new(),
             status,
-            reason: String::new(),
-            measured: Measured::default(),
-            loop_s: 1.0,
-            process_s: 1.0,
-            times: vec![1.0],
-            error: (status == RunStatus::Done).then_some(resolution * resolution),
-            errors: Vec::new(),
             resolved: status == RunStatus::Done,
-            history: Vec::new(),
+            ..StudyRun::made_up(
+                0,
+                resolution,
+                1.0,
+                (status == RunStatus::Done).then_some(resolution * resolution),
+                Vec::new(),
+            )
         };
         let of = |words: &str| {
             let status = |word| if word == 'd' { RunStatus::Done } else { RunStatus::NotConverged };

@@ -10,8 +10,12 @@
 //! The step of a run is the mean of those it took: what was asked for may have been cut to the limit of stability, or to the
 //! interval between samples, and runs with the same steps show nothing of their error.
 
-use super::grid::{StudyGrid, StudyLine};
+use super::confirmation::Confirmation;
+use super::family::Family;
+use super::grid::StudyGrid;
 use super::history;
+use super::limit::{Limit, limit};
+use super::lines::StudyLine;
 use super::reference_file::GivenReference;
 use super::run::{RunStatus, StudyRun};
 use crate::model::study::Quantity;
@@ -19,12 +23,6 @@ use crate::model::study::Quantity;
 /// Mean steps count as equally long up to this ratio, which is less than that of a halving, and more than what rounding to whole
 /// steps makes of equal ones.
 const ALIKE: f64 = 1.05;
-/// Runs that are alike to the last digit tell their limit no better than this, relative to the largest motion: rounding of many
-/// steps.
-const ROUNDING: f64 = 1e-10;
-/// A measured order may exceed that of the scheme by this; beyond, it is chance.
-const ABOVE: f64 = 0.3;
-
 /// The values that errors are measured against.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
@@ -34,79 +32,33 @@ pub struct Reference {
     pub error_bound: f64,
     /// Where it comes from, in words.
     pub source: String,
+    /// Where meshes were extrapolated: the limit in the time step alone, on the finest mesh, and a bound of its error.
+    pub in_time: Option<(Vec<f64>, f64)>,
+    /// The family of the schemes that it comes from; `None` for a file.
+    pub family: Option<Family>,
+    /// What another family says of it.
+    pub confirmation: Confirmation,
+}
+
+impl Reference {
+    /// A made-up reference that is exact.
+    #[cfg(test)]
+    pub fn of_values(values: Vec<f64>) -> Reference {
+        GivenReference { values, samples: 0, source: "made up".to_owned() }.into()
+    }
 }
 
 impl From<GivenReference> for Reference {
     fn from(given: GivenReference) -> Self {
-        Reference { values: given.values, error_bound: 0.0, source: given.source }
+        Reference {
+            values: given.values,
+            error_bound: 0.0,
+            source: given.source,
+            in_time: None,
+            family: None,
+            confirmation: Confirmation::None,
+        }
     }
-}
-
-/// The limit that some runs tend to.
-#[derive(Debug, Clone)]
-struct Limit {
-    /// The values at the sample times one after the other, each time all quantities.
-    q: Vec<f64>,
-    /// A bound of its error, relative as errors are.
-    error_bound: f64,
-    /// The order of the extrapolation; `None` where nothing was extrapolated.
-    order: Option<f64>,
-    /// The factor by which errors of the values that were extrapolated can grow.
-    growth: f64,
-}
-
-/// The limit of runs `q` with steps or element sizes `h`, coarse to fine; `most` is the highest order that they can have.
-fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> {
-    let n = q.len();
-    let (fine, before) = (q.last()?, q.get(n.checked_sub(2)?)?);
-    let last = history::error(before, fine, count, |_| true).max(ROUNDING);
-    // At first order the finest run is off by Δ/(r − 1): less is not taken for granted where no order is seen.
-    let ratio = h[n - 2] / h[n - 1];
-    let as_it_is = Limit { q: fine.to_vec(), error_bound: last / (ratio - 1.0).min(1.0), order: None, growth: 1.0 };
-    let Some(first) = n.checked_sub(3).map(|i| q[i]) else { return Some(as_it_is) };
-    let (r1, r2) = (h[n - 3] / h[n - 2], h[n - 2] / h[n - 1]);
-    let ratio = distance(first, before) / distance(before, fine);
-    let Some(order) = order(ratio, r1, r2).filter(|order| *order <= most + ABOVE) else { return Some(as_it_is) };
-    let whole = (order - order.round()).abs() < 0.2;
-    let order = if whole { order.round() } else { order };
-    let toward = |coarse: &[f64], fine: &[f64], r: f64, order: f64| -> Vec<f64> {
-        let part = 1.0 / (r.powf(order) - 1.0);
-        fine.iter().zip(coarse).map(|(fine, coarse)| fine + part * (fine - coarse)).collect()
-    };
-    let best = toward(before, fine, r2, order);
-    let apart = |other: &[f64]| history::error(other, &best, count, |_| true);
-    let mut error_bound = apart(&toward(first, before, r1, order)).max(ROUNDING);
-    // An order as it was measured makes the two agree whatever the truth is: the orders next to it may be that.
-    if !whole {
-        let least = if order < 1.0 { fine.to_vec() } else { toward(before, fine, r2, order.floor()) };
-        error_bound = error_bound.max(apart(&least)).max(apart(&toward(before, fine, r2, order.ceil())));
-    }
-    // Where that says no more than the runs, there is no order to speak of.
-    if error_bound >= as_it_is.error_bound {
-        return Some(as_it_is);
-    }
-    let growth = 1.0 + 2.0 / (r2.powf(order) - 1.0);
-    Some(Limit { q: best, error_bound, order: Some(order), growth })
-}
-
-/// The Euclidean distance of two runs.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-}
-
-/// The order p at which successive differences have the ratio Δ₁/Δ₂ = r₂ᵖ (r₁ᵖ − 1)/(r₂ᵖ − 1), which rises with p; `None` where
-/// it lies outside 0.4 to 12.
-fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
-    let of = |p: f64| r2.powf(p) * (r1.powf(p) - 1.0) / (r2.powf(p) - 1.0);
-    let (mut low, mut high) = (0.4, 12.0);
-    if !(of(low)..=of(high)).contains(&ratio) {
-        return None;
-    }
-    for _ in 0..60 {
-        let p = 0.5 * (low + high);
-        if of(p) < ratio { low = p } else { high = p }
-    }
-    Some(0.5 * (low + high))
 }
 
 /// The mean steps of the runs of a line, coarse to fine, each shorter than the one before. Runs that the critical time step or the
@@ -149,19 +101,7 @@ fn at_rest(quantities: &[Quantity]) -> String {
 /// # Errors
 /// The limit is not known; the error says why, in words.
 pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity]) -> Result<Reference, String> {
-    let ended = runs.iter().filter(|run| run.status == RunStatus::Done);
-    let finest = ended.map(|run| grid.lines[run.line].mesh).fold(0.0, f64::max);
-    let mut candidates: Vec<(usize, Limit, Option<Limit>)> = grid
-        .lines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| line.mesh == finest)
-        .filter_map(|(index, _)| over_meshes(grid, runs, index).map(|(time, mesh)| (index, time, mesh)))
-        .collect();
-    // Automatic steps differ from resolution to resolution in more than their length.
-    if candidates.iter().any(|(line, ..)| !grid.lines[*line].automatic) {
-        candidates.retain(|(line, ..)| !grid.lines[*line].automatic);
-    }
+    let candidates = candidates(grid, runs);
     let of = |(_, time, mesh): &(usize, Limit, Option<Limit>)| mesh.clone().unwrap_or_else(|| time.clone());
     let Some(best) = candidates.iter().min_by(|a, b| of(a).error_bound.total_cmp(&of(b).error_bound)) else {
         return Err(nothing(grid, runs));
@@ -184,23 +124,42 @@ pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity])
     if let Some(mesh) = &best.2 {
         source += &format!(" and {}", order(mesh, "mesh"));
     }
-    Ok(Reference { values: limit.q, error_bound, source })
+    let in_time = best.2.as_ref().map(|_| (best.1.q.clone(), best.1.error_bound));
+    let family = Some(grid.lines[best.0].family);
+    Ok(Reference { values: limit.q, error_bound, source, in_time, family, confirmation: Confirmation::None })
+}
+
+/// The lines on the best mesh that have a limit, each with that in the time step and that in the mesh too.
+fn candidates(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<(usize, Limit, Option<Limit>)> {
+    let ended = runs.iter().filter(|run| run.status == RunStatus::Done && !grid.lines[run.line].confirms);
+    // Of several meshes, degrees and tolerances the best are extrapolated.
+    let ranks = ended.map(|run| grid.lines[run.line].rank());
+    let finest = ranks.fold([f64::MIN; 3], |best, of| if of > best { of } else { best });
+    let lines = grid.lines.iter().enumerate().filter(|(_, line)| line.rank() == finest && !line.confirms);
+    let mut candidates: Vec<_> =
+        lines.filter_map(|(index, _)| over_meshes(grid, runs, index).map(|(time, mesh)| (index, time, mesh))).collect();
+    // Automatic steps differ from resolution to resolution in more than their length.
+    if candidates.iter().any(|(line, ..)| !grid.lines[*line].automatic) {
+        candidates.retain(|(line, ..)| !grid.lines[*line].automatic);
+    }
+    candidates
+}
+
+/// The limit of a line in the time step.
+pub fn in_time(grid: &StudyGrid, runs: &[StudyRun], line: usize) -> Option<(Limit, usize)> {
+    let done = runs.iter().filter(|run| run.line == line && run.status == RunStatus::Done);
+    let (h, q): (Vec<f64>, Vec<&[f64]>) =
+        distinct(done, grid.end_time).iter().map(|(h, run)| (*h, run.history.as_slice())).unzip();
+    let count = q.first()?.len() / (grid.samples + 1);
+    limit(&h, &q, count, grid.lines[line].order).map(|limit| (limit, count))
 }
 
 /// The limit of a line in the time step, and the limit of it and its coarser meshes in both time step and mesh.
 fn over_meshes(grid: &StudyGrid, runs: &[StudyRun], index: usize) -> Option<(Limit, Option<Limit>)> {
     let line = &grid.lines[index];
-    let of_line = |index: usize| {
-        let done = runs.iter().filter(|run| run.line == index && run.status == RunStatus::Done);
-        let (h, q): (Vec<f64>, Vec<&[f64]>) =
-            distinct(done, grid.end_time).iter().map(|(h, run)| (*h, run.history.as_slice())).unzip();
-        let count = q.first()?.len() / (grid.samples + 1);
-        limit(&h, &q, count, grid.lines[index].order).map(|limit| (limit, count))
-    };
+    let of_line = |index: usize| in_time(grid, runs, index);
     let (time, count) = of_line(index)?;
-    let same = |other: &StudyLine| {
-        other.scheme == line.scheme && other.method == line.method && other.automatic == line.automatic
-    };
+    let same = |other: &StudyLine| other.is_like(line) && other.beam_order == line.beam_order && !other.confirms;
     let meshes = grid.lines.iter().enumerate().filter(|(_, other)| same(other));
     let mut meshes: Vec<(f64, Limit)> =
         meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();
@@ -213,74 +172,4 @@ fn over_meshes(grid: &StudyGrid, runs: &[StudyRun], index: usize) -> Option<(Lim
     let in_time = meshes.iter().rev().take(2).map(|(_, limit)| limit.error_bound).fold(0.0, f64::max);
     mesh.error_bound += mesh.growth * in_time;
     Some((time, Some(mesh)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// q(h) = 1 + c hᵖ + d hᵖ⁺¹ at two times; the limit is 1.
-    fn runs(h: &[f64], p: f64, d: f64) -> Vec<Vec<f64>> {
-        h.iter().map(|h| vec![1.0 + 0.3 * h.powf(p) + d * h.powf(p + 1.0), 1.0 - 0.2 * h.powf(p)]).collect()
-    }
-
-    #[test]
-    fn the_bar_holds_the_error_of_the_limit() {
-        for p in [1.0, 1.5, 1.6, 2.0, 2.4, 3.0, 4.0] {
-            for h in [[0.4, 0.2, 0.1], [0.3, 0.2, 0.1], [0.3, 0.15, 0.1]] {
-                let runs = runs(&h, p, 0.2);
-                let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
-                let limit = limit(&h, &q, 1, f64::INFINITY).unwrap();
-                let error = history::error(&limit.q, &[1.0, 1.0], 1, |_| true);
-                let finest = history::error(&runs[2], &[1.0, 1.0], 1, |_| true);
-                assert!(error <= limit.error_bound, "order {p}, {h:?}: {error} of {}", limit.error_bound);
-                // It says more than the finest run itself, or not much less: at high orders the resolution above is far off.
-                let most = if p == p.round() && p < 4.0 { 1.0 } else { 3.0 };
-                assert!(limit.error_bound < most * finest, "order {p}, {h:?}: {} of {finest}", limit.error_bound);
-            }
-        }
-    }
-
-    #[test]
-    fn the_order_is_found_whatever_the_ratios() {
-        for (r1, r2) in [(2.0, 2.0), (1.5, 2.0), (3.0, 1.25)] {
-            for p in [0.7, 1.0, 2.0, 4.0] {
-                let (h0, h1, h2) = (r1 * r2, r2, 1.0_f64);
-                let difference = |a: f64, b: f64| a.powf(p) - b.powf(p);
-                let found = order(difference(h0, h1) / difference(h1, h2), r1, r2).unwrap();
-                // After 60 halvings of the interval from 0.4 to 12 only rounding is left.
-                assert!((found - p).abs() < 1e-9, "{found} for {p}");
-            }
-        }
-        assert_eq!(order(0.9, 2.0, 2.0), None);
-    }
-
-    #[test]
-    fn an_order_above_that_of_the_scheme_is_none() {
-        let runs = runs(&[0.4, 0.2, 0.1], 3.0, 0.0);
-        let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
-        let of = |most: f64| limit(&[0.4, 0.2, 0.1], &q, 1, most).unwrap();
-        assert_eq!((of(3.0).order, of(2.0).order), (Some(3.0), None));
-        assert_eq!((of(2.0).q.as_slice(), of(2.0).error_bound), (q[2], history::error(q[1], q[2], 1, |_| true)));
-    }
-
-    #[test]
-    fn runs_that_are_alike_resolve_no_more_than_rounding() {
-        let run = vec![1.0, 2.0];
-        let other = vec![1.1, 1.9];
-        for q in [vec![run.as_slice(); 2], vec![run.as_slice(); 3], vec![&other, &run, &run]] {
-            let h: Vec<f64> = (0..q.len()).rev().map(|k| 2f64.powi(k as i32)).collect();
-            let limit = limit(&h, &q, 1, f64::INFINITY).unwrap();
-            assert_eq!((limit.error_bound, limit.q), (ROUNDING, run.clone()));
-        }
-    }
-
-    #[test]
-    fn runs_without_an_order_are_their_own_bar() {
-        let runs = [vec![1.0, 2.0], vec![1.1, 1.9], vec![0.9, 2.2]];
-        let q: Vec<&[f64]> = runs.iter().map(Vec::as_slice).collect();
-        let limit = limit(&[4.0, 2.0, 1.0], &q, 1, f64::INFINITY).unwrap();
-        assert_eq!((limit.q.as_slice(), limit.order), (&runs[2][..], None));
-        assert_eq!(limit.error_bound, history::error(&runs[1], &runs[2], 1, |_| true));
-    }
 }

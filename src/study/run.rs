@@ -56,6 +56,8 @@ pub struct StudyRun {
     pub error: Option<f64>,
     /// The error of each quantity, relative to its own largest value.
     pub errors: Vec<f64>,
+    /// The bound of the error of the reference that it was judged by.
+    pub error_bound: f64,
     /// True where the error is well above that of the reference; otherwise `error` is a bound.
     pub resolved: bool,
     /// The values at the sample times one after the other, each time all quantities; empty where it failed.
@@ -75,7 +77,17 @@ pub struct Measured {
     pub factorizations: u64,
     /// The number of cutbacks.
     pub cuts: u64,
-    /// The seconds of the time stepping.
+    /// The number of runs besides, by which the error of automatic steps is known, ...
+    pub other_runs: u64,
+    /// ... their steps, ...
+    pub other_steps: u64,
+    /// ... iterations ...
+    pub other_iterations: u64,
+    /// ... and factorizations.
+    pub other_factorizations: u64,
+    /// The error that automatic steps say they leave.
+    pub estimate: Option<f64>,
+    /// The seconds of the time stepping, those of the other runs included.
     pub loop_s: f64,
 }
 
@@ -91,6 +103,7 @@ impl StudyRun {
         }
         let error = history::error(&self.history, reference, count, |_| true);
         self.errors = (0..count).map(|k| history::error(&self.history, reference, count, |i| i == k)).collect();
+        self.error_bound = error_bound;
         self.resolved = error >= RESOLVED * error_bound;
         self.error = Some(if self.resolved { error } else { error + error_bound }).filter(|error| error.is_finite());
     }
@@ -126,9 +139,39 @@ impl StudyRun {
             times: vec![measured.loop_s],
             error: None,
             errors: Vec::new(),
+            error_bound: 0.0,
             resolved: false,
             history: Vec::new(),
         })
+    }
+
+    /// A made-up run that has come to its end with this error.
+    #[cfg(test)]
+    pub fn made_up(line: usize, resolution: f64, loop_s: f64, error: Option<f64>, history: Vec<f64>) -> StudyRun {
+        StudyRun {
+            line,
+            resolution,
+            folder: String::new(),
+            status: RunStatus::Done,
+            reason: String::new(),
+            measured: Measured { steps: 1, loop_s, ..Measured::default() },
+            loop_s,
+            process_s: loop_s,
+            times: vec![loop_s],
+            error,
+            errors: Vec::new(),
+            error_bound: 0.0,
+            resolved: true,
+            history,
+        }
+    }
+
+    /// The range in which the error lies, given that of the reference.
+    pub fn error_range(&self) -> Option<[f64; 2]> {
+        // What is not resolved is stated as a bound, with that of the reference in it.
+        let beyond = if self.resolved { self.error_bound } else { 0.0 };
+        let below = if self.resolved { self.error_bound } else { 2.0 * self.error_bound };
+        self.error.map(|error| [(error - below).max(0.0), error + beyond])
     }
 
     /// Adds the times of one more repeat.
@@ -191,12 +234,18 @@ fn one_line(text: &str) -> String {
 pub fn measured(place: &Path) -> io::Result<Measured> {
     let result = result(place)?;
     let count = |key: &str| result["counts"][key].as_u64().unwrap_or(0);
+    let other = |key: &str| result["step_error"][key].as_u64().unwrap_or(0);
     Ok(Measured {
         unknowns: result["sizes"]["unknowns"].as_u64().unwrap_or(0),
         steps: count("steps"),
         iterations: count("iterations"),
         factorizations: count("factorizations"),
         cuts: count("cuts"),
+        other_runs: other("other_runs"),
+        other_steps: other("other_steps"),
+        other_iterations: other("other_iterations"),
+        other_factorizations: other("other_factorizations"),
+        estimate: result["step_error"]["estimate"].as_f64(),
         loop_s: result["timings"]["loop_s"].as_f64().unwrap_or(f64::NAN),
     })
 }

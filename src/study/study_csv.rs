@@ -1,16 +1,18 @@
 //! study.csv: a row for each run.
 
+use super::cells::{field, float, maybe};
 use super::found::Found;
-use super::grid::float;
 use super::order::local;
 use super::run::StudyRun;
 
 /// The columns, behind which the errors of the quantities stand.
-const COLUMNS: [&str; 22] = [
+const COLUMNS: [&str; 29] = [
     "run",
     "scheme",
     "method",
+    "iteration_tolerance",
     "mesh",
+    "beam_order",
     "unknowns",
     "time_step",
     "error_tolerance",
@@ -27,19 +29,14 @@ const COLUMNS: [&str; 22] = [
     "iterations",
     "factorizations",
     "cuts",
+    "other_runs",
+    "other_steps",
+    "other_iterations",
+    "other_factorizations",
+    "estimate",
     "folder",
     "reason",
 ];
-
-/// The text of a number; empty where there is none, or it is not finite.
-pub fn maybe(number: Option<f64>) -> String {
-    number.filter(|number| number.is_finite()).map_or(String::new(), float)
-}
-
-/// A text as a field, quoted where it must be (RFC 4180).
-pub fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
 
 /// The text of study.csv.
 pub fn table(found: &Found) -> String {
@@ -53,12 +50,15 @@ pub fn table(found: &Found) -> String {
         before = Some(run);
         let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
         let m = &run.measured;
+        let other = |number: u64| if line.automatic { count(number) } else { String::new() };
         let resolved = run.error.map_or("", |_| if run.resolved { "1" } else { "0" });
         let mut row = vec![
             (index + 1).to_string(),
             field(&line.scheme),
             line.method.clone(),
+            float(line.iteration_tolerance),
             float(line.mesh),
+            line.beam_order.map_or(String::new(), |order| order.to_string()),
             count(m.unknowns),
             if line.automatic { String::new() } else { float(run.resolution) },
             if line.automatic { float(run.resolution) } else { String::new() },
@@ -75,6 +75,11 @@ pub fn table(found: &Found) -> String {
             count(m.iterations),
             count(m.factorizations),
             count(m.cuts),
+            other(m.other_runs),
+            other(m.other_steps),
+            other(m.other_iterations),
+            other(m.other_factorizations),
+            maybe(m.estimate),
             run.folder.clone(),
             field(&run.reason),
         ];

@@ -1,10 +1,15 @@
 //! A study in words: the table of runs, measured orders, the cheapest setting.
 
+use super::cells::seconds;
+use super::cheapest::Cheapest;
 use super::columns::columns;
+use super::confirmation::Confirmation;
 use super::found::Found;
-use super::grid::StudyLine;
-use super::order::{Cheapest, Order, local};
+use super::lines::StudyLine;
+use super::order::{Order, local};
 use super::run::{RunStatus, StudyRun, spread};
+use super::section::Section;
+use super::{asked, joint, phase};
 use crate::names::short;
 
 /// The header of the table of runs.
@@ -20,15 +25,6 @@ pub fn error(run: &StudyRun) -> String {
     }
 }
 
-/// Seconds to three digits.
-pub fn seconds(seconds: f64) -> String {
-    match seconds {
-        s if s < 0.0995 => format!("{s:.4}"),
-        s if s < 9.95 => format!("{s:.3}"),
-        s => format!("{s:.1}"),
-    }
-}
-
 /// The cells of all runs, in the columns of [`HEAD`].
 pub fn cells(found: &Found) -> Vec<Vec<String>> {
     let mut before: Option<&StudyRun> = None;
@@ -37,7 +33,12 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
         let line = &found.grid.lines[run.line];
         let order = local(before.filter(|before| before.line == run.line), run);
         before = Some(run);
-        let count = |number: u64| if run.measured.steps > 0 { number.to_string() } else { String::new() };
+        // Those of the other runs of automatic steps stand apart: "120 + 340".
+        let count = |own: u64, others: u64| match run.measured.steps {
+            0 => String::new(),
+            _ if others > 0 => format!("{own} + {others}"),
+            _ => own.to_string(),
+        };
         let cuts = if run.measured.cuts > 0 { format!(", {} cuts", run.measured.cuts) } else { String::new() };
         let status = match run.status {
             RunStatus::Done => format!("done{cuts}"),
@@ -45,22 +46,17 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
         };
         rows.push(vec![
             line.label.clone(),
-            resolution(line, run.resolution),
+            line.resolution(run.resolution),
             error(run),
             order.map_or(String::new(), |order| format!("{order:.2}")),
             if run.measured.steps > 0 { seconds(run.loop_s) } else { String::new() },
             seconds(run.process_s),
-            count(run.measured.iterations),
-            count(run.measured.factorizations),
+            count(run.measured.iterations, run.measured.other_iterations),
+            count(run.measured.factorizations, run.measured.other_factorizations),
             status,
         ]);
     }
     rows
-}
-
-/// A time step as a number, or a tolerance, which is marked as one.
-pub fn resolution(line: &StudyLine, resolution: f64) -> String {
-    if line.automatic { format!("tol {}", short(resolution)) } else { short(resolution) }
 }
 
 /// The measured order of a line: "1.99 over time steps 0.01 to 0.00125 (4 runs)", or why there is none.
@@ -89,8 +85,12 @@ pub fn reference(found: &Found) -> String {
     let (samples, count) = (found.grid.samples + 1, found.quantities.len());
     let against = match &found.reference {
         Err(reason) => return format!("no reference: {reason}"),
-        Ok(reference) if reference.error_bound > 0.0 => {
-            format!("{}; its own error is at most about {:.1e}", reference.source, reference.error_bound)
+        Ok(reference) if reference.error_bound > 0.0 || reference.confirmation != Confirmation::None => {
+            let known = match reference.error_bound {
+                bound if bound > 0.0 => format!("; its own error is at most about {bound:.1e}"),
+                _ => String::new(),
+            };
+            format!("{}{known}; {}", reference.source, reference.confirmation.in_words())
         }
         Ok(reference) => reference.source.clone(),
     };
@@ -140,11 +140,34 @@ pub fn text(found: &Found) -> String {
         let rows: Vec<Vec<String>> = list
             .iter()
             .map(|of| {
-                let times = format!("x {:.2}", of.loop_s / list[0].loop_s);
-                vec![format!("  {}", label(of.line)), times, cost(&found.grid.lines[of.line], of)]
+                let line = &found.grid.lines[of.line];
+                vec![format!("  {}", label(of.line)), rank(of, list), cost(line, of)]
             })
             .collect();
         text += &columns(&rows, 1);
     }
+    for section in sections(found) {
+        text += &section.text();
+    }
     text
+}
+
+/// How dear a line is beside the cheapest: "x 1.35", or that the two are equal within noise.
+pub fn rank(of: &Cheapest, list: &[Cheapest]) -> String {
+    let times = of.loop_s / list[0].loop_s;
+    let equal = match list {
+        [first, others @ ..] if first.line == of.line => others.iter().any(|other| other.equals(first)),
+        [first, ..] => of.equals(first),
+        [] => false,
+    };
+    if equal { format!("x {times:.2}, equal within noise") } else { format!("x {times:.2}") }
+}
+
+/// What a study says besides: asked and reached errors, mesh and step together, phase and amplitude.
+pub fn sections(found: &Found) -> [Section; 3] {
+    [
+        asked::section(&found.grid, &found.asked),
+        joint::section(&found.joints),
+        phase::section(&found.grid, &found.runs, &found.phases, &found.quantities),
+    ]
 }

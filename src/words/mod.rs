@@ -3,6 +3,7 @@
 
 mod directions;
 pub mod kinds;
+mod ladder;
 mod named;
 mod number_or_auto;
 mod numbers;
@@ -10,6 +11,7 @@ mod one_or_many;
 mod table;
 
 pub use directions::Directions;
+pub use ladder::{Ladder, PER_DECADE, Rungs, rungs};
 pub use named::Named;
 pub use number_or_auto::NumberOrAuto;
 pub use numbers::{Numbers, Vector};

@@ -40,4 +40,4 @@ pub use part::{Part, PartType, quantities_of};
 pub use part_answers::{Drawing, LinearSpring, NodeWeights};
 pub use shell::{Shell, ShellElement};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, FIRST_STEP, StepLength};
-pub use study::{Choice, Quantity, Study};
+pub use study::{Choice, Confirm, Quantity, Study};

@@ -1,0 +1,34 @@
+//! What `rdsolve study --recommend` goes over where neither the deck nor the command says it: the default time steps, and
+//! automatic steps around the error that is wanted, with a reference that another family confirms.
+
+use crate::model::{AnalysisKind, Model};
+use crate::study::follows_tolerance;
+use crate::words::rungs;
+
+/// Halvings of the longest default time step.
+const HALVINGS: u64 = 6;
+
+/// The overrides of `[study]` that complete it for an error.
+pub fn defaults(model: &Model, wanted: f64) -> Vec<String> {
+    let study = model.study.clone().unwrap_or_default();
+    let mut sets = Vec::new();
+    let is_dynamic = model.analysis.kind != AnalysisKind::Static;
+    if study.time_steps.is_empty() && study.halvings == 0 && study.error_tolerances.is_empty() {
+        sets.push(format!("study.halvings={HALVINGS}"));
+        let mut listed = study.schemes.iter().map(|choice| &choice.scheme);
+        let follows = match study.schemes[..] {
+            [] => follows_tolerance(&*model.solution.scheme),
+            _ => listed.all(|scheme| follows_tolerance(&**scheme)),
+        };
+        // From three times the error wanted to a tenth of it: automatic steps err by less than asked for, or by more.
+        let tolerances = rungs(wanted * 10f64.sqrt(), wanted / 10.0, 2);
+        let tolerances: Vec<f64> = tolerances.into_iter().filter(|tolerance| *tolerance < 1.0).collect();
+        if is_dynamic && follows && !tolerances.is_empty() {
+            sets.push(format!("study.error_tolerances={tolerances:?}"));
+        }
+    }
+    if is_dynamic && study.confirm.is_none() && study.reference.is_none() {
+        sets.push("study.confirm=\"auto\"".to_owned());
+    }
+    sets
+}

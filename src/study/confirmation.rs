@@ -1,0 +1,44 @@
+//! What a scheme of another family says of a reference: what one family gets wrong, whatever the step, its own finer runs cannot
+//! tell.
+
+/// What a scheme of another family says of a reference.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Confirmation {
+    /// Nothing: none has been run.
+    None,
+    /// None has an answer; the label of the line that was to give one.
+    Failed(String),
+    /// It tends to the same as far as both are known.
+    Agrees(Difference),
+    /// It tends to something else.
+    Disagrees(Difference),
+}
+
+/// How far two answers are apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// The label of the line that gives the other answer.
+    pub label: String,
+    /// The error of one answer against the other.
+    pub apart: f64,
+    /// What the bounds of both allow.
+    pub allowed: f64,
+}
+
+impl Confirmation {
+    /// It in words, behind those about the reference.
+    pub fn in_words(&self) -> String {
+        match self {
+            Confirmation::None => "not confirmed by a scheme of another family (--confirm)".to_owned(),
+            Confirmation::Failed(label) => format!("not confirmed: {label} did not come to an answer"),
+            Confirmation::Agrees(of) => {
+                format!("confirmed by {}, which tends to the same within {:.1e}", of.label, of.apart)
+            }
+            Confirmation::Disagrees(of) => format!(
+                "CONTRADICTED by {}, which tends to something {:.1e} away where the errors of both explain {:.1e}: \
+                 one of the two is wrong, so do not rely on errors below this; take finer steps, and see which one moves",
+                of.label, of.apart, of.allowed
+            ),
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Families of schemes. What two of a family have in common may be wrong in both; a scheme of another is an independent answer.
+
+use crate::integrators::{Scheme, Stepping};
+
+/// A family of schemes: those whose steps are made alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// Equilibrium once a step: Newmark's and its kin.
+    OneStage,
+    /// Two stages, the second by backward differences.
+    Composite,
+    /// Diagonally implicit Runge-Kutta.
+    DiagonallyImplicit,
+    /// Central differences.
+    Verlet,
+    /// Explicit Runge-Kutta.
+    RungeKutta,
+}
+
+impl Family {
+    /// The family that a scheme belongs to.
+    pub fn of(scheme: &dyn Scheme) -> Family {
+        match scheme.stepping() {
+            Stepping::OneStage => Family::OneStage,
+            Stepping::Composite(_) => Family::Composite,
+            Stepping::DiagonallyImplicit(_) => Family::DiagonallyImplicit,
+            Stepping::Verlet => Family::Verlet,
+            Stepping::RungeKutta(_) => Family::RungeKutta,
+        }
+    }
+}
