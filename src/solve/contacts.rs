@@ -25,7 +25,7 @@ pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) ->
     if !cx.system.has_contacts() {
         return Ok(());
     }
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
     cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
 }
 

@@ -126,7 +126,7 @@ pub struct Increment {
 impl State {
     /// The configuration of the state itself, at the time that it holds.
     pub fn configuration(&self) -> Configuration<'_> {
-        Configuration { nodes: &self.nodes, history: &self.history, dt: 0.0 }
+        Configuration { nodes: &self.nodes, history: &self.history, dt: 0.0, lead: None }
     }
 }
 
@@ -161,12 +161,18 @@ pub struct Configuration<'a> {
     pub history: &'a [f64],
     /// Time from that state to this instant.
     pub dt: f64,
+    /// The iterate before, whose velocities are the correction that led here; `None` where there is none.
+    ///
+    /// A correction turns slender parts on straight lines and so stretches them: the stress of the iterate is far from that of the
+    /// equilibrium which the matrix leads to, and so is its geometric stiffness. Stresses that are extrapolated linearly from the iterate
+    /// before are not (D. Magisano, L. Leonetti, G. Garcea, Comput. Methods Appl. Mech. Engrg 313 (2017), 271-289).
+    pub lead: Option<&'a [Node]>,
 }
 
 impl<'a> Configuration<'a> {
     /// A configuration without history variables: all materials are elastic.
     pub fn of(nodes: &'a [Node]) -> Self {
-        Configuration { nodes, history: &[], dt: 0.0 }
+        Configuration { nodes, history: &[], dt: 0.0, lead: None }
     }
 }
 

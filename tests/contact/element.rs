@@ -70,7 +70,7 @@ fn touch(
     let block = Contacts::new(law, surface, 0, vec![point]);
     let mut past = vec![0.0; block.history()];
     let nothing = past.clone();
-    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0 }, 1.0, &mut past);
+    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, lead: None }, 1.0, &mut past);
 
     // Now it has gone a bit on, with everything turned and moving.
     let turn = exp(&vector(rng, 0.1));

@@ -179,11 +179,15 @@ fn layers_have_the_tangent_of_their_stress() {
             let (first, second) = (moved(0.02), moved(0.02));
             let mut history = vec![0.0; block.history()];
             let past = history.clone();
-            block.update_history(&Configuration { nodes: &first, history: &past, dt: 1.0 }, 1.0, &mut history);
+            block.update_history(
+                &Configuration { nodes: &first, history: &past, dt: 1.0, lead: None },
+                1.0,
+                &mut history,
+            );
             assert!(block.plastic_strain(0, &history) > 0.0, "round {round} yields nowhere");
             let n = 6 * mesh.x.len();
             let mut K = vec![0.0; n * n];
-            let base = Configuration { nodes: &second, history: &history, dt: 1.0 };
+            let base = Configuration { nodes: &second, history: &history, dt: 1.0, lead: None };
             block.tangent(0, &base, 0.0, Moduli::Algorithmic, &mut K);
             let scale = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
             let h = 1e-6; // truncation h² and 1e-16/h, and a layer at its yield limit is met with small chance
@@ -223,7 +227,7 @@ fn layers_that_do_not_yield_are_elastic() {
             })
             .collect();
         let history = vec![0.0; layered.history()];
-        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0 };
+        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0, lead: None };
         let (a, b) = (forces(&*layered, &now), forces(&*elastic, &now));
         let size = a.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
         assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12 * size));

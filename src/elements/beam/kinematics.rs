@@ -104,6 +104,23 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         GaussPoint { p, dp, dr, R, inv, gamma, kappa }
     }
 
+    /// The strains Γ and κ from which the stress of a tangent follows: those extrapolated from the iterate before, see
+    /// [`Configuration::lead`](crate::state::Configuration), or those of the point.
+    #[inline(always)]
+    pub(super) fn leading_strains(
+        &self,
+        element: &Beam<N, S>,
+        g: usize,
+        point: &GaussPoint,
+        lead: Option<&[Node]>,
+    ) -> (Vec3, Vec3) {
+        let Some(nodes) = lead else { return (point.gamma, point.kappa) };
+        let motion = self.gather(element, nodes);
+        let before = self.interpolate(element, g, &motion);
+        let (gamma, kappa, _) = self.rates(element, g, &before, &motion.0, nodes);
+        (before.gamma + gamma, before.kappa + kappa)
+    }
+
     /// Strain rates Γ̇ and κ̇ for the velocities of the nodes, and ż, from which they follow.
     #[inline(always)]
     pub(super) fn rates(

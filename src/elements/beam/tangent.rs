@@ -296,7 +296,8 @@ pub(super) fn tangent<const N: usize, S: BeamSection, const DAMPED: bool>(
     for g in 0..beams.integration_points() {
         let point = beams.interpolate(element, g, &motion);
         let mut place = BeamStiffness::ZERO;
-        let (mut n, mut m, C) = element.section.linearise(g, (&point.gamma, &point.kappa), now, moduli, &mut place);
+        let (gamma, kappa) = beams.leading_strains(element, g, &point, now.lead);
+        let (mut n, mut m, C) = element.section.linearise(g, (&gamma, &kappa), now, moduli, &mut place);
         let B = strain_matrix(element, &point).rows(&point.R);
         let CB = C.times(&B);
         let mut h = transpose_product(&B, &CB);

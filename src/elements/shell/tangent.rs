@@ -149,7 +149,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, cons
 {
     let element = &shells.elements[e];
     let motion = element.gather(now.nodes);
-    let strains = element.strains::<T>(&motion);
+    let strains = element.leading_strains::<T>(&motion, now.lead);
     let mut place = ShellStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
     let (shear, drill) = element.shear_and_drilling(&strains);

@@ -184,7 +184,7 @@ impl Accelerations {
             ws.trial[node].alpha += angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 
@@ -198,7 +198,7 @@ impl Accelerations {
 /// Forms and factorizes the matrix of masses and joints in the trial motion.
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
     let weights = TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
     ws.factorizations += 1;

@@ -152,7 +152,7 @@ impl CentralDifferenceStepper {
         // coupled.
         let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
         loop {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
             cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
             evaluations += 1;
             self.accelerations.solve(cx, ws, state, true)?;
@@ -231,12 +231,12 @@ impl CentralDifferenceStepper {
         if cx.wants_forces {
             self.accelerations.update_reactions(cx, ws, state, dt);
             if cx.system.is_damped() {
-                let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+                let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
                 account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
             }
         }
         if cx.system.history > 0 {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
             account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
         }
         account

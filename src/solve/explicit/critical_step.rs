@@ -333,7 +333,7 @@ impl CriticalStep {
             ws.trial[node].advance(start, &ws.increments[node], RotationUpdate::Exponential);
         }
         update_dependent_nodes(cx, ws, &self.place);
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 

@@ -55,7 +55,7 @@ fn account(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, dt: f
     } else {
         differentiate(cx, ws, state, stage);
     }
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: stage.scheme.instant * dt };
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: stage.scheme.instant * dt, lead: None };
     let mut account = Account { damping_power: Some(0.0), ..Account::default() };
     if cx.wants_forces {
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);

@@ -145,7 +145,7 @@ impl ArcLengthConstraint {
         for side in [1.0, -1.0] {
             excite(cx, ws, state.time, to + side * h, 1.0);
             move_trial(cx, ws, state, &Stage::from(&scheme));
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0 };
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
             cx.system.residual(&now, &ws.loads.instant, &mut self.forces);
             for (rate, &(node, dof)) in self.rate.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
                 *rate += side * self.forces.on_nodes[node][dof] / (2.0 * h);

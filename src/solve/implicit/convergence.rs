@@ -2,7 +2,8 @@
 
 /// Judges the corrections of a step.
 pub struct Convergence {
-    tolerance: f64,
+    /// Tolerances of the correction and of the residual.
+    tolerances: [f64; 2],
     /// True where the scene is linear: one correction is exact.
     exact: bool,
     last: Option<Correction>,
@@ -35,9 +36,9 @@ pub struct Judgement {
 }
 
 impl Convergence {
-    /// A criterion with a relative tolerance; the first correction is judged by the `usual` contraction.
-    pub fn new(tolerance: f64, exact: bool, usual: f64) -> Self {
-        Convergence { tolerance, exact, last: None, usual, stagnant: 0 }
+    /// A criterion with relative tolerances of the correction and of the residual; the first correction is judged by the `usual` contraction.
+    pub fn new(tolerances: [f64; 2], exact: bool, usual: f64) -> Self {
+        Convergence { tolerances, exact, last: None, usual, stagnant: 0 }
     }
 
     /// Forgets the corrections so far, after a return to the prediction.
@@ -45,12 +46,17 @@ impl Convergence {
         (self.last, self.stagnant) = (None, 0);
     }
 
-    /// Judges a correction of this relative size, which answered this relative residual.
-    pub fn judge(&mut self, size: f64, residual: f64) -> Judgement {
+    /// Judges a correction of this relative size, which answered this relative residual. With `quadratic`, its matrix is that of the
+    /// iterate: the residual of a short correction is of second order in it.
+    pub fn judge(&mut self, size: f64, residual: f64, quadratic: bool) -> Judgement {
         let contraction = match self.last {
             _ if self.exact => 0.0,
             None => self.usual,
             Some(last) => (size / last.size).max(residual / last.residual),
+        };
+        let contraction_of_residual = match self.last {
+            Some(last) if quadratic => contraction.min(10.0 * (size / last.size).powi(2)),
+            _ => contraction,
         };
         self.stagnant = match self.last {
             Some(last) if residual > 0.5 * last.residual => self.stagnant + 1,
@@ -59,9 +65,10 @@ impl Convergence {
         };
         // The corrections to come are a geometric series; the next residual contracts likewise.
         let error = contraction / (1.0 - contraction) * size;
-        let left = error.max(contraction * residual);
+        let [tolerance, of_residual] = self.tolerances;
+        let left = error.max(contraction_of_residual * residual * (tolerance / of_residual));
         let seen = self.last.replace(Correction { size, residual }).is_some();
-        Judgement { contraction, stagnant: self.stagnant, seen, left, tolerance: self.tolerance }
+        Judgement { contraction, stagnant: self.stagnant, seen, left, tolerance }
     }
 }
 

@@ -8,27 +8,34 @@ const UNKNOWN: f64 = 0.5;
 const TRUST: f64 = 1.5;
 
 /// The end of the iteration.
+#[derive(Clone, Copy)]
 pub struct Ending {
-    /// Relative tolerance of residual and correction.
+    /// Relative tolerance of the correction.
     pub tolerance: f64,
+    /// Relative tolerance of the residual.
+    pub residual: f64,
     /// The tolerance of the deck, below which none goes.
     least: f64,
     /// The contraction seen last; none is carried from step to step where every step is iterated to the digits of the deck.
     contraction: Option<f64>,
-    carries: bool,
+    /// True where steps are iterated to a part of their error.
+    pub carries: bool,
 }
 
 impl Ending {
     /// Every step is iterated to this tolerance.
     pub fn new(tolerance: f64) -> Ending {
-        Ending { tolerance, least: tolerance, contraction: None, carries: false }
+        Ending { tolerance, residual: tolerance, least: tolerance, contraction: None, carries: false }
     }
 
     /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.
     pub fn follow(&mut self, error: f64) {
         /// The iteration adds little to the error of the step, for its own is of one sign where matrices are kept.
         const PART: f64 = 0.01;
+        /// Forces follow the motion: those of stiff parts are far from it long before the motion is, and no step builds on them.
+        const PART_OF_FORCES: f64 = 0.1;
         (self.tolerance, self.carries) = (self.least.max(PART * error), true);
+        self.residual = self.least.max(PART_OF_FORCES * error);
         self.contraction = None;
     }
 

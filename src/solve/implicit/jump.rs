@@ -71,7 +71,7 @@ pub fn check_work(
         // The work of rounding is none.
         return Ok(());
     }
-    let end = Configuration { nodes: &ws.trial, history: &ws.history, dt: 0.0 };
+    let end = Configuration { nodes: &ws.trial, history: &ws.history, dt: 0.0, lead: None };
     let before = match ws.load_steps.stored {
         Some((time, energy)) if time == state.time => energy,
         _ => cx.system.stored_energy(&state.configuration(), cx.plan.threads),

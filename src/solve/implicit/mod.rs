@@ -8,6 +8,7 @@ mod convergence;
 mod correction;
 mod ending;
 mod jump;
+mod lead;
 mod line_search;
 mod mechanism;
 mod mode;

@@ -8,6 +8,7 @@ use super::convergence::{Convergence, Judgement};
 use super::correction::{correct, is_rounding, relative, size_of_correction};
 use super::ending::Ending;
 use super::jump;
+use super::lead::Lead;
 use super::line_search::LineSearch;
 use super::mechanism;
 use super::refresh::{Advice, Refresh};
@@ -41,6 +42,8 @@ pub struct Newton {
     pub mass_weight: f64,
     /// When the iteration ends.
     pub ending: Ending,
+    /// The iterate from which stresses are extrapolated.
+    lead: Lead,
     /// The number of elements that were open when a matrix was last searched for mechanisms; none before the first of the run.
     searched: Option<usize>,
     /// The part that has opened or gone slack last.
@@ -55,6 +58,8 @@ pub struct Newton {
 struct Progress {
     report: StepReport,
     convergence: Convergence,
+    /// True where the matrix was formed for the iterate at hand.
+    new_matrix: bool,
     /// Number of iterations after which the step is given up.
     limit: usize,
     /// Relative error of the time where it is unknown; loads are curves over it.
@@ -75,7 +80,8 @@ impl Progress {
     fn begin(cx: &Context, to: f64, exact: bool, ending: &Ending) -> Progress {
         Progress {
             report: StepReport::begin(to),
-            convergence: Convergence::new(ending.tolerance, exact, ending.usual()),
+            convergence: Convergence::new([ending.tolerance, ending.residual], exact, ending.usual()),
+            new_matrix: false,
             limit: cx.model.solution.iteration.limit,
             time_error: 0.0,
         }
@@ -118,6 +124,7 @@ impl Newton {
             line_search: searches.then(line_search),
             projection: ConstraintProjection::for_motion(cx)?,
             mass_weight: 0.0,
+            lead: Lead::new(cx),
             ending: Ending::new(model.solution.iteration.tolerance),
             searched: None,
             opened: None,
@@ -161,6 +168,31 @@ impl Newton {
         let report = self.equilibrate(cx, ws, state, stage, to, None)?;
         contacts::check_passage(cx, ws, state, ahead)?;
         Ok(report)
+    }
+
+    /// Finds an equilibrium inside a step that was taken, as [`Newton::find`]: what is learnt there of matrices and contraction does not
+    /// count for the steps.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn find_inside(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        let inside = self.refresh.inside();
+        let (refresh, ending) = (std::mem::replace(&mut self.refresh, inside), self.ending);
+        let found = self.find(cx, ws, state, stage, to);
+        (self.refresh, self.ending) = (refresh, ending);
+        match &found {
+            Ok(report) if report.factorizations == 0 => {}
+            Ok(report) => self.refresh.done(matrix_key(stage.scheme, report.to - state.time)),
+            Err(_) => self.discard_matrix(),
+        }
+        found
     }
 
     /// Writes the prediction of a step and forgets earlier corrections.
@@ -213,6 +245,7 @@ impl Newton {
     /// Discards the matrix at hand, which belongs to a motion that was not taken or to other loads.
     pub fn discard_matrix(&mut self) {
         self.refresh.rejected();
+        self.lead.forget();
     }
 
     /// Finds the motion from `state` to its equilibrium at the time `to`, from the increments at hand. Under a
@@ -235,6 +268,7 @@ impl Newton {
             Ok(report) => {
                 ws.load_steps.peak.keep(report.residual);
                 self.refresh.accepted(report.iterations);
+                self.lead.arrive();
             }
             Err(_) => self.discard_matrix(),
         }
@@ -266,7 +300,9 @@ impl Newton {
             if self.shorten_correction(cx, ws, progress.report.residual) {
                 continue;
             }
+            let formed = progress.report.factorizations;
             self.refresh_matrix(cx, ws, state, stage, &mut progress.report)?;
+            progress.new_matrix = progress.report.factorizations > formed;
             self.solve(cx, ws, progress.report.residual);
             if let Some((constraint, condition)) = &mut constraint {
                 let to = constraint.close(cx, ws, state, progress.report.to, *condition)?;
@@ -293,9 +329,12 @@ impl Newton {
         let residual = &ws.r[..cx.nodal_unknowns()];
         let values = &mut ws.forces.multipliers.values;
         let shortened = line_search.shorten(residual, size, &mut ws.increments, values);
-        if shortened && let Some(anderson) = &mut self.anderson {
-            // The correction that was combined is no longer the one that was applied.
-            anderson.forget();
+        if shortened {
+            // The correction that was combined, or extrapolated with, is no longer the one that was applied.
+            self.lead.restart();
+            if let Some(anderson) = &mut self.anderson {
+                anderson.forget();
+            }
         }
         shortened
     }
@@ -335,7 +374,7 @@ impl Newton {
     ) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
         self.mass_weight = acceleration;
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: self.lead.nodes() };
         let mut moduli = self.refresh.moduli();
         // What lifts off, or goes slack, may leave a mechanism behind.
         let open = if cx.is_dynamic() { 0 } else { mechanism::open_elements(cx.system, &now) };
@@ -396,6 +435,7 @@ impl Newton {
     fn correct(&mut self, cx: &Context, ws: &mut Workspace) -> (Size, Size) {
         // A combined correction may be small by chance; the plain one tells how far there is to go.
         let plain = self.line_search.is_some().then(|| self.mix_corrections(cx, ws));
+        self.lead.keep(cx, ws);
         let (correction, motion) = correct(cx, ws);
         (plain.map_or(correction, |plain| plain.or_not_finite(correction)), motion)
     }
@@ -424,15 +464,17 @@ impl Newton {
         motion: Size,
         progress: &mut Progress,
     ) -> Result<Verdict, Failure> {
-        let Progress { report, convergence, limit, time_error } = progress;
+        let Progress { report, convergence, new_matrix, limit, time_error } = progress;
         report.iterations += 1;
         let size = relative(cx, correction, motion);
         if !size.is_finite() {
             return Err(residual::not_finite(cx, ws));
         }
         let fresh = report.factorizations > 0;
-        let judgement = convergence.judge(size, report.residual);
+        let quadratic = *new_matrix && self.ending.carries && cx.system.history == 0;
+        let judgement = convergence.judge(size, report.residual, quadratic);
         self.ending.note(&judgement);
+        self.refresh.note(report.iterations, fresh, size, &judgement);
         if *time_error <= self.ending.tolerance
             && self.has_converged(cx, ws, correction, (fresh, report.iterations >= *limit), report.residual, &judgement)
         {
@@ -475,6 +517,7 @@ impl Newton {
     }
 
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut Progress) {
+        self.lead.restart();
         self.predict(cx, ws, state, stage);
         progress.convergence.forget();
     }
@@ -510,7 +553,7 @@ impl Newton {
 fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, to: f64) -> f64 {
     motion::move_trial(cx, ws, state, stage);
     let ahead = stage.scheme.instant * (to - state.time);
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
     let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     let scale = if cx.is_dynamic() { scale } else { ws.load_steps.peak.scale(scale) };
     residual::gather(cx, ws, &scale)

@@ -21,6 +21,10 @@ pub struct Refresh {
     /// Number of steps still to start with a fresh matrix, and the number to ask for when an old one misleads next.
     eager: usize,
     next_eager: usize,
+    /// Size of a correction beyond which the matrix that gave it is of no more use, as far as was seen.
+    stale_beyond: f64,
+    /// Size of the first correction of the iteration at hand, where its matrix was formed for it.
+    first: Option<f64>,
     /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
     fresh_matrix_required: bool,
 }
@@ -48,6 +52,8 @@ impl Refresh {
             excess: 0,
             eager: 0,
             next_eager: 1,
+            stale_beyond: f64::INFINITY,
+            first: None,
             fresh_matrix_required: false,
         }
     }
@@ -74,12 +80,42 @@ impl Refresh {
         }
     }
 
+    /// The rule inside a step that was taken: the matrix at hand leads, whatever the deck asks for.
+    pub fn inside(&self) -> Refresh {
+        let update = if self.update == Update::Never { Update::Never } else { Update::Auto };
+        Refresh { update, eager: 0, wanted: false, ..self.clone() }
+    }
+
     /// Notes that a matrix has been formed for this step length.
     pub fn done(&mut self, dt: f64) {
         self.dt = Some(dt);
         self.baseline = None;
         self.excess = 0;
         self.wanted = false;
+    }
+
+    /// Takes account of a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the
+    /// matrix before it contracts no more: how far is learnt from those that did not.
+    pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
+        const USELESS: f64 = 0.3;
+        const USEFUL: f64 = 0.05;
+        const SHARE: f64 = 0.8;
+        /// What was useless once is tried again by and by.
+        const GROWTH: f64 = 1.02;
+        if self.update != Update::Auto || self.method == Method::InitialLoad {
+            return;
+        }
+        if count == 1 {
+            self.stale_beyond *= GROWTH;
+            self.first = fresh.then_some(size).filter(|_| size <= self.stale_beyond);
+            self.wanted |= fresh && size > self.stale_beyond;
+        } else if let Some(first) = self.first.take() {
+            if judgement.contraction > USELESS {
+                self.stale_beyond = self.stale_beyond.min(SHARE * first);
+            } else if judgement.contraction < USEFUL {
+                self.stale_beyond = self.stale_beyond.max(first);
+            }
+        }
     }
 
     /// Judges the matrix after a correction that was compared with another of the same step. `fresh`: the matrix was

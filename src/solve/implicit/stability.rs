@@ -79,7 +79,7 @@ impl Stability {
             return false;
         }
         let Workspace { matrix, forces, loads, trial, history, warnings, .. } = ws;
-        let end = Configuration { nodes: &state.nodes, history, dt: state.time - from };
+        let end = Configuration { nodes: &state.nodes, history, dt: state.time - from, lead: None };
         let own = self.own.is_some();
         let matrix = self.own.as_deref_mut().unwrap_or(matrix);
         let mut tangent =
@@ -106,7 +106,7 @@ impl Stability {
         if !suspicious {
             return false;
         }
-        let start = Configuration { nodes: trial, history, dt: 0.0 };
+        let start = Configuration { nodes: trial, history, dt: 0.0, lead: None };
         let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
         if let Some(instability) = tangent.locate(cx, &ends) {
             warnings.add(Warning::Unstable(instability));

@@ -1,0 +1,70 @@
+//! The iterate from which stresses are extrapolated to the one at hand, see [`Configuration::lead`](crate::state::Configuration).
+
+use crate::math::{Vec6, angular, linear};
+use crate::solve::context::Context;
+use crate::solve::workspace::Workspace;
+use crate::state::Node;
+
+/// The iterate before, and the one that led to the last equilibrium, from which predictions start. It is allocated once, where elements
+/// turn.
+pub struct Lead {
+    last: Iterate,
+    of_equilibrium: Iterate,
+    corrections: Vec<Vec6>,
+}
+
+/// Motion with a correction in place of its velocities.
+#[derive(Clone)]
+struct Iterate {
+    nodes: Vec<Node>,
+    known: bool,
+}
+
+impl Lead {
+    /// Room for the iterates of a scene; none where its tangent is constant.
+    pub fn new(cx: &Context) -> Lead {
+        let count = if cx.plan.linear { 0 } else { cx.model.nodes.len() };
+        let nodes = cx.model.nodes.iter().take(count).map(|node| Node::at_rest(node.x)).collect();
+        let last = Iterate { nodes, known: false };
+        Lead { of_equilibrium: last.clone(), last, corrections: vec![Vec6::zeros(); count] }
+    }
+
+    /// Forgets what led to nothing.
+    pub fn forget(&mut self) {
+        (self.last.known, self.of_equilibrium.known) = (false, false);
+    }
+
+    /// Goes back to the last equilibrium, as the iteration goes back to its prediction.
+    pub fn restart(&mut self) {
+        self.last.known = false;
+    }
+
+    /// Takes the iterate before as the one that led to an equilibrium.
+    pub fn arrive(&mut self) {
+        if std::mem::take(&mut self.last.known) {
+            std::mem::swap(&mut self.last, &mut self.of_equilibrium);
+            self.of_equilibrium.known = true;
+        }
+    }
+
+    /// The iterate before, with the correction in place of its velocities.
+    pub fn nodes(&self) -> Option<&[Node]> {
+        [&self.last, &self.of_equilibrium].into_iter().find(|iterate| iterate.known).map(|iterate| &iterate.nodes[..])
+    }
+
+    /// Keeps the trial motion and the correction at hand, before it is added.
+    pub fn keep(&mut self, cx: &Context, ws: &Workspace) {
+        if self.corrections.is_empty() {
+            return;
+        }
+        for &node in &cx.independent_nodes {
+            self.corrections[node] = cx.plan.dofs.of(node).gather(&ws.r);
+        }
+        cx.system.project(&ws.trial, &mut self.corrections);
+        for ((node, now), correction) in self.last.nodes.iter_mut().zip(&ws.trial).zip(&self.corrections) {
+            *node = *now;
+            (node.v, node.omega) = (linear(correction), angular(correction));
+        }
+        self.last.known = true;
+    }
+}
