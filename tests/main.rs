@@ -17,6 +17,8 @@ mod explicit;
 mod extreme;
 mod folders;
 mod foreign_input;
+mod inside_steps;
+mod iterations;
 mod joint_forces;
 mod joints;
 mod left_out;

@@ -10,7 +10,7 @@ pub struct Frame<'a> {
     pub model: &'a Model,
     /// The state at the end of the step.
     pub state: &'a State,
-    /// Accepted steps so far; 0 at t = 0.
+    /// Accepted steps so far, the one at hand included; 0 at t = 0.
     pub step: usize,
     /// Length of the step that led here; 0 at t = 0.
     pub dt: f64,
@@ -31,6 +31,8 @@ pub struct Frame<'a> {
     pub drawn: bool,
     /// True for the last step of the run.
     pub last: bool,
+    /// True at a time inside the step, which goes on; iterations and factorizations are those for this time alone.
+    pub inside: bool,
     /// Indices into [`Model::expects`] of the displacements at which this step ends.
     pub passed: &'a [usize],
     /// Reactions on the structure, global components, in the order of the model's restraints; empty unless wanted of

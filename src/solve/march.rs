@@ -1,6 +1,7 @@
 //! The data of a run under way, handed as one to its controllers.
 
 use super::context::Context;
+use super::control::Sample;
 use super::failure::Failure;
 use super::frame::Observer;
 use super::outcome::Outcome;
@@ -22,8 +23,32 @@ pub struct March<'r, 'a> {
     pub recorder: &'r mut Recorder,
     /// The observer of the run.
     pub observer: &'r mut dyn Observer,
+    /// The times inside steps that are still to come.
+    pub samples: Samples<'r>,
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
+}
+
+/// Times to look at inside steps, in order.
+pub struct Samples<'s> {
+    coming: &'s [Sample],
+}
+
+impl<'s> Samples<'s> {
+    /// All of these.
+    pub fn new(coming: &'s [Sample]) -> Self {
+        Samples { coming }
+    }
+
+    /// The next time up to this one.
+    pub fn next(&self, until: f64) -> Option<Sample> {
+        self.coming.first().copied().filter(|next| next.time <= until)
+    }
+
+    /// Goes on to the time after the next.
+    pub fn pass(&mut self) {
+        self.coming = self.coming.get(1..).unwrap_or_default();
+    }
 }
 
 impl March<'_, '_> {
@@ -44,6 +69,14 @@ impl March<'_, '_> {
     /// As for [`Recorder::notify`].
     pub fn notify(&mut self, step: &AcceptedStep) -> Result<(), Outcome> {
         self.recorder.notify(self.cx, self.ws, self.state, self.observer, step)
+    }
+
+    /// Shows a state inside the step of length `dt` that was taken last, and counts what it took; tables are `due` there, or not.
+    ///
+    /// # Errors
+    /// As for [`Recorder::notify_inside`].
+    pub fn notify_inside(&mut self, state: &State, report: &StepReport, dt: f64, due: bool) -> Result<(), Outcome> {
+        self.recorder.notify_inside(self.cx, self.ws, state, self.observer, (report, dt, due))
     }
 
     /// The outcome of a run that ends here by a failure.

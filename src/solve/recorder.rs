@@ -137,6 +137,35 @@ impl Recorder {
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
     }
 
+    /// Shows the state at a time inside the step of length `dt` that was taken last, before the step itself is shown, and counts what it
+    /// took; tables are `due` there, or not.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write.
+    pub fn notify_inside(
+        &mut self,
+        cx: &Context,
+        ws: &Workspace,
+        state: &State,
+        observer: &mut dyn Observer,
+        (report, dt, due): (&StepReport, f64, bool),
+    ) -> Result<(), Outcome> {
+        self.counts.iterations += report.iterations;
+        let began = due.then(Instant::now);
+        let step = &AcceptedStep { dt, report, cuts: 0, due, last: false, passed: &[] };
+        let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
+        let request = Request { model, system, state, due, drawn: false, balance, threads };
+        self.derived.compute(self.wanted, &request);
+        // Only central differences fail by their energies, and their steps end wherever tables are due.
+        let _ = self.growth.check((model, cx.plan, system), state, self.derived.energy, balance, false);
+        let frame = self.frame(cx, ws, state, step, [due, false]);
+        observer.on_step(&Frame { step: frame.step + 1, inside: true, ..frame }).map_err(Outcome::Io)?;
+        if let Some(began) = began {
+            self.observing += began.elapsed();
+        }
+        Ok(())
+    }
+
     /// Shows the last accepted step once more where it was not due and no other follows, so that tables end with it.
     ///
     /// # Errors
@@ -189,6 +218,7 @@ impl Recorder {
             due,
             drawn,
             last,
+            inside: false,
             reactions: if self.wanted.has_now(Wanted::REACTIONS, due) { &state.reactions } else { &[] },
             derived: &self.derived,
             passed,

@@ -1,15 +1,15 @@
 //! A run of one scene from t = 0 to the end time.
 
 use super::context::Context;
-use super::control::{Controller, Interval, comparison_times, intervals, trial_intervals};
+use super::control::{Controller, Schedule, comparison_times};
 use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::Observer;
-use super::march::March;
+use super::march::{March, Samples};
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::start::start;
-use super::trials::{Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace};
+use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace};
 use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
@@ -61,20 +61,21 @@ impl<'a> Run<'a> {
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         match (&self.context.model.analysis.step_length, self.controller.by_tolerance()) {
             (&StepLength::ErrorControlled { tolerance, .. }, Some(_)) => self.within(tolerance, observer),
-            _ => self.once(observer, &intervals(self.context.model, std::iter::empty())),
+            _ => self.once(observer, &Schedule::new(self.context.model, std::iter::empty(), false)),
         }
     }
 
-    /// One run over these intervals.
-    fn once(&mut self, observer: &mut dyn Observer, intervals: &[Interval]) -> (Outcome, Option<State>) {
+    /// One run as scheduled.
+    fn once(&mut self, observer: &mut dyn Observer, schedule: &Schedule) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, stop, .. } = self;
         let mut state = match start(cx, ws) {
             Ok(state) => state,
             Err(failure) => return (Outcome::Failed { time: 0.0, failure }, None),
         };
         recorder.begin(cx, &state);
-        let mut march = March { cx, ws, state: &mut state, recorder, observer, stop };
-        let mut outcome = controller.run(&mut march, intervals);
+        let mut march =
+            March { cx, ws, state: &mut state, recorder, observer, samples: Samples::new(&schedule.samples), stop };
+        let mut outcome = controller.run(&mut march, schedule);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }
@@ -87,29 +88,33 @@ impl<'a> Run<'a> {
     fn within(&mut self, asked: f64, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         let model = self.context.model;
         let power = model.solution.scheme.order() + 1;
-        let ends = intervals(model, comparison_times(model.analysis.end_time));
+        let inside = self.controller.looks_inside();
+        let schedule = Schedule::new(model, comparison_times(model.analysis.end_time), inside);
         let mut error = StepError::new(asked);
         let mut before: Option<Kept> = None;
         self.follow(asked, None);
         loop {
             let mut trace = Trace::new(observer, power);
-            let (outcome, state) = self.once(&mut trace, &ends);
+            let (outcome, state) = self.once(&mut trace, &schedule);
             let run = trace.into_kept();
             // What fails with shorter steps did come to its end with those before.
             if before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
-                return self.settle(error, &ends, observer);
+                return self.settle(error, &schedule, observer);
             }
             if !matches!(outcome, Outcome::Done) {
                 return (outcome, state);
             }
-            let other = match before.take() {
+            let other = match before.take().filter(|other| run.is_told_by(other)) {
                 Some(other) => Some(other),
                 None => match self.trial(&mut error, run.longest(), power) {
                     Ok(other) => other,
                     Err(_) => return (Outcome::Stopped { time: model.analysis.end_time }, state),
                 },
             };
-            let next = other.and_then(|other| error.judge(&run, &other, self.context.length));
+            let next = match other {
+                Some(other) => error.judge(&run, &other, self.context.length),
+                None => Some(error.without_trial()),
+            };
             let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
                 self.workspace.warnings.extend(error.doubt());
                 self.step_error = Some(error);
@@ -128,14 +133,14 @@ impl<'a> Run<'a> {
     fn settle(
         &mut self,
         mut error: StepError,
-        ends: &[Interval],
+        schedule: &Schedule,
         observer: &mut dyn Observer,
     ) -> (Outcome, Option<State>) {
         let tolerance = error.before;
         if let Err(error) = self.begin_again(&mut error, tolerance, observer) {
             return (Outcome::Io(error), None);
         }
-        let (outcome, state) = self.once(observer, ends);
+        let (outcome, state) = self.once(observer, schedule);
         self.workspace.warnings.extend(error.doubt());
         self.step_error = Some(error);
         (outcome, state)
@@ -172,9 +177,10 @@ impl<'a> Run<'a> {
         let warnings = std::mem::take(&mut self.workspace.warnings);
         let seen = (self.workspace.rotation_drift, self.workspace.joint_violation);
         self.follow(error.tolerance * LOOSER, Some(2.0 * longest));
+        self.recorder.most_steps = 2 * recorder.counts.steps + FEW;
         let mut nobody = ();
         let mut trace = Trace::new(&mut nobody, power);
-        let (outcome, _) = self.once(&mut trace, &trial_intervals(model));
+        let (outcome, _) = self.once(&mut trace, &Schedule::of_trial(model, self.controller.looks_inside()));
         error.add(self.recorder.counts);
         (self.recorder, self.workspace.warnings) = (recorder, warnings);
         (self.workspace.rotation_drift, self.workspace.joint_violation) = seen;

@@ -6,6 +6,44 @@ use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Node, State, Work};
 use crate::system::{Forces, Prescribed};
 
+/// The power at an instant of a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Power {
+    /// Of loads and prescribed motion.
+    pub external: f64,
+    /// Of viscous damping.
+    pub damping: f64,
+}
+
+impl Power {
+    /// The power at the start of a step.
+    pub fn at_start(cx: &Context, ws: &mut Workspace, state: &State) -> Power {
+        cx.system.external(&state.nodes, &ws.loads.start, &mut ws.forces);
+        let driving = driving_power(&state.reactions, &ws.prescribed.start);
+        let external = external_power(&ws.forces, &state.nodes) + driving;
+        Power { external, damping: damping_power(cx, &state.configuration()) }
+    }
+
+    /// The power of the trial motion, `ahead` of the start of the step. With `driven`, the forces at hand are in equilibrium, and their
+    /// power on prescribed motion is included. They are lost.
+    pub fn of_trial(cx: &Context, ws: &mut Workspace, state: &State, ahead: f64, driven: bool) -> Power {
+        let mut external = 0.0;
+        if driven {
+            let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
+            let on_nodes = &ws.forces.on_nodes;
+            external = restraints.map(|(restraint, given)| -on_nodes[restraint.node][restraint.dof] * given.v).sum();
+        }
+        let damping =
+            damping_power(cx, &Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None });
+        cx.system.external(&ws.trial, &ws.loads.instant, &mut ws.forces);
+        Power { external: external + external_power(&ws.forces, &ws.trial), damping }
+    }
+}
+
+fn damping_power(cx: &Context, now: &Configuration) -> f64 {
+    if cx.system.is_damped() { cx.system.damping_power(now, cx.plan.threads) } else { 0.0 }
+}
+
 /// The work of a step so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct WorkQuadrature {
@@ -14,34 +52,25 @@ pub struct WorkQuadrature {
 }
 
 impl WorkQuadrature {
-    /// Begins with the contribution of the start of the step.
-    pub fn begin(&mut self, cx: &Context, ws: &mut Workspace, state: &State, weight: f64) {
-        *self = WorkQuadrature::default();
-        cx.system.external(&state.nodes, &ws.loads.start, &mut ws.forces);
-        let driving = driving_power(&state.reactions, &ws.prescribed.start);
-        self.external += weight * (external_power(&ws.forces, &state.nodes) + driving);
-        if cx.system.is_damped() {
-            self.damping += weight * cx.system.damping_power(&state.configuration(), cx.plan.threads);
-        }
+    /// Adds the power at an instant with its weight.
+    pub fn add(&mut self, power: &Power, weight: f64) {
+        self.external += weight * power.external;
+        self.damping += weight * power.damping;
     }
 
-    /// Adds the contribution of an evaluated stage; the forces at hand are lost.
-    pub fn add(&mut self, cx: &Context, ws: &mut Workspace, state: &State, weight: f64, ahead: f64) {
-        if cx.system.is_damped() {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
-            self.damping += weight * cx.system.damping_power(&now, cx.plan.threads);
-        }
-        cx.system.external(&ws.trial, &ws.loads.instant, &mut ws.forces);
-        self.external += weight * external_power(&ws.forces, &ws.trial);
-    }
-
-    /// Adds the contribution of the reactions at hand on prescribed degrees of freedom.
-    pub fn add_reactions(&mut self, cx: &Context, ws: &Workspace, weight: f64) {
-        let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
-        let power = restraints
-            .map(|(restraint, given)| -ws.forces.on_nodes[restraint.node][restraint.dof] * given.v)
-            .sum::<f64>();
-        self.external += weight * power;
+    /// The work from the start of a step of length `dt` to the fraction `part` of it: that of the parabola through the powers at the start,
+    /// there, and at the end of the step.
+    pub fn to_inside([start, inside, end]: [&Power; 3], part: f64, dt: f64) -> WorkQuadrature {
+        /// Nearer to the end the parabola is not known for rounding, and not needed.
+        const NEAR: f64 = 1e-4;
+        let left = 1.0 - part;
+        let weights = match left > NEAR {
+            true => [part * (3.0 - part) / 6.0, part * (3.0 - 2.0 * part) / (6.0 * left), -part.powi(3) / (6.0 * left)],
+            false => [0.5 * part, 0.5 * part, 0.0],
+        };
+        let mut work = WorkQuadrature::default();
+        [start, inside, end].iter().zip(weights).for_each(|(power, weight)| work.add(power, weight * dt));
+        work
     }
 
     /// Adds the work of the step to that of the run.

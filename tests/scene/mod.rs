@@ -213,6 +213,7 @@ impl Extras {
             drawn: matches!(model.output.fields, Some(Cadence::Steps(every)) if step.is_multiple_of(every))
                 || step == 10,
             last: step == 10,
+            inside: false,
             reactions: &self.reactions,
             derived: &self.derived,
             passed: &[],

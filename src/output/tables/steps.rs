@@ -11,7 +11,7 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "steps.csv",
-    about: "One row at each time of output, for all accepted steps since the row before: with `every = 1` one for each step. \
+    about: "One row at each time of output, for all accepted steps that have ended since the row before: with `every = 1` one for each step. \
             Always written.",
     columns: &[&[
         Column::scalar(

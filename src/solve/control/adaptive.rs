@@ -37,6 +37,24 @@ pub trait StepController {
 
     /// Notes that a step of `dt` failed otherwise than by its error, which already limits the next length.
     fn cut_back(&mut self, dt: f64);
+
+    /// The state at a time inside the step that was taken last, to the time `end`, and what it took to find it; `None` where steps end at all
+    /// times that are looked at.
+    ///
+    /// # Errors
+    /// No equilibrium was found there.
+    fn look_inside(
+        &mut self,
+        _: &Context,
+        _: &mut Workspace,
+        _end: f64,
+        _time: f64,
+    ) -> Result<Option<(&State, StepReport)>, Failure> {
+        Ok(None)
+    }
+
+    /// Returns to the start of the step that was taken last, where the motion inside is not known after all.
+    fn take_back(&mut self, _: &mut State) {}
 }
 
 impl<C: StepController> CoverInterval for C {
@@ -56,7 +74,14 @@ impl<C: StepController> CoverInterval for C {
             let pieces = (left / length * (1.0 - 1e-9)).ceil().max(1.0);
             let target = if pieces == 1.0 { interval.to } else { march.state.time + left / pieces };
             let dt = target - march.state.time;
-            match self.step(march.cx, march.ws, march.state, target, length) {
+            let mut taken = self.step(march.cx, march.ws, march.state, target, length);
+            if let Ok(Some(_)) = &taken
+                && let Err(failure) = show_inside(self, march, dt)?
+            {
+                self.take_back(march.state);
+                taken = Err(failure);
+            }
+            match taken {
                 Ok(Some(report)) => {
                     let at_end = march.state.time >= interval.to;
                     let (due, last) = (at_end && interval.due, at_end && march.is_end(interval.to));
@@ -79,4 +104,25 @@ impl<C: StepController> CoverInterval for C {
         }
         Ok(())
     }
+}
+
+/// Shows what lies inside the step of length `dt` that was taken. The failure inside is that of a time where no equilibrium was found.
+///
+/// # Errors
+/// As for [`March::notify_inside`].
+fn show_inside(
+    controller: &mut impl StepController,
+    march: &mut March,
+    dt: f64,
+) -> Result<Result<(), Failure>, Outcome> {
+    let end = march.state.time;
+    while let Some(sample) = march.samples.next(end) {
+        match controller.look_inside(march.cx, march.ws, end, sample.time) {
+            Ok(Some((state, report))) => march.notify_inside(state, &report, dt, sample.due)?,
+            Ok(None) => {}
+            Err(failure) => return Ok(Err(failure)),
+        }
+        march.samples.pass();
+    }
+    Ok(Ok(()))
 }

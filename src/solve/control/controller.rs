@@ -4,7 +4,7 @@ use super::arc_length::ArcLengthController;
 use super::embedded_error::EmbeddedErrorController;
 use super::error_controlled::ErrorController;
 use super::fixed::FixedController;
-use super::intervals::{CoverInterval, Interval};
+use super::intervals::{CoverInterval, Interval, Schedule};
 use super::stability_limited::StabilityController;
 use super::tolerance::FollowTolerance;
 use crate::linear::TooLarge;
@@ -62,11 +62,17 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// Leads the run from its state at t = 0 to its end, over the intervals.
+    /// True where the motion is known inside steps too, so that these need not end where it is looked at.
+    pub fn looks_inside(&self) -> bool {
+        matches!(self, Controller::ErrorControlled(controller) if controller.looks_inside())
+    }
+
+    /// Leads the run from its state at t = 0 to its end, as scheduled.
     ///
     /// # Errors
     /// The outcome that ends it early.
-    pub fn run(&mut self, march: &mut March, intervals: &[Interval]) -> Result<(), Outcome> {
+    pub fn run(&mut self, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
+        let intervals = &schedule.intervals;
         match self {
             Controller::Fixed(controller) => through_intervals(controller, march, intervals),
             Controller::ErrorControlled(controller) => through_intervals(controller.as_mut(), march, intervals),

@@ -80,6 +80,8 @@ pub struct ErrorController<'a> {
     measure: ErrorMeasure,
     /// The state at the start of the step, to which a refused step returns.
     start: State,
+    /// The state at a time inside the step.
+    inside: State,
     /// The errors of a step by node, and the same after more filters.
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
@@ -111,9 +113,15 @@ impl<'a> ErrorController<'a> {
             motion: Size::default(),
             measure: ErrorMeasure::new(cx.model, cx.length),
             start: State::default(),
+            inside: State::default(),
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             lasting: LastingError::new(nodes),
         }
+    }
+
+    /// True where the motion is known inside steps.
+    pub fn looks_inside(&self) -> bool {
+        self.stepper.stages().is_some()
     }
 
     /// Decides whether a step of `dt` to `time` stands, and chooses the next length.
@@ -264,6 +272,9 @@ impl StepController for ErrorController<'_> {
     fn restart(&mut self, _: &Context, _: &mut Workspace, state: &mut State) {
         self.stepper.restart(state);
         self.start.clone_from(state);
+        if self.looks_inside() {
+            self.inside.clone_from(state);
+        }
     }
 
     fn propose(&mut self, _: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
@@ -297,5 +308,20 @@ impl StepController for ErrorController<'_> {
 
     fn cut_back(&mut self, dt: f64) {
         self.length = 0.5 * dt;
+    }
+
+    fn look_inside(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        end: f64,
+        time: f64,
+    ) -> Result<Option<(&State, StepReport)>, Failure> {
+        let report = self.stepper.look_inside(cx, ws, (&self.start, end), (&mut self.inside, time))?;
+        Ok(report.map(|report| (&self.inside, report)))
+    }
+
+    fn take_back(&mut self, state: &mut State) {
+        state.copy_from(&self.start);
     }
 }

@@ -41,13 +41,48 @@ impl Interval {
     }
 }
 
-/// Divides [0, end] at output times, at the times of expectations, at `others` and where loads jump, each interval into steps no
-/// longer than the deck's.
-pub fn intervals(model: &Model, others: impl Iterator<Item = f64>) -> Vec<Interval> {
-    let mut out: Vec<Interval> = others.map(|time| ending(time, false, false)).collect();
-    add_output_times(model, &mut out);
-    add_jumps_and_kinks(model, &mut out);
-    divide(model, out)
+/// A time inside the steps at which the motion is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The time.
+    pub time: f64,
+    /// True for an output time.
+    pub due: bool,
+}
+
+/// What a run must look at, and where its steps must end.
+#[derive(Debug, Clone, Default)]
+pub struct Schedule {
+    /// The intervals that steps cover, one after the other.
+    pub intervals: Vec<Interval>,
+    /// Times inside them, in order; empty where steps end at all times.
+    pub samples: Vec<Sample>,
+}
+
+/// A time at which something is due.
+struct Event {
+    ending: Interval,
+    /// True where a step must end at it, however well the motion is known inside steps.
+    ends: bool,
+}
+
+impl Schedule {
+    /// Divides [0, end] where loads jump, at output times and the times of expectations, and at `others`, each interval into steps no
+    /// longer than the deck's. With `inside`, output times and `others` lie inside steps.
+    pub fn new(model: &Model, others: impl Iterator<Item = f64>, inside: bool) -> Schedule {
+        let mut events: Vec<Event> = others.map(|time| at(time, false, !inside)).collect();
+        add_output_times(model, &mut events, !inside);
+        add_jumps_and_kinks(model, &mut events);
+        divide(model, events)
+    }
+
+    /// The times of a trial run, of which nothing is written.
+    pub fn of_trial(model: &Model, inside: bool) -> Schedule {
+        let compared = comparison_times(model.analysis.end_time);
+        let mut events: Vec<Event> = compared.map(|time| at(time, false, !inside)).collect();
+        add_jumps_and_kinks(model, &mut events);
+        divide(model, events)
+    }
 }
 
 /// Number of times at which runs of one scene are compared.
@@ -66,40 +101,36 @@ pub fn comparison_times(end_time: f64) -> impl Iterator<Item = f64> {
     (1..=COMPARISONS).map(move |k| comparison_time(k, end_time))
 }
 
-/// The intervals of a trial run, of which nothing is written.
-pub fn trial_intervals(model: &Model) -> Vec<Interval> {
-    let mut out: Vec<Interval> =
-        comparison_times(model.analysis.end_time).map(|time| ending(time, false, false)).collect();
-    add_jumps_and_kinks(model, &mut out);
-    divide(model, out)
+fn at(to: f64, due: bool, ends: bool) -> Event {
+    Event { ending: Interval { from: 0.0, to, steps: 0, due, jump: false }, ends }
 }
 
-fn ending(to: f64, due: bool, jump: bool) -> Interval {
-    Interval { from: 0.0, to, steps: 0, due, jump }
-}
-
-fn add_output_times(model: &Model, out: &mut Vec<Interval>) {
+fn add_output_times(model: &Model, out: &mut Vec<Event>, ends: bool) {
     let end = model.analysis.end_time;
-    out.push(ending(end, true, false));
+    out.push(at(end, true, true));
     if let Cadence::Interval(interval) = model.output.cadence {
         let count = (end / interval + 1e-9).floor() as usize;
-        out.extend((1..=count).map(|k| ending(multiple(k, interval), true, false)));
+        out.extend((1..=count).map(|k| at(multiple(k, interval), true, ends)));
     }
     for expect in &model.expects {
         if let When::Time(t) = expect.when {
-            out.push(ending(t, true, false));
+            out.push(at(t, true, ends));
         }
     }
 }
 
-fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Interval>) {
+fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
     let driving = || {
         let loads = model.loading.nodal.iter().filter_map(|load| load.amplitude);
         let pressures = model.loading.pressures.iter().filter_map(|load| load.amplitude);
         loads.chain(pressures).chain(model.loading.base_accelerations.iter().map(|base| base.amplitude))
     };
     for amplitude in driving() {
-        out.extend(model.loading.amplitudes[amplitude].jumps().iter().map(|jump| ending(jump.time, false, true)));
+        out.extend(model.loading.amplitudes[amplitude].jumps().iter().map(|jump| {
+            let mut event = at(jump.time, false, true);
+            event.ending.jump = true;
+            event
+        }));
     }
     if model.analysis.step_length.is_automatic() {
         // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion.
@@ -110,37 +141,41 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Interval>) {
             .filter_map(|restraint| restraint.motion.as_ref())
             .map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
-            out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| ending(time, false, false)));
+            out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| at(time, false, true)));
         }
     }
 }
 
-/// Puts the ends of intervals in order, each once, and counts steps between them.
-fn divide(model: &Model, mut out: Vec<Interval>) -> Vec<Interval> {
+/// Puts events in order, each once, parts those inside steps from the ends of intervals, and counts steps between these.
+fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
     let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
-    out.retain(|s| s.to > 1e-9 * end && s.to <= end * (1.0 + 1e-9));
-    out.sort_by(|a, b| a.to.total_cmp(&b.to));
-    out.dedup_by(|next, kept| {
-        let one = same(next.to, kept.to);
+    events.retain(|event| event.ending.to > 1e-9 * end && event.ending.to <= end * (1.0 + 1e-9));
+    events.sort_by(|a, b| a.ending.to.total_cmp(&b.ending.to));
+    events.dedup_by(|next, kept| {
+        let one = same(next.ending.to, kept.ending.to);
         if one {
-            kept.due |= next.due;
-            kept.jump |= next.jump;
+            kept.ending.due |= next.ending.due;
+            kept.ending.jump |= next.ending.jump;
+            kept.ends |= next.ends;
         }
         one
     });
-    if let Some(last) = out.last_mut() {
-        last.to = end;
+    if let Some(last) = events.last_mut() {
+        (last.ending.to, last.ends) = (end, true);
     }
+    let sample = |event: &Event| Sample { time: event.ending.to, due: event.ending.due };
+    let samples = events.iter().filter(|event| !event.ends).map(sample).collect();
+    let mut intervals: Vec<Interval> = events.iter().filter(|event| event.ends).map(|event| event.ending).collect();
     let mut from = 0.0;
-    for interval in &mut out {
+    for interval in &mut intervals {
         // A rounding error beyond a whole number of steps needs no extra step.
         let steps = (interval.to - from) / dt - 1e-9 * (interval.to / dt).max(1.0);
         interval.steps = steps.ceil().max(1.0) as usize;
         interval.from = from;
         from = interval.to;
     }
-    out
+    Schedule { intervals, samples }
 }
 
 /// The k-th multiple of the output interval, rounded once where the interval is one over a whole number: 0.009, not

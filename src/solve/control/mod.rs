@@ -14,4 +14,4 @@ mod targets;
 mod tolerance;
 
 pub use controller::Controller;
-pub use intervals::{COMPARISONS, Interval, comparison_time, comparison_times, intervals, trial_intervals};
+pub use intervals::{COMPARISONS, Sample, Schedule, comparison_time, comparison_times};

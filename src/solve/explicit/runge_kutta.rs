@@ -12,7 +12,7 @@ use crate::solve::failure::Failure;
 use crate::solve::motion::{excite, measure_reach, rates_of, update_dependent_nodes};
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
-use crate::solve::work::{WorkQuadrature, weight_of};
+use crate::solve::work::{Power, WorkQuadrature, weight_of};
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, links, residual};
 use crate::state::{Configuration, Increment, Node, State};
@@ -101,7 +101,8 @@ impl RungeKuttaStepper {
         }
         let tableau = self.tableau;
         if cx.wants_energy {
-            self.work.begin(cx, ws, state, dt * weight_of(tableau.b, 0));
+            self.work = WorkQuadrature::default();
+            self.work.add(&Power::at_start(cx, ws, state), dt * weight_of(tableau.b, 0));
         }
         let inner = tableau.a.iter().zip(tableau.c).enumerate();
         for (stage, (weights, c)) in inner.map(|(i, of)| (i + 1, of)) {
@@ -111,9 +112,8 @@ impl RungeKuttaStepper {
             if cx.wants_energy && weight != 0.0 {
                 if self.driven {
                     self.accelerations.update_reactions(cx, ws, state, c * dt);
-                    self.work.add_reactions(cx, ws, weight);
                 }
-                self.work.add(cx, ws, state, weight, c * dt);
+                self.work.add(&Power::of_trial(cx, ws, state, c * dt, self.driven), weight);
             }
         }
         let end = tableau.stages() - 1;
@@ -151,7 +151,7 @@ impl RungeKuttaStepper {
         self.accelerations.project(cx, ws, state, &scheme, dt)?;
         let mut account = Account::default();
         if cx.system.history > 0 {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
             account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
         }
         contacts::check_passage(cx, ws, state, dt)?;
@@ -242,7 +242,7 @@ impl RungeKuttaStepper {
         if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);
         }
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
         self.accelerations.solve(cx, ws, state, true)?;
         let nodes = cx.independent_nodes.len();

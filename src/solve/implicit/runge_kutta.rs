@@ -3,15 +3,19 @@
 //! What moves is y = (q, q̇), q the increment of the step with its rotation vector: in these coordinates the motion is an ordinary
 //! differential equation, and a scheme of order p is of order p for it, rotations included. Every stage finds its equilibrium
 //! from the start of the step; the last is the end of the step.
+//!
+//! Inside a step the motion is that of the polynomial of fifth degree through both ends, their velocities and their accelerations, of
+//! which one more stage makes an equilibrium: forces and energies there are as exact as at the ends, with stiff parts too.
 
 use super::newton::Newton;
-use crate::integrators::StageTableau;
+use crate::integrators::{Coefficients, StageTableau};
 use crate::math::Vec6;
+use crate::math::quintic;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, differentiate, excite, move_trial, rates_of};
 use crate::solve::report::StepReport;
-use crate::solve::work::WorkQuadrature;
+use crate::solve::work::{Power, WorkQuadrature};
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, State};
 
@@ -28,7 +32,10 @@ pub struct StageStepper {
     extrapolation: Vec<Vec<f64>>,
     /// Weights of the accelerations of the stages in their second derivative.
     curvature: Vec<f64>,
-    work: WorkQuadrature,
+    /// Motion (q, q̇, q̈) at both ends of the last step, of the independent nodes.
+    ends: [Vec<[Vec6; 3]>; 2],
+    /// Power at both ends of it.
+    powers: [Power; 2],
     /// True where motion is prescribed, which does work.
     driven: bool,
 }
@@ -44,7 +51,8 @@ impl StageStepper {
             prediction: vec![Vec6::zeros(); nodes],
             extrapolation: (0..tableau.stages()).map(|stage| tableau.extrapolation(stage)).collect(),
             curvature: tableau.second_derivative(),
-            work: WorkQuadrature::default(),
+            ends: [vec![[Vec6::zeros(); 3]; moving], vec![[Vec6::zeros(); 3]; moving]],
+            powers: [Power::default(); 2],
             driven: cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
         }
     }
@@ -65,23 +73,55 @@ impl StageStepper {
         let last = self.tableau.stages() - 1;
         let scheme = cx.model.solution.scheme.coefficients(dt);
         let mut report = StepReport::begin(to);
+        let mut work = WorkQuadrature::default();
         self.begin(cx, ws, state, to);
+        work.add(&self.powers[0], self.tableau.weight_at_end(0) * dt);
         for stage in 1..=last {
             let time = if stage == last { to } else { state.time + self.tableau.c[stage - 1] * dt };
             self.start_stage(cx, state, stage, dt);
-            let relation =
-                Stage { scheme: &scheme, start_rates: Some(&self.start_rates), prediction: Some(&self.prediction) };
+            let relation = self.relation(&scheme);
             report = report.then(newton.find(cx, ws, state, &relation, time)?);
             differentiate(cx, ws, state, &relation);
             if cx.wants_energy {
-                move_trial(cx, ws, state, &relation);
-                self.account(cx, ws, state, stage, time - state.time, dt);
+                self.powers[1] = self.power(cx, ws, state, &relation, time - state.time);
+                work.add(&self.powers[1], self.tableau.weight_at_end(stage) * dt);
             }
             self.keep_rates(cx, ws, stage);
         }
-        let relation = Stage { scheme: &scheme, start_rates: Some(&self.start_rates), prediction: None };
-        newton.accept_with(cx, ws, state, &relation, to, cx.wants_energy.then_some(self.work))?;
+        self.keep_end(cx, ws);
+        newton.accept_with(cx, ws, state, &self.relation(&scheme), to, cx.wants_energy.then_some(work))?;
         Ok(report)
+    }
+
+    /// Writes the state at a time inside the last step, which has led from `start` to the time `end`.
+    ///
+    /// # Errors
+    /// As for [`Newton::stage`].
+    pub fn look_inside(
+        &mut self,
+        newton: &mut Newton,
+        cx: &Context,
+        ws: &mut Workspace,
+        (start, end): (&State, f64),
+        (state, time): (&mut State, f64),
+    ) -> Result<StepReport, Failure> {
+        let dt = end - start.time;
+        let part = (time - start.time) / dt;
+        let scheme = cx.model.solution.scheme.coefficients(dt);
+        state.copy_from(start);
+        self.start_inside(cx, part, dt);
+        let report = newton.find_inside(cx, ws, state, &self.relation(&scheme), time)?;
+        let work = cx.wants_energy.then(|| {
+            let power = self.power(cx, ws, state, &self.relation(&scheme), time - start.time);
+            let [first, last] = &self.powers;
+            WorkQuadrature::to_inside([first, &power, last], part, dt)
+        });
+        newton.accept_with(cx, ws, state, &self.relation(&scheme), time, work)?;
+        Ok(report)
+    }
+
+    fn relation<'s>(&'s self, scheme: &'s Coefficients) -> Stage<'s> {
+        Stage { scheme, start_rates: Some(&self.start_rates), prediction: Some(&self.prediction) }
     }
 
     /// The fourth derivative of the increments of a node, times Δt², in the step that was taken; `index` counts independent nodes.
@@ -91,15 +131,16 @@ impl StageStepper {
         terms.fold(Vec6::zeros(), |sum, (stage, weight)| sum + self.rates[stage * moving + index][1] * *weight)
     }
 
-    /// Notes the motion at the start of the step, and its share of the work.
+    /// Notes the motion at the start of the step, and its power.
     fn begin(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
-            self.rates[k] = rates_of(&state.nodes[node]);
+            let [v, a] = rates_of(&state.nodes[node]);
+            self.rates[k] = [v, a];
+            self.ends[0][k] = [Vec6::zeros(), v, a];
         }
         if cx.wants_energy {
             excite(cx, ws, state.time, to, 1.0);
-            let weight = self.tableau.weight_at_end(0) * (to - state.time);
-            self.work.begin(cx, ws, state, weight);
+            self.powers[0] = Power::at_start(cx, ws, state);
         }
     }
 
@@ -129,15 +170,34 @@ impl StageStepper {
         }
     }
 
-    /// Adds the share of a stage to the work; the forces at hand are lost.
-    fn account(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: usize, ahead: f64, dt: f64) {
-        let weight = self.tableau.weight_at_end(stage) * dt;
-        if self.driven {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead };
-            cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
-            self.work.add_reactions(cx, ws, weight);
+    /// Writes what the stage inside the last step starts from, such that the polynomial through its ends is the prediction and needs no
+    /// correction where it is in equilibrium.
+    fn start_inside(&mut self, cx: &Context, part: f64, dt: f64) {
+        let ahead = self.tableau.gamma * dt;
+        let weights = quintic::weights(part, dt);
+        let [starts, ends] = &self.ends;
+        for ((&node, start), end) in cx.independent_nodes.iter().zip(starts).zip(ends) {
+            let [q, d, dd] = quintic::motion(&weights, start, end);
+            self.start_rates[node] = [(q - d * ahead) / ahead, (d - dd * ahead) / ahead];
+            self.prediction[node] = q;
         }
-        self.work.add(cx, ws, state, weight, ahead);
+    }
+
+    fn keep_end(&mut self, cx: &Context, ws: &Workspace) {
+        for (end, &node) in self.ends[1].iter_mut().zip(&cx.independent_nodes) {
+            let increment = &ws.increments[node];
+            *end = [increment.q, increment.d, increment.dd];
+        }
+    }
+
+    /// The power of the equilibrium that was found, `ahead` of the start of the step; the forces at hand are lost.
+    fn power(&self, cx: &Context, ws: &mut Workspace, state: &State, relation: &Stage, ahead: f64) -> Power {
+        move_trial(cx, ws, state, relation);
+        if self.driven {
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
+            cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+        }
+        Power::of_trial(cx, ws, state, ahead, self.driven)
     }
 
     fn keep_rates(&mut self, cx: &Context, ws: &Workspace, stage: usize) {

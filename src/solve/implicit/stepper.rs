@@ -50,6 +50,25 @@ impl<'a> Implicit<'a> {
         }
     }
 
+    /// Writes the state at a time inside the last step, which has led from the first state to the time beside it; `None` for schemes that
+    /// know their motion at the ends of steps alone.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn look_inside(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        step: (&State, f64),
+        (state, time): (&mut State, f64),
+    ) -> Result<Option<StepReport>, Failure> {
+        match &mut self.stages {
+            Stages::RungeKutta(stages) => stages.look_inside(&mut self.newton, cx, ws, step, (state, time)).map(Some),
+            // Steps of other schemes end wherever something is looked at.
+            Stages::One | Stages::Composite(_) => Ok(None),
+        }
+    }
+
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     pub fn restart(&mut self, state: &State) {
         self.newton.discard_matrix();

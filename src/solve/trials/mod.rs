@@ -15,17 +15,17 @@ use super::warning::Warning;
 /// Largest number of runs, the trial aside.
 pub const MOST_RUNS: usize = 4;
 /// Part of the error asked for that a second run aims at.
-const AIM: f64 = 0.5;
+const AIM: f64 = 0.6;
 /// An error of up to this multiple of what was asked for passes.
 const WITHIN: f64 = 1.5;
-/// Errors fall at least with this power of what the steps leave.
-const SLOPE: f64 = 0.8;
 /// Ratio of the tolerances of the trial and the run: for a scheme of third order its steps are twice as long.
 pub const LOOSER: f64 = 8.0;
 /// Least and largest ratio of the tolerances of two runs in a row.
-const CHANGE: [f64; 2] = [0.01, 0.3];
+const CHANGE: [f64; 2] = [0.01, 0.5];
 /// A run of more than so many times the steps of the one before is given up: what it would follow no step was to resolve.
 pub const MOST_LONGER: usize = 30;
+/// A trial of more than twice the steps of its run and so many is given up: its longer steps do not follow the motion.
+pub const FEW: usize = 100;
 /// Ratio of the tolerances where two runs have nothing in common.
 const LOST: f64 = 0.03;
 /// The difference of two runs that have nothing in common, relative to the motion.
@@ -69,13 +69,11 @@ impl StepError {
     /// or no further one would be better.
     pub fn judge(&mut self, run: &Kept, other: &Kept, extent: f64) -> Option<f64> {
         let difference = run.difference(other, extent);
-        let apart = (other.left() / run.left()).powf(SLOPE);
-        // Runs that went the same steps tell nothing of each other.
-        let estimate = if apart > 1.1 { difference / (apart - 1.0) } else { f64::NAN };
-        let before = self.estimate.replace(estimate).filter(|_| estimate.is_finite());
-        if !estimate.is_finite() {
-            self.estimate = None;
-            return None;
+        let told = run.is_told_by(other) && difference.is_finite();
+        let estimate = difference / (run.apart(other) - 1.0);
+        let before = std::mem::replace(&mut self.estimate, told.then_some(estimate));
+        if !told {
+            return (!run.has_steps_of(other)).then(|| self.without_trial());
         }
         // Runs that have nothing in common tell little of how much shorter steps must be, and a few of them that there is no such length.
         let lost = difference > SATURATED;
@@ -83,6 +81,12 @@ impl StepError {
         let [least, most] = CHANGE;
         let factor = if lost { LOST } else { (AIM * self.asked / estimate).clamp(least, most) };
         (estimate > WITHIN * self.asked && !hopeless).then_some(self.tolerance * factor)
+    }
+
+    /// The tolerance of a further run where the trial did not come to its end: its steps, and maybe those of the run, do not follow the
+    /// motion.
+    pub fn without_trial(&self) -> f64 {
+        self.tolerance * LOST
     }
 
     /// What the run has to say where its error is not what was asked for.

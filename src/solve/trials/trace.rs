@@ -10,6 +10,11 @@ use std::io;
 /// Largest number of nodes that are compared; of more nodes every second, third, ... is.
 const MOST_NODES: usize = 20_000;
 
+/// Errors of steps add up to less than their sum: they fall at least with this power of it.
+const SLOPE: f64 = 0.8;
+/// Runs of nearly the same steps tell nothing of each other.
+const TELLING: f64 = 1.1;
+
 /// Positions of nodes and rotations of bodies at a few times, kept while another observer receives the same steps.
 pub struct Trace<'o> {
     observer: &'o mut dyn Observer,
@@ -25,6 +30,8 @@ pub struct Kept {
     displacements: Vec<Vec3>,
     /// Rotations of the bodies, likewise.
     rotations: Vec<Quaternion<f64>>,
+    /// Velocities and angular velocities of the bodies, likewise, where bodies are all that moves.
+    velocities: Vec<[Vec3; 2]>,
     /// Number of times so far.
     times: usize,
     /// Sum over the steps of the power of their length with which their errors go.
@@ -46,8 +53,10 @@ impl<'o> Trace<'o> {
 
 impl Observer for Trace<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        self.kept.left += frame.dt.powi(self.power);
-        self.kept.longest = self.kept.longest.max(frame.dt);
+        if !frame.inside {
+            self.kept.left += frame.dt.powi(self.power);
+            self.kept.longest = self.kept.longest.max(frame.dt);
+        }
         self.kept.look(frame);
         self.observer.on_step(frame)
     }
@@ -66,6 +75,7 @@ impl Kept {
         if self.displacements.capacity() == 0 {
             self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
+            self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
         }
         let end = model.analysis.end_time;
         if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, end) - 1e-9 * end {
@@ -73,13 +83,28 @@ impl Kept {
         }
         let compared = state.nodes.iter().zip(&model.nodes).step_by(stride);
         self.displacements.extend(compared.map(|(node, start)| node.moved(&start.x)));
-        self.rotations.extend(model.bodies.iter().map(|body| state.nodes[body.node].rotation));
+        let bodies = || model.bodies.iter().map(|body| &state.nodes[body.node]);
+        self.rotations.extend(bodies().map(|node| node.rotation));
+        // What is elastic vibrates, and what touches stops at once: velocities are then far less certain than positions, and matter less.
+        if !model.parts.iter().any(|part| part.mass_kind().is_some() || part.kind().is_unilateral()) {
+            self.velocities.extend(bodies().map(|node| [node.v, node.omega]));
+        }
         self.times += 1;
     }
 
-    /// What the steps leave of error, up to a factor of the scene.
-    pub fn left(&self) -> f64 {
-        self.left
+    /// The factor by which the error of another run is larger, as its steps tell.
+    pub fn apart(&self, other: &Kept) -> f64 {
+        (other.left / self.left).powf(SLOPE)
+    }
+
+    /// True where the steps of another run are enough longer to tell the error of this one.
+    pub fn is_told_by(&self, other: &Kept) -> bool {
+        self.apart(other) > TELLING
+    }
+
+    /// True where both went the same steps, which something else than their tolerance dictates.
+    pub fn has_steps_of(&self, other: &Kept) -> bool {
+        (self.apart(other) - 1.0).abs() < TELLING - 1.0
     }
 
     /// The longest step.
@@ -88,8 +113,8 @@ impl Kept {
     }
 
     /// The difference of two runs, relative to the largest motion of both: the root mean square over the times of the largest over
-    /// nodes and bodies, displacements over the largest displacement, rotations of bodies over the largest rotation; `extent` is the
-    /// length of the scene, by which both are compared. Infinite where one ended early.
+    /// nodes and bodies, displacements over the largest displacement, rotations of bodies over the largest rotation, their velocities
+    /// over the largest velocity; `extent` is the length of the scene, by which translations and rotations are compared. Infinite where one ended early.
     pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
         if self.times < COMPARISONS || other.times < COMPARISONS {
             return f64::INFINITY;
@@ -97,6 +122,8 @@ impl Kept {
         let (displacement, rotation) = self.motion().max(other.motion());
         let (displacement, rotation) =
             (displacement.max(1e-6 * rotation * extent), rotation.max(displacement / extent));
+        let (speed, spin) = self.speed().max(other.speed());
+        let (speed, spin) = (speed.max(1e-6 * spin * extent), spin.max(speed / extent));
         let relative = |difference: f64, of: f64| if difference == 0.0 { 0.0 } else { difference / of };
         let at = |time: usize| {
             let moved =
@@ -104,7 +131,11 @@ impl Kept {
             let turned = self.rotations_at(time).iter().zip(other.rotations_at(time));
             let turned = turned.map(|(a, b)| angle(&(b * a.conjugate())));
             let moved = relative(moved.fold(0.0, f64::max), displacement);
-            moved.max(relative(turned.fold(0.0, f64::max), rotation))
+            let at_rates = self.velocities_at(time).iter().zip(other.velocities_at(time));
+            let rates = at_rates.map(|([v, w], [v_other, w_other])| {
+                relative((v - v_other).norm(), speed).max(relative((w - w_other).norm(), spin))
+            });
+            moved.max(relative(turned.fold(0.0, f64::max), rotation)).max(rates.fold(0.0, f64::max))
         };
         ((0..COMPARISONS).map(|time| at(time).powi(2)).sum::<f64>() / COMPARISONS as f64).sqrt()
     }
@@ -117,6 +148,17 @@ impl Kept {
     fn rotations_at(&self, time: usize) -> &[Quaternion<f64>] {
         let count = self.rotations.len() / COMPARISONS;
         &self.rotations[time * count..(time + 1) * count]
+    }
+
+    fn velocities_at(&self, time: usize) -> &[[Vec3; 2]] {
+        let count = self.velocities.len() / COMPARISONS;
+        &self.velocities[time * count..(time + 1) * count]
+    }
+
+    /// The largest velocity and the largest angular velocity of a body.
+    fn speed(&self) -> Motion {
+        let largest = |of: usize| self.velocities.iter().map(|rates| rates[of].norm()).fold(0.0, f64::max);
+        Motion(largest(0), largest(1))
     }
 
     /// The largest displacement of a node and the largest rotation of a body.

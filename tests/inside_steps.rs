@@ -1,0 +1,135 @@
+//! Output inside the steps of a diagonally implicit scheme: steps find their own ends, and what is written between them is as exact.
+
+use crate::support::{Done, error, read, read_deck, run_to_the_end};
+use rdsolve::model::Model;
+use rdsolve::solve::Frame;
+
+type Probe = fn(&Model, &Frame) -> Vec<f64>;
+
+fn run(deck: &str, end: f64, rows: usize, step: &str, others: &[&str], probe: Probe) -> Done {
+    let own = [
+        "expect=[]".to_owned(),
+        "integrator={scheme=\"esdirk3\"}".to_owned(),
+        format!("analysis={{kind=\"dynamic\",end_time={end:?},{step}}}"),
+        format!("output.interval={:?}", end / rows as f64),
+        "output.reactions=true".to_owned(),
+        "output.energy=true".to_owned(),
+    ];
+    let sets: Vec<String> = own.into_iter().chain(others.iter().map(|set| (*set).to_owned())).collect();
+    let model = read(deck, &sets);
+    run_to_the_end(&model, &mut |frame| probe(&model, frame))
+}
+
+fn displacements(model: &Model, frame: &Frame) -> Vec<f64> {
+    frame
+        .state
+        .nodes
+        .iter()
+        .zip(&model.nodes)
+        .flat_map(|(node, start)| <[f64; 3]>::from(node.moved(&start.x)))
+        .collect()
+}
+
+fn velocities(_: &Model, frame: &Frame) -> Vec<f64> {
+    frame.state.nodes.iter().flat_map(|node| <[f64; 3]>::from(node.v)).collect()
+}
+
+fn reactions(_: &Model, frame: &Frame) -> Vec<f64> {
+    frame.reactions.to_vec()
+}
+
+fn energies(_: &Model, frame: &Frame) -> Vec<f64> {
+    let energy = frame.derived.energy.as_ref().expect("energies");
+    vec![energy.kinetic, energy.strain + energy.links, energy.external, energy.damping, energy.mechanical]
+}
+
+/// Many rows in few steps, against steps that end at every row and are as long in the mean: the errors of motion, of reactions and of
+/// energies inside are no larger than 1.5 times those at the ends of the others, or of what was asked for. Axial stiffness of the beam is
+/// such that a polynomial alone, without equilibrium, would leave forces of a hundred times the true ones.
+#[test]
+fn what_is_inside_steps_is_as_exact_as_their_ends() {
+    let probes: [(&str, Probe); 4] = [
+        ("displacements", displacements),
+        ("velocities", velocities),
+        ("reactions", reactions),
+        ("energies", energies),
+    ];
+    let beam: &[&str] = &["beams.legs.elements=1", "beams.legs.order=3"];
+    let scenes: [(&str, f64, &[&str]); 3] =
+        [("two_bodies_on_springs", 2.0, &[]), ("right_angle_cantilever", 4.0, beam), ("heavy_top/pivot", 0.5, &[])];
+    let asked = 1e-3;
+    for (deck, end, others) in scenes {
+        for (what, probe) in probes {
+            let of = |rows: usize, step: &str| run(deck, end, rows, step, others, probe);
+            let reference = of(240, &format!("time_step={:?}", end / 240.0 / 32.0)).rows;
+            if reference[0].is_empty() {
+                continue; // nothing is held
+            }
+            let free = of(240, &format!("time_step=\"auto\",error_tolerance={asked}"));
+            let steps = free.counts.steps.next_multiple_of(240).min(240);
+            let landing = of(240, &format!("time_step={:?}", end / steps as f64));
+            let (inside, ends) = (error(&free.rows, &reference, 1), error(&landing.rows, &reference, 1));
+            println!("{deck}, {what}: {} steps, {inside:.1e} inside, {ends:.1e} at {steps} ends", free.counts.steps);
+            assert!(inside < 1.5 * ends.max(asked), "{deck}, {what}: {inside:e} and {ends:e}");
+        }
+    }
+}
+
+/// Steps do not get shorter by what is written: the same steps with 16 rows as with 400, and the same motion at times of both.
+#[test]
+fn output_does_not_shorten_steps() {
+    let of = |rows: usize| {
+        let step = "time_step=\"auto\",error_tolerance=1e-3";
+        run("two_bodies_on_springs", 2.0, rows, step, &[], displacements)
+    };
+    let (few, many) = (of(16), of(400));
+    assert_eq!(few.counts.steps, many.counts.steps);
+    // Each time inside takes little more than one iteration.
+    let more = (many.counts.iterations - few.counts.iterations) as f64 / 384.0;
+    assert!(more < 1.3, "{more}");
+    for (row, same) in few.rows.iter().zip(many.rows.iter().step_by(25)) {
+        // Iterations inside begin from the matrix at hand, which another time inside may have renewed.
+        assert!(row.iter().zip(same).all(|(a, b)| (a - b).abs() < 1e-5), "{row:?} {same:?}");
+    }
+}
+
+/// Loads that jump and tables with kinks are met all the same, and the values that a deck expects at a time inside a step are those of
+/// that time: a mass under a force that is switched twice, ½ a t² and its like.
+#[test]
+fn jumps_end_steps_and_expected_times_do_not() {
+    let model = read_deck(
+        r#"
+        analysis = { kind = "dynamic", end_time = 3.0, time_step = "auto", error_tolerance = 1e-4 }
+        integrator = { scheme = "esdirk3" }
+        points = { p = [0.0, 0.0, 0.0] }
+        masses = [{ at = "p", mass = 2.0 }]
+        loads = [{ at = "p", force = [4.0, 0.0, 0.0], amplitude = "switched" }]
+        amplitudes = { switched = { kind = "table", points = [[0.0, 1.0], [1.0, 1.0], [1.0, -1.0], [2.5, -1.0], [2.5, 0.0], [3.0, 0.0]] } }
+        output = { interval = 0.37 }
+        [[expect]]
+        at = "p"
+        quantity = "ux"
+        time = 0.613
+        value = 0.375769
+        tolerance = { absolute = 1e-9 }
+        [[expect]]
+        at = "p"
+        quantity = "vx"
+        time = 1.71
+        value = 0.58
+        tolerance = { absolute = 1e-9 }
+        "#,
+    );
+    let done = run_to_the_end(&model, &mut |frame| vec![frame.state.time, frame.state.nodes[0].x.x]);
+    for row in &done.rows {
+        let (t, x) = (row[0], row[1]);
+        let exact = match t {
+            t if t <= 1.0 => t * t,
+            t if t <= 2.5 => 1.0 + 2.0 * (t - 1.0) - (t - 1.0).powi(2),
+            t => 1.75 - (t - 2.5),
+        };
+        // A parabola is met to rounding of the equilibrium.
+        assert!((x - exact).abs() < 1e-9, "{t}: {x} {exact}");
+    }
+    assert!(done.verdicts.iter().all(|verdict| verdict.passed), "{:?}", done.verdicts);
+}
