@@ -111,7 +111,8 @@ mod tests {
         // A vibration that is slow by one part in a thousand, twice as large in the second quantity: late by t/1000.
         let grid = StudyGrid::of_steps(vec![StudyLine::plain("newmark")], vec![0.01], 4.0, 400);
         let times = (0..=400).map(|k| 0.01 * f64::from(k));
-        let values = |slow: f64| times.clone().flat_map(|t| [(6.0 * slow * t).sin(), 2.0 * (5.0 * slow * t).cos()]);
+        let values =
+            |slow: f64| times.clone().flat_map(move |t| [(6.0 * slow * t).sin(), 2.0 * (5.0 * slow * t).cos()]);
         let (history, exact): (Vec<f64>, Vec<f64>) = (values(0.999).collect(), values(1.0).collect());
         let run = StudyRun::made_up(0, 0.01, 1.0, Some(1e-3), history);
         let found = phases(&grid, &[run], &Reference::of_values(exact), 2);
