@@ -23,6 +23,7 @@ mod joint_forces;
 mod joints;
 mod left_out;
 mod linear;
+mod massless;
 mod materials;
 mod mesh;
 mod messages;

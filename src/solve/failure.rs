@@ -1,6 +1,7 @@
 //! The failures of steps, with the names of what failed.
 
 use crate::model::{DIRECTIONS, Model};
+use crate::names::to_digits;
 use crate::plan::Plan;
 use crate::system::System;
 use std::fmt;
@@ -18,6 +19,19 @@ pub enum Failure {
         open: Option<String>,
         /// True for the first matrix of a run that nothing has moved yet: shorter steps do not help.
         at_start: bool,
+    },
+    /// A direction without mass in which nothing holds a node.
+    MasslessDirection {
+        /// The name of the node.
+        label: String,
+        /// True where the direction is the axis of a rotation.
+        rotation: bool,
+        /// The unit vector of the direction, global components.
+        direction: [f64; 3],
+        /// True where what acts there pushes the node away.
+        buckles: bool,
+        /// A part there that would hold it, but is open or slack.
+        open: Option<String>,
     },
     /// The iteration did not converge.
     NotConverged {
@@ -208,6 +222,22 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
     widest
 }
 
+/// The message of a direction without mass that is not held.
+fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, open: Option<&str>) -> String {
+    let what = if rotation { "inertia" } else { "mass" };
+    let [x, y, z] = direction.map(|component| to_digits(component, 3));
+    let there = if rotation { "turning about" } else { "in direction" };
+    let why = match (buckles, open) {
+        (true, _) => "what acts there is compressed and pushes it away".to_owned(),
+        (false, None) => "nothing holds it".to_owned(),
+        (false, Some(name)) => format!("nothing holds it, as `{name}` is open or slack"),
+    };
+    format!(
+        "`{label}` has no {what}, and {there} ({x}, {y}, {z}) {why}: it has no motion to compute; give it a mass \
+         (`[[masses]]`), or hold it there"
+    )
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.message())?;
@@ -240,6 +270,9 @@ impl Failure {
                      a mechanism, a bifurcation, or a motion beyond what the model can bear; what its own tension holds, such as \
                      a cable, needs pretension, or a dynamic analysis){open}"
                 )
+            }
+            Failure::MasslessDirection { label, rotation, direction, buckles, open } => {
+                massless(label, *rotation, direction, *buckles, open.as_deref())
             }
             Failure::NotConverged { iterations, load_control, open, .. } => {
                 let limit = match (open, load_control) {

@@ -10,6 +10,7 @@ mod ending;
 mod jump;
 mod lead;
 mod line_search;
+mod massless;
 mod mechanism;
 mod mode;
 mod newton;

@@ -10,6 +10,7 @@ use super::ending::Ending;
 use super::jump;
 use super::lead::Lead;
 use super::line_search::LineSearch;
+use super::massless::MasslessNodes;
 use super::mechanism;
 use super::refresh::{Advice, Refresh};
 use super::stability::Stability;
@@ -48,6 +49,8 @@ pub struct Newton {
     searched: Option<usize>,
     /// The part that has opened or gone slack last.
     opened: Option<String>,
+    /// The nodes without mass in a dynamic analysis.
+    massless: MasslessNodes,
     /// The watch over the stability of equilibria in statics.
     stability: Option<Stability>,
     /// True where loads grow along the path at the equilibrium at hand; a path of given arc length may go back.
@@ -128,6 +131,7 @@ impl Newton {
             ending: Ending::new(model.solution.iteration.tolerance),
             searched: None,
             opened: None,
+            massless: MasslessNodes::new(cx),
             stability: Stability::for_statics(cx, update != Update::Iteration || method == Method::InitialLoad)?,
             grows: true,
         })
@@ -164,6 +168,7 @@ impl Newton {
     ) -> Result<StepReport, Failure> {
         let ahead = stage.scheme.instant * (to - state.time);
         contacts::check_length(cx, state, ahead)?;
+        self.massless.check_start(cx, state, stage, ahead)?;
         self.predict(cx, ws, state, stage);
         let report = self.equilibrate(cx, ws, state, stage, to, None)?;
         contacts::check_passage(cx, ws, state, ahead)?;
@@ -230,6 +235,8 @@ impl Newton {
         work: Option<WorkQuadrature>,
     ) -> Result<(), Failure> {
         let from = state.time;
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: stage.scheme.instant * (to - from) };
+        self.massless.check(cx, &now, stage)?;
         let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to, work);
         if let (Ok(()), Some(stability)) = (&accepted, &mut self.stability)
             && stability.check(cx, ws, state, from, self.grows)
