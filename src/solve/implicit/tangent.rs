@@ -2,11 +2,12 @@
 
 use super::mode::Mode;
 use crate::elements::Moduli;
+use crate::math::rotation;
 use crate::model::DIRECTIONS;
 use crate::solve::context::Context;
 use crate::solve::linear_system::LinearSystem;
 use crate::solve::warning::Instability;
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 use crate::system::assembly::TangentWeights;
 use crate::system::{DofMap, Forces, Loading, System};
 
@@ -14,6 +15,10 @@ use crate::system::{DofMap, Forces, Loading, System};
 const BISECTIONS: usize = 17;
 /// Number of points in a step at which a determinant is looked at: two modes that buckle one after the other leave its sign.
 const SCANS: usize = 16;
+/// Turn of a node in a step, in radians, above which the tangents between the ends of the step, K₀ + θ (K₁ − K₀), say nothing of a
+/// determinant: half-way they are wrong by an eighth of its square, as part of what is stiffest, and slender parts bend a thousand times
+/// more easily than they stretch.
+const TURNS: f64 = 0.05;
 /// An eigenvalue that is negative by less than this part of the diagonal is rounding; that of a thousand elements in bending is 1e-12.
 const ROUNDING: f64 = 1e-14;
 
@@ -48,6 +53,15 @@ pub struct Ends<'s> {
     pub configurations: [Configuration<'s>; 2],
     pub loads: [&'s Loading; 2],
     pub times: [f64; 2],
+}
+
+impl Ends<'_> {
+    /// The largest turn of a node in the step, in radians.
+    fn largest_turn(&self) -> f64 {
+        let [start, end] = self.configurations.each_ref().map(|ends| ends.nodes);
+        let turn = |(a, b): (&Node, &Node)| rotation::log(&(b.rotation * a.rotation.conjugate())).norm();
+        start.iter().zip(end).map(turn).fold(0.0, f64::max)
+    }
 }
 
 impl Tangent<'_> {
@@ -97,6 +111,9 @@ impl Tangent<'_> {
             self.add_rounding();
             (self.unstable_modes() != Some(0)).then_some((theta, modes))
         })?;
+        if unstable < 1.0 && self.criterion == Criterion::Determinant && ends.largest_turn() > TURNS {
+            return None;
+        }
         let mut stable = 0.0;
         let already = unstable_at(self, 0.0).is_some_and(|modes| modes > 0);
         if already {
