@@ -244,6 +244,42 @@ fn a_folder_of_an_earlier_version_is_replaced() {
     assert!(!names.contains(&"fields_000000.vtu".into()) && names.contains(&"notes.txt".into()), "{names:?}");
 }
 
+/// True once a process catches a signal.
+#[cfg(target_os = "linux")]
+fn catches(child: &Child, number: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).map(str::trim);
+    mask.and_then(|mask| u64::from_str_radix(mask, 16).ok()).is_some_and(|mask| mask >> (number - 1) & 1 == 1)
+}
+
+/// While a deck is read and planned there is nothing to bring to an end: signals, that of `ulimit -t` among them, end the program at once,
+/// with a word and the exit code of a run that is stopped. A pipe into which nobody writes is read for as long as one likes.
+#[test]
+#[cfg(target_os = "linux")]
+fn signals_before_the_first_step_end_the_run_with_a_word() {
+    let desk = Desk::new();
+    assert!(Command::new("mkfifo").arg(desk.at("pipe.toml")).status().unwrap().success());
+    for command in ["run", "check", "study"] {
+        for (name, number) in [("INT", 2), ("TERM", 15), ("XCPU", 24)] {
+            let mut started = Command::new(env!("CARGO_BIN_EXE_rdsolve"));
+            started
+                .current_dir(desk.dir.path())
+                .args([command, "pipe.toml"])
+                .stdout(Stdio::null())
+                .stderr(Stdio::piped());
+            let mut child = started.spawn().unwrap();
+            while !catches(&child, number) {
+                assert!(child.try_wait().unwrap().is_none(), "{command} has ended by itself");
+                std::thread::sleep(std::time::Duration::from_millis(5));
+            }
+            signal(&child, name);
+            let (code, said) = ended(child.wait_with_output().unwrap());
+            assert!(code == 75 && said.contains("stopped by a signal before the first step"), "{name}: {code} {said}");
+        }
+    }
+    assert!(!desk.names(".").iter().any(|name| name.contains("out") || name.contains("study")));
+}
+
 /// A limit of the shell on the size of files, as of a disk that is full: whole rows, and exit code 6.
 #[test]
 #[cfg(unix)]

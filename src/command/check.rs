@@ -4,6 +4,7 @@ use super::arguments::DeckArgs;
 use super::console::{print, show};
 use super::exit::Exit;
 use super::load::{load, plan, too_large};
+use super::signals::EndAtOnce;
 use crate::output::listed;
 use crate::plan::explain::explain_costs;
 
@@ -12,6 +13,7 @@ use crate::plan::explain::explain_costs;
 /// # Errors
 /// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
 pub fn check(args: &DeckArgs) -> Result<(), Exit> {
+    let _checking = EndAtOnce::on_signals();
     let mut loaded = load(&args.deck, &args.sets, Vec::new())?;
     show(&loaded.warnings, &loaded.source);
     let (system, plan, warnings) = plan(&mut loaded, 1)?;

@@ -11,7 +11,7 @@ use super::console::{complain, print, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, load, plan, too_large};
-use super::signals::{end_with_input, stop_on_signals};
+use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::verdict::{End, end, energy_line, energy_warning, line, work_warning};
 use super::version::VERSION;
 use crate::diagnostic::Diagnostic;
@@ -35,6 +35,7 @@ use crate::system::System;
 /// The exit code of every run that is not done ([`Exit`]); the reason has been shown.
 pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let began = Instant::now();
+    let reading = EndAtOnce::on_signals();
     if std::env::var_os(LIFELINE).is_some() {
         std::thread::spawn(end_with_input);
     }
@@ -68,7 +69,10 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
-    let computed = stop_on_signals(&stop).and_then(|()| job.compute(&mut run));
+    let computed = stop_on_signals(&stop).and_then(|()| {
+        drop(reading);
+        job.compute(&mut run)
+    });
     let (end, result, energy) = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
         Exit::InputOutput
@@ -140,6 +144,7 @@ impl Job<'_> {
         let whole = looping.elapsed();
         watchers.progress.finish();
         watchers.files.finish()?;
+        watchers.log.sum_up()?;
 
         run.remarks().iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
         let of_run = self.warnings_of(run, watchers.files.empty_fields());
@@ -275,6 +280,7 @@ impl Observer for Watchers {
     }
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {
+        self.log.sum_up()?;
         self.log.say(
             "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps",
         )?;

@@ -1,5 +1,6 @@
 //! Signals that ask a run to end, and the end of the process that started it.
 
+use super::console::complain;
 use super::exit::Exit;
 use std::io::{self, Read};
 use std::sync::Arc;
@@ -28,6 +29,44 @@ pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
         signal_hook::flag::register(SIGXCPU, Arc::clone(flag))?;
     }
     Ok(())
+}
+
+/// Ends the process, with a word and the exit code of a run that is stopped, as long as there is nothing to bring to an end: while a deck
+/// is read and planned. Dropped, it leaves signals to [`stop_on_signals`].
+pub struct EndAtOnce {
+    #[cfg(unix)]
+    handle: Option<signal_hook::iterator::Handle>,
+}
+
+impl EndAtOnce {
+    /// Begins to wait for signals; where the system does not let them be caught they end the process as they always do.
+    pub fn on_signals() -> EndAtOnce {
+        #[cfg(unix)]
+        {
+            use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
+            let caught = [SIGINT, SIGTERM, SIGXCPU].into_iter().chain((!is_ignored(SIGHUP)).then_some(SIGHUP));
+            let signals = signal_hook::iterator::Signals::new(caught).ok();
+            let handle = signals.as_ref().map(signal_hook::iterator::Signals::handle);
+            if let Some(mut signals) = signals {
+                std::thread::spawn(move || {
+                    if signals.forever().next().is_some() {
+                        complain("stopped by a signal before the first step; nothing has been written");
+                        std::process::exit(i32::from(Exit::Stopped as u8));
+                    }
+                });
+            }
+            EndAtOnce { handle }
+        }
+        #[cfg(not(unix))]
+        EndAtOnce {}
+    }
+}
+
+#[cfg(unix)]
+impl Drop for EndAtOnce {
+    fn drop(&mut self) {
+        self.handle.iter().for_each(signal_hook::iterator::Handle::close);
+    }
 }
 
 /// Makes a file that reaches a limit (`ulimit -f`) an error of writing instead of the end of the process.

@@ -12,7 +12,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::load;
 use super::recommend;
-use super::signals::stop_on_signals;
+use super::signals::{EndAtOnce, stop_on_signals};
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::Model;
@@ -140,6 +140,7 @@ fn climbed(text: &str) -> Result<Climbed, String> {
 /// # Errors
 /// The exit code of every study that has no outcome, or was stopped; the reason has been shown.
 pub fn study(args: &StudyArgs) -> Result<(), Exit> {
+    let reading = EndAtOnce::on_signals();
     let (mut sets, mut names) = (args.sets.clone(), Vec::new());
     for (name, value) in args.keys()? {
         sets.push(format!("study.{}={value}", name.trim_start_matches("--").replace('-', "_")));
@@ -167,6 +168,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     }
     let stop = Arc::new(AtomicBool::new(false));
     stop_on_signals(&stop).map_err(|error| exit(error.into(), &loaded.source))?;
+    drop(reading);
     let (model, options) = (&loaded.model, args.options(&folder));
     let _lock = lock(&folder).map_err(|error| exit(error.into(), &loaded.source))?;
     let outcome = if args.rigidify {

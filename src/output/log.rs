@@ -12,12 +12,39 @@ use std::path::{Path, PathBuf};
 /// The name of the log in the output folder.
 pub const NAME: &str = "run.log";
 
+/// The number of lines of one kind after which steps are only counted.
+const MOST_LINES: usize = 20;
+
 /// The log of a run. Its lines reach the file at once: they are few, and the last ones matter when a run dies.
 pub struct Log {
     path: PathBuf,
     file: File,
     /// The number of negative pivots and the increment of the load in the last step of a path.
     path_before: Option<(usize, f64)>,
+    cut: Events,
+    passed: Events,
+}
+
+/// Lines of one kind.
+#[derive(Default)]
+struct Events {
+    /// The number of steps with a line of their own, and of those after them.
+    said: usize,
+    more: usize,
+    /// The cutbacks of those after them.
+    cutbacks: usize,
+}
+
+impl Events {
+    /// Counts a step; true where it has a line of its own.
+    fn count(&mut self, cutbacks: usize) -> bool {
+        let tells = self.said < MOST_LINES;
+        match tells {
+            true => self.said += 1,
+            false => (self.more, self.cutbacks) = (self.more + 1, self.cutbacks + cutbacks),
+        }
+        tells
+    }
 }
 
 impl Log {
@@ -29,7 +56,7 @@ impl Log {
         let path = dir.join(NAME);
         let open = |()| if resume { OpenOptions::new().create(true).append(true).open(&path) } else { create(&path) };
         let file = std::fs::create_dir_all(dir).and_then(open).map_err(|e| at(&path, e))?;
-        Ok(Log { path, file, path_before: None })
+        Ok(Log { path, file, path_before: None, cut: Events::default(), passed: Events::default() })
     }
 
     /// Writes one or more lines; the last may do without its line break.
@@ -54,7 +81,7 @@ impl Observer for Log {
     /// Notes the steps that took cutbacks, and what a path goes through.
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.see_path(frame)?;
-        if frame.cuts == 0 {
+        if frame.cuts == 0 || !self.cut.count(frame.cuts) {
             return Ok(());
         }
         let cutbacks = if frame.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.cuts) };
@@ -75,14 +102,41 @@ impl Log {
             (false, false) => format!("a limit point or a bifurcation: negative pivots {before}, now {now}"),
             (false, true) => return Ok(()),
         };
+        if !self.passed.count(0) {
+            return Ok(());
+        }
         let (step, time) = (frame.step, instant(frame.state.time));
         self.say(&format!("step {step} to t = {time}: {what}"))
+    }
+
+    /// Says how many steps had no line of their own, at the end of a run, and begins to count anew.
+    ///
+    /// # Errors
+    /// The file cannot be written; the error names it.
+    pub fn sum_up(&mut self) -> io::Result<()> {
+        let (cut, passed) = (std::mem::take(&mut self.cut), std::mem::take(&mut self.passed));
+        if cut.more > 0 {
+            let steps = if cut.more == 1 { "step" } else { "steps" };
+            let cutbacks = if cut.cutbacks == 1 { "cutback" } else { "cutbacks" };
+            self.say(&format!("and {} more {steps} with {} {cutbacks}", cut.more, cut.cutbacks))?;
+        }
+        if passed.more > 0 {
+            self.say(&format!("and {} more limit points or bifurcations", passed.more))?;
+        }
+        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn after_the_first_lines_steps_are_counted() {
+        let mut events = Events::default();
+        let said = (1..=50).filter(|&cutbacks| events.count(cutbacks)).count();
+        assert_eq!((said, events.more, events.cutbacks), (20, 30, (21..=50).sum()));
+    }
 
     #[test]
     fn a_log_is_continued_on_resume() {
