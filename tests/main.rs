@@ -42,6 +42,7 @@ mod shells;
 mod stability;
 mod statics;
 mod study;
+mod sudden_loads;
 mod table_sizes;
 mod turning;
 

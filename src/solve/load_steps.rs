@@ -3,6 +3,7 @@
 //! Where the loads have gone back to zero, what is left in an elastic structure is rounding, which balances nothing: the forces that it
 //! had are then the measure.
 
+use super::sudden_loads::SuddenLoads;
 use crate::system::{Loading, Prescribed, Scale};
 
 /// Loads and motions below this part of the largest so far are those of a structure that has been let go: amplitudes come back to zero
@@ -33,7 +34,7 @@ pub struct Peak {
 }
 
 /// What load steps leave to those after them.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct LoadSteps {
     /// Time and stored energy at the end of the last one.
     pub stored: Option<(f64, f64)>,
@@ -43,6 +44,8 @@ pub struct LoadSteps {
     pub peak: Peak,
     /// The works of loads and supports.
     pub works: Works,
+    /// The loads that the step under way brings on.
+    pub sudden: Option<SuddenLoads>,
 }
 
 /// The works of loads and of supports in the load steps of a static analysis.

@@ -28,6 +28,7 @@ mod residual;
 mod run;
 mod size;
 mod start;
+mod sudden_loads;
 mod time_stepper;
 mod trials;
 mod warning;

@@ -54,6 +54,10 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     let loads = &mut ws.loads;
     cx.excitation.loading(from, Side::After, &mut loads.start);
     cx.excitation.loading(to, Side::Before, &mut loads.end);
+    if let Some(sudden) = &ws.load_steps.sudden {
+        sudden.bring_on(from, &mut loads.start);
+        sudden.bring_on(to, &mut loads.end);
+    }
     between(&loads.start, &loads.end, instant, &mut loads.instant);
     let prescribed = &mut ws.prescribed;
     cx.excitation.prescribed(from, &mut prescribed.start);

@@ -8,6 +8,7 @@ use crate::solve::march::March;
 use crate::solve::outcome::Outcome;
 use crate::solve::recorder::AcceptedStep;
 use crate::solve::report::StepReport;
+use crate::solve::sudden_loads::SuddenLoads;
 use crate::solve::time_stepper::TimeStepper;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
@@ -26,6 +27,8 @@ pub struct FixedController<'a> {
     stepper: TimeStepper<'a>,
     /// Consecutive steps that were cut into many substeps.
     subdivided: SubdividedSteps,
+    /// True where loads may act at once as the next step begins.
+    sudden: bool,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -54,7 +57,7 @@ struct Substeps {
 impl<'a> FixedController<'a> {
     /// A controller that leads this stepper.
     pub fn new(stepper: TimeStepper<'a>) -> Self {
-        FixedController { stepper, subdivided: SubdividedSteps::default() }
+        FixedController { stepper, subdivided: SubdividedSteps::default(), sudden: true }
     }
 
     /// Takes the k-th step of the interval, in as many substeps as it needs.
@@ -104,14 +107,21 @@ impl<'a> FixedController<'a> {
 
 impl CoverInterval for FixedController<'_> {
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        self.sudden = true;
         self.stepper.restart(cx, ws, state);
     }
 
     /// Covers the interval in its equal steps.
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
+        let is_static = !march.cx.is_dynamic();
         for k in 1..=interval.steps {
+            if is_static && std::mem::take(&mut self.sudden) {
+                march.ws.load_steps.sudden = Some(SuddenLoads::over(march.cx, march.state.time, interval.time(k)));
+            }
             self.advance(march, interval, k)?;
+            march.ws.load_steps.sudden = None;
         }
+        self.sudden = interval.jump;
         Ok(())
     }
 }

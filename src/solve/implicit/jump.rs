@@ -86,8 +86,7 @@ pub fn check_work(
     if missed > rounding {
         // Loads that act at once, at t = 0 or at a jump, do work before they are in equilibrium.
         let sudden = unbalanced_work(cx, ws, state);
-        let smooth = cx.system.history > 0
-            || 0.5 * (to - state.time) < cx.model.analysis.least_step
+        let smooth = 0.5 * (to - state.time) < cx.model.analysis.least_step
             || ws
                 .load_steps
                 .doubtful

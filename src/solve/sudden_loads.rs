@@ -1,0 +1,43 @@
+//! Loads of a static analysis that act at once, at t = 0 or where their amplitude jumps, are brought on in proportion to the time over
+//! the step that follows. At its end they are those of the deck; where the step is cut they grow from part to part, and their work is that
+//! of forces that grow with what they move.
+
+use super::context::Context;
+use crate::system::{Loading, Side};
+
+/// The step that brings loads on.
+#[derive(Debug, Clone, Default)]
+pub struct SuddenLoads {
+    from: f64,
+    to: f64,
+    /// By how much loads jump at its start.
+    jump: Loading,
+}
+
+impl SuddenLoads {
+    /// The step that ends at `to`, from t = 0, where nothing acts before, or from a jump.
+    pub fn over(cx: &Context, from: f64, to: f64) -> SuddenLoads {
+        let (mut before, mut jump) = (Loading::default(), Loading::default());
+        cx.excitation.loading(from, Side::After, &mut jump);
+        if from > 0.0 {
+            cx.excitation.loading(from, Side::Before, &mut before);
+            add(&mut jump, -1.0, &before);
+        }
+        SuddenLoads { from, to, jump }
+    }
+
+    /// Takes from the loads of the deck at a time of the step what does not act yet. Those of its end stay as they are, to the last bit.
+    pub fn bring_on(&self, time: f64, loads: &mut Loading) {
+        if time < self.to {
+            add(loads, -(self.to - time) / (self.to - self.from), &self.jump);
+        }
+    }
+}
+
+/// y ← y + s x.
+fn add(y: &mut Loading, s: f64, x: &Loading) {
+    let add = |y: &mut [f64], x: &[f64]| y.iter_mut().zip(x).for_each(|(y, x)| *y += s * x);
+    add(&mut y.factors, &x.factors);
+    add(&mut y.pressures, &x.pressures);
+    y.field += s * x.field;
+}
