@@ -39,6 +39,7 @@ mod resultants;
 mod safety_cab;
 mod schemes;
 mod shells;
+mod small_motions;
 mod stability;
 mod statics;
 mod study;

@@ -14,6 +14,7 @@ mod explicit;
 mod failure;
 mod frame;
 mod implicit;
+mod initial_transient;
 mod joints;
 mod linear_system;
 mod links;

@@ -118,7 +118,7 @@ fn update_history(cx: &Context, ws: &mut Workspace, state: &mut State) {
 }
 
 /// Writes the rates of dependent nodes from those of their masters; nothing is displaced.
-fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) {
+pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) {
     for (increment, node) in ws.increments.iter_mut().zip(&*nodes) {
         let (d, dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
         *increment = Increment { q: Vec6::zeros(), d, dd };

@@ -10,6 +10,7 @@ use super::tolerance::FollowTolerance;
 use crate::linear::TooLarge;
 use crate::model::StepLength;
 use crate::solve::context::Context;
+use crate::solve::initial_transient;
 use crate::solve::march::March;
 use crate::solve::outcome::Outcome;
 use crate::solve::start;
@@ -103,11 +104,13 @@ fn through_intervals(
 ) -> Result<(), Outcome> {
     controller.restart(march.cx, march.ws, march.state);
     march.notify_start()?;
+    initial_transient::pass_over(march.cx, march.ws, march.state);
     for interval in intervals {
         controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {
             start::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
             controller.restart(march.cx, march.ws, march.state);
+            initial_transient::pass_over(march.cx, march.ws, march.state);
         }
     }
     Ok(())

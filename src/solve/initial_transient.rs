@@ -1,0 +1,86 @@
+//! Accelerations at t = 0, or after a jump of the loads, of nodes with little mass that dampers bring to another velocity long before a step
+//! ends: where an end of a damped beam moves off at once, the next node turns with 1e9 rad/s² for a microsecond. Schemes take an
+//! acceleration for one that lasts a step, and would turn the node by radians at its end. It is then replaced by that which an implicit step
+//! sees, (M + γΔt C + βΔt² K) a = f, which agrees with M a = f to the order of the step where the step resolves the motion.
+
+use super::context::Context;
+use super::start::update_rates_of_dependent_nodes;
+use super::workspace::Workspace;
+use crate::elements::Moduli;
+use crate::integrators::Stepping;
+use crate::math::{Vec6, angular, linear, stack};
+use crate::model::StepLength;
+use crate::state::{Configuration, State};
+use crate::system::assembly::TangentWeights;
+
+/// Motions by such an acceleration in a step, as parts of the model's length and in radians, that rotations of slender parts may have
+/// without stretching what they should only bend.
+const LARGE: f64 = 1e-3;
+/// Part of an acceleration by which that of an implicit step differs where the step does not resolve it.
+const UNRESOLVED: f64 = 0.5;
+
+/// Replaces the accelerations that no step resolves, for implicit steps of given length.
+pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State) {
+    let explicit = matches!(cx.model.solution.scheme.stepping(), Stepping::Verlet | Stepping::RungeKutta(_));
+    let StepLength::Fixed { step: dt } = cx.model.analysis.step_length else { return };
+    let leaps = |of: &Vec6| {
+        let [moved, turned] = [linear(of).norm() / cx.length, angular(of).norm()].map(|a| 0.5 * dt * dt * a);
+        [moved > LARGE, turned > LARGE]
+    };
+    let accelerations = |state: &State, node: usize| stack(&state.nodes[node].a, &state.nodes[node].alpha);
+    let any = |&node: &usize| leaps(&accelerations(state, node)) != [false; 2];
+    // Without dampers nothing ends so soon but vibrations, with which schemes deal as they are known to.
+    let damped = cx.is_dynamic() && !cx.plan.linear && cx.system.is_damped();
+    if explicit || !damped || !cx.independent_nodes.iter().any(any) {
+        return;
+    }
+    let factor = solve(cx, ws, state, dt);
+    ws.trial.clone_from(&state.nodes);
+    let Some(factor) = factor else { return };
+    for &node in &cx.independent_nodes {
+        let (own, rows) = (accelerations(state, node), cx.plan.dofs.of(node));
+        let seen = Vec6::from_fn(|dof, _| rows.get(dof).map_or(own[dof], |row| factor * ws.r[row]));
+        let [moves, turns] = leaps(&own);
+        let node = &mut state.nodes[node];
+        let (a, alpha) = (linear(&seen), angular(&seen));
+        if moves && (a - node.a).norm() > UNRESOLVED * node.a.norm() {
+            node.a = a;
+        }
+        if turns && (alpha - node.alpha).norm() > UNRESOLVED * node.alpha.norm() {
+            node.alpha = alpha;
+        }
+    }
+    update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
+    for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
+        *acceleration = stack(&node.a, &node.alpha);
+    }
+    ws.trial.clone_from(&state.nodes);
+}
+
+/// Solves the matrix of a step for the forces without those of inertia; returns the factor that makes accelerations of the solution in
+/// `ws.r`, or `None` where there is none.
+fn solve(cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Option<f64> {
+    ws.trial.clone_from(&state.nodes);
+    for &node in &cx.independent_nodes {
+        let rows = cx.plan.dofs.of(node);
+        let trial = &mut ws.trial[node];
+        (0..3).filter(|&i| rows.has(i)).for_each(|i| trial.a[i] = 0.0);
+        (0..3).filter(|&i| rows.has(3 + i)).for_each(|i| trial.alpha[i] = 0.0);
+    }
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt };
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+    let (rate, acceleration) = cx.model.solution.scheme.coefficients(dt).weights();
+    let weights = TangentWeights { stiffness: true, rate, acceleration, moduli: Moduli::Elastic };
+    let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
+    matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
+    ws.factorizations += 1;
+    matrix.solver.factor().ok()?;
+    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
+        *r = ws.forces.on_nodes[node][dof];
+    }
+    ws.forces.multipliers.gaps.fill(0.0);
+    matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
+    ws.solves += 1;
+    Some(acceleration)
+}
