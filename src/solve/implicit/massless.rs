@@ -70,7 +70,7 @@ impl MasslessNodes {
         }
         let nodes: Vec<Node> =
             state.nodes.iter().map(|node| Node { v: Vec3::zeros(), omega: Vec3::zeros(), ..*node }).collect();
-        self.check(cx, &Configuration { nodes: &nodes, history: &state.history, dt }, stage)?;
+        self.check(cx, &Configuration { nodes: &nodes, history: &state.history, dt, lead: None }, stage)?;
         self.started = true;
         Ok(())
     }

@@ -235,7 +235,12 @@ impl Newton {
         work: Option<WorkQuadrature>,
     ) -> Result<(), Failure> {
         let from = state.time;
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: stage.scheme.instant * (to - from) };
+        let now = Configuration {
+            nodes: &ws.trial,
+            history: &state.history,
+            dt: stage.scheme.instant * (to - from),
+            lead: None,
+        };
         self.massless.check(cx, &now, stage)?;
         let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to, work);
         if let (Ok(()), Some(stability)) = (&accepted, &mut self.stability)
