@@ -3,7 +3,7 @@
 
 use super::grid::StudyGrid;
 use super::run::{RunStatus, StudyRun};
-use super::section::Section;
+use super::section::StudySection;
 use crate::names::short;
 
 /// A run with automatic steps.
@@ -66,7 +66,7 @@ fn over(line: usize, runs: Vec<AskedRun>) -> Option<Asked> {
 }
 
 /// The table of asked and reached errors, and a sentence on each line.
-pub fn section(grid: &StudyGrid, asked: &[Asked]) -> Section {
+pub fn section(grid: &StudyGrid, asked: &[Asked]) -> StudySection {
     let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for of in asked {
         let label = &grid.lines[of.line].label;
@@ -93,7 +93,7 @@ pub fn section(grid: &StudyGrid, asked: &[Asked]) -> Section {
         ));
     }
     let head = vec!["setting", "asked", "reached", "reached/asked", "estimated by the run"];
-    Section { title: "Asked and reached", head, rows, notes }
+    StudySection { title: "Asked and reached", head, rows, notes }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::asked::Asked;
 use super::cheapest::Cheapest;
 use super::grid::StudyGrid;
-use super::joint::Joint;
+use super::joint::MeshAndStep;
 use super::order::Order;
 use super::phase::Phase;
 use super::reference::Reference;
@@ -31,7 +31,7 @@ pub struct Found {
     /// What automatic steps were asked for and reached.
     pub asked: Vec<Asked>,
     /// The joint fits over meshes and steps.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<MeshAndStep>,
     /// The errors of all runs, split into phase and amplitude; empty where there is no reference.
     pub phases: Vec<Phase>,
     /// True where a signal has ended it before all runs were done.

@@ -3,14 +3,14 @@
 
 use super::cells::seconds;
 use super::grid::StudyGrid;
-use super::joint_fit::{CostFit, JointFit, Pair, Part, Point, fit};
+use super::joint_fit::{CostFit, JointFit, Pair, Point, PowerLaw, fit};
 use super::run::{RunStatus, StudyRun};
-use super::section::Section;
+use super::section::StudySection;
 use crate::names::short;
 
 /// The fit of a scheme over meshes and steps.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Joint {
+pub struct MeshAndStep {
     /// The scheme, with what else distinguishes its lines besides the mesh.
     pub label: String,
     /// The fit, or in words why there is none.
@@ -33,7 +33,7 @@ pub struct CheapestPair {
 }
 
 /// The fits of a grid.
-pub fn joints(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<Joint> {
+pub fn joints(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<MeshAndStep> {
     let mut done: Vec<usize> = Vec::new();
     let mut found = Vec::new();
     for (index, line) in grid.lines.iter().enumerate() {
@@ -66,7 +66,7 @@ pub fn joints(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<Joint>
 }
 
 /// The fit of a group of runs.
-fn joint(label: String, points: &[Point], wanted: &[f64]) -> Joint {
+fn joint(label: String, points: &[Point], wanted: &[f64]) -> MeshAndStep {
     let range = |of: &dyn Fn(&Point) -> f64| {
         points.iter().map(of).fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)])
     };
@@ -86,11 +86,11 @@ fn joint(label: String, points: &[Point], wanted: &[f64]) -> Joint {
         CheapestPair { error, of_all, of_run }
     });
     let cheapest = cheapest.collect();
-    Joint { label, fit, cheapest, ranges }
+    MeshAndStep { label, fit, cheapest, ranges }
 }
 
 /// The fits in words, and the cheapest pairs as a table.
-pub fn section(joints: &[Joint]) -> Section {
+pub fn section(joints: &[MeshAndStep]) -> StudySection {
     let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for joint in joints {
         let fit = match &joint.fit {
@@ -100,7 +100,7 @@ pub fn section(joints: &[Joint]) -> Section {
                 continue;
             }
         };
-        let part = |part: &Option<Part>, x: &str, none: &str| match part {
+        let part = |part: &Option<PowerLaw>, x: &str, none: &str| match part {
             Some(part) => format!("{:.2e} {x}^{:.2}", part.factor, part.exponent),
             None => none.to_owned(),
         };
@@ -139,7 +139,7 @@ pub fn section(joints: &[Joint]) -> Section {
         }
     }
     let head = vec!["error", "setting", "cheapest of the meshes run", "cheapest of all"];
-    Section { title: "Mesh and step together", head, rows, notes }
+    StudySection { title: "Mesh and step together", head, rows, notes }
 }
 
 #[cfg(test)]

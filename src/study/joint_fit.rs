@@ -27,14 +27,14 @@ pub struct Point {
 
 /// One part of the error: factor · x^exponent.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
+pub struct PowerLaw {
     /// The factor before the power.
     pub factor: f64,
     /// The order that the grid shows.
     pub exponent: f64,
 }
 
-impl Part {
+impl PowerLaw {
     /// The part at a size of elements or a step.
     pub fn at(&self, x: f64) -> f64 {
         self.factor * x.powf(self.exponent)
@@ -50,9 +50,9 @@ impl Part {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointFit {
     /// a hᵖ; `None` where no run shows an error of the mesh.
-    pub mesh: Option<Part>,
+    pub mesh: Option<PowerLaw>,
     /// b Δt^q; `None` where no run shows an error of the step.
-    pub step: Option<Part>,
+    pub step: Option<PowerLaw>,
     /// What is left unexplained: the root mean square of ln e − ln fit.
     pub rest: f64,
     /// The largest of these differences.
@@ -216,7 +216,7 @@ fn descend(points: &[Point], with: [bool; 2], exponents: [f64; 2]) -> Option<Joi
         }
     }
     let part = |i: usize, mean: f64| {
-        with[i].then(|| Part { factor: (x[2 * i] - x[2 * i + 1] * mean).exp(), exponent: x[2 * i + 1] })
+        with[i].then(|| PowerLaw { factor: (x[2 * i] - x[2 * i + 1] * mean).exp(), exponent: x[2 * i + 1] })
     };
     let largest = points.iter().map(|point| residual(&x, point).abs()).fold(0.0, f64::max);
     let rest = (now / points.len() as f64).sqrt();

@@ -6,7 +6,7 @@ use super::grid::StudyGrid;
 use super::phase_fit::{Split, split};
 use super::reference::Reference;
 use super::run::{RunStatus, StudyRun};
-use super::section::Section;
+use super::section::StudySection;
 use crate::model::study::Quantity;
 
 /// The number of parts of a run that are split apart, besides the whole.
@@ -71,7 +71,7 @@ pub fn table(phases: &[Phase], quantities: &[Quantity]) -> String {
 }
 
 /// Of each line the run with the least resolved error, and of it the quantity that errs most.
-pub fn section(grid: &StudyGrid, runs: &[StudyRun], phases: &[Phase], quantities: &[Quantity]) -> Section {
+pub fn section(grid: &StudyGrid, runs: &[StudyRun], phases: &[Phase], quantities: &[Quantity]) -> StudySection {
     let mut rows = Vec::new();
     for (index, line) in grid.lines.iter().enumerate() {
         let of_line = runs.iter().enumerate().filter(|(_, run)| run.line == index && run.resolved);
@@ -98,7 +98,7 @@ pub fn section(grid: &StudyGrid, runs: &[StudyRun], phases: &[Phase], quantities
         ]);
     }
     let head = vec!["setting", "time step", "quantity", "error", "late by", "factor", "phase", "amplitude", "left"];
-    Section { title: "Phase and amplitude", head, rows, notes: Vec::new() }
+    StudySection { title: "Phase and amplitude", head, rows, notes: Vec::new() }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::columns::columns;
 use crate::output::report::html::{self, escaped};
 
 /// A titled table with notes.
-pub struct Section {
+pub struct StudySection {
     /// The title, without a capital on standard output.
     pub title: &'static str,
     /// The heads of the columns.
@@ -15,7 +15,7 @@ pub struct Section {
     pub notes: Vec<String>,
 }
 
-impl Section {
+impl StudySection {
     /// The section for standard output; nothing where it has neither rows nor notes.
     pub fn text(&self) -> String {
         if self.rows.is_empty() && self.notes.is_empty() {

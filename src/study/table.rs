@@ -8,7 +8,7 @@ use super::found::Found;
 use super::lines::StudyLine;
 use super::order::{Order, local};
 use super::run::{RunStatus, StudyRun, spread};
-use super::section::Section;
+use super::section::StudySection;
 use super::{asked, joint, phase};
 use crate::names::short;
 
@@ -164,7 +164,7 @@ pub fn rank(of: &Cheapest, list: &[Cheapest]) -> String {
 }
 
 /// What a study says besides: asked and reached errors, mesh and step together, phase and amplitude.
-pub fn sections(found: &Found) -> [Section; 3] {
+pub fn sections(found: &Found) -> [StudySection; 3] {
     [
         asked::section(&found.grid, &found.asked),
         joint::section(&found.joints),
