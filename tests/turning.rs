@@ -1,6 +1,6 @@
 //! Rotations without limit: bodies that spin on bushings, springs that are wound up, free bodies at large steps.
 
-use crate::support::{node, read_deck, run, run_to_the_end, slope};
+use crate::support::{node, position, read, read_deck, run, run_to_the_end, slope};
 use rdsolve::solve::{Failure, Outcome};
 
 fn opening(scheme: &str, time_step: f64, end_time: f64, interval: f64) -> String {
@@ -211,4 +211,33 @@ fn free_bodies_turn_with_second_order_under_central_differences() {
     });
     assert!((slope(&points) - 2.0).abs() < 0.05, "{points:?}");
     assert!(points[2].1 < 5e-6, "{points:?}");
+}
+
+/// Where all turns as one, a matrix serves for any number of turns; where it swings as well, for many steps. The answer is that of
+/// a matrix of its own for every iteration, to the tolerance of the iteration over the steps.
+#[test]
+fn a_matrix_turns_with_the_scene() {
+    // The last number: factorisations a step. A rotor needs one for its start, and one for the end of what drives it.
+    for (deck, step, most) in [
+        ("spin_up", 0.005, 0.05),
+        ("rotating_blade", 0.002, 0.01),
+        ("hub_with_blades", 0.0009375, 0.2),
+        ("hub_with_blades", 0.005, 0.2),
+        ("block_on_cantilever", 0.000625, 0.2),
+    ] {
+        let ends = ["auto", "iteration"].map(|update| {
+            let sets = [format!("analysis.time_step={step}"), format!("iteration.update={update:?}")];
+            let model = read(deck, &sets);
+            let done = run_to_the_end(&model, &mut |frame| frame.state.nodes.iter().flat_map(position).collect());
+            if update == "auto" {
+                let share = done.counts.factorizations as f64 / done.counts.steps as f64;
+                assert!(share < most, "{deck}, steps of {step}: {share} factorisations a step");
+            }
+            done.rows
+        });
+        let largest = ends[1].iter().flatten().fold(0.0f64, |largest, x| largest.max(x.abs()));
+        for (kept, own) in ends[0].iter().flatten().zip(ends[1].iter().flatten()) {
+            assert!((kept - own).abs() < 1e-5 * largest, "{deck}, steps of {step}: {kept}, {own}");
+        }
+    }
 }

@@ -17,7 +17,7 @@ use crate::integrators::{AlphaFamily, RotationUpdate};
 use crate::math::{Vec3, Vec6, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::implicit::Implicit;
+use crate::solve::implicit::{Implicit, Newton};
 use crate::solve::motion::Stage;
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
@@ -191,12 +191,12 @@ impl<'a> ErrorController<'a> {
     fn estimate(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Estimate {
         let motion = self.measure.with(self.motion, cx.model, state);
         self.write_errors(cx, state, dt);
-        let mass_weight = self.stepper.newton.mass_weight;
+        let newton = &mut self.stepper.newton;
         let [errors, again] = &mut self.errors;
         let relative = |errors: &[Vec6]| self.measure.relative(errors, motion, state.time);
         let mut passed = [relative(errors); 3];
         for error in &mut passed[1..] {
-            filter(cx, ws, state, mass_weight, errors);
+            filter(cx, ws, state, newton, errors);
             *error = relative(errors);
         }
         // Unresolved motion leaves the first filter with about its amplitude.
@@ -204,11 +204,11 @@ impl<'a> ErrorController<'a> {
         let allowed = self.tolerance * dt / cx.model.analysis.end_time;
         if amplitude < SLIGHT * self.tolerance && error > allowed && error < RESOLVED * raw {
             again.copy_from_slice(errors);
-            filter(cx, ws, state, mass_weight, again);
+            filter(cx, ws, state, newton, again);
             if relative(again) < RESOLVED.sqrt() * error {
                 // Unresolved motion is left alone; other motion has to show.
                 for _ in 0..FILTERS {
-                    filter(cx, ws, state, mass_weight, again);
+                    filter(cx, ws, state, newton, again);
                 }
                 error = relative(again);
                 std::mem::swap(errors, again);
@@ -241,14 +241,13 @@ fn third_derivative(start: &State, end: &State, node: usize) -> Vec6 {
 }
 
 /// Filters the errors by node, e ← (K + w M)⁻¹ w M e, with w the weight of the mass in the matrix at hand.
-fn filter(cx: &Context, ws: &mut Workspace, state: &State, mass_weight: f64, errors: &mut [Vec6]) {
+fn filter(cx: &Context, ws: &mut Workspace, state: &State, newton: &mut Newton, errors: &mut [Vec6]) {
     cx.system.apply_mass(&state.nodes, errors, &mut ws.forces);
     for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-        *r = mass_weight * ws.forces.on_nodes[node][dof];
+        *r = newton.mass_weight * ws.forces.on_nodes[node][dof];
     }
     ws.r[cx.nodal_unknowns()..].fill(0.0);
-    ws.matrix.solver.solve(&mut ws.r);
-    ws.solves += 1;
+    newton.solve_at(ws, &state.nodes);
     for &node in &cx.independent_nodes {
         let rows = cx.plan.dofs.of(node);
         errors[node] = rows.gather(&ws.r);

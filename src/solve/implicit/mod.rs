@@ -3,6 +3,7 @@
 mod accept;
 mod anderson;
 mod arc_length;
+mod beam_trees;
 mod composite;
 mod convergence;
 mod correction;
@@ -19,7 +20,9 @@ mod refresh;
 mod runge_kutta;
 mod stability;
 mod stepper;
+mod strained_line;
 mod tangent;
+mod turning;
 
 pub use arc_length::{ArcLengthConstraint, Condition, StepMotion};
 pub use newton::Newton;

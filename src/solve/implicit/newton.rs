@@ -14,6 +14,7 @@ use super::massless::MasslessNodes;
 use super::mechanism;
 use super::refresh::{Advice, Refresh};
 use super::stability::Stability;
+use super::turning::Turning;
 use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
@@ -28,7 +29,7 @@ use crate::solve::warning::Warning;
 use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
-use crate::state::{Configuration, State};
+use crate::state::{Configuration, Node, State};
 use crate::system::assembly::TangentWeights;
 
 /// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace.
@@ -37,6 +38,8 @@ pub struct Newton {
     /// Acceleration where the matrix is not the derivative because material yields.
     anderson: Option<Anderson>,
     line_search: Option<LineSearch>,
+    /// What carries the matrix along with a scene that turns.
+    turning: Option<Turning>,
     /// Projection onto the constraints in a dynamic analysis with joints.
     pub projection: Option<ConstraintProjection>,
     /// The factor of the mass in the matrix at hand.
@@ -125,6 +128,7 @@ impl Newton {
             refresh: Refresh::new(method, update, plan.linear, plan.refresh_cost),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
             line_search: searches.then(line_search),
+            turning: Turning::new(cx).filter(|_| update != Update::Iteration),
             projection: ConstraintProjection::for_motion(cx)?,
             mass_weight: 0.0,
             lead: Lead::new(cx),
@@ -367,6 +371,9 @@ impl Newton {
         let key = matrix_key(stage.scheme, dt);
         if self.refresh.due(report.iterations, key) {
             self.form_matrix(cx, ws, state, stage.scheme, stage.scheme.instant * dt)?;
+            if let Some(turning) = &mut self.turning {
+                turning.note(&ws.trial);
+            }
             self.refresh.done(key);
             self.forget_corrections();
             report.factorizations += 1;
@@ -439,7 +446,15 @@ impl Newton {
         if let Some(line_search) = &mut self.line_search {
             line_search.keep_residual(&ws.r[..cx.nodal_unknowns()], residual);
         }
-        ws.matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
+        let Workspace { matrix, forces, r, trial, .. } = ws;
+        turned(&mut self.turning, trial, r, |r| matrix.solve_augmented(&forces.multipliers, r));
+        ws.solves += 1;
+    }
+
+    /// Solves with the matrix at hand, carried along to the configuration `nodes`, for right-hand sides without gaps in `ws.r`.
+    pub fn solve_at(&mut self, ws: &mut Workspace, nodes: &[Node]) {
+        let Workspace { matrix, r, .. } = ws;
+        turned(&mut self.turning, nodes, r, |r| matrix.solver.solve(r));
         ws.solves += 1;
     }
 
@@ -558,6 +573,16 @@ impl Newton {
         if let Some(line_search) = &mut self.line_search {
             line_search.forget();
         }
+    }
+}
+
+/// Solves in the configuration of the matrix at hand for right-hand sides in that of `nodes`.
+fn turned(turning: &mut Option<Turning>, nodes: &[Node], r: &mut [f64], solve: impl FnOnce(&mut [f64])) {
+    let Some(turning) = turning else { return solve(r) };
+    let turns = turning.take_back(nodes, r);
+    solve(r);
+    if turns {
+        turning.carry_along(nodes, r);
     }
 }
 
