@@ -84,17 +84,17 @@ fn output_does_not_shorten_steps() {
     };
     let (few, many) = (of(16), of(400));
     assert_eq!(few.counts.steps, many.counts.steps);
-    // Each time inside takes little more than one iteration.
+    // Each time inside takes one iteration, or two.
     let more = (many.counts.iterations - few.counts.iterations) as f64 / 384.0;
-    assert!(more < 1.3, "{more}");
+    assert!(more < 2.0, "{more}");
     for (row, same) in few.rows.iter().zip(many.rows.iter().step_by(25)) {
         // Iterations inside begin from the matrix at hand, which another time inside may have renewed.
         assert!(row.iter().zip(same).all(|(a, b)| (a - b).abs() < 1e-5), "{row:?} {same:?}");
     }
 }
 
-/// Loads that jump and tables with kinks are met all the same, and the values that a deck expects at a time inside a step are those of
-/// that time: a mass under a force that is switched twice, ½ a t² and its like.
+/// Loads that jump are met all the same, and the values that a deck expects at a time inside a step are those of that time: a mass under
+/// a force that is switched on and off, (t - 1)² and then a straight line.
 #[test]
 fn jumps_end_steps_and_expected_times_do_not() {
     let model = read_deck(
@@ -104,32 +104,35 @@ fn jumps_end_steps_and_expected_times_do_not() {
         points = { p = [0.0, 0.0, 0.0] }
         masses = [{ at = "p", mass = 2.0 }]
         loads = [{ at = "p", force = [4.0, 0.0, 0.0], amplitude = "switched" }]
-        amplitudes = { switched = { kind = "table", points = [[0.0, 1.0], [1.0, 1.0], [1.0, -1.0], [2.5, -1.0], [2.5, 0.0], [3.0, 0.0]] } }
         output = { interval = 0.37 }
+        [amplitudes.switched]
+        kind = "step"
+        start = 1.0
+        end = 2.5
         [[expect]]
         at = "p"
         quantity = "ux"
-        time = 0.613
+        time = 1.613
         value = 0.375769
-        tolerance = { absolute = 1e-9 }
+        absolute_tolerance = 1e-9
         [[expect]]
         at = "p"
         quantity = "vx"
         time = 1.71
-        value = 0.58
-        tolerance = { absolute = 1e-9 }
+        value = 1.42
+        absolute_tolerance = 1e-9
         "#,
     );
     let done = run_to_the_end(&model, &mut |frame| vec![frame.state.time, frame.state.nodes[0].x.x]);
     for row in &done.rows {
         let (t, x) = (row[0], row[1]);
         let exact = match t {
-            t if t <= 1.0 => t * t,
-            t if t <= 2.5 => 1.0 + 2.0 * (t - 1.0) - (t - 1.0).powi(2),
-            t => 1.75 - (t - 2.5),
+            t if t <= 1.0 => 0.0,
+            t if t <= 2.5 => (t - 1.0).powi(2),
+            t => 2.25 + 3.0 * (t - 2.5),
         };
         // A parabola is met to rounding of the equilibrium.
         assert!((x - exact).abs() < 1e-9, "{t}: {x} {exact}");
     }
-    assert!(done.verdicts.iter().all(|verdict| verdict.passed), "{:?}", done.verdicts);
+    assert!(done.verdicts.iter().all(|verdict| verdict.reason.is_none()), "{:?}", done.verdicts);
 }

@@ -2,7 +2,7 @@
 //! of work and lets the step be cut.
 
 use crate::statics::{GRAVITY, beam, head};
-use crate::support::{node, position, read_deck, run};
+use crate::support::{doubts, node, position, read_deck, run};
 use rdsolve::model::Model;
 use rdsolve::solve::Outcome;
 
@@ -52,7 +52,7 @@ fn the_work_of_a_load_that_acts_at_once_is_stored() {
             );
         }
     }
-    let weight = format!("{GRAVITY}{}", cantilever(0.5, ELASTIC, "force = [0.0, 0.0, 0.0]", CONSTANT));
+    let weight = format!("{}{GRAVITY}", cantilever(0.5, ELASTIC, "force = [0.0, 0.0, 0.0]", CONSTANT));
     let ([work, _, missed], tip, _) = end(&weight);
     // ρ A g L⁴ / (8 E I), about the strong axis; shear adds 1e-3 of it.
     let (area, inertia) = (0.03 * 0.005, 0.005 * 0.03f64.powi(3) / 12.0);
@@ -69,11 +69,14 @@ fn what_yields_under_its_full_load_is_found_by_cutting_the_step() {
         let load = format!("force = [0.0, 0.0, -{load:?}]");
         let (_, slowly, _) = end(&cantilever(0.02, steel, &load, RAMP));
         for step in [1.0, 0.5] {
-            let ([work, _, missed], at_once, _) = end(&cantilever(step, steel, &load, CONSTANT));
+            let deck = cantilever(step, steel, &load, CONSTANT);
+            let ([work, _, missed], at_once, _) = end(&deck);
             let apart = (0..3).map(|i| (slowly[i] - at_once[i]).abs()).fold(0.0, f64::max);
             // Load grows in one sense only, so the path counts for what the strains of a step turn: 1e-4 of the deflection.
             assert!(apart < 1e-4, "{load}: {at_once:?} {slowly:?}");
-            assert!(missed.abs() < 0.04 * work, "{load}: {missed} of {work}");
+            // Few steps over a curve of load against deflection that bends miss some of its work, and say so.
+            let said = doubts(&deck).1.iter().any(|doubt| doubt.contains("work"));
+            assert!(missed.abs() < 0.04 * work || said, "{load}: {missed} of {work}");
         }
     }
 }

@@ -81,10 +81,10 @@ impl Observer for Log {
     /// Notes the steps that took cutbacks, and what a path goes through.
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.see_path(frame)?;
-        if frame.cuts == 0 || !self.cut.count(frame.cuts) {
+        if frame.effort.cuts == 0 || !self.cut.count(frame.effort.cuts) {
             return Ok(());
         }
-        let cutbacks = if frame.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.cuts) };
+        let cutbacks = if frame.effort.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.effort.cuts) };
         let (step, time, dt) = (frame.step, instant(frame.state.time), instant(frame.dt));
         self.say(&format!("step {step} to t = {time}: {cutbacks}, accepted with dt = {dt}"))
     }

@@ -39,7 +39,7 @@ impl Progress {
 impl Observer for Progress {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(bar) = &self.bar else { return Ok(()) };
-        self.iterations += frame.iterations;
+        self.iterations += frame.effort.iterations;
         if self.shown.elapsed() < PAUSE {
             return Ok(());
         }

@@ -14,14 +14,8 @@ pub struct Frame<'a> {
     pub step: usize,
     /// Length of the step that led here; 0 at t = 0.
     pub dt: f64,
-    /// Iterations of the step.
-    pub iterations: usize,
-    /// Factorizations of the matrix in the step.
-    pub refactorizations: usize,
-    /// Relative residual at the last evaluation.
-    pub residual: f64,
-    /// Cutbacks before the step was accepted.
-    pub cuts: usize,
+    /// What the step took; at a time inside it, what that time took alone.
+    pub effort: Effort,
     /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
     /// True when the output cadence asks for this step; t = 0 and the last step always are. The last step before a
@@ -31,7 +25,7 @@ pub struct Frame<'a> {
     pub drawn: bool,
     /// True for the last step of the run.
     pub last: bool,
-    /// True at a time inside the step, which goes on; iterations and factorizations are those for this time alone.
+    /// True at a time inside the step, which goes on.
     pub inside: bool,
     /// Indices into [`Model::expects`] of the displacements at which this step ends.
     pub passed: &'a [usize],
@@ -40,6 +34,19 @@ pub struct Frame<'a> {
     pub reactions: &'a [f64],
     /// Quantities computed for output only.
     pub derived: &'a Derived,
+}
+
+/// What a step took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// Iterations.
+    pub iterations: usize,
+    /// Factorizations of the matrix.
+    pub refactorizations: usize,
+    /// Relative residual at the last evaluation.
+    pub residual: f64,
+    /// Cutbacks before the step was accepted.
+    pub cuts: usize,
 }
 
 /// The observer of a run.

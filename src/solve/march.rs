@@ -1,7 +1,7 @@
 //! The data of a run under way, handed as one to its controllers.
 
 use super::context::Context;
-use super::control::Sample;
+use super::sample::Samples;
 use super::failure::Failure;
 use super::frame::Observer;
 use super::outcome::Outcome;
@@ -27,28 +27,6 @@ pub struct March<'r, 'a> {
     pub samples: Samples<'r>,
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
-}
-
-/// Times to look at inside steps, in order.
-pub struct Samples<'s> {
-    coming: &'s [Sample],
-}
-
-impl<'s> Samples<'s> {
-    /// All of these.
-    pub fn new(coming: &'s [Sample]) -> Self {
-        Samples { coming }
-    }
-
-    /// The next time up to this one.
-    pub fn next(&self, until: f64) -> Option<Sample> {
-        self.coming.first().copied().filter(|next| next.time <= until)
-    }
-
-    /// Goes on to the time after the next.
-    pub fn pass(&mut self) {
-        self.coming = self.coming.get(1..).unwrap_or_default();
-    }
 }
 
 impl March<'_, '_> {

@@ -4,7 +4,7 @@ use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
 use super::energy_growth::{EnergyGrowth, checks_energy_growth};
 use super::failure::Failure;
-use super::frame::{Frame, Observer};
+use super::frame::{Effort, Frame, Observer};
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
 use super::workspace::Workspace;
@@ -211,10 +211,12 @@ impl Recorder {
             state,
             step: self.counts.steps,
             dt,
-            iterations: report.iterations,
-            refactorizations: report.factorizations,
-            residual: report.residual,
-            cuts,
+            effort: Effort {
+                iterations: report.iterations,
+                refactorizations: report.factorizations,
+                residual: report.residual,
+                cuts,
+            },
             due,
             drawn,
             last,

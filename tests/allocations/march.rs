@@ -22,7 +22,7 @@ struct Counts(Vec<(usize, bool)>);
 impl Observer for Counts {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         assert!(self.0.len() < self.0.capacity());
-        self.0.push((allocations(), frame.cuts > 0));
+        self.0.push((allocations(), frame.effort.cuts > 0));
         Ok(())
     }
 

@@ -42,7 +42,7 @@ fn crane(time_step: f64, damped: bool) -> Model {
 #[test]
 fn the_balance_closes_to_second_order() {
     for damped in [false, true] {
-        let e: Vec<f64> = [0.01, 0.005, 0.0025]
+        let e: Vec<f64> = [0.005, 0.0025, 0.00125]
             .iter()
             .map(|&dt| {
                 let record = run(&crane(dt, damped));

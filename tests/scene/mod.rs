@@ -11,7 +11,7 @@ use rdsolve::solids::SolidShape;
 use rdsolve::solids::cuboid::SolidCuboid;
 use rdsolve::solids::hollow::HollowCylinder;
 use rdsolve::solids::sphere::SolidSphere;
-use rdsolve::solve::{ContactState, Derived, Frame, LinkState, SectionPoint};
+use rdsolve::solve::{ContactState, Derived, Effort, Frame, LinkState, SectionPoint};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
 use std::sync::Arc;
@@ -205,10 +205,7 @@ impl Extras {
             state,
             step,
             dt: if step == 0 { 0.0 } else { 0.1 },
-            iterations: 3,
-            refactorizations: 1,
-            residual: 1e-9,
-            cuts: step % 2,
+            effort: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2 },
             due: step.is_multiple_of(2) || step == 10,
             drawn: matches!(model.output.fields, Some(Cadence::Steps(every)) if step.is_multiple_of(every))
                 || step == 10,

@@ -287,6 +287,8 @@ pub(super) fn tangent<const N: usize, S: BeamSection, const DAMPED: bool>(
     K: &mut [f64],
 ) {
     let element = &beams.elements[e];
+    // Where material yields, its state counts more than what a correction stretches.
+    let lead = now.lead.filter(|_| element.section.history() == 0);
     let motion = beams.gather(element, now.nodes);
     let q = &motion.0;
     let mut pairs = [[[[0.0; 8]; 7]; N]; N];
@@ -296,7 +298,7 @@ pub(super) fn tangent<const N: usize, S: BeamSection, const DAMPED: bool>(
     for g in 0..beams.integration_points() {
         let point = beams.interpolate(element, g, &motion);
         let mut place = BeamStiffness::ZERO;
-        let (gamma, kappa) = beams.leading_strains(element, g, &point, now.lead);
+        let (gamma, kappa) = beams.leading_strains(element, g, &point, lead);
         let (mut n, mut m, C) = element.section.linearise(g, (&gamma, &kappa), now, moduli, &mut place);
         let B = strain_matrix(element, &point).rows(&point.R);
         let CB = C.times(&B);

@@ -5,7 +5,7 @@ use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind};
 use crate::output::table_file::TableFile;
 use crate::quantities::{Column, TIME, Unit};
-use crate::solve::{Frame, Wanted};
+use crate::solve::{Effort, Frame, Wanted};
 use std::cell::Cell;
 use std::io;
 
@@ -30,7 +30,7 @@ pub static TABLE: TableKind = TableKind {
     // Length and residual; the rest are counts, like zeros in length.
     extent: |_| Rows { rows: 1, letters: 0, numbers: 2 },
     rows: |_| {
-        let since = Cell::new(Cost::default());
+        let since = Cell::new(Effort::default());
         Box::new(move |table, frame| write(table, &since, frame))
     },
     answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
@@ -47,31 +47,22 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
     matches!(at, ExpectAt::Analysis).then_some(frame.state.time)
 }
 
-/// What steps since the last row cost.
-#[derive(Debug, Clone, Copy, Default)]
-struct Cost {
-    iterations: usize,
-    refactorizations: usize,
-    residual: f64,
-    cuts: usize,
-}
-
-fn write(table: &mut TableFile, since: &Cell<Cost>, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut TableFile, since: &Cell<Effort>, frame: &Frame) -> io::Result<()> {
     if frame.step == 0 {
         return Ok(()); // no step led to t = 0
     }
     let before = since.get();
-    let cost = Cost {
-        iterations: before.iterations + frame.iterations,
-        refactorizations: before.refactorizations + frame.refactorizations,
-        residual: before.residual.max(frame.residual),
-        cuts: before.cuts + frame.cuts,
+    let cost = Effort {
+        iterations: before.iterations + frame.effort.iterations,
+        refactorizations: before.refactorizations + frame.effort.refactorizations,
+        residual: before.residual.max(frame.effort.residual),
+        cuts: before.cuts + frame.effort.cuts,
     };
     if !frame.due {
         since.set(cost);
         return Ok(());
     }
-    since.set(Cost::default());
+    since.set(Effort::default());
     table.row(frame.step, frame.state.time).number(frame.dt).count(cost.iterations).count(cost.refactorizations);
     table.number(cost.residual).count(cost.cuts).end()
 }

@@ -4,6 +4,7 @@ use crate::model::{Cadence, Model, When};
 use crate::solve::context::Context;
 use crate::solve::march::March;
 use crate::solve::outcome::Outcome;
+use crate::solve::sample::Sample;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
@@ -39,15 +40,6 @@ impl Interval {
     pub fn time(&self, k: usize) -> f64 {
         if k == self.steps { self.to } else { self.from + (self.to - self.from) * (k as f64 / self.steps as f64) }
     }
-}
-
-/// A time inside the steps at which the motion is looked at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// The time.
-    pub time: f64,
-    /// True for an output time.
-    pub due: bool,
 }
 
 /// What a run must look at, and where its steps must end.

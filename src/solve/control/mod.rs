@@ -14,4 +14,4 @@ mod targets;
 mod tolerance;
 
 pub use controller::Controller;
-pub use intervals::{COMPARISONS, Sample, Schedule, comparison_time, comparison_times};
+pub use intervals::{COMPARISONS, Schedule, comparison_time, comparison_times};

@@ -28,6 +28,8 @@ pub struct Judgement {
     pub contraction: f64,
     /// True where there was a correction before.
     pub seen: bool,
+    /// True where it is larger than the correction before.
+    pub grows: bool,
     /// Number of corrections whose residual did not fall.
     stagnant: usize,
     /// Estimated remaining error or residual, the larger, relative.
@@ -67,8 +69,9 @@ impl Convergence {
         let error = contraction / (1.0 - contraction) * size;
         let [tolerance, of_residual] = self.tolerances;
         let left = error.max(contraction_of_residual * residual * (tolerance / of_residual));
+        let grows = self.last.is_some_and(|last| size > last.size);
         let seen = self.last.replace(Correction { size, residual }).is_some();
-        Judgement { contraction, stagnant: self.stagnant, seen, left, tolerance }
+        Judgement { grows, contraction, stagnant: self.stagnant, seen, left, tolerance }
     }
 }
 

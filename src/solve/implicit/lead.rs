@@ -11,6 +11,8 @@ pub struct Lead {
     last: Iterate,
     of_equilibrium: Iterate,
     corrections: Vec<Vec6>,
+    /// False where the iteration has gone astray by it.
+    trusted: bool,
 }
 
 /// Motion with a correction in place of its velocities.
@@ -26,12 +28,12 @@ impl Lead {
         let count = if cx.plan.linear { 0 } else { cx.model.nodes.len() };
         let nodes = cx.model.nodes.iter().take(count).map(|node| Node::at_rest(node.x)).collect();
         let last = Iterate { nodes, known: false };
-        Lead { of_equilibrium: last.clone(), last, corrections: vec![Vec6::zeros(); count] }
+        Lead { of_equilibrium: last.clone(), last, corrections: vec![Vec6::zeros(); count], trusted: true }
     }
 
     /// Forgets what led to nothing.
     pub fn forget(&mut self) {
-        (self.last.known, self.of_equilibrium.known) = (false, false);
+        (self.last.known, self.of_equilibrium.known, self.trusted) = (false, false, true);
     }
 
     /// Goes back to the last equilibrium, as the iteration goes back to its prediction.
@@ -39,8 +41,15 @@ impl Lead {
         self.last.known = false;
     }
 
+    /// Gives up extrapolation until the next equilibrium; returns false where there was none. Near limit points what is extrapolated grows
+    /// from correction to correction.
+    pub fn mistrust(&mut self) -> bool {
+        self.nodes().is_some() && std::mem::replace(&mut self.trusted, false)
+    }
+
     /// Takes the iterate before as the one that led to an equilibrium.
     pub fn arrive(&mut self) {
+        self.trusted = true;
         if std::mem::take(&mut self.last.known) {
             std::mem::swap(&mut self.last, &mut self.of_equilibrium);
             self.of_equilibrium.known = true;
@@ -49,7 +58,8 @@ impl Lead {
 
     /// The iterate before, with the correction in place of its velocities.
     pub fn nodes(&self) -> Option<&[Node]> {
-        [&self.last, &self.of_equilibrium].into_iter().find(|iterate| iterate.known).map(|iterate| &iterate.nodes[..])
+        let known = [&self.last, &self.of_equilibrium].into_iter().find(|iterate| iterate.known);
+        known.filter(|_| self.trusted).map(|iterate| &iterate.nodes[..])
     }
 
     /// Keeps the trial motion and the correction at hand, before it is added.

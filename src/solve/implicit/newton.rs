@@ -78,6 +78,8 @@ enum Verdict {
     GoOn,
     /// An old matrix has misled: the iteration goes back to the prediction.
     Restart,
+    /// So have extrapolated stresses.
+    Astray,
     /// The step has used up its iterations.
     Exhausted,
 }
@@ -329,6 +331,9 @@ impl Newton {
                 Verdict::Converged => return Ok(progress.report),
                 Verdict::GoOn => {}
                 Verdict::Restart => self.restart(cx, ws, state, stage, &mut progress),
+                // Along a path the prediction is that of its controller.
+                Verdict::Astray if constraint.is_some() => {}
+                Verdict::Astray => self.restart(cx, ws, state, stage, &mut progress),
                 Verdict::Exhausted => {
                     if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                         return Err(not_converged(cx, ws, &progress.report, self.opened.clone()));
@@ -509,6 +514,9 @@ impl Newton {
         }
         if report.iterations >= *limit {
             return Ok(Verdict::Exhausted);
+        }
+        if judgement.grows && *new_matrix && self.lead.mistrust() {
+            return Ok(Verdict::Astray);
         }
         let misled = judgement.seen && self.refresh.advise(fresh, &judgement) == Advice::Restart;
         Ok(if misled { Verdict::Restart } else { Verdict::GoOn })

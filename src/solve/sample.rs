@@ -1,0 +1,32 @@
+//! The times inside steps at which the motion is looked at.
+
+/// A time inside the steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The time.
+    pub time: f64,
+    /// True for an output time.
+    pub due: bool,
+}
+
+/// Times to look at inside steps, in order.
+pub struct Samples<'s> {
+    coming: &'s [Sample],
+}
+
+impl<'s> Samples<'s> {
+    /// All of these.
+    pub fn new(coming: &'s [Sample]) -> Self {
+        Samples { coming }
+    }
+
+    /// The next time up to this one.
+    pub fn next(&self, until: f64) -> Option<Sample> {
+        self.coming.first().copied().filter(|next| next.time <= until)
+    }
+
+    /// Goes on to the time after the next.
+    pub fn pass(&mut self) {
+        self.coming = self.coming.get(1..).unwrap_or_default();
+    }
+}
