@@ -189,7 +189,7 @@ impl<'d> Reader<'_, 'd> {
             Ladder::Listed(values) => self.ascending(key, &at.span, values),
             Ladder::Rungs(ladder) => {
                 let mut sound = true;
-                for end in [&ladder.from, &ladder.to].into_iter().filter(|end| !(end.value > 0.0)) {
+                for end in [&ladder.from, &ladder.to].into_iter().filter(|end| end.value <= 0.0 || end.value.is_nan()) {
                     self.report.error::<()>(&end.span, format!("`{key}` must be above zero"));
                     sound = false;
                 }

@@ -84,7 +84,8 @@ impl Observer for Log {
         if frame.effort.cuts == 0 || !self.cut.count(frame.effort.cuts) {
             return Ok(());
         }
-        let cutbacks = if frame.effort.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.effort.cuts) };
+        let cutbacks =
+            if frame.effort.cuts == 1 { "1 cutback".into() } else { format!("{} cutbacks", frame.effort.cuts) };
         let (step, time, dt) = (frame.step, instant(frame.state.time), instant(frame.dt));
         self.say(&format!("step {step} to t = {time}: {cutbacks}, accepted with dt = {dt}"))
     }

@@ -1,12 +1,12 @@
 //! The data of a run under way, handed as one to its controllers.
 
 use super::context::Context;
-use super::sample::Samples;
 use super::failure::Failure;
 use super::frame::Observer;
 use super::outcome::Outcome;
 use super::recorder::{AcceptedStep, Recorder};
 use super::report::StepReport;
+use super::sample::Samples;
 use super::workspace::Workspace;
 use crate::state::State;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -231,7 +231,7 @@ fn solve<const N: usize>(mut matrix: [[f64; N]; N], mut right: [f64; N]) -> Opti
         let pivot = (i..N).max_by(|&a, &b| matrix[a][i].abs().total_cmp(&matrix[b][i].abs()))?;
         matrix.swap(i, pivot);
         right.swap(i, pivot);
-        if !(matrix[i][i].abs() > 1e-13 * size) {
+        if matrix[i][i].abs() <= 1e-13 * size || !matrix[i][i].is_finite() {
             return None;
         }
         for k in i + 1..N {

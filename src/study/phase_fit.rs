@@ -106,7 +106,7 @@ pub fn split(q: &[f64], r: &[f64], interval: f64) -> Option<Split> {
     let n = r.len();
     let rms = |of: &dyn Fn(usize) -> f64| ((0..n).map(|i| of(i).powi(2)).sum::<f64>() / n as f64).sqrt();
     let size = rms(&|i| r[i]);
-    if n < LEAST || !(size > 0.0) {
+    if n < LEAST || size == 0.0 || size.is_nan() {
         return None;
     }
     let error = rms(&|i| q[i] - r[i]);

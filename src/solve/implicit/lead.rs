@@ -23,9 +23,11 @@ struct Iterate {
 }
 
 impl Lead {
-    /// Room for the iterates of a scene; none where its tangent is constant.
+    /// Room for the iterates of a scene; none where its tangent is constant, and for shells in motion, whose matrices are kept: steps that
+    /// are far too long for them take more cuts with extrapolated stresses than without, others no fewer iterations.
     pub fn new(cx: &Context) -> Lead {
-        let count = if cx.plan.linear { 0 } else { cx.model.nodes.len() };
+        let unused = cx.plan.linear || cx.is_dynamic() && cx.model.has_surfaces();
+        let count = if unused { 0 } else { cx.model.nodes.len() };
         let nodes = cx.model.nodes.iter().take(count).map(|node| Node::at_rest(node.x)).collect();
         let last = Iterate { nodes, known: false };
         Lead { of_equilibrium: last.clone(), last, corrections: vec![Vec6::zeros(); count], trusted: true }

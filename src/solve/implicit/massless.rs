@@ -204,7 +204,7 @@ impl Cluster {
             let sum: f64 = (0..k).map(|j| K[k * size + j] * K[k * size + j]).sum();
             let pivot = diagonal - sum;
             // What is not a number is not held either.
-            if !(pivot > ROUNDING * diagonal) {
+            if pivot <= ROUNDING * diagonal || pivot.is_nan() {
                 return false;
             }
             let root = pivot.sqrt();

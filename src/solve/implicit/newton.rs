@@ -515,7 +515,8 @@ impl Newton {
         if report.iterations >= *limit {
             return Ok(Verdict::Exhausted);
         }
-        if judgement.grows && *new_matrix && self.lead.mistrust() {
+        // The second correction may well be longer than the first, which begins from what was predicted.
+        if judgement.grows && report.iterations > 2 && *new_matrix && self.lead.mistrust() {
             return Ok(Verdict::Astray);
         }
         let misled = judgement.seen && self.refresh.advise(fresh, &judgement) == Advice::Restart;

@@ -416,13 +416,15 @@ interval = 1.0
     /// N, V_y and V_z at all Gauss points.
     fn forces(system: &System, nodes: &[Node]) -> Vec<f64> {
         let now = Configuration { nodes, history: &[], dt: 0.0, lead: None };
-        let groups = system.groups.iter().map(|group| &group.block);
-        let points = groups
-            .flat_map(|block| (0..block.len()).flat_map(move |e| (0..block.points()).map(move |g| (block, e, g))));
-        let at = |(block, e, g): (&Box<dyn crate::elements::ElementBlock>, usize, usize)| {
-            block.point(e, g, &Mat3::identity(), &now).map(|point| point.forces)
-        };
-        points.filter_map(at).flat_map(|forces| [forces[0], forces[1], forces[2]]).collect()
+        let mut forces = Vec::new();
+        for block in system.groups.iter().map(|group| &group.block) {
+            for (e, g) in (0..block.len()).flat_map(|e| (0..block.points()).map(move |g| (e, g))) {
+                if let Some(point) = block.point(e, g, &Mat3::identity(), &now) {
+                    forces.extend_from_slice(&point.forces[..3]);
+                }
+            }
+        }
+        forces
     }
 
     #[test]
