@@ -122,7 +122,9 @@ impl<'a> Run<'a> {
                 return (outcome, state);
             };
             let most_steps = MOST_LONGER * self.recorder.counts.steps;
-            if let Err(error) = self.begin_again(&mut error, tolerance, observer) {
+            // Steps that no tolerance limits shrink as well, or the run would be the same again.
+            let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / (power - 1) as f64);
+            if let Err(error) = self.begin_again(&mut error, (tolerance, Some(longest)), observer) {
                 return (Outcome::Io(error), state);
             }
             self.recorder.most_steps = most_steps;
@@ -137,8 +139,8 @@ impl<'a> Run<'a> {
         schedule: &Schedule,
         observer: &mut dyn Observer,
     ) -> (Outcome, Option<State>) {
-        let tolerance = error.before;
-        if let Err(error) = self.begin_again(&mut error, tolerance, observer) {
+        let of_before = error.before;
+        if let Err(error) = self.begin_again(&mut error, of_before, observer) {
             return (Outcome::Io(error), None);
         }
         let (outcome, state) = self.once(observer, schedule);
@@ -154,17 +156,17 @@ impl<'a> Run<'a> {
     fn begin_again(
         &mut self,
         error: &mut StepError,
-        tolerance: f64,
+        (tolerance, longest): (f64, Option<f64>),
         observer: &mut dyn Observer,
     ) -> std::io::Result<()> {
         let model = self.context.model;
         error.add(self.recorder.counts);
-        error.before = error.tolerance;
-        error.tolerance = tolerance;
+        error.before = (error.tolerance, error.longest);
+        (error.tolerance, error.longest) = (tolerance, longest);
         self.recorder = Recorder::new(model, self.wanted);
         let ws = &mut self.workspace;
         (ws.warnings, ws.rotation_drift, ws.joint_violation) = (Warnings::default(), 0.0, 0.0);
-        self.follow(tolerance, None);
+        self.follow(tolerance, longest);
         observer.restart(model)
     }
 

@@ -38,8 +38,10 @@ pub struct StepError {
     pub asked: f64,
     /// The tolerance that the steps followed.
     pub tolerance: f64,
-    /// That of the run before.
-    pub before: f64,
+    /// The longest step that was allowed; `None` where that was the controller's.
+    pub longest: Option<f64>,
+    /// Both of the run before.
+    pub before: (f64, Option<f64>),
     /// The estimated error of the run; `None` where no other run came to its end.
     pub estimate: Option<f64>,
     /// Number of runs besides the last.
@@ -51,7 +53,15 @@ pub struct StepError {
 impl StepError {
     /// The error of a run by this tolerance, of which nothing is known yet.
     pub fn new(asked: f64) -> StepError {
-        StepError { asked, tolerance: asked, before: asked, estimate: None, others: 0, effort: Counts::default() }
+        StepError {
+            asked,
+            tolerance: asked,
+            longest: None,
+            before: (asked, None),
+            estimate: None,
+            others: 0,
+            effort: Counts::default(),
+        }
     }
 
     /// Takes account of another run.
