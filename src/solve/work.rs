@@ -58,19 +58,18 @@ impl WorkQuadrature {
         self.damping += weight * power.damping;
     }
 
-    /// The work from the start of a step of length `dt` to the fraction `part` of it: that of the parabola through the powers at the start,
-    /// there, and at the end of the step.
-    pub fn to_inside([start, inside, end]: [&Power; 3], part: f64, dt: f64) -> WorkQuadrature {
-        /// Nearer to the end the parabola is not known for rounding, and not needed.
-        const NEAR: f64 = 1e-4;
-        let left = 1.0 - part;
-        let weights = match left > NEAR {
-            true => [part * (3.0 - part) / 6.0, part * (3.0 - 2.0 * part) / (6.0 * left), -part.powi(3) / (6.0 * left)],
-            false => [0.5 * part, 0.5 * part, 0.0],
+    /// The work up to the fraction `s` of a step of length `dt` whose whole work this is: the cubic with the powers at its ends for slopes.
+    /// Damping gives nothing back, however little the step resolves its power.
+    pub fn up_to(&self, s: f64, dt: f64, [start, end]: &[Power; 2]) -> WorkQuadrature {
+        let (s2, s3) = (s * s, s * s * s);
+        let part = |whole: f64, start: f64, end: f64| {
+            (3.0 * s2 - 2.0 * s3) * whole + dt * ((s - 2.0 * s2 + s3) * start + (s3 - s2) * end)
         };
-        let mut work = WorkQuadrature::default();
-        [start, inside, end].iter().zip(weights).for_each(|(power, weight)| work.add(power, weight * dt));
-        work
+        let damping = part(self.damping, start.damping, end.damping);
+        WorkQuadrature {
+            external: part(self.external, start.external, end.external),
+            damping: damping.max(0.0).min(self.damping.max(0.0)),
+        }
     }
 
     /// Adds the work of the step to that of the run.

@@ -170,25 +170,6 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
         strains
     }
 
-    /// The strains from which the stress of a tangent follows: those extrapolated from the iterate before, see
-    /// [`Configuration::lead`](crate::state::Configuration), or those of the motion at hand.
-    #[inline(always)]
-    pub fn leading_strains<K: Interpolation<N, V>>(
-        &self,
-        motion: &NodalVectors<N>,
-        lead: Option<&[Node]>,
-    ) -> Strains<N, M> {
-        let Some(nodes) = lead else { return self.strains::<K>(motion) };
-        let before = self.gather(nodes);
-        let mut strains = self.strains::<K>(&before);
-        let change = self.strain_rates::<K>(&before, &self.rates(&before, nodes));
-        let add = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
-        add(strains.plane.as_flattened_mut(), change.plane.as_flattened());
-        add(&mut strains.shear, &change.shear);
-        add(&mut strains.drill, &change.drill);
-        strains
-    }
-
     /// Strain rates, bending by chords: half the difference of the strains ahead and behind by a unit of time, which is exact for
     /// polynomials of second degree.
     #[inline(always)]

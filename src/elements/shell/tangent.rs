@@ -149,9 +149,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, cons
 {
     let element = &shells.elements[e];
     let motion = element.gather(now.nodes);
-    // Where material yields, its state counts more than what a correction stretches.
-    let lead = now.lead.filter(|_| element.section.history() == 0);
-    let strains = element.leading_strains::<T>(&motion, lead);
+    let strains = element.strains::<T>(&motion);
     let mut place = ShellStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
     let (shear, drill) = element.shear_and_drilling(&strains);

@@ -300,7 +300,7 @@ impl StepController for ErrorController<'_> {
         if self.judge(dt, state.time, cx.model.analysis.end_time, &estimate) {
             return Ok(Some(report));
         }
-        state.copy_from(&self.start);
+        self.take_back(state);
         (ws.rotation_drift, ws.joint_violation) = (drift, violation);
         Err(Failure::ErrorTooLarge { dt })
     }
@@ -322,5 +322,6 @@ impl StepController for ErrorController<'_> {
 
     fn take_back(&mut self, state: &mut State) {
         state.copy_from(&self.start);
+        self.stepper.newton.forget_iterates();
     }
 }

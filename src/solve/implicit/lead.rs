@@ -1,6 +1,7 @@
 //! The iterate from which stresses are extrapolated to the one at hand, see [`Configuration::lead`](crate::state::Configuration).
 
 use crate::math::{Vec6, angular, linear};
+use crate::model::StepLength;
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::Node;
@@ -23,11 +24,13 @@ struct Iterate {
 }
 
 impl Lead {
-    /// Room for the iterates of a scene; none where its tangent is constant, and for shells in motion, whose matrices are kept: steps that
-    /// are far too long for them take more cuts with extrapolated stresses than without, others no fewer iterations.
+    /// Room for the iterates of a scene, where steps are automatic: equilibria are found from farther away, and some of these are not those
+    /// of the motion at hand. The error of the step tells that; with load steps, and with steps of given length, nothing would. There is none
+    /// where the tangent is constant, nor for shells, whose matrices are kept.
     pub fn new(cx: &Context) -> Lead {
-        let unused = cx.plan.linear || cx.is_dynamic() && cx.model.has_surfaces();
-        let count = if unused { 0 } else { cx.model.nodes.len() };
+        let judged = cx.is_dynamic() && matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. });
+        let used = judged && !cx.plan.linear && !cx.model.has_surfaces();
+        let count = if used { cx.model.nodes.len() } else { 0 };
         let nodes = cx.model.nodes.iter().take(count).map(|node| Node::at_rest(node.x)).collect();
         let last = Iterate { nodes, known: false };
         Lead { of_equilibrium: last.clone(), last, corrections: vec![Vec6::zeros(); count], trusted: true }

@@ -254,16 +254,26 @@ impl Newton {
         {
             self.discard_matrix();
         }
-        if matches!(accepted, Err(Failure::ConstraintsViolated { .. })) {
-            self.discard_matrix();
+        match &accepted {
+            Ok(()) => {}
+            Err(Failure::ConstraintsViolated { .. }) => self.discard_matrix(),
+            Err(_) => self.forget_iterates(),
         }
         accepted
+    }
+
+    /// Forgets the iterates of a step that is not taken after all.
+    pub fn forget_iterates(&mut self) {
+        self.lead.forget();
     }
 
     /// Discards the matrix at hand, which belongs to a motion that was not taken or to other loads.
     pub fn discard_matrix(&mut self) {
         self.refresh.rejected();
         self.lead.forget();
+        if let Some(turning) = &mut self.turning {
+            turning.rest();
+        }
     }
 
     /// Finds the motion from `state` to its equilibrium at the time `to`, from the increments at hand. Under a
@@ -506,7 +516,9 @@ impl Newton {
         let quadratic = *new_matrix && self.ending.carries && cx.system.history == 0;
         let judgement = convergence.judge(size, report.residual, quadratic);
         self.ending.note(&judgement);
-        self.refresh.note(report.iterations, fresh, size, &judgement);
+        if self.ending.carries {
+            self.refresh.note(report.iterations, fresh, size, &judgement);
+        }
         if *time_error <= self.ending.tolerance
             && self.has_converged(cx, ws, correction, (fresh, report.iterations >= *limit), report.residual, &judgement)
         {

@@ -34,8 +34,9 @@ pub struct StageStepper {
     curvature: Vec<f64>,
     /// Motion (q, q̇, q̈) at both ends of the last step, of the independent nodes.
     ends: [Vec<[Vec6; 3]>; 2],
-    /// Power at both ends of it.
+    /// Power at both ends of it, and its work.
     powers: [Power; 2],
+    work: WorkQuadrature,
     /// True where motion is prescribed, which does work.
     driven: bool,
 }
@@ -53,6 +54,7 @@ impl StageStepper {
             curvature: tableau.second_derivative(),
             ends: [vec![[Vec6::zeros(); 3]; moving], vec![[Vec6::zeros(); 3]; moving]],
             powers: [Power::default(); 2],
+            work: WorkQuadrature::default(),
             driven: cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
         }
     }
@@ -89,6 +91,7 @@ impl StageStepper {
             self.keep_rates(cx, ws, stage);
         }
         self.keep_end(cx, ws);
+        self.work = work;
         newton.accept_with(cx, ws, state, &self.relation(&scheme), to, cx.wants_energy.then_some(work))?;
         Ok(report)
     }
@@ -111,11 +114,7 @@ impl StageStepper {
         state.copy_from(start);
         self.start_inside(cx, part, dt);
         let report = newton.find_inside(cx, ws, state, &self.relation(&scheme), time)?;
-        let work = cx.wants_energy.then(|| {
-            let power = self.power(cx, ws, state, &self.relation(&scheme), time - start.time);
-            let [first, last] = &self.powers;
-            WorkQuadrature::to_inside([first, &power, last], part, dt)
-        });
+        let work = cx.wants_energy.then(|| self.work.up_to(part, dt, &self.powers));
         newton.accept_with(cx, ws, state, &self.relation(&scheme), time, work)?;
         Ok(report)
     }

@@ -117,6 +117,11 @@ impl Turning {
         self.matrices += 1;
     }
 
+    /// Begins to count matrices anew: after a step that was given up, old matrices must not lead as far as they can.
+    pub fn rest(&mut self) {
+        self.matrices = 0;
+    }
+
     /// Takes the residual `r` at the configuration `nodes` to that of the matrix, 𝒯ᵀ r. Returns false where they are the same.
     pub fn take_back(&mut self, nodes: &[Node], r: &mut [f64]) -> bool {
         if std::mem::take(&mut self.fresh) || self.matrices < MANY {
