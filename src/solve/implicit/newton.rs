@@ -76,10 +76,8 @@ struct Progress {
 enum Verdict {
     Converged,
     GoOn,
-    /// An old matrix has misled: the iteration goes back to the prediction.
+    /// An old matrix, or extrapolated stresses, have misled: the iteration goes back to the prediction.
     Restart,
-    /// So have extrapolated stresses.
-    Astray,
     /// The step has used up its iterations.
     Exhausted,
 }
@@ -341,9 +339,6 @@ impl Newton {
                 Verdict::Converged => return Ok(progress.report),
                 Verdict::GoOn => {}
                 Verdict::Restart => self.restart(cx, ws, state, stage, &mut progress),
-                // Along a path the prediction is that of its controller.
-                Verdict::Astray if constraint.is_some() => {}
-                Verdict::Astray => self.restart(cx, ws, state, stage, &mut progress),
                 Verdict::Exhausted => {
                     if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                         return Err(not_converged(cx, ws, &progress.report, self.opened.clone()));
@@ -529,7 +524,7 @@ impl Newton {
         }
         // The second correction may well be longer than the first, which begins from what was predicted.
         if judgement.grows && report.iterations > 2 && *new_matrix && self.lead.mistrust() {
-            return Ok(Verdict::Astray);
+            return Ok(Verdict::Restart);
         }
         let misled = judgement.seen && self.refresh.advise(fresh, &judgement) == Advice::Restart;
         Ok(if misled { Verdict::Restart } else { Verdict::GoOn })
