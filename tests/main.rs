@@ -12,6 +12,7 @@ mod determinism;
 mod docs;
 mod edges;
 mod elements;
+mod error_bars;
 mod esdirk;
 mod explicit;
 mod extreme;

@@ -31,6 +31,10 @@ pub struct RunArgs {
     /// Threads to use, from 1 to 64; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
     pub threads: Option<u8>,
+    /// Make another run with half as many elements in each part, or a degree less, and tell the error that the mesh leaves in expected
+    /// values and in the largest value of each column
+    #[arg(long)]
+    pub mesh_error: bool,
     /// Show errors only
     #[arg(long)]
     pub quiet: bool,

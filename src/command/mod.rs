@@ -8,6 +8,7 @@ mod exit;
 mod folder;
 mod hint;
 mod load;
+mod mesh_error;
 mod recommend;
 mod report;
 mod run;
@@ -16,6 +17,7 @@ mod signals;
 mod study;
 mod verdict;
 mod version;
+mod watchers;
 
 pub use exit::Exit;
 

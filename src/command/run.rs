@@ -4,28 +4,30 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::arguments::{MAX_THREADS, RunArgs};
 use super::console::{complain, print, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, load, plan, too_large};
+use super::mesh_error::{Judged, of_file, tell_mesh_error};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
-use super::verdict::{End, end, energy_line, energy_warning, line, work_warning};
+use super::verdict::{End, end, energy_line, energy_warning, error_bars_in_words, line, work_warning};
 use super::version::VERSION;
+use super::watchers::Watchers;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Model, Part};
-use crate::output::expect::Expectations;
+use crate::model::{Model, Part, StepLength};
+use crate::output::error_bars::ErrorBars;
 use crate::output::log::Log;
-use crate::output::progress::Progress;
 use crate::output::result_json::{
-    ReportedCounts, ReportedStepError, RunOrigin, RunResult, Sizes, Status, Timings, peak_memory_bytes,
+    ReportedCounts, ReportedErrors, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes, Status, Timings,
+    peak_memory_bytes,
 };
-use crate::output::{Files, claim, listed, wanted};
+use crate::output::{claim, listed, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
-use crate::solve::{Frame, Observer, Run, StepError};
+use crate::solve::{Outcome, Run, StepError};
 use crate::study::LIFELINE;
 use crate::system::System;
 
@@ -64,6 +66,9 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         folder: &folder,
         overwrite: args.overwrite,
         quiet: args.quiet,
+        mesh_error: args.mesh_error,
+        threads,
+        stop: &stop,
         began,
         plan: explained(&loaded, &plan, &system),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
@@ -105,6 +110,9 @@ struct Job<'a> {
     folder: &'a Path,
     overwrite: bool,
     quiet: bool,
+    mesh_error: bool,
+    threads: usize,
+    stop: &'a AtomicBool,
     began: Instant,
     /// The plan in words, line by line.
     plan: Vec<String>,
@@ -133,26 +141,29 @@ impl Job<'_> {
         let origin = self.origin();
         log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
         self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
-        let mut watchers = Watchers {
-            log,
-            files: Files::open(self.folder, model, None)?,
-            expectations: Expectations::new(model),
-            progress: Progress::new(self.quiet),
-        };
+        let tells_errors = by_error(model) || self.mesh_error;
+        let mut watchers = Watchers::new(log, self.folder, model, [self.quiet, tells_errors])?;
         let looping = Instant::now();
         let (outcome, state) = run.run(&mut watchers);
         let whole = looping.elapsed();
         watchers.progress.finish();
         watchers.files.finish()?;
         watchers.log.sum_up()?;
+        let mesh = self.mesh_error_of(&outcome, run, &mut watchers);
 
         run.remarks().iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
-        let of_run = self.warnings_of(run, watchers.files.empty_fields());
+        let of_run = self.warnings_of(run, watchers.files.empty_fields(), mesh.as_ref());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
         let energy = energy_line(run.balance(), model);
         energy.iter().try_for_each(|line| watchers.log.say(line))?;
         let expectations = watchers.expectations.verdicts();
+        let errors = ReportedErrors {
+            step_error: run.step_error().map(step_error),
+            mesh: mesh.and_then(Result::ok),
+            error_bars: watchers.bars.map(ErrorBars::into_bars).unwrap_or_default(),
+        };
+        error_bars_in_words(&errors.error_bars).iter().try_for_each(|line| watchers.log.say(line))?;
         let end_time = state.map(|state| state.time);
         let end = end(model, run, outcome, end_time, &expectations)?;
         watchers.log.say(&match (end.status, end.reason.as_str()) {
@@ -169,13 +180,8 @@ impl Job<'_> {
             plan: self.plan.clone(),
             sizes: self.sizes,
             counts: counts(run),
-            timings: Timings {
-                loop_s: whole.saturating_sub(run.observing()).as_secs_f64(),
-                write_s: run.observing().as_secs_f64(),
-                total_s: self.began.elapsed().as_secs_f64(),
-                ..self.timings
-            },
-            step_error: run.step_error().map(step_error),
+            timings: self.timings_of(run, whole),
+            errors,
             joint_violation: run.joint_violation(),
             rotation_drift: (run.rotation_drift() > 0.0).then(|| run.rotation_drift()),
             peak_memory_bytes: peak_memory_bytes(),
@@ -186,16 +192,53 @@ impl Job<'_> {
         Ok((end, result, energy))
     }
 
+    /// The time that all took, of which the steps and their output took the `whole`.
+    fn timings_of(&self, run: &Run, whole: Duration) -> Timings {
+        Timings {
+            loop_s: whole.saturating_sub(run.observing()).as_secs_f64(),
+            write_s: run.observing().as_secs_f64(),
+            total_s: self.began.elapsed().as_secs_f64(),
+            ..self.timings
+        }
+    }
+
+    /// Makes the run with a coarser mesh where it is asked for and this one has come to its end.
+    fn mesh_error_of(
+        &self,
+        outcome: &Outcome,
+        run: &Run,
+        watchers: &mut Watchers,
+    ) -> Option<Result<ReportedMesh, String>> {
+        let Watchers { expectations, bars: Some(bars), .. } = watchers else { return None };
+        if !self.mesh_error || !matches!(outcome, Outcome::Done) {
+            return None;
+        }
+        let (source, model) = (&self.loaded.source, &self.loaded.model);
+        let like = (run.step_error(), self.threads, self.stop);
+        Some(tell_mesh_error(source, model, like, Judged { expectations, bars }))
+    }
+
     /// The warnings about the deck. Notes are left out, for they doubt nothing.
     fn warnings_of_deck(&self) -> impl Iterator<Item = &str> {
         self.loaded.warnings.iter().filter(|said| said.is_warning()).map(|warning| warning.message.as_str())
     }
 
     /// The warnings about the results of a run and about its files, after showing them.
-    fn warnings_of(&self, run: &Run, of_files: Vec<String>) -> Vec<String> {
+    fn warnings_of(
+        &self,
+        run: &Run,
+        of_files: Vec<String>,
+        mesh: Option<&Result<ReportedMesh, String>>,
+    ) -> Vec<String> {
         let doubts = run.warnings().iter().map(ToString::to_string);
         let of_balance = energy_warning(run.balance(), &self.loaded.model);
-        let of_run: Vec<String> = doubts.chain(of_balance).chain(work_warning(run)).chain(of_files).collect();
+        let of_mesh = mesh.and_then(|told| match told {
+            Ok(told) if told.unchanged.is_empty() => None,
+            Ok(told) => Some(format!("the error of the mesh is that of a part only: {}", of_file(&told.unchanged))),
+            Err(why) => Some(why.clone()),
+        });
+        let of_run = doubts.chain(of_balance).chain(work_warning(run)).chain(of_files).chain(of_mesh);
+        let of_run: Vec<String> = of_run.collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }
@@ -237,6 +280,11 @@ impl Job<'_> {
     }
 }
 
+/// True where steps follow an error.
+fn by_error(model: &Model) -> bool {
+    matches!(model.analysis.step_length, StepLength::ErrorControlled { .. })
+}
+
 /// The error of automatic steps that the result reports.
 fn step_error(error: StepError) -> ReportedStepError {
     let StepError { asked, tolerance, estimate, others, effort, .. } = error;
@@ -260,31 +308,5 @@ fn counts(run: &Run) -> ReportedCounts {
         factorizations: counts.factorizations,
         solves: counts.solves,
         cuts: counts.cuts,
-    }
-}
-
-/// All who watch the run, in the order in which a step is shown to them.
-struct Watchers {
-    log: Log,
-    files: Files,
-    expectations: Expectations,
-    progress: Progress,
-}
-
-impl Observer for Watchers {
-    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        self.expectations.on_step(frame)?;
-        self.progress.on_step(frame)?;
-        self.log.on_step(frame)?;
-        self.files.on_step(frame)
-    }
-
-    fn restart(&mut self, model: &Model) -> io::Result<()> {
-        self.log.sum_up()?;
-        self.log.say(
-            "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps",
-        )?;
-        self.expectations.restart(model)?;
-        self.files.restart(model)
     }
 }

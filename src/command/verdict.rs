@@ -2,6 +2,7 @@
 
 use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 use crate::names::{instant, short, to_digits};
+use crate::output::error_bars::ErrorBar;
 use crate::output::expect::Verdict;
 use crate::output::result_json::Status;
 use crate::solve::{Outcome, Run, settling_energy};
@@ -166,6 +167,24 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     }
 }
 
+/// The errors of a value, as they stand behind it.
+fn plus_minus(by_steps: Option<f64>, by_mesh: Option<f64>) -> String {
+    let errors = [(by_steps, "by the steps"), (by_mesh, "by the mesh")];
+    let told = errors.iter().filter_map(|(error, whence)| Some(format!(" ± {} {whence}", to_digits((*error)?, 2))));
+    told.collect()
+}
+
+/// What is left of error in the largest value of each column, in lines for the log.
+pub fn error_bars_in_words(bars: &[ErrorBar]) -> Vec<String> {
+    let title = "largest values, and bounds of their errors by estimate:".to_owned();
+    let line = |bar: &ErrorBar| {
+        let at = if bar.at.is_empty() { String::new() } else { format!("{}, ", bar.at) };
+        let (value, errors) = (to_digits(bar.value, DIGITS), plus_minus(bar.step_error, bar.mesh_error));
+        format!("  {} {}: {value}{errors} ({at}t = {})", bar.table, bar.column, instant(bar.time))
+    };
+    if bars.is_empty() { Vec::new() } else { std::iter::once(title).chain(bars.iter().map(line)).collect() }
+}
+
 /// The number of digits of values and of what was expected.
 const DIGITS: usize = 7;
 
@@ -174,8 +193,9 @@ pub fn line(v: &Verdict) -> String {
     let mark = if v.passed { "ok  " } else { "MISS" };
     let value = v.value.map_or("no value".to_string(), |value| to_digits(value, DIGITS));
     let expected = to_digits(v.expected, DIGITS);
+    let errors = plus_minus(v.step_error, v.mesh_error);
     if let Some(bound) = v.bound {
-        return format!("{mark} {}: {value}, {bound} {expected}", v.label);
+        return format!("{mark} {}: {value}{errors}, {bound} {expected}", v.label);
     }
     let error = match (v.error, &v.reason) {
         (Some(error), _) => {
@@ -185,5 +205,5 @@ pub fn line(v: &Verdict) -> String {
         (None, Some(reason)) => reason.clone(),
         (None, None) => String::new(),
     };
-    format!("{mark} {}: {value}, expected {expected}, {error}", v.label)
+    format!("{mark} {}: {value}{errors}, expected {expected}, {error}", v.label)
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Vector};
 use crate::diagnostic::At;
-use crate::elements::beam::IntegrationRule;
+use crate::elements::beam::{DEFAULT_ORDER, IntegrationRule};
 
 /// A shear-flexible beam along straight segments between points, or along those of a group of the mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -75,8 +75,8 @@ impl PartTable for Beam {
         self.elements.as_ref()
     }
 
-    fn has_order(&self) -> bool {
-        true
+    fn order(&self) -> Option<u64> {
+        Some(self.order.as_ref().map_or(DEFAULT_ORDER as u64, |order| order.value))
     }
 
     fn rigid(&self) -> Option<bool> {

@@ -39,9 +39,9 @@ pub trait PartTable {
         None
     }
 
-    /// Whether the part has the key `order`, the polynomial degree of its elements.
-    fn has_order(&self) -> bool {
-        false
+    /// The polynomial degree of its elements; `None` where the deck has no say in it.
+    fn order(&self) -> Option<u64> {
+        None
     }
 
     /// The key `rigid`; `None` for a part that cannot be a body by itself.

@@ -2,10 +2,11 @@
 //!
 //! Peaks look at every accepted step, whenever tables have rows.
 
+use super::error_bars::{ComparedHistory, Told};
 use super::table::Answers;
 use super::tables::TABLES;
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
-use crate::solve::{Frame, Observer, Wanted};
+use crate::solve::{Frame, Observer, OtherRun, Wanted};
 use serde::Serialize;
 use std::io;
 
@@ -47,6 +48,12 @@ pub struct Verdict {
     /// The absolute value of computed less expected, divided by the magnitude of the expected value where `relative`; of a
     /// bound, how far it is exceeded. `None` where this is no finite number.
     pub error: Option<f64>,
+    /// The error that automatic steps leave in the computed value, a bound by estimate, in its unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_error: Option<f64>,
+    /// The error that the mesh leaves in it, likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh_error: Option<f64>,
     /// The largest error that passes; 0 for a bound.
     pub tolerance: f64,
     /// Whether error and tolerance are parts of the expected value; else they have its unit.
@@ -73,12 +80,35 @@ struct Watch {
     /// The answers that the quantity is among and its index there; `None` where there is no quantity of that name.
     quantity: Option<(&'static Answers, usize)>,
     sample: Option<Sample>,
+    history: ComparedHistory,
+    /// Both of the run before, ...
+    before: (Option<Sample>, ComparedHistory),
+    /// ... and the values of an unseen run.
+    unseen: ComparedHistory,
+    step_error: Option<f64>,
+    mesh_error: Option<f64>,
 }
 
 #[derive(Clone, Copy)]
 struct Sample {
     time: f64,
     value: f64,
+    /// The value of another run at this time.
+    other: Option<f64>,
+}
+
+impl Sample {
+    /// Keeps the value of another run where it is that of the time of the sample.
+    fn read(sample: &mut Option<Sample>, time: f64, value: f64, end_time: f64) {
+        if let Some(sample) = sample.as_mut().filter(|own| (own.time - time).abs() <= 1e-9 * end_time) {
+            sample.other = Some(value);
+        }
+    }
+
+    /// The difference to the other run.
+    fn difference(&self) -> Option<f64> {
+        self.other.map(|other| (self.value - other).abs())
+    }
 }
 
 impl Expectations {
@@ -88,8 +118,33 @@ impl Expectations {
             quantity: find(expect.at, &expect.quantity),
             expect: expect.clone(),
             sample: None,
+            history: ComparedHistory::default(),
+            before: Default::default(),
+            unseen: ComparedHistory::default(),
+            step_error: None,
+            mesh_error: None,
         };
         Expectations { watches: model.expects.iter().map(watch).collect(), end_time: model.analysis.end_time }
+    }
+
+    /// The times at which a run with another mesh has to be seen.
+    pub fn times_for_mesh(&self) -> Vec<f64> {
+        let all = self.watches.iter().flat_map(|watch| watch.history.times().iter().copied());
+        all.chain(self.times_to_compare()).collect()
+    }
+
+    /// Receives a frame of a run with another mesh, in which its own expectations find their values.
+    pub fn on_other_mesh(&mut self, theirs: &Expectations, frame: &Frame) {
+        for (watch, theirs) in self.watches.iter_mut().zip(&theirs.watches) {
+            watch.read(theirs.value(frame), frame.state.time, self.end_time);
+        }
+    }
+
+    /// Takes note that a run with a coarser mesh has come to its end, with errors that are larger by this factor.
+    pub fn on_coarser_mesh(&mut self, apart: f64) {
+        for watch in &mut self.watches {
+            watch.mesh_error = watch.told_by(watch.sample, &watch.unseen, apart, self.end_time);
+        }
     }
 
     /// Judges what has been taken so far, in the order of the deck.
@@ -105,10 +160,18 @@ impl Observer for Expectations {
             if matches!(watch.expect.when, When::Target(_)) && !frame.passed.contains(&index) {
                 continue;
             }
-            if matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time) {
+            let elsewhere = matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time);
+            if elsewhere && !frame.compared {
                 continue;
             }
             let Some(value) = watch.value(frame) else { continue };
+            if frame.compared {
+                Sample::read(&mut watch.before.0, time, value, self.end_time);
+                watch.history.keep(time, &[value]);
+            }
+            if elsewhere {
+                continue;
+            }
             let better = |old: Sample| match watch.expect.when {
                 When::Time(t) => (time - t).abs() < (old.time - t).abs(),
                 When::Target(_) => false,
@@ -117,19 +180,67 @@ impl Observer for Expectations {
                 When::Abs => value.abs() > old.value.abs(),
             };
             if watch.sample.is_none_or(better) {
-                watch.sample = Some(Sample { time, value });
+                watch.sample = Some(Sample { time, value, other: None });
             }
         }
         Ok(())
     }
 
     fn restart(&mut self, _: &Model) -> io::Result<()> {
-        self.watches.iter_mut().for_each(|watch| watch.sample = None);
+        for watch in &mut self.watches {
+            watch.before = (watch.sample.take(), std::mem::take(&mut watch.history));
+            watch.unseen.clear();
+        }
         Ok(())
+    }
+
+    fn times_to_compare(&self) -> Vec<f64> {
+        self.watches.iter().filter_map(|watch| Some(watch.sample?.time)).collect()
+    }
+
+    fn begin_trial(&mut self) {
+        for watch in &mut self.watches {
+            watch.unseen.clear();
+            if let Some(sample) = &mut watch.sample {
+                sample.other = None;
+            }
+        }
+    }
+
+    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+        for watch in &mut self.watches {
+            watch.read(watch.value(frame), frame.state.time, self.end_time);
+        }
+        Ok(())
+    }
+
+    fn on_other_run(&mut self, other: Option<OtherRun>) {
+        for watch in &mut self.watches {
+            watch.step_error = match other {
+                Some(OtherRun::Trial(apart)) => watch.told_by(watch.sample, &watch.unseen, apart, self.end_time),
+                Some(OtherRun::Before(apart)) => watch.told_by(watch.before.0, &watch.before.1, apart, self.end_time),
+                None => None,
+            };
+        }
     }
 }
 
 impl Watch {
+    /// Keeps the value of an unseen run at this time.
+    fn read(&mut self, value: Option<f64>, time: f64, end_time: f64) {
+        if let Some(value) = value {
+            Sample::read(&mut self.sample, time, value, end_time);
+            self.unseen.keep(time, &[value]);
+        }
+    }
+
+    /// The error that another run tells, of which this history is known and what it has at the time of the sample of one of both.
+    fn told_by(&self, sample: Option<Sample>, other: &ComparedHistory, apart: f64, end_time: f64) -> Option<f64> {
+        let at_the_time = sample.and_then(|sample| sample.difference());
+        let anywhere = self.history.largest_differences(other, 1, 1e-9 * end_time);
+        Told::by(at_the_time, anywhere.map(|all| all[0]), apart).error
+    }
+
     /// The value in a frame; `None` where the frame does not have it.
     fn value(&self, frame: &Frame) -> Option<f64> {
         let (answers, index) = self.quantity?;
@@ -178,6 +289,8 @@ impl Watch {
             value: self.sample.map(|sample| sample.value),
             time: self.sample.map(|sample| sample.time),
             expected: *expected,
+            step_error: self.step_error,
+            mesh_error: self.mesh_error,
             error: difference.map(|difference| difference / unit).filter(|error| error.is_finite()),
             tolerance: limit,
             relative,

@@ -5,6 +5,7 @@
 
 pub mod compare;
 mod disk;
+pub mod error_bars;
 pub mod expect;
 pub mod extent;
 pub mod fields;

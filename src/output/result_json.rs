@@ -1,6 +1,7 @@
 //! result.json: the outcome of a run in one object that a script can read.
 
 use super::disk::{at, replace};
+use super::error_bars::ErrorBar;
 use super::expect::Verdict;
 use serde::Serialize;
 use std::io;
@@ -61,9 +62,9 @@ pub struct RunResult {
     pub counts: ReportedCounts,
     /// The time that the run took.
     pub timings: Timings,
-    /// The error of automatic steps.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step_error: Option<ReportedStepError>,
+    /// What is known of the errors of the results.
+    #[serde(flatten)]
+    pub errors: ReportedErrors,
     /// Largest departure from orthogonality that a first- or second-order rotation update left to be corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_drift: Option<f64>,
@@ -135,6 +136,20 @@ pub struct ReportedCounts {
     pub cuts: usize,
 }
 
+/// What is known of the errors of the results.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct ReportedErrors {
+    /// The error of automatic steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_error: Option<ReportedStepError>,
+    /// The run with a coarser mesh, by which the errors of the mesh are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<ReportedMesh>,
+    /// The errors of the largest values of all columns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub error_bars: Vec<ErrorBar>,
+}
+
 /// What automatic steps leave of error, relative to the largest motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ReportedStepError {
@@ -152,6 +167,23 @@ pub struct ReportedStepError {
     pub other_iterations: usize,
     /// ... and factorizations.
     pub other_factorizations: usize,
+}
+
+/// The run with a coarser mesh, by which the errors of the mesh are known.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportedMesh {
+    /// The overrides that ask for it.
+    pub sets: Vec<String>,
+    /// The factor by which its errors are taken to be larger.
+    pub apart: f64,
+    /// The names of parts whose mesh is the same, so that nothing is known of its error.
+    pub unchanged: Vec<String>,
+    /// Its steps, ...
+    pub steps: usize,
+    /// ... iterations ...
+    pub iterations: usize,
+    /// ... and factorizations.
+    pub factorizations: usize,
 }
 
 /// The time that the run took, in seconds of the wall clock.
@@ -208,7 +240,7 @@ mod tests {
             counts: ReportedCounts { steps: 3, ..ReportedCounts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },
             rotation_drift: None,
-            step_error: None,
+            errors: ReportedErrors::default(),
             joint_violation: None,
             peak_memory_bytes: None,
             warnings: vec![],

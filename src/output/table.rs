@@ -2,14 +2,37 @@
 //! or describes tables reads this and nothing else of them.
 
 use super::extent::{Extent, Rows};
-use super::table_file::TableFile;
 use crate::model::{ExpectAt, Model};
 use crate::quantities::{Column, STEP, TIME};
 use crate::solve::{Frame, Wanted};
 use std::io;
 
 /// A function that writes the rows of one frame. It is made once a run, so that it may hold what a scene fixes for good.
-pub type WriteRows = Box<dyn Fn(&mut TableFile, &Frame) -> io::Result<()>>;
+pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
+
+/// Whatever takes the rows of a table, field by field: its file, or what keeps an account of its numbers.
+pub trait WriteRow {
+    /// Begins a row with the two columns that every table has.
+    fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow;
+
+    /// Adds a field with a whole number.
+    fn count(&mut self, value: usize) -> &mut dyn WriteRow;
+
+    /// Adds a field with a number; it stays empty where the number is not finite.
+    fn number(&mut self, value: f64) -> &mut dyn WriteRow;
+
+    /// Adds a field for each of several numbers.
+    fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow;
+
+    /// Adds a field with a text.
+    fn text(&mut self, text: &str) -> &mut dyn WriteRow;
+
+    /// Ends a row.
+    ///
+    /// # Errors
+    /// It cannot be kept.
+    fn end(&mut self) -> io::Result<()>;
+}
 
 /// A kind of table: one constant in a file of its own, and one line of [`super::TABLES`].
 pub struct TableKind {

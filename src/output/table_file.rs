@@ -6,6 +6,7 @@
 //! its buffer.
 
 use super::disk::{at, create, is_same};
+use super::table::WriteRow;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -67,61 +68,9 @@ impl TableFile {
         Ok(table)
     }
 
-    /// Begins a row with the two columns that every table has.
-    pub fn row(&mut self, step: usize, time: f64) -> &mut TableFile {
-        let _ = write!(self.rows, "{step}"); // a Vec takes every byte
-        self.time = time;
-        self.number(time)
-    }
-
-    /// Adds a field with a whole number.
-    pub fn count(&mut self, value: usize) -> &mut TableFile {
-        let _ = write!(self.rows, ",{value}");
-        self
-    }
-
-    /// Adds a field with a number; it stays empty where the number is not finite.
-    pub fn number(&mut self, value: f64) -> &mut TableFile {
-        self.rows.push(b',');
-        if value.is_finite() {
-            self.rows.extend_from_slice(self.digits.format_finite(value).as_bytes());
-        } else {
-            self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += 1;
-        }
-        self
-    }
-
     /// The fields that stayed empty so far, if any did.
     pub fn empty_fields(&self) -> Option<EmptyFields> {
         self.empty
-    }
-
-    /// Adds a field for each of several numbers.
-    pub fn numbers(&mut self, values: &[f64]) -> &mut TableFile {
-        for value in values {
-            self.number(*value);
-        }
-        self
-    }
-
-    /// Adds a field with a text, which is quoted where it must be (RFC 4180).
-    pub fn text(&mut self, text: &str) -> &mut TableFile {
-        self.rows.push(b',');
-        if text.contains([',', '"', '\n', '\r']) {
-            let _ = write!(self.rows, "\"{}\"", text.replace('"', "\"\""));
-        } else {
-            self.rows.extend_from_slice(text.as_bytes());
-        }
-        self
-    }
-
-    /// Ends a row. Where many wait, they are handed to the file.
-    ///
-    /// # Errors
-    /// Handing them over may fail, as [`TableFile::flush`] says.
-    pub fn end(&mut self) -> io::Result<()> {
-        self.rows.push(b'\n');
-        if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
     }
 
     /// Hands the finished rows to the file, in pieces that end with a row and, but for a row that crosses one, within a page.
@@ -170,6 +119,51 @@ impl TableFile {
     fn spoiled(&self) -> io::Error {
         let what = "the table was taken away, replaced or changed while the run was writing it; its results are lost";
         at(&self.path, io::Error::new(io::ErrorKind::NotFound, what))
+    }
+}
+
+impl WriteRow for TableFile {
+    fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow {
+        let _ = write!(self.rows, "{step}"); // a Vec takes every byte
+        self.time = time;
+        self.number(time)
+    }
+
+    fn count(&mut self, value: usize) -> &mut dyn WriteRow {
+        let _ = write!(self.rows, ",{value}");
+        self
+    }
+
+    fn number(&mut self, value: f64) -> &mut dyn WriteRow {
+        self.rows.push(b',');
+        if value.is_finite() {
+            self.rows.extend_from_slice(self.digits.format_finite(value).as_bytes());
+        } else {
+            self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += 1;
+        }
+        self
+    }
+
+    fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow {
+        for value in values {
+            self.number(*value);
+        }
+        self
+    }
+
+    fn text(&mut self, text: &str) -> &mut dyn WriteRow {
+        self.rows.push(b',');
+        if text.contains([',', '"', '\n', '\r']) {
+            let _ = write!(self.rows, "\"{}\"", text.replace('"', "\"\""));
+        } else {
+            self.rows.extend_from_slice(text.as_bytes());
+        }
+        self
+    }
+
+    fn end(&mut self) -> io::Result<()> {
+        self.rows.push(b'\n');
+        if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
     }
 }
 

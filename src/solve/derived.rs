@@ -54,6 +54,12 @@ impl Wanted {
         Wanted(self.0 | self.0 << HALF)
     }
 
+    /// The set, wanted only where tables are due.
+    #[must_use]
+    pub const fn where_due(self) -> Wanted {
+        Wanted(self.0 & ((1 << HALF) - 1))
+    }
+
     /// True where all of `what` is wanted of a step; tables are `due` there, or not.
     pub const fn has_now(self, what: Wanted, due: bool) -> bool {
         if due { self.has(what) } else { self.has(Wanted(what.0 << HALF)) }

@@ -27,6 +27,8 @@ pub struct Frame<'a> {
     pub last: bool,
     /// True at a time inside the step, which goes on.
     pub inside: bool,
+    /// True at a time at which runs are compared with each other; quantities are computed as where tables are due.
+    pub compared: bool,
     /// Indices into [`Model::expects`] of the displacements at which this step ends.
     pub passed: &'a [usize],
     /// Reactions on the structure, global components, in the order of the model's restraints; empty unless wanted of
@@ -59,6 +61,31 @@ pub trait Observer {
     fn restart(&mut self, _: &Model) -> std::io::Result<()> {
         Ok(())
     }
+
+    /// The times at which another run has to be seen for the errors of what this observer has received to be told.
+    fn times_to_compare(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Forgets earlier trial runs: another begins.
+    fn begin_trial(&mut self) {}
+
+    /// Receives a frame of a trial run at a time of comparison. An error is one of input/output.
+    fn on_trial(&mut self, _: &Frame) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    /// Takes note of the run that tells the errors of what has been received; of `None` where none does.
+    fn on_other_run(&mut self, _: Option<OtherRun>) {}
+}
+
+/// Another run of the scene, with longer steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OtherRun {
+    /// The trial, which [`Observer::on_trial`] has received; its errors are larger by this factor.
+    Trial(f64),
+    /// The run before [`Observer::restart`], likewise.
+    Before(f64),
 }
 
 impl Observer for () {

@@ -6,7 +6,7 @@ use super::frame::Observer;
 use super::outcome::Outcome;
 use super::recorder::{AcceptedStep, Recorder};
 use super::report::StepReport;
-use super::sample::Samples;
+use super::sample::{Sample, Samples};
 use super::workspace::Workspace;
 use crate::state::State;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -49,12 +49,18 @@ impl March<'_, '_> {
         self.recorder.notify(self.cx, self.ws, self.state, self.observer, step)
     }
 
-    /// Shows a state inside the step of length `dt` that was taken last, and counts what it took; tables are `due` there, or not.
+    /// Shows the state at a sample inside the step of length `dt` that was taken last, and counts what it took.
     ///
     /// # Errors
     /// As for [`Recorder::notify_inside`].
-    pub fn notify_inside(&mut self, state: &State, report: &StepReport, dt: f64, due: bool) -> Result<(), Outcome> {
-        self.recorder.notify_inside(self.cx, self.ws, state, self.observer, (report, dt, due))
+    pub fn notify_inside(
+        &mut self,
+        state: &State,
+        report: &StepReport,
+        dt: f64,
+        sample: &Sample,
+    ) -> Result<(), Outcome> {
+        self.recorder.notify_inside(self.cx, self.ws, state, self.observer, (report, dt, sample))
     }
 
     /// The outcome of a run that ends here by a failure.
@@ -68,7 +74,7 @@ impl March<'_, '_> {
     /// As for [`Recorder::notify`].
     pub fn notify_start(&mut self) -> Result<(), Outcome> {
         let report = &StepReport::begin(0.0);
-        self.notify(&AcceptedStep { dt: 0.0, report, cuts: 0, due: true, last: false, passed: &[] })
+        self.notify(&AcceptedStep { dt: 0.0, report, cuts: 0, due: true, compared: false, last: false, passed: &[] })
     }
 
     /// Counts a cutback.

@@ -42,7 +42,7 @@ pub use crate::system::{LinkState, SectionPoint, ShellState};
 pub use contacts::settling_energy;
 pub use derived::{Derived, Wanted};
 pub use failure::{Failure, NamedResidual};
-pub use frame::{Effort, Frame, Observer};
+pub use frame::{Effort, Frame, Observer, OtherRun};
 pub use outcome::{Counts, Outcome};
 pub use run::Run;
 pub use trials::StepError;

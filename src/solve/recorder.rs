@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::frame::{Effort, Frame, Observer};
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
+use super::sample::Sample;
 use super::workspace::Workspace;
 use crate::model::{Cadence, Model};
 use crate::state::State;
@@ -18,6 +19,8 @@ pub struct Recorder {
     wanted: Wanted,
     /// The effort so far.
     pub counts: Counts,
+    /// True for a trial run, of which no tables are written.
+    pub is_trial: bool,
     /// Largest number of steps; a run that takes more is given up.
     pub most_steps: usize,
     /// Time spent in the observer.
@@ -69,6 +72,8 @@ pub struct AcceptedStep<'s> {
     pub cuts: usize,
     /// True where its end is an output time, whatever the cadence says.
     pub due: bool,
+    /// True where runs are compared at its end.
+    pub compared: bool,
     /// True for the last step of the run.
     pub last: bool,
     /// Indices as in [`Frame::passed`].
@@ -81,6 +86,7 @@ impl Recorder {
         Recorder {
             wanted,
             counts: Counts::default(),
+            is_trial: false,
             most_steps: usize::MAX,
             observing: Duration::ZERO,
             growth: EnergyGrowth::default(),
@@ -135,7 +141,8 @@ impl Recorder {
             () if checks_energy_growth(model) => Wanted::ENERGY,
             () => Wanted::NOTHING,
         };
-        let request = Request { model, system, state, due, drawn, balance, threads };
+        let shown = due || step.compared;
+        let request = Request { model, system, state, due: shown, drawn, balance, threads };
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
@@ -146,8 +153,8 @@ impl Recorder {
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
     }
 
-    /// Shows the state at a time inside the step of length `dt` that was taken last, before the step itself is shown, and counts what it
-    /// took; tables are `due` there, or not.
+    /// Shows the state at a sample inside the step of length `dt` that was taken last, before the step itself is shown, and counts what it
+    /// took.
     ///
     /// # Errors
     /// [`Outcome::Io`] where the observer cannot write.
@@ -157,13 +164,14 @@ impl Recorder {
         ws: &Workspace,
         state: &State,
         observer: &mut dyn Observer,
-        (report, dt, due): (&StepReport, f64, bool),
+        (report, dt, sample): (&StepReport, f64, &Sample),
     ) -> Result<(), Outcome> {
         self.counts.iterations += report.iterations;
+        let (due, compared) = (sample.due && !self.is_trial, sample.compared);
         let began = due.then(Instant::now);
-        let step = &AcceptedStep { dt, report, cuts: 0, due, last: false, passed: &[] };
+        let step = &AcceptedStep { dt, report, cuts: 0, due, compared, last: false, passed: &[] };
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
-        let request = Request { model, system, state, due, drawn: false, balance, threads };
+        let request = Request { model, system, state, due: due || compared, drawn: false, balance, threads };
         self.derived.compute(self.wanted, &request);
         self.looked_inside = true;
         let frame = self.frame(cx, ws, state, step, [due, false]);
@@ -185,9 +193,9 @@ impl Recorder {
         state: &State,
         observer: &mut dyn Observer,
     ) -> Result<(), Outcome> {
-        let Some(dt) = self.pending.take() else { return Ok(()) };
+        let Some(dt) = self.pending.take().filter(|_| !self.is_trial) else { return Ok(()) };
         let report = &StepReport::begin(0.0);
-        let step = &AcceptedStep { dt, report, cuts: 0, due: true, last: false, passed: &[] };
+        let step = &AcceptedStep { dt, report, cuts: 0, due: true, compared: false, last: false, passed: &[] };
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let request = Request { model, system, state, due: true, drawn: false, balance, threads };
         self.derived.compute(self.wanted, &request);
@@ -197,6 +205,9 @@ impl Recorder {
     /// Decides whether tables are due, and whether fields are drawn; fields are drawn at the end too.
     fn is_due(&mut self, model: &Model, step: &AcceptedStep, time: f64) -> (bool, bool) {
         let (output, at) = (&model.output, (self.counts.steps, time));
+        if self.is_trial {
+            return (false, false);
+        }
         let due = self.tables.is_due(output.cadence, at, step.due);
         let is_first = self.counts.steps == 0;
         let drawn = output.fields.is_some_and(|cadence| self.fields.is_due(cadence, at, is_first || step.last));
@@ -211,7 +222,7 @@ impl Recorder {
         step: &AcceptedStep<'f>,
         [due, drawn]: [bool; 2],
     ) -> Frame<'f> {
-        let &AcceptedStep { dt, report, cuts, last, passed, .. } = step;
+        let &AcceptedStep { dt, report, cuts, compared, last, passed, .. } = step;
         // Each multiplier has a negative pivot of its own.
         let negative = || ws.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
         Frame {
@@ -229,7 +240,8 @@ impl Recorder {
             drawn,
             last,
             inside: false,
-            reactions: if self.wanted.has_now(Wanted::REACTIONS, due) { &state.reactions } else { &[] },
+            compared,
+            reactions: if self.wanted.has_now(Wanted::REACTIONS, due || compared) { &state.reactions } else { &[] },
             derived: &self.derived,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),

@@ -4,13 +4,13 @@ use super::context::Context;
 use super::control::{Controller, Schedule, comparison_times};
 use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
-use super::frame::Observer;
+use super::frame::{Observer, OtherRun};
 use super::march::March;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::sample::Samples;
 use super::start::start;
-use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace};
+use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace, Unseen};
 use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
 use crate::linear::TooLarge;
@@ -90,7 +90,8 @@ impl<'a> Run<'a> {
         let model = self.context.model;
         let power = model.solution.scheme.order() + 1;
         let inside = self.controller.looks_inside();
-        let schedule = Schedule::new(model, comparison_times(model.analysis.end_time), inside);
+        let times = || comparison_times(model.analysis.end_time);
+        let mut schedule = Schedule::new(model, times(), inside);
         let mut error = StepError::new(asked);
         let mut before: Option<Kept> = None;
         self.follow(asked, None);
@@ -100,22 +101,24 @@ impl<'a> Run<'a> {
             let run = trace.into_kept();
             // What fails with shorter steps did come to its end with those before.
             if before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
-                return self.settle(error, &schedule, observer);
+                return self.settle(error, &Schedule::new(model, times(), inside), observer);
             }
             if !matches!(outcome, Outcome::Done) {
                 return (outcome, state);
             }
             let other = match before.take().filter(|other| run.is_told_by(other)) {
-                Some(other) => Some(other),
-                None => match self.trial(&mut error, run.longest(), power) {
-                    Ok(other) => other,
+                Some(other) => Some((OtherRun::Before(run.apart(&other)), other)),
+                None => match self.trial(&mut error, run.longest(), power, observer) {
+                    Ok(other) => other.map(|other| (OtherRun::Trial(run.apart(&other)), other)),
+                    Err(outcome @ Outcome::Io(_)) => return (outcome, state),
                     Err(_) => return (Outcome::Stopped { time: model.analysis.end_time }, state),
                 },
             };
-            let next = match other {
-                Some(other) => error.judge(&run, &other, self.context.length),
+            let next = match &other {
+                Some((_, other)) => error.judge(&run, other, self.context.length),
                 None => Some(error.without_trial()),
             };
+            observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which));
             let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
                 self.workspace.warnings.extend(error.doubt());
                 self.step_error = Some(error);
@@ -123,6 +126,8 @@ impl<'a> Run<'a> {
             };
             let most_steps = MOST_LONGER * self.recorder.counts.steps;
             // Steps that no tolerance limits shrink as well, or the run would be the same again.
+            let compared = if inside { observer.times_to_compare() } else { Vec::new() };
+            schedule = Schedule::new(model, times().chain(compared), inside);
             let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / (power - 1) as f64);
             if let Err(error) = self.begin_again(&mut error, (tolerance, Some(longest)), observer) {
                 return (Outcome::Io(error), state);
@@ -173,25 +178,48 @@ impl<'a> Run<'a> {
     /// Runs with longer steps, unseen, for the sake of the error of the run before; `None` where that run does not come to its end.
     ///
     /// # Errors
-    /// [`Outcome::Stopped`].
-    fn trial(&mut self, error: &mut StepError, longest: f64, power: usize) -> Result<Option<Kept>, Outcome> {
-        let model = self.context.model;
-        let recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, Wanted::NOTHING));
+    /// [`Outcome::Stopped`], and [`Outcome::Io`] where the observer fails.
+    fn trial(
+        &mut self,
+        error: &mut StepError,
+        longest: f64,
+        power: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Kept>, Outcome> {
+        let (model, inside) = (self.context.model, self.controller.looks_inside());
+        let recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));
+        self.recorder.is_trial = true;
         let warnings = std::mem::take(&mut self.workspace.warnings);
         let seen = (self.workspace.rotation_drift, self.workspace.joint_violation);
         self.follow(error.tolerance * LOOSER, Some(2.0 * longest));
         self.recorder.most_steps = 2 * recorder.counts.steps + FEW;
-        let mut nobody = ();
-        let mut trace = Trace::new(&mut nobody, power);
-        let (outcome, _) = self.once(&mut trace, &Schedule::of_trial(model, self.controller.looks_inside()));
+        let compared = if inside { observer.times_to_compare() } else { Vec::new() };
+        let schedule = Schedule::of_trial(model, comparison_times(model.analysis.end_time).chain(compared), inside);
+        observer.begin_trial();
+        let mut unseen = Unseen(observer);
+        let mut trace = Trace::new(&mut unseen, power);
+        let (outcome, _) = self.once(&mut trace, &schedule);
         error.add(self.recorder.counts);
         (self.recorder, self.workspace.warnings) = (recorder, warnings);
         (self.workspace.rotation_drift, self.workspace.joint_violation) = seen;
         match outcome {
             Outcome::Done => Ok(Some(trace.into_kept())),
-            Outcome::Stopped { .. } => Err(outcome),
-            Outcome::Failed { .. } | Outcome::Io(_) => Ok(None),
+            Outcome::Stopped { .. } | Outcome::Io(_) => Err(outcome),
+            Outcome::Failed { .. } => Ok(None),
         }
+    }
+
+    /// Runs once, and shows the observer, as a trial, what happens at these times; steps that follow an error do so as those of another run
+    /// did in the end.
+    pub fn rehearse(&mut self, times: Vec<f64>, like: Option<StepError>, observer: &mut dyn Observer) -> Outcome {
+        let model = self.context.model;
+        if let Some(StepError { tolerance, longest, .. }) = like {
+            self.follow(tolerance, longest);
+        }
+        self.recorder.is_trial = true;
+        let schedule = Schedule::new(model, times.into_iter(), self.controller.looks_inside());
+        observer.begin_trial();
+        self.once(&mut Unseen(observer), &schedule).0
     }
 
     /// Prepares for a run by this tolerance, whose counts begin anew.

@@ -7,6 +7,8 @@ pub struct Sample {
     pub time: f64,
     /// True for an output time.
     pub due: bool,
+    /// True for a time at which runs are compared.
+    pub compared: bool,
 }
 
 /// Times to look at inside steps, in order.

@@ -3,6 +3,7 @@
 use crate::deck::Deck;
 use crate::deck::words::OneOrMany;
 use crate::diagnostic::Diagnostic;
+use crate::model::Model;
 
 /// The overrides that multiply all numbers of elements.
 pub fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<String> {
@@ -43,8 +44,54 @@ fn multiplied(elements: &OneOrMany<u64>, factor: f64) -> Option<String> {
     Some(if elements.single { numbers.concat() } else { format!("[{}]", numbers.join(", ")) })
 }
 
+/// A coarser mesh of a deck, by which the error of its own is told.
+pub struct CoarserMesh {
+    /// The overrides that ask for it; none where no part can be coarser.
+    pub sets: Vec<String>,
+    /// The factor by which its errors are larger.
+    pub apart: f64,
+    /// The names of deformable parts that stay as they are.
+    pub unchanged: Vec<String>,
+}
+
+/// Half as many elements in each part, or a degree less of a beam of one element.
+pub fn coarser(deck: &Deck, model: &Model) -> CoarserMesh {
+    /// The part of the order of convergence that is reached; of 300 columns of 17 runs 94 % were then within the bound.
+    const SLOPE: f64 = 0.8;
+    /// The factor between the errors of degrees p and p - 1: few elements tell little of it.
+    const OF_A_DEGREE: f64 = 4.0;
+    let mut mesh = CoarserMesh { sets: Vec::new(), apart: f64::INFINITY, unchanged: Vec::new() };
+    for part in deck.parts().filter(|part| !part.is_rigid()) {
+        let (path, label) = (part.table_path(), part.label());
+        let order = part.table.order();
+        // Displacements converge with twice the degree, in few elements less; where material yields, its hinges keep them at two.
+        let slope = if model.yields() { 2.0 } else { SLOPE * 2.0 * order.unwrap_or(1) as f64 };
+        let elements = part.table.elements().filter(|_| part.table.group().is_none());
+        let halves = elements.map(|at| at.values.iter().map(|count| count.value.div_ceil(2)).collect::<Vec<_>>());
+        match (elements, halves) {
+            (Some(at), Some(halves)) if at.values.iter().any(|count| count.value > 1) => {
+                let counts = at.values.iter().map(|count| count.value).zip(&halves).filter(|(count, _)| *count > 1);
+                let ratio = counts.map(|(count, half)| count as f64 / *half as f64).fold(f64::INFINITY, f64::min);
+                mesh.apart = mesh.apart.min(ratio.powf(slope.max(2.0)));
+                let words: Vec<String> = halves.iter().map(u64::to_string).collect();
+                let value = if at.single { words.concat() } else { format!("[{}]", words.join(", ")) };
+                mesh.sets.push(format!("{path}.elements={value}"));
+            }
+            _ => match order.filter(|order| *order > 1) {
+                Some(order) => {
+                    mesh.apart = mesh.apart.min(OF_A_DEGREE);
+                    mesh.sets.push(format!("{path}.order={}", order - 1));
+                }
+                None if part.table.group().is_some() || elements.is_some() => mesh.unchanged.push(label),
+                None => {}
+            },
+        }
+    }
+    mesh
+}
+
 /// The overrides that give the elements of all beams this degree.
 pub fn reorder(deck: &Deck, order: u64) -> Vec<String> {
-    let beams = deck.parts().filter(|part| part.table.has_order() && !part.is_rigid());
+    let beams = deck.parts().filter(|part| part.table.order().is_some() && !part.is_rigid());
     beams.map(|part| format!("{}.order={order}", part.table_path())).collect()
 }

@@ -55,6 +55,7 @@ pub use grid::StudyGrid;
 pub use joint::{CheapestPair, MeshAndStep};
 pub use joint_fit::{JointFit, Pair, PowerLaw};
 pub use lines::{StudyLine, follows_tolerance};
+pub use meshes::{CoarserMesh, coarser};
 pub use options::{Options, StudyFault};
 pub use order::Order;
 pub use phase::Phase;

@@ -211,6 +211,7 @@ impl Extras {
                 || step == 10,
             last: step == 10,
             inside: false,
+            compared: false,
             reactions: &self.reactions,
             derived: &self.derived,
             passed: &[],

@@ -14,13 +14,17 @@ const places = base64 => new Uint32Array(bytes(base64).buffer);
 /** A table over time: `line(name, column)` is one number a time. */
 class History {
   constructor(from) {
-    Object.assign(this, { file: from.file, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels });
+    Object.assign(this, { file: from.file, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels, bands: from.bands });
     this.times = floats(from.times);
     this.values = floats(from.values);
   }
   /** What a column is, with its unit, for an axis. */
   label(column) {
     return this.labels[this.columns.indexOf(column)] ?? column;
+  }
+  /** Half the width of the band within which the error of a column lies; 0 where it is not known. */
+  band(column) {
+    return this.bands[this.columns.indexOf(column)] ?? 0;
   }
   line(name, column) {
     const { names, columns, values } = this;

@@ -146,14 +146,15 @@ impl History {
         if parts.is_empty() { String::new() } else { format!("{}: shown are {}", self.file, parts.join(" and ")) }
     }
 
-    /// The history as the scripts of the page read it.
-    pub fn json(&self) -> Value {
+    /// The history as the scripts of the page read it, with the error bars that result.json has.
+    pub fn json(&self, result: &Value) -> Value {
         json!({
             "file": self.file,
             "names": self.names,
             "columns": self.columns,
             "kinds": self.columns.iter().map(|column| described(&self.file, column).map(|known| known.kind)).collect::<Vec<_>>(),
             "labels": self.columns.iter().map(|column| label(&self.file, column)).collect::<Vec<_>>(),
+            "bands": self.columns.iter().map(|column| band(result, &self.file, column)).collect::<Vec<_>>(),
             "times": numbers(&self.times),
             "values": numbers(&self.values),
         })
@@ -163,6 +164,14 @@ impl History {
 /// A column as its table describes it; `None` where the table is not one of a run.
 fn described(file: &str, column: &str) -> Option<Column> {
     tables::of_file(file)?.columns().find(|known| known.answers_to(column))
+}
+
+/// Half the width of the band that the error bars of a column make, over all its rows and times; 0 where there are none.
+fn band(result: &Value, file: &str, column: &str) -> f64 {
+    let mut bars = result["error_bars"].as_array().into_iter().flatten();
+    let bar = bars.find(|bar| bar["table"] == file && bar["column"] == column);
+    let number = |key: &str| bar.and_then(|bar| bar[key].as_f64()).unwrap_or(0.0);
+    (number("step_error") + number("mesh_error")).max(number("anywhere"))
 }
 
 /// A column with its unit, for an axis.

@@ -24,7 +24,7 @@ function energy(history) {
   const parent = byId("energy-plot"), [plot, whole] = plotWith(parent);
   const kept = ["kinetic", "strain", "links", "contact"], spent = ["plastic", "viscoplastic", "damping", "friction", "impact"];
   let [ticked, stacked] = [[], false];
-  const series = i => ({ name: names[i], colour: colour(i), x: history.times, y: history.line(0, names[i]) });
+  const series = i => ({ name: names[i], colour: colour(i), x: history.times, y: history.line(0, names[i]), band: history.band(names[i]) });
   const draw = () => {
     let base = new Float32Array(history.times.length);
     const drawn = ticked.map(i => {
@@ -67,6 +67,7 @@ function browse(all) {
         colour: colour(i),
         x: x === "time" ? history.times : history.line(i, x),
         y: y === "time" ? history.times : history.line(i, y),
+        band: history.band(y),
       }));
       plot.show(series, { x: history.label(x), y: history.label(y) });
     };

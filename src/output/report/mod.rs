@@ -68,7 +68,7 @@ pub fn page(folder: &Path) -> io::Result<String> {
     }
     let title = result.title(folder);
     let all = json!({
-        "histories": histories.iter().map(History::json).collect::<Vec<Value>>(),
+        "histories": histories.iter().map(|history| history.json(&result.json)).collect::<Vec<Value>>(),
         "scene": scene.as_ref().map(PageScene::json),
     });
     let notes: String = notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();

@@ -19,7 +19,7 @@ function range(arrays) {
   return [least - pad, most + pad];
 }
 
-/** A canvas that shows `series`: [{ name, colour, x, y, base }], areas down to `base` where there is one. */
+/** A canvas that shows `series`: [{ name, colour, x, y, base, band }], areas down to `base` where there is one, bands of half the width `band`. */
 class Plot {
   constructor(parent) {
     this.canvas = make("canvas");
@@ -77,7 +77,7 @@ class Plot {
     if (this.pointer && this.series.length) this.read(c, X, Y, right);
   }
 
-  line(c, { x, y, base, colour }, X, Y) {
+  line(c, { x, y, base, band, colour }, X, Y) {
     if (base) {
       c.beginPath();
       for (let i = 0; i < x.length; i++) c.lineTo(X(x[i]), Y(y[i]));
@@ -88,6 +88,7 @@ class Plot {
       c.globalAlpha = 1;
       return;
     }
+    if (band > 0) this.band(c, { x, y, band, colour }, X, Y);
     c.strokeStyle = c.fillStyle = colour;
     c.lineWidth = 1.6;
     c.beginPath();
@@ -101,6 +102,19 @@ class Plot {
       c.arc(X(x[i]), Y(y[i]), 2.5, 0, 7);
       c.fill();
     }
+  }
+
+  /** What errors leave open on both sides of a line, each piece between gaps for itself. */
+  band(c, { x, y, band, colour }, X, Y) {
+    c.globalAlpha = 0.18;
+    c.fillStyle = colour;
+    for (let i = 1; i < x.length; i++) {
+      if (![x[i - 1], y[i - 1], x[i], y[i]].every(Number.isFinite)) continue;
+      c.beginPath();
+      for (const [k, side] of [[i - 1, 1], [i, 1], [i, -1], [i - 1, -1]]) c.lineTo(X(x[k]), Y(y[k] + side * band));
+      c.fill();
+    }
+    c.globalAlpha = 1;
   }
 
   /** Says what lies under the pointer: the point nearest to it. */

@@ -71,7 +71,10 @@ impl Result {
                 vec![
                     one["label"].as_str().unwrap_or_default().into(),
                     if one["passed"].as_bool() == Some(true) { "ok" } else { "MISSED" }.into(),
-                    number(&one["value"]),
+                    number(&one["value"])
+                        + &["step_error", "mesh_error"]
+                            .map(|key| one[key].as_f64().map_or(String::new(), |bar| format!(" ± {}", short(bar))))
+                            .concat(),
                     bound + &number(&one["expected"]),
                     one["error"].as_f64().map_or(String::new(), short),
                     tolerance,

@@ -2,8 +2,7 @@
 
 use crate::model::ExpectAt;
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{
     ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, POSITION, QUATERNION, VELOCITY, names,
 };
@@ -68,7 +67,7 @@ fn quaternion(now: &Node) -> [f64; 4] {
     [q.w, q.i, q.j, q.k]
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.bodies.iter().try_for_each(|body| {
         table.row(frame.step, frame.state.time).text(&body.name);
         table.numbers(&values(&frame.state.nodes[body.node])).end()

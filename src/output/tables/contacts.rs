@@ -2,8 +2,7 @@
 
 use crate::model::{Contact, ExpectAt, PartKind};
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column, names};
 use crate::solve::{ContactState, Frame, Wanted};
 use std::io;
@@ -44,7 +43,7 @@ fn values(contact: &ContactState) -> [f64; 9] {
     [touching as f64, gap, f.x, f.y, f.z, m.x, m.y, m.z, f.norm()]
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.each::<Contact>().zip(&frame.derived.contacts).try_for_each(|(contact, state)| {
         let row = table.row(frame.step, frame.state.time).text(&contact.name).count(state.touching);
         row.numbers(&values(state)[1..CONTACT.len()]).end()

@@ -2,8 +2,7 @@
 
 use crate::model::ExpectAt;
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{ENERGY, names};
 use crate::solve::{Frame, Wanted};
 use crate::system::energy::Energy;
@@ -72,7 +71,7 @@ fn values(e: &Energy) -> [f64; 18] {
     ]
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let Some(energy) = &frame.derived.energy else { return Ok(()) };
     table.row(frame.step, frame.state.time).numbers(&values(energy)).end()
 }

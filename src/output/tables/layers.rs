@@ -3,8 +3,7 @@
 use super::shell_order::ShellOrder;
 use crate::model::Shell;
 use crate::output::extent::Rows;
-use crate::output::table::TableKind;
-use crate::output::table_file::TableFile;
+use crate::output::table::{TableKind, WriteRow};
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit, VON_MISES};
 use crate::solve::{Frame, Wanted};
 use std::io;
@@ -45,7 +44,7 @@ pub static TABLE: TableKind = TableKind {
     answers: None,
 };
 
-fn write(table: &mut TableFile, order: &ShellOrder, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, order: &ShellOrder, frame: &Frame) -> io::Result<()> {
     let layers = order.states(frame).flat_map(|state| state.at.layers().iter().enumerate().map(move |at| (state, at)));
     layers.into_iter().try_for_each(|(state, (number, layer))| {
         table.row(frame.step, frame.state.time).text(frame.model.parts[state.part].name()).count(state.element);

@@ -2,8 +2,7 @@
 
 use crate::model::{ExpectAt, Link, PartKind};
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Column, LINK, names};
 use crate::solve::{Frame, LinkState, Wanted};
 use std::io;
@@ -44,7 +43,7 @@ fn values(link: &LinkState) -> [f64; 9] {
     [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z]
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.each::<Link>().zip(&frame.derived.links).try_for_each(|(link, state)| {
         table.row(frame.step, frame.state.time).text(&link.name).numbers(&values(state)).end()
     })

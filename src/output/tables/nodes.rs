@@ -3,8 +3,7 @@
 use crate::math::rotation;
 use crate::model::{self, ExpectAt};
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{
     ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, MOTION, POSITION, ROTATION, VELOCITY,
     names,
@@ -59,7 +58,7 @@ fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
     std::array::from_fn(|i| vectors[i / 3][i % 3])
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.output.nodes.iter().try_for_each(|&i| {
         let node = &frame.model.nodes[i];
         table.row(frame.step, frame.state.time).text(&node.label);

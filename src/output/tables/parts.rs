@@ -2,8 +2,7 @@
 
 use crate::model::ExpectAt;
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Column, PLASTIC_STRAIN, Unit};
 use crate::solve::{Frame, Wanted};
 use std::io;
@@ -41,7 +40,7 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
     frame.derived.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max)
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.derived.parts.iter().try_for_each(|part| {
         let of = part.of(frame.model);
         table.row(frame.step, frame.state.time).text(of.kind().word()).text(of.name()).number(part.strain).end()

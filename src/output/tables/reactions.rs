@@ -2,8 +2,7 @@
 
 use crate::model::{DIRECTIONS, ExpectAt};
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Axes, Column, JOINT, Unit, names};
 use crate::solve::{Frame, JointState, Wanted};
 use std::io;
@@ -59,7 +58,7 @@ fn of_joint(joint: &JointState) -> [f64; 6] {
     [f.x, f.y, f.z, m.x, m.y, m.z]
 }
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let Frame { model, step, state, derived, .. } = *frame;
     model.constraints.restraints.iter().zip(frame.reactions).try_for_each(|(restraint, value)| {
         let node = &model.nodes[restraint.node];

@@ -2,8 +2,7 @@
 
 use crate::model::{Beam, PartKind};
 use crate::output::extent::Rows;
-use crate::output::table::TableKind;
-use crate::output::table_file::TableFile;
+use crate::output::table::{TableKind, WriteRow};
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit};
 use crate::solve::{Frame, Wanted};
 use std::io;
@@ -49,7 +48,7 @@ pub static TABLE: TableKind = TableKind {
     answers: None,
 };
 
-fn write(table: &mut TableFile, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.derived.sections.iter().try_for_each(|point| {
         let at = &point.at;
         table.row(frame.step, frame.state.time).text(frame.model.parts[point.part].name());

@@ -3,8 +3,7 @@
 use super::shell_order::ShellOrder;
 use crate::model::{ExpectAt, PartKind, Shell};
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Axes, Column, PLASTIC_STRAIN, Unit, VON_MISES};
 use crate::solve::{Frame, ShellState, Wanted};
 use std::io;
@@ -82,7 +81,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     frame.derived.shells.iter().filter(|state| (from..to).contains(&state.part)).map(of).reduce(f64::max)
 }
 
-fn write(table: &mut TableFile, order: &ShellOrder, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, order: &ShellOrder, frame: &Frame) -> io::Result<()> {
     order.states(frame).try_for_each(|state| {
         let at = &state.at;
         table.row(frame.step, frame.state.time).text(frame.model.parts[state.part].name()).count(state.element);

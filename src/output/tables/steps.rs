@@ -2,8 +2,7 @@
 
 use crate::model::ExpectAt;
 use crate::output::extent::Rows;
-use crate::output::table::{Answers, TableKind};
-use crate::output::table_file::TableFile;
+use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Column, TIME, Unit};
 use crate::solve::{Effort, Frame, Wanted};
 use std::cell::Cell;
@@ -47,7 +46,7 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
     matches!(at, ExpectAt::Analysis).then_some(frame.state.time)
 }
 
-fn write(table: &mut TableFile, since: &Cell<Effort>, frame: &Frame) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, since: &Cell<Effort>, frame: &Frame) -> io::Result<()> {
     if frame.step == 0 {
         return Ok(()); // no step led to t = 0
     }

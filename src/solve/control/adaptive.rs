@@ -84,8 +84,9 @@ impl<C: StepController> CoverInterval for C {
             match taken {
                 Ok(Some(report)) => {
                     let at_end = march.state.time >= interval.to;
-                    let (due, last) = (at_end && interval.due, at_end && march.is_end(interval.to));
-                    march.notify(&AcceptedStep { dt, report: &report, cuts, due, last, passed: &[] })?;
+                    let (due, compared) = (at_end && interval.due, at_end && interval.compared);
+                    let last = at_end && march.is_end(interval.to);
+                    march.notify(&AcceptedStep { dt, report: &report, cuts, due, compared, last, passed: &[] })?;
                     cuts = 0;
                 }
                 Ok(None) => {}
@@ -118,7 +119,7 @@ fn show_inside(
     let end = march.state.time;
     while let Some(sample) = march.samples.next(end) {
         match controller.look_inside(march.cx, march.ws, end, sample.time) {
-            Ok(Some((state, report))) => march.notify_inside(state, &report, dt, sample.due)?,
+            Ok(Some((state, report))) => march.notify_inside(state, &report, dt, &sample)?,
             Ok(None) => {}
             Err(failure) => return Ok(Err(failure)),
         }

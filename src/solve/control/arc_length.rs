@@ -229,7 +229,15 @@ impl ArcLengthController {
     fn notify(&mut self, march: &mut March, found: &Found, dt: f64, ends: bool) -> Result<(), Outcome> {
         let passed = found.reached.map_or(&[][..], |i| &self.targets.0[i].expects);
         let due = found.reached.is_some() || ends;
-        march.notify(&AcceptedStep { dt, report: &found.report, cuts: self.cuts, due, last: ends, passed })
+        march.notify(&AcceptedStep {
+            dt,
+            report: &found.report,
+            cuts: self.cuts,
+            due,
+            compared: false,
+            last: ends,
+            passed,
+        })
     }
 
     /// Chooses the size of the next step by the iterations of this one, unless this ended at a target.

@@ -62,7 +62,8 @@ impl<'a> FixedController<'a> {
 
     /// Takes the k-th step of the interval, in as many substeps as it needs.
     fn advance(&mut self, march: &mut March, interval: &Interval, k: usize) -> Result<(), Outcome> {
-        let due = k == interval.steps && interval.due;
+        let at_end = |of: bool| k == interval.steps && of;
+        let (due, compared) = (at_end(interval.due), at_end(interval.compared));
         let mut step = Substeps::of(march.state.time, interval.time(k));
         while step.at < WHOLE_STEP {
             march.check_stop()?;
@@ -71,7 +72,7 @@ impl<'a> FixedController<'a> {
             match self.stepper.step(march.cx, march.ws, march.state, target) {
                 Ok(report) => {
                     step.count();
-                    step.notify(march, &report, dt, due)?;
+                    step.notify(march, &report, dt, [due, compared])?;
                     self.check_substeps(march, &step, dt)?;
                     step.grow();
                 }
@@ -155,11 +156,17 @@ impl Substeps {
         self.taken += 1;
     }
 
-    /// Shows the substep that was taken; with `due`, the end of the step is an output time.
-    fn notify(&mut self, march: &mut March, report: &StepReport, dt: f64, due: bool) -> Result<(), Outcome> {
+    /// Shows the substep that was taken; with `due`, the end of the step is an output time, with `compared`, runs are compared there.
+    fn notify(
+        &mut self,
+        march: &mut March,
+        report: &StepReport,
+        dt: f64,
+        [due, compared]: [bool; 2],
+    ) -> Result<(), Outcome> {
         let ends = self.at == WHOLE_STEP;
-        let (due, last) = (ends && due, ends && march.is_end(self.to));
-        march.notify(&AcceptedStep { dt, report, cuts: self.cuts, due, last, passed: &[] })?;
+        let (due, compared, last) = (ends && due, ends && compared, ends && march.is_end(self.to));
+        march.notify(&AcceptedStep { dt, report, cuts: self.cuts, due, compared, last, passed: &[] })?;
         self.cuts = 0;
         Ok(())
     }

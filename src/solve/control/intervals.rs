@@ -33,6 +33,8 @@ pub struct Interval {
     pub due: bool,
     /// True where a load jumps at its end.
     pub jump: bool,
+    /// True where runs are compared at its end.
+    pub compared: bool,
 }
 
 impl Interval {
@@ -59,19 +61,18 @@ struct Event {
 }
 
 impl Schedule {
-    /// Divides [0, end] where loads jump, at output times and the times of expectations, and at `others`, each interval into steps no
-    /// longer than the deck's. With `inside`, output times and `others` lie inside steps.
-    pub fn new(model: &Model, others: impl Iterator<Item = f64>, inside: bool) -> Schedule {
-        let mut events: Vec<Event> = others.map(|time| at(time, false, !inside)).collect();
+    /// Divides [0, end] where loads jump, at output times, the times of expectations and those at which runs are `compared`, each interval into steps no
+    /// longer than the deck's. With `inside`, output times and the times of comparison lie inside steps.
+    pub fn new(model: &Model, compared: impl Iterator<Item = f64>, inside: bool) -> Schedule {
+        let mut events: Vec<Event> = compared.map(|time| comparison(time, !inside)).collect();
         add_output_times(model, &mut events, !inside);
         add_jumps_and_kinks(model, &mut events);
         divide(model, events)
     }
 
     /// The times of a trial run, of which nothing is written.
-    pub fn of_trial(model: &Model, inside: bool) -> Schedule {
-        let compared = comparison_times(model.analysis.end_time);
-        let mut events: Vec<Event> = compared.map(|time| at(time, false, !inside)).collect();
+    pub fn of_trial(model: &Model, compared: impl Iterator<Item = f64>, inside: bool) -> Schedule {
+        let mut events: Vec<Event> = compared.map(|time| comparison(time, !inside)).collect();
         add_jumps_and_kinks(model, &mut events);
         divide(model, events)
     }
@@ -94,7 +95,13 @@ pub fn comparison_times(end_time: f64) -> impl Iterator<Item = f64> {
 }
 
 fn at(to: f64, due: bool, ends: bool) -> Event {
-    Event { ending: Interval { from: 0.0, to, steps: 0, due, jump: false }, ends }
+    Event { ending: Interval { from: 0.0, to, steps: 0, due, jump: false, compared: false }, ends }
+}
+
+fn comparison(to: f64, ends: bool) -> Event {
+    let mut event = at(to, false, ends);
+    event.ending.compared = true;
+    event
 }
 
 fn add_output_times(model: &Model, out: &mut Vec<Event>, ends: bool) {
@@ -149,6 +156,7 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
         if one {
             kept.ending.due |= next.ending.due;
             kept.ending.jump |= next.ending.jump;
+            kept.ending.compared |= next.ending.compared;
             kept.ends |= next.ends;
         }
         one
@@ -156,7 +164,8 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
     if let Some(last) = events.last_mut() {
         (last.ending.to, last.ends) = (end, true);
     }
-    let sample = |event: &Event| Sample { time: event.ending.to, due: event.ending.due };
+    let sample =
+        |&Event { ending: Interval { to: time, due, compared, .. }, .. }: &Event| Sample { time, due, compared };
     let samples = events.iter().filter(|event| !event.ends).map(sample).collect();
     let mut intervals: Vec<Interval> = events.iter().filter(|event| event.ends).map(|event| event.ending).collect();
     let mut from = 0.0;

@@ -7,7 +7,7 @@
 
 mod trace;
 
-pub use trace::{Kept, Trace};
+pub use trace::{Kept, Trace, Unseen};
 
 use super::outcome::Counts;
 use super::warning::Warning;

@@ -51,6 +51,15 @@ impl<'o> Trace<'o> {
     }
 }
 
+/// Shows another observer the frames of a trial run at which it is compared.
+pub struct Unseen<'o>(pub &'o mut dyn Observer);
+
+impl Observer for Unseen<'_> {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        if frame.compared { self.0.on_trial(frame) } else { Ok(()) }
+    }
+}
+
 impl Observer for Trace<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if !frame.inside {

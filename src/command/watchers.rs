@@ -1,0 +1,83 @@
+//! All who watch a run: the log, the files, the expectations, the errors and the terminal.
+
+use crate::model::Model;
+use crate::output::Files;
+use crate::output::error_bars::ErrorBars;
+use crate::output::expect::Expectations;
+use crate::output::log::Log;
+use crate::output::progress::Progress;
+use crate::solve::{Frame, Observer, OtherRun};
+use std::io;
+use std::path::Path;
+
+/// All who watch the run, in the order in which a step is shown to them.
+pub struct Watchers {
+    /// The log of the run.
+    pub log: Log,
+    /// The tables and fields that grow with it.
+    pub files: Files,
+    /// The values that the deck expects.
+    pub expectations: Expectations,
+    /// The errors that are left in the largest values, where anything tells them.
+    pub bars: Option<ErrorBars>,
+    /// The bar on the terminal.
+    pub progress: Progress,
+}
+
+impl Watchers {
+    /// Those of a run of this model, which writes into a folder that is there; with `bars`, errors are to be told.
+    ///
+    /// # Errors
+    /// A file cannot be made.
+    pub fn new(log: Log, folder: &Path, model: &Model, [quiet, bars]: [bool; 2]) -> io::Result<Watchers> {
+        Ok(Watchers {
+            log,
+            files: Files::open(folder, model, None)?,
+            expectations: Expectations::new(model),
+            bars: bars.then(|| ErrorBars::new(model)),
+            progress: Progress::new(quiet),
+        })
+    }
+}
+
+impl Observer for Watchers {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.on_step(frame)?;
+        self.progress.on_step(frame)?;
+        self.log.on_step(frame)?;
+        self.bars.iter_mut().try_for_each(|bars| bars.on_step(frame))?;
+        self.files.on_step(frame)
+    }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        self.log.sum_up()?;
+        self.log.say(
+            "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps",
+        )?;
+        self.expectations.restart(model)?;
+        self.bars.iter_mut().try_for_each(|bars| bars.restart(model))?;
+        self.files.restart(model)
+    }
+
+    fn times_to_compare(&self) -> Vec<f64> {
+        let of_bars = self.bars.iter().flat_map(|bars| bars.times_to_compare());
+        self.expectations.times_to_compare().into_iter().chain(of_bars).collect()
+    }
+
+    fn begin_trial(&mut self) {
+        self.expectations.begin_trial();
+        self.bars.iter_mut().for_each(Observer::begin_trial);
+    }
+
+    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.on_trial(frame)?;
+        self.bars.iter_mut().try_for_each(|bars| bars.on_trial(frame))
+    }
+
+    fn on_other_run(&mut self, other: Option<OtherRun>) {
+        self.expectations.on_other_run(other);
+        if let Some(bars) = &mut self.bars {
+            bars.on_other_run(other);
+        }
+    }
+}
