@@ -4,7 +4,7 @@
 //!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
 //!           words     meaning    machine   motion     files
 //!  below them, used by them, knowing nothing of them:
-//!  system │ constraints  elements  integrators │ state  sections  solids  materials  amplitude  linear  mesh │ math  names  diagnostic
+//!  system │ constraints  elements  integrators │ state  sections  solids  materials  amplitude  linear  mesh  record │ math  names  text_file  diagnostic
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
@@ -48,10 +48,12 @@ pub mod names;
 pub mod output;
 pub mod plan;
 pub mod quantities;
+pub mod record;
 pub mod sections;
 pub mod solids;
 pub mod solve;
 pub mod state;
 pub mod study;
 pub mod system;
+pub mod text_file;
 pub mod words;

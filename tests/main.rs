@@ -35,6 +35,7 @@ mod paths;
 mod plasticity;
 mod plausibility;
 mod properties;
+mod records;
 mod report;
 mod resultants;
 mod safety_cab;

@@ -25,18 +25,19 @@ pub struct Loaded {
     pub source: Source,
     /// The `--set` arguments as they were given: `KEY=VALUE`.
     pub sets: Vec<String>,
-    /// SHA-256 of the text, the `--set` arguments and the mesh, in hexadecimal.
+    /// SHA-256 of the text, the `--set` arguments, the mesh and the records, in hexadecimal.
     pub hash: String,
 }
 
 impl Loaded {
-    /// The files that the deck is read from: the deck itself, its mesh, and the reference of its study.
+    /// The files that the deck is read from: the deck itself, its mesh, its records, and the reference of its study.
     pub fn files(&self) -> Vec<PathBuf> {
         let deck = PathBuf::from(&self.source.path);
         let mesh = self.model.origin.mesh.as_ref().map(|mesh| PathBuf::from(&mesh.path));
         let reference = self.model.study.as_ref().and_then(|study| study.reference.as_ref());
         let reference = reference.map(|reference| deck.with_file_name(reference));
-        [Some(deck), mesh, reference].into_iter().flatten().collect()
+        let records = self.model.origin.records.iter().map(|record| PathBuf::from(&record.path));
+        [Some(deck), mesh, reference].into_iter().flatten().chain(records).collect()
     }
 }
 
@@ -149,6 +150,10 @@ fn hash(source: &Source, sets: &[String], model: &Model) -> String {
     if let Some(mesh) = &model.origin.mesh {
         hasher.update([0, 0]);
         hasher.update(mesh.digest);
+    }
+    for record in &model.origin.records {
+        hasher.update([0, 0, 0]);
+        hasher.update(record.digest);
     }
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Numbers};
+use super::words::{ColumnName, Maybe, Numbers, OneOrMany};
 use crate::diagnostic::At;
 
 /// A function of time.
@@ -16,6 +16,17 @@ pub struct Amplitude {
     /// [[time, value], ...], two or more, times increasing; straight lines between them, the first and last value held
     /// before and after unless `before` and `after` say otherwise. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
+    /// A file with the points instead, in columns between commas, semicolons or blanks; the path is relative to the deck. (table)
+    pub file: Maybe<String>,
+    /// The columns of time and value in the file, by name or by number from 1; with `time_step` that of the value alone. Default: the only
+    /// ones. (table)
+    pub columns: Maybe<OneOrMany<ColumnName>>,
+    /// The time between two values of a file without times, above 0; the first is at 0. (table)
+    pub time_step: Maybe<f64>,
+    /// Factor on the values, such as 9.81 for a record in g. Default: 1. (table)
+    pub scale: Maybe<f64>,
+    /// Time by which all points are later. Default: 0. (table)
+    pub shift: Maybe<f64>,
     /// What holds before the first time. Default: its value, with a warning where that is not zero and the run begins
     /// earlier. (table)
     pub before: Maybe<Beyond>,
@@ -39,7 +50,7 @@ pub struct Amplitude {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AmplitudeKind {
-    /// Straight lines through `points`.
+    /// Straight lines through `points`, or through those of a `file`.
     Table,
     /// sin(w (t - start) + phase) from `start` to `end`.
     Sine,

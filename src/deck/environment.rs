@@ -12,6 +12,8 @@ use crate::diagnostic::At;
 pub struct Environment {
     /// Acceleration of free fall, global components. Default: none.
     pub gravity: Maybe<Vector>,
+    /// Name of the amplitude by which gravity is multiplied. Default: constant in dynamics, growing linearly in statics.
+    pub gravity_amplitude: Maybe<String>,
     /// Accelerations of the ground. Displacements, velocities and accelerations are then relative to the ground.
     #[serde(default)]
     pub base_acceleration: Vec<At<Table<BaseAcceleration>>>,

@@ -6,8 +6,8 @@
 use super::data::CellShape;
 use super::draft::{Draft, RawGroup};
 use super::ids::{Ids, short};
-use super::text::{Fault, Text, TextLine, Word};
 use crate::math::Vec3;
+use crate::text_file::{Fault, Text, TextLine, Word};
 use std::collections::HashMap;
 
 /// The shape of an element type that is read.

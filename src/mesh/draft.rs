@@ -2,9 +2,9 @@
 
 use super::data::{CellShape, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
 use super::ids::{Ids, short};
-use super::text::{Fault, Text};
 use crate::diagnostic::Diagnostic;
 use crate::math::Vec3;
+use crate::text_file::{Fault, Text};
 use std::collections::HashMap;
 
 /// The most messages that are shown about one file.

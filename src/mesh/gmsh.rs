@@ -4,8 +4,8 @@
 use super::data::CellShape;
 use super::draft::{Draft, RawGroup};
 use super::ids::short;
-use super::text::{Fault, Text, TextLine, Word, Words};
 use crate::math::Vec3;
+use crate::text_file::{Fault, Text, TextLine, Word, Words};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 

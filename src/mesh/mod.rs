@@ -7,18 +7,15 @@
 mod abaqus;
 mod data;
 mod draft;
-mod file;
 mod gmsh;
 mod ids;
 mod normals;
-pub mod text;
 
 use crate::diagnostic::Diagnostic;
+use crate::text_file::Text;
 pub use data::{CellShape, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
 use draft::Draft;
-pub use file::read_regular;
 pub use normals::{FOLD, normals};
-use text::Text;
 
 /// Reads a mesh from the bytes of a file whose path, for messages, is `path`. The extension gives the format, .msh or .inp.
 ///

@@ -19,7 +19,8 @@ pub(super) fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_ti
             continue;
         }
         match amplitude {
-            Amplitude::Table { points } => {
+            Amplitude::Table(table) => {
+                let points = table.points();
                 let (Some([first, before]), Some([last, after])) = (points.first(), points.last()) else { continue };
                 if words.after.is_none() && *after != 0.0 && *last < end_time - slack {
                     let message = format!(

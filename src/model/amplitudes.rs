@@ -1,28 +1,36 @@
 //! `[amplitudes.x]`: functions of time.
 
+use super::records::Record;
 use super::report::{Owner, Report};
 use super::values::span;
-use crate::amplitude::Amplitude;
+use crate::amplitude::{self, Amplitude};
 use crate::deck::Deck;
 use crate::deck::amplitudes as words;
 use crate::deck::words::{Maybe, Table};
 use crate::diagnostic::At;
 
-/// Reads `[amplitudes]`. Each gives one, also those with errors, since others refer to them by their index.
-pub(super) fn amplitudes<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Vec<Amplitude> {
-    let read = deck.amplitudes.0.iter().map(|(name, amplitude)| read_amplitude(&name.value, amplitude, report));
+/// Reads `[amplitudes]`, with the records that have been read for them. Each gives one, also those with errors, since others refer to them
+/// by their index.
+pub(super) fn amplitudes<'d>(deck: &'d Deck, records: &[Option<Record>], report: &mut Report<'d>) -> Vec<Amplitude> {
+    let record = |index: usize| records.get(index).and_then(Option::as_ref);
+    let all = deck.amplitudes.0.iter().enumerate();
+    let read = all.map(|(index, (name, amplitude))| read_amplitude(&name.value, amplitude, record(index), report));
     read.map(|amplitude| amplitude.unwrap_or(Amplitude::Constant)).collect()
 }
 
 fn read_amplitude<'d>(
     name: &str,
     amplitude: &'d At<Table<words::Amplitude>>,
+    record: Option<&Record>,
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let a = amplitude;
     let owner = Owner::new(format!("amplitude `{name}`"), &a.span);
     let kind = report.require(&owner, "kind", &a.kind)?.value;
-    let points = [("points", span(&a.points)), ("before", span(&a.before)), ("after", span(&a.after))];
+    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
+    let others =
+        [("before", span(&a.before)), ("after", span(&a.after)), ("scale", span(&a.scale)), ("shift", span(&a.shift))];
+    let points = [&[("points", span(&a.points)), ("file", span(&a.file))], &of_file[..], &others].concat();
     let waves = [("frequency", span(&a.frequency)), ("angular_frequency", span(&a.angular_frequency))];
     let phase = [("phase", span(&a.phase))];
     let window = [("start", span(&a.start)), ("end", span(&a.end))];
@@ -36,8 +44,13 @@ fn read_amplitude<'d>(
     match kind {
         words::AmplitudeKind::Table => {
             report.reject_unused("a table", &[&waves[..], &phase, &window].concat());
-            let points = report.require(&owner, "points", &a.points)?;
-            report.rising("time", points).map(|points| table(a, points))
+            if a.file.is_none() {
+                report.reject_unused("a table without a file", &of_file);
+                let points = report.require(&owner, "points", &a.points)?;
+                return report.rising("time", points).map(|points| table(a, points));
+            }
+            report.reject_unused("a table from a file", &[("points", span(&a.points))]);
+            record.map(|record| table(a, record.points.clone()))
         }
         words::AmplitudeKind::Sine => {
             report.reject_unused("a sine", &points);
@@ -66,16 +79,19 @@ fn read_amplitude<'d>(
     }
 }
 
-/// A table that jumps to zero at its ends where the deck says so.
+/// A table at the scale of the deck, which jumps to zero at its ends where the deck says so.
 fn table(a: &words::Amplitude, mut points: Vec<[f64; 2]>) -> Amplitude {
     let is_zero = |beyond: &Maybe<words::Beyond>| beyond.as_ref().is_some_and(|at| at.value == words::Beyond::Zero);
+    let number = |given: &Maybe<f64>, default: f64| given.as_ref().map_or(default, |given| given.value);
+    let (scale, shift) = (number(&a.scale, 1.0), number(&a.shift, 0.0));
+    points.iter_mut().for_each(|[time, value]| (*time, *value) = (*time + shift, *value * scale));
     if is_zero(&a.before) {
         points.insert(0, [points[0][0], 0.0]);
     }
     if is_zero(&a.after) {
         points.push([points[points.len() - 1][0], 0.0]);
     }
-    Amplitude::Table { points }
+    Amplitude::Table(amplitude::Table::new(points))
 }
 
 /// Radians per time.

@@ -19,7 +19,7 @@ use super::data::{
     Analysis, AnalysisKind, ArcLength, Constraints, Iteration, Joint, Loading, MeshFile, Model, Origin, Part, Rigid,
     Solution, StepLength,
 };
-use super::environment::{damping, environment};
+use super::environment::{Fields, damping, environment};
 use super::expects::expects;
 use super::groups::Groups;
 use super::initial::initial;
@@ -37,6 +37,7 @@ use super::output::{Selection, output, write_all_nodes};
 use super::part_context::PartContext;
 use super::parts::Parts;
 use super::proportions::check_proportions;
+use super::records::{Record, load_records};
 use super::report::Report;
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
@@ -58,8 +59,10 @@ use crate::integrators::{Scheme, Stepping};
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
     let (deck, mut problems) = crate::deck::read(source);
     let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
-    let (input, said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
-    let (model, more) = deck.as_ref().map_or((None, Vec::new()), |deck| build(deck, input.as_ref()));
+    let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
+    let (records, of_records) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_records(deck, folder));
+    said.extend(of_records);
+    let (model, more) = deck.as_ref().map_or((None, Vec::new()), |deck| build(deck, input.as_ref(), &records));
     let model = model.filter(|_| !said.iter().any(Diagnostic::is_error));
     problems.extend(said);
     let model = model.filter(|_| !problems.iter().any(Diagnostic::is_error));
@@ -68,18 +71,18 @@ pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
     (model, problems)
 }
 
-/// The model the deck describes, with the mesh it names, and everything there is to say about it. `None` if any of that is an
+/// The model the deck describes, with the mesh and the records it names, and everything there is to say about it. `None` if any of that is an
 /// error.
-pub fn build(deck: &Deck, input: Option<&Input>) -> (Option<Model>, Vec<Diagnostic>) {
+pub fn build(deck: &Deck, input: Option<&Input>, records: &[Option<Record>]) -> (Option<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
-    let model = model(deck, input, &mut report);
+    let model = model(deck, input, records, &mut report);
     let sound = !report.has_errors();
     (sound.then_some(model), merge_diagnostics(report.into_problems()))
 }
 
-fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) -> Model {
+fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>], report: &mut Report<'d>) -> Model {
     let Procedure { analysis, scheme, iteration } = analysis(deck, report);
-    let amplitudes = amplitudes(deck, report);
+    let amplitudes = amplitudes(deck, records, report);
     let Ground { scene, mut nodes, groups, rigid } = ground(deck, input, analysis, report);
 
     // These tables connect nodes.
@@ -91,7 +94,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
     let mut topology = Topology::new(nodes, report);
 
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
-    let (gravity, base_accelerations) = environment(deck, report);
+    let Fields { gravity, gravity_amplitude, base_accelerations } = environment(deck, report);
     joints.extend(supports(&scene, &amplitudes, &mut topology, report));
     let contacts = contacts(&scene, &masses, gravity, &mut topology, report);
     let loads = loads(&scene, &topology, report);
@@ -123,10 +126,17 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, report: &mut Report<'d>) 
         stiffnesses: scene.parts.stiffnesses,
         parts: scene.parts.list,
         constraints: Constraints { dependents, joints, restraints },
-        loading: Loading { amplitudes, nodal: loads.nodal, pressures: loads.pressures, gravity, base_accelerations },
+        loading: Loading {
+            amplitudes,
+            nodal: loads.nodal,
+            pressures: loads.pressures,
+            gravity,
+            gravity_amplitude,
+            base_accelerations,
+        },
         damping,
         expects,
-        origin: Origin { mesh, rigid },
+        origin: Origin { mesh, records: records.iter().flatten().map(Record::origin).collect(), rigid },
         output,
         study,
     };

@@ -8,9 +8,17 @@ use super::values::vec3_or_zero;
 use crate::deck::Deck;
 use crate::math::Vec3;
 
-/// Gravity, and the accelerations of the ground.
-pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> (Vec3, Vec<BaseAcceleration>) {
-    let Some(environment) = &deck.environment else { return (Vec3::zeros(), Vec::new()) };
+/// What acts on all masses: gravity with the index of its amplitude, and the accelerations of the ground.
+#[derive(Default)]
+pub(super) struct Fields {
+    pub gravity: Vec3,
+    pub gravity_amplitude: Option<usize>,
+    pub base_accelerations: Vec<BaseAcceleration>,
+}
+
+/// Reads `[environment]`.
+pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Fields {
+    let Some(environment) = &deck.environment else { return Fields::default() };
     let mut accelerations = Vec::new();
     for base in &environment.base_acceleration {
         let owner = Owner::new("an entry of `base_acceleration`", &base.span);
@@ -23,7 +31,13 @@ pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> (Vec3,
             accelerations.push(BaseAcceleration { direction: direction * scale, amplitude });
         }
     }
-    (vec3_or_zero(&environment.gravity), accelerations)
+    let gravity_amplitude = environment.gravity_amplitude.as_ref().and_then(|name| {
+        if environment.gravity.is_none() {
+            return report.error(&name.span, "`gravity_amplitude` needs `gravity`");
+        }
+        report.find("amplitude", &deck.amplitudes, name).map(|(index, _)| index)
+    });
+    Fields { gravity: vec3_or_zero(&environment.gravity), gravity_amplitude, base_accelerations: accelerations }
 }
 
 /// Reads `[damping]`: Rayleigh factors, and dampers on nodes.

@@ -9,6 +9,7 @@ use super::report::{Owner, Report};
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Excerpt};
 use crate::mesh::{self, CellShape, Mesh};
+use crate::text_file::read_regular;
 
 /// A mesh that has been read.
 #[derive(Debug)]
@@ -27,7 +28,7 @@ impl Input {
         let Some(file) = deck.mesh.as_ref().and_then(|mesh| mesh.file.as_ref()) else { return (None, Vec::new()) };
         let path = folder.join(&file.value);
         let path = path.display().to_string();
-        let bytes = match mesh::read_regular(Path::new(&path)) {
+        let bytes = match read_regular(Path::new(&path)) {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = format!("cannot read the mesh `{path}`: {error}");

@@ -20,7 +20,7 @@ pub(super) fn named_amplitudes(deck: &Deck) -> HashSet<&str> {
     amplitudes_over_time(deck).into_iter().chain(profiles).collect()
 }
 
-/// Amplitudes that are functions of time: those of loads, motions and the ground.
+/// Amplitudes that are functions of time: those of loads, motions, gravity and the ground.
 pub(super) fn amplitudes_over_time(deck: &Deck) -> HashSet<&str> {
     let loads = deck.loads.iter().map(|load| &load.amplitude);
     let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
@@ -28,6 +28,7 @@ pub(super) fn amplitudes_over_time(deck: &Deck) -> HashSet<&str> {
         all.into_iter().flatten().map(|motion| &motion.amplitude)
     });
     let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
-    let named = loads.chain(motions).chain(ground.map(|base| &base.amplitude));
+    let gravity = deck.environment.iter().map(|environment| &environment.gravity_amplitude);
+    let named = loads.chain(motions).chain(gravity).chain(ground.map(|base| &base.amplitude));
     named.flatten().map(|name| name.as_str()).collect()
 }

@@ -1,11 +1,11 @@
 //! The file that a deck names as the reference of its study, read with all of its faults told at once.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::mesh::read_regular;
-use crate::mesh::text::{Text, TextLine};
 use crate::model::Model;
 use crate::model::study::{Quantity, Study};
 use crate::names::{nearest, quoted};
+use crate::text_file::read_regular;
+use crate::text_file::{Text, TextLine};
 use std::path::Path;
 
 /// The values of a file.

@@ -129,7 +129,7 @@ impl<'a> Excitation<'a> {
         loading.pressures.clear();
         let pressures = self.model.loading.pressures.iter();
         loading.pressures.extend(pressures.map(|load| load.pressure * factor(load.amplitude)));
-        loading.field = self.plain_factor(t) * self.model.loading.gravity;
+        loading.field = factor(self.model.loading.gravity_amplitude) * self.model.loading.gravity;
         for base in &self.model.loading.base_accelerations {
             loading.field -= self.factor(base.amplitude, t, side) * base.direction;
         }
@@ -149,7 +149,8 @@ impl<'a> Excitation<'a> {
         let pressures = model.loading.pressures.iter().map(|load| rest(load.amplitude));
         let base_accelerations = model.loading.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
         let motions = model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref()).map(moves);
-        let gravity = if model.loading.gravity == Vec3::zeros() { f64::INFINITY } else { 0.0 };
+        let is_heavy = model.loading.gravity != Vec3::zeros();
+        let gravity = if is_heavy { rest(model.loading.gravity_amplitude) } else { f64::INFINITY };
         loads.chain(pressures).chain(base_accelerations).chain(motions).fold(gravity, f64::min)
     }
 
@@ -166,7 +167,7 @@ impl<'a> Excitation<'a> {
         loading.pressures.clear();
         let pressures = self.model.loading.pressures.iter();
         loading.pressures.extend(pressures.map(|load| load.pressure * load.amplitude.map_or(plain, rate)));
-        loading.field = plain * self.model.loading.gravity;
+        loading.field = self.model.loading.gravity_amplitude.map_or(plain, rate) * self.model.loading.gravity;
         for base in &self.model.loading.base_accelerations {
             loading.field -= rate(base.amplitude) * base.direction;
         }

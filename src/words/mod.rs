@@ -1,6 +1,7 @@
 //! What tables of the deck are made of: sorts of values, and tables whose keys depend on the kind they name. Rooms of kinds
 //! write their keys with it, and the deck its tables. Each sort of value says in its `expecting` what a user should have written.
 
+mod column_name;
 mod directions;
 pub mod kinds;
 mod ladder;
@@ -10,6 +11,7 @@ mod numbers;
 mod one_or_many;
 mod table;
 
+pub use column_name::ColumnName;
 pub use directions::Directions;
 pub use ladder::{Ladder, PER_DECADE, Rungs, rungs};
 pub use named::Named;

@@ -15,6 +15,8 @@ pub struct Loading {
     pub pressures: Vec<Pressure>,
     /// Acceleration of gravity, global components.
     pub gravity: Vec3,
+    /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
+    pub gravity_amplitude: Option<usize>,
     /// Accelerations of the ground.
     pub base_accelerations: Vec<BaseAcceleration>,
 }
@@ -26,6 +28,7 @@ impl Default for Loading {
             nodal: Vec::new(),
             pressures: Vec::new(),
             gravity: Vec3::zeros(),
+            gravity_amplitude: None,
             base_accelerations: Vec::new(),
         }
     }

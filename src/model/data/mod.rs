@@ -33,7 +33,7 @@ pub use expect::{Expect, ExpectAt, Tolerance, When};
 pub use integrals::MassIntegrals;
 pub use link::{Link, LinkKind};
 pub use loading::{BaseAcceleration, Damping, Load, Loading, NodalDamping, Pressure};
-pub use model::{MeshFile, Model, Origin, Rigid};
+pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Output};
 pub use part::{Part, PartType, quantities_of};

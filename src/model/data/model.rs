@@ -102,8 +102,19 @@ impl Model {
 pub struct Origin {
     /// The mesh file that the deck names.
     pub mesh: Option<MeshFile>,
+    /// The files of records that amplitudes name.
+    pub records: Vec<RecordFile>,
     /// Bodies made of parts, whose elements have left the model.
     pub rigid: Vec<Rigid>,
+}
+
+/// The file of a record.
+#[derive(Debug, Clone)]
+pub struct RecordFile {
+    /// Path as messages name it.
+    pub path: String,
+    /// SHA-256 of its bytes.
+    pub digest: [u8; 32],
 }
 
 /// The parts that a body is made of.

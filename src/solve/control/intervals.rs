@@ -118,11 +118,15 @@ fn add_output_times(model: &Model, out: &mut Vec<Event>, ends: bool) {
     }
 }
 
+/// The largest number of points of a table at each of which a step ends.
+const MOST_KINKS: usize = 5000;
+
 fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
     let driving = || {
         let loads = model.loading.nodal.iter().filter_map(|load| load.amplitude);
         let pressures = model.loading.pressures.iter().filter_map(|load| load.amplitude);
-        loads.chain(pressures).chain(model.loading.base_accelerations.iter().map(|base| base.amplitude))
+        let gravity = model.loading.gravity_amplitude;
+        loads.chain(pressures).chain(gravity).chain(model.loading.base_accelerations.iter().map(|base| base.amplitude))
     };
     for amplitude in driving() {
         out.extend(model.loading.amplitudes[amplitude].jumps().iter().map(|jump| {
@@ -132,7 +136,8 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
         }));
     }
     if model.analysis.step_length.is_automatic() {
-        // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion.
+        // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion. A long record is taken for a
+        // smooth signal, of which the scene tells how much it follows.
         let motions = model
             .constraints
             .restraints
@@ -140,7 +145,10 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
             .filter_map(|restraint| restraint.motion.as_ref())
             .map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
-            out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| at(time, false, true)));
+            let kinks = model.loading.amplitudes[amplitude].kinks();
+            if kinks.len() <= MOST_KINKS {
+                out.extend(kinks.into_iter().map(|time| at(time, false, true)));
+            }
         }
     }
 }

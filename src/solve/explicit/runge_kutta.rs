@@ -53,6 +53,7 @@ impl RungeKuttaStepper {
         let changes = |amplitude: Option<usize>| amplitude.is_some();
         let varying = model.loading.nodal.iter().any(|load| changes(load.amplitude))
             || model.loading.pressures.iter().any(|load| changes(load.amplitude))
+            || changes(model.loading.gravity_amplitude)
             || !model.loading.base_accelerations.is_empty();
         Ok(RungeKuttaStepper {
             accelerations: Accelerations::new(cx)?,

@@ -107,13 +107,18 @@ impl<'t> TextLine<'t> {
 
     /// The parts between commas, without the blanks around them. Nothing after a last comma is no part.
     pub fn fields(self) -> impl Iterator<Item = Word<'t>> {
+        self.parts(b',')
+    }
+
+    /// The parts between separators, without the blanks around them. Nothing after a last separator is no part.
+    pub fn parts(self, separator: u8) -> impl Iterator<Item = Word<'t>> {
         let (bytes, line, mut at) = (self.bytes, self.number, 0);
         std::iter::from_fn(move || {
             if at >= bytes.len() {
                 return None;
             }
             let rest = &bytes[at..];
-            let length = rest.iter().position(|&byte| byte == b',').unwrap_or(rest.len());
+            let length = rest.iter().position(|&byte| byte == separator).unwrap_or(rest.len());
             let blank = rest[..length].len() - rest[..length].trim_ascii_start().len();
             let column = at + blank;
             at += length + 1;

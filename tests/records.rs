@@ -1,0 +1,211 @@
+//! Amplitudes from files: records of motions and forces.
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+
+/// A mass on a spring, in a deck whose amplitude is to follow.
+const OSCILLATOR: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 2.0
+time_step = 0.005
+[integrator]
+scheme = "newmark"
+[[bodies]]
+name = "mass"
+center = [1.0, 0.0, 0.0]
+mass = 2.0
+inertia = [1.0, 1.0, 1.0]
+[[links]]
+name = "spring"
+from = { ground = [0.0, 0.0, 0.0] }
+to = { body = "mass" }
+stiffness = 500.0
+[[supports]]
+at = "mass"
+fix = ["uy", "uz", "rx", "ry", "rz"]
+"#;
+const SHAKEN: &str = "[environment]\nbase_acceleration = [{ direction = [1.0, 0.0, 0.0], amplitude = \"quake\" }]\n";
+
+/// Writes deck and record into a folder and runs the deck; the exit code and what was said on standard error.
+fn run(folder: &Path, deck: &str, record: &str, out: &str) -> (i32, String) {
+    fs::write(folder.join("deck.toml"), deck).unwrap();
+    fs::write(folder.join("record.csv"), record).unwrap();
+    let mut command = Command::cargo_bin("rdsolve").unwrap();
+    let output = command.current_dir(folder).args(["deck.toml", "-o", out, "--overwrite"]).output().unwrap();
+    (output.status.code().unwrap(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+fn rows(folder: &Path, out: &str, column: &str) -> Vec<f64> {
+    let mut reader = csv::Reader::from_path(folder.join(out).join("bodies.csv")).unwrap();
+    let place = reader.headers().unwrap().iter().position(|name| name == column).unwrap();
+    reader.records().map(|row| row.unwrap()[place].parse().unwrap()).collect()
+}
+
+fn pulse(k: usize) -> f64 {
+    (0.03 * k as f64).sin() * (-0.01 * k as f64).exp()
+}
+
+/// A record of a file is the same function as its points in the deck, whatever separates its columns: the same bytes.
+#[test]
+fn a_record_is_its_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let points: Vec<String> = (0..=400).map(|k| format!("[{}, {}]", 0.005 * k as f64, 9.81 * pulse(k))).collect();
+    let inline = format!("[amplitudes.quake]\nkind = \"table\"\npoints = [{}]\n", points.join(", "));
+    assert_eq!(run(folder, &format!("{OSCILLATOR}{SHAKEN}{inline}"), "", "inline").0, 0);
+    let wanted = fs::read(folder.join("inline/bodies.csv")).unwrap();
+    let lines = |separator: &str| -> String {
+        (0..=400).map(|k| format!("{}{separator}x{separator}{}\n", 0.005 * k as f64, pulse(k))).collect()
+    };
+    let alone: String = (0..=400).map(|k| format!("{}\n", pulse(k))).collect();
+    for (record, keys) in [
+        (format!("time,station,acceleration\n{}", lines(",")), "columns = [\"time\", \"acceleration\"]"),
+        (format!("# g\n{}", lines("  ")), "columns = [1, 3]"),
+        (lines(";"), "columns = [1, 3]"),
+        (alone, "time_step = 0.005"),
+    ] {
+        let amplitude = format!("[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nscale = 9.81\n{keys}\n");
+        let (code, said) = run(folder, &format!("{OSCILLATOR}{SHAKEN}{amplitude}"), &record, "file");
+        assert_eq!(code, 0, "{said}");
+        assert_eq!(fs::read(folder.join("file/bodies.csv")).unwrap(), wanted, "{keys}");
+    }
+}
+
+/// Ground accelerations from a record at 2001 points against the closed form of a resonant sine: straight lines between points are wrong
+/// by (Δt ω)²/12 = 2e-6 of the force; the trapezoidal rule by (Δt ω)²/12 of the phase, 2e-5 · ω t = 8e-4.
+#[test]
+fn a_record_shakes_as_its_function_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let w = (500.0_f64 / 2.0).sqrt();
+    let record: String = (0..=2000).map(|k| format!("{},{}\n", k as f64 * 1e-3, (w * k as f64 * 1e-3).sin())).collect();
+    let amplitude = "[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"hold\"\n";
+    let deck = format!("{OSCILLATOR}{SHAKEN}{amplitude}").replace("0.005", "0.001");
+    assert_eq!(run(folder, &deck, &record, "out").0, 0);
+    // ẍ + ω² x = −sin ωt from rest: x = (ωt cos ωt − sin ωt)/(2ω²).
+    let x = rows(folder, "out", "x");
+    let exact = |t: f64| 1.0 + (w * t * (w * t).cos() - (w * t).sin()) / (2.0 * w * w);
+    let worst = x.iter().enumerate().map(|(k, x)| (x - exact(k as f64 * 1e-3)).abs()).fold(0.0, f64::max);
+    let largest = 2.0 / (2.0 * w);
+    assert!(worst < 1e-3 * largest && worst > 0.0, "{worst:e} of {largest:e}");
+}
+
+/// A prescribed acceleration is integrated exactly between the points: the displacement of a constant acceleration is ½ a t².
+#[test]
+fn a_recorded_acceleration_moves_a_support() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deck = r#"
+[analysis]
+kind = "dynamic"
+end_time = 2.0
+time_step = 0.01
+[[bodies]]
+name = "mass"
+center = [1.0, 0.0, 0.0]
+mass = 2.0
+inertia = [1.0, 1.0, 1.0]
+[[supports]]
+at = "mass"
+fix = ["uy", "uz", "rx", "ry", "rz"]
+[[supports]]
+at = "mass"
+motion = { ux = { amplitude = "drive", history = "acceleration" } }
+[amplitudes.drive]
+kind = "table"
+file = "record.csv"
+shift = 0.5
+before = "zero"
+after = "hold"
+"#;
+    let record: String = (0..=300_000).map(|k| format!("{} 3.0\n", k as f64 * 1e-5)).collect();
+    let (code, said) = run(folder, deck, &record, "out");
+    assert_eq!(code, 0, "{said}");
+    let x = rows(folder, "out", "x");
+    let end = 1.0 + 0.5 * 3.0 * 1.5 * 1.5;
+    assert!((x[x.len() - 1] - end).abs() < 1e-12 * end, "{}", x[x.len() - 1] - end);
+}
+
+/// Gravity comes on by its amplitude: in statics it is the weight at the end, and half of it on half of the way; in dynamics nothing
+/// bounces where it comes on slowly.
+#[test]
+fn gravity_comes_on_by_its_amplitude() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let heavy = "[environment]\ngravity = [-9.81, 0.0, 0.0]\ngravity_amplitude = \"on\"\n[amplitudes.on]\nkind = \"ramp\"\nend = 1.0\n";
+    let deck = format!("{OSCILLATOR}{heavy}");
+    let sunk = 2.0 * 9.81 / 500.0;
+    let statics = deck
+        .replace("\"dynamic\"", "\"static\"")
+        .replace("[integrator]\nscheme = \"newmark\"\n", "")
+        .replace("0.005", "0.25");
+    assert_eq!(run(folder, &statics, "", "statics").0, 0);
+    let x = rows(folder, "statics", "x");
+    for (k, x) in x.iter().enumerate() {
+        let exact = 1.0 - sunk * (0.25 * k as f64).min(1.0);
+        assert!((x - exact).abs() < 1e-9, "{k}: {x} {exact}");
+    }
+    assert_eq!(run(folder, &deck, "", "dynamics").0, 0);
+    // What a ramp of length T leaves vibrating is at the most 2/(ω T) of the static displacement: 0.13 here.
+    let x = rows(folder, "dynamics", "x");
+    let bounce = x[200..].iter().map(|x| (x - 1.0 + sunk).abs()).fold(0.0, f64::max);
+    assert!(bounce < 0.13 * sunk && bounce > 1e-6 * sunk, "{bounce:e} of {sunk:e}");
+}
+
+/// What is wrong with a record is an error of the deck: exit code 3, with the file, the line and the column.
+#[test]
+fn bad_records_are_errors_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (keys, record, said) in [
+        ("file = \"none.csv\"", "", &["cannot read the record `none.csv`", "relative to the deck's folder"][..]),
+        ("file = \".\"", "", &["it is a folder"]),
+        ("file = \"record.csv\"", "0,1\n1,x\n", &["`x` is not a finite number", "record.csv:2:3"]),
+        ("file = \"record.csv\"", "0,1\n1,2\n0.5,2\n", &["the time falls: 0.5 comes after 1", "record.csv:3:1"]),
+        ("file = \"record.csv\"", "0,1\n1,\n", &["there is a gap", "record.csv:2"]),
+        ("file = \"record.csv\"\ncolumns = [\"t\", \"b\"]", "t,a\n0,1\n1,2\n", &["there is no column `b`"]),
+        ("file = \"record.csv\"\ntime_step = 0.0", "0\n1\n", &["`time_step` must be above 0"]),
+        (
+            "file = \"record.csv\"\npoints = [[0.0, 1.0], [1.0, 2.0]]",
+            "0,1\n1,2\n",
+            &["`points` does not apply to a table from a file"],
+        ),
+        (
+            "points = [[0.0, 1.0], [1.0, 2.0]]\ncolumns = [1, 2]",
+            "",
+            &["`columns` does not apply to a table without a file"],
+        ),
+        ("columns = [0]\nfile = \"record.csv\"", "0,1\n1,2\n", &["the name of a column or its number from 1"]),
+        ("columns = 1.5\nfile = \"record.csv\"", "0,1\n1,2\n", &["by name or by number from 1"]),
+    ] {
+        let deck = format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\n{keys}\n");
+        let (code, found) = run(folder, &deck, record, "out");
+        assert_eq!(code, 3, "{keys}: {found}");
+        said.iter().for_each(|said| assert!(found.contains(said), "{keys}: {found}"));
+    }
+    let deck = format!("{OSCILLATOR}[environment]\ngravity_amplitude = \"on\"\n[amplitudes.on]\nkind = \"constant\"\n");
+    let (code, found) = run(folder, &deck, "", "out");
+    assert!(code == 3 && found.contains("`gravity_amplitude` needs `gravity`"), "{found}");
+    let sine =
+        format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"sine\"\nfrequency = 1.0\nfile = \"record.csv\"\n");
+    let (code, found) = run(folder, &sine, "", "out");
+    assert!(code == 3 && found.contains("`file` does not apply to a sine"), "{found}");
+}
+
+/// The hash of a run is that of its records too: other numbers, another hash.
+#[test]
+fn a_record_is_part_of_the_hash() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deck =
+        format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"zero\"\n");
+    let hash = |record: &str| {
+        assert_eq!(run(folder, &deck, record, "out").0, 0);
+        let text = fs::read(folder.join("out/result.json")).unwrap();
+        serde_json::from_slice::<serde_json::Value>(&text).unwrap()["deck_hash"].as_str().unwrap().to_owned()
+    };
+    assert_ne!(hash("0,1\n1,2\n"), hash("0,1\n1,3\n"));
+    assert_eq!(hash("0,1\n1,2\n"), hash("0,1\n1,2\n"));
+}
