@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Amplitude {
     /// Straight lines through (time, value), constant beyond the ends; times do not fall, and equal times are a jump.
-    Table(Table),
+    Table(StraightLines),
     /// sin(ω (t − start) + phase) from start to end, 0 outside.
     Sine {
         /// ω, in radians per time.
@@ -50,15 +50,15 @@ pub enum Amplitude {
 
 /// Straight lines through points, with their integrals up to each of them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table {
+pub struct StraightLines {
     points: Vec<[f64; 2]>,
     /// A first integral of the value and a first integral of that, at each point; zero at the first.
     integrals: Vec<[f64; 2]>,
 }
 
-impl Table {
+impl StraightLines {
     /// The table of these points (time, value), whose times do not fall.
-    pub fn new(points: Vec<[f64; 2]>) -> Table {
+    pub fn new(points: Vec<[f64; 2]>) -> StraightLines {
         let mut integrals = Vec::with_capacity(points.len());
         let mut sums = [0.0; 2];
         for (k, point) in points.iter().enumerate() {
@@ -67,7 +67,7 @@ impl Table {
             }
             integrals.push(sums);
         }
-        Table { points, integrals }
+        StraightLines { points, integrals }
     }
 
     /// The points (time, value), by time.
@@ -101,7 +101,7 @@ impl Amplitude {
     pub fn jumps(&self) -> Vec<Jump> {
         let at = |time: f64, before: f64, after: f64| Jump { time, before, after };
         let all = match *self {
-            Amplitude::Table(Table { ref points, .. }) => {
+            Amplitude::Table(StraightLines { ref points, .. }) => {
                 points.windows(2).filter(|p| p[0][0] == p[1][0]).map(|p| at(p[0][0], p[0][1], p[1][1])).collect()
             }
             Amplitude::Sine { start, end, .. } | Amplitude::SineSquared { start, end, .. } => {
@@ -118,7 +118,7 @@ impl Amplitude {
     /// Times at which the value or its slope may jump.
     pub fn kinks(&self) -> Vec<f64> {
         let all = match *self {
-            Amplitude::Table(Table { ref points, .. }) => points.iter().map(|point| point[0]).collect(),
+            Amplitude::Table(StraightLines { ref points, .. }) => points.iter().map(|point| point[0]).collect(),
             Amplitude::Sine { start, end, .. }
             | Amplitude::SineSquared { start, end, .. }
             | Amplitude::Ramp { start, end }
@@ -139,7 +139,7 @@ impl Amplitude {
             (t.is_finite() && t < high - slack).then_some(t)
         };
         match *self {
-            Amplitude::Table(Table { ref points, .. }) => {
+            Amplitude::Table(StraightLines { ref points, .. }) => {
                 let mut way = 0.0;
                 points.windows(2).filter(|p| p[1][0] > 0.0 && p[0][0] < end && p[0][0] < p[1][0]).find_map(|p| {
                     let rise = p[1][1] - p[0][1];
@@ -162,7 +162,7 @@ impl Amplitude {
     /// How long from t = 0 the value stays as it is then; infinite where for ever.
     pub fn rest(&self) -> f64 {
         match *self {
-            Amplitude::Table(Table { ref points, .. }) => {
+            Amplitude::Table(StraightLines { ref points, .. }) => {
                 let change = points.windows(2).find(|p| p[1][0] > 0.0 && p[0][1] != p[1][1]);
                 change.map_or(f64::INFINITY, |p| p[0][0].max(0.0))
             }
@@ -180,7 +180,7 @@ impl Amplitude {
     /// Where a table begins; others are given at all times.
     pub fn begin(&self) -> f64 {
         match self {
-            Amplitude::Table(Table { points, .. }) => points.first().map_or(0.0, |p| p[0]),
+            Amplitude::Table(StraightLines { points, .. }) => points.first().map_or(0.0, |p| p[0]),
             _ => 0.0,
         }
     }
@@ -188,7 +188,7 @@ impl Amplitude {
     /// The factor at a time. At a jump it is the value from later times, except at the end of a sine.
     pub fn value(&self, t: f64) -> f64 {
         match *self {
-            Amplitude::Table(Table { ref points, .. }) => match around(points, t) {
+            Amplitude::Table(StraightLines { ref points, .. }) => match around(points, t) {
                 (Some(a), Some(b)) => a[1] + slope(a, b) * (t - a[0]),
                 (Some(p), None) | (None, Some(p)) => p[1],
                 (None, None) => 0.0,
@@ -210,7 +210,7 @@ impl Amplitude {
     /// First derivative.
     pub fn rate(&self, t: f64) -> f64 {
         match *self {
-            Amplitude::Table(Table { ref points, .. }) => match around(points, t) {
+            Amplitude::Table(StraightLines { ref points, .. }) => match around(points, t) {
                 (Some(a), Some(b)) => slope(a, b),
                 _ => 0.0,
             },
@@ -300,7 +300,7 @@ fn slope(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Primitives that are zero at the first point.
-fn table_primitives(Table { points, integrals }: &Table, t: f64) -> (f64, f64) {
+fn table_primitives(StraightLines { points, integrals }: &StraightLines, t: f64) -> (f64, f64) {
     let Some(&start) = points.first() else { return (0.0, 0.0) };
     let Some(before) = points.partition_point(|point| point[0] < t).checked_sub(1) else {
         let u = t - start[0];
@@ -341,10 +341,10 @@ mod tests {
     fn all() -> Vec<Amplitude> {
         let points = vec![[0.3, -1.0], [0.5, 2.0], [1.25, 2.0], [2.0, 0.5]];
         vec![
-            Amplitude::Table(Table::new(points.clone())),
-            Amplitude::Table(Table::new(points.iter().map(|p| [p[0] - 0.6, p[1]]).collect())),
-            Amplitude::Table(Table::new(vec![[1.0, 3.0]])),
-            Amplitude::Table(Table::new(vec![[0.5, 1.0], [1.0, 1.0], [1.0, -2.0], [1.5, 0.0]])),
+            Amplitude::Table(StraightLines::new(points.clone())),
+            Amplitude::Table(StraightLines::new(points.iter().map(|p| [p[0] - 0.6, p[1]]).collect())),
+            Amplitude::Table(StraightLines::new(vec![[1.0, 3.0]])),
+            Amplitude::Table(StraightLines::new(vec![[0.5, 1.0], [1.0, 1.0], [1.0, -2.0], [1.5, 0.0]])),
             Amplitude::Sine { angular_frequency: 7.0, phase: 0.4, start: 0.25, end: 1.6 },
             Amplitude::Sine { angular_frequency: 0.0, phase: 0.4, start: 0.25, end: f64::INFINITY },
             Amplitude::Sine { angular_frequency: 1e-3, phase: -0.4, start: -0.25, end: 2.0 },
@@ -429,7 +429,7 @@ mod tests {
     fn turns_lie_inside() {
         let sine = |phase: f64, end: f64| Amplitude::Sine { angular_frequency: PI, phase, start: 0.0, end };
         let squared = |w: f64, start: f64| Amplitude::SineSquared { angular_frequency: w, start, end: f64::INFINITY };
-        let table = |points: &[[f64; 2]]| Amplitude::Table(Table::new(points.to_vec()));
+        let table = |points: &[[f64; 2]]| Amplitude::Table(StraightLines::new(points.to_vec()));
         let none = [
             sine(0.0, 0.5),
             sine(0.5 * PI, 1.0),
@@ -458,9 +458,9 @@ mod tests {
         let ramp = Amplitude::Ramp { start: 1.0, end: 3.0 };
         assert_eq!([0.0, 1.0, 2.0, 3.0, 4.0].map(|t| ramp.value(t)), [0.0, 0.0, 0.5, 1.0, 1.0]);
         assert_eq!([0.0, 1.0, 3.0].map(|t| ramp.rate(t)), [0.0, 0.5, 0.0]);
-        let jump = Amplitude::Table(Table::new(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 5.0], [2.0, 5.0]]));
+        let jump = Amplitude::Table(StraightLines::new(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 5.0], [2.0, 5.0]]));
         assert_eq!([0.5, 1.0, 3.0].map(|t| jump.value(t)), [1.0, 5.0, 5.0]);
-        assert_eq!(Amplitude::Table(Table::new(vec![])).value(1.0), 0.0);
+        assert_eq!(Amplitude::Table(StraightLines::new(vec![])).value(1.0), 0.0);
     }
 
     /// A long sine keeps its drift: ∫∫ sin(ωt) = t/ω − sin(ωt)/ω², to a few units in the last place.

@@ -234,6 +234,37 @@ impl Diagnostic {
     }
 }
 
+impl Diagnostic {
+    /// The diagnostic as one line of JSON: severity, message, hints and, where it has a place, file, line and column from 1 and the length
+    /// in bytes.
+    pub fn json(&self, source: &Source) -> String {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        let place = match (self.excerpt.as_deref(), &self.place) {
+            (Some(Excerpt { path, line, columns, .. }), _) => Some((path.as_str(), *line, columns.clone())),
+            (None, Some(place)) => {
+                let (name, text, range) = source.locate(place);
+                let start = range.start.min(text.len());
+                let begin = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+                let line = text.as_bytes()[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1;
+                Some((name, line, start - begin..range.end.max(start) - begin))
+            }
+            (None, None) => None,
+        };
+        let mut json = serde_json::json!({ "severity": severity, "message": self.message, "hints": self.hints });
+        if let Some((file, line, columns)) = place {
+            json["file"] = file.into();
+            json["line"] = line.into();
+            json["column"] = (columns.start + 1).into();
+            json["length"] = columns.len().into();
+        }
+        json.to_string()
+    }
+}
+
 /// The length in bytes up to which a text is handed over whole.
 const SHORT: usize = 1 << 14;
 

@@ -9,7 +9,7 @@ use crate::text_file::{Fault, Text, TextLine, Word};
 
 /// A column of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Column {
+pub enum RecordColumn {
     /// By its name in the line of names.
     Name(String),
     /// By its number, counted from 1.
@@ -18,9 +18,9 @@ pub enum Column {
 
 /// The part of a record that is wanted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Selection {
+pub struct RecordSelection {
     /// The column of the time and that of the value, or that of the value alone; none where the file has no others.
-    pub columns: Vec<Column>,
+    pub columns: Vec<RecordColumn>,
     /// The time between two values, the first at 0; `None` where the file has the times.
     pub time_step: Option<f64>,
 }
@@ -32,7 +32,7 @@ const MOST_FAULTS: usize = 10;
 ///
 /// # Errors
 /// All errors found in the file, at least one and at most some.
-pub fn read(path: &str, bytes: &[u8], selection: &Selection) -> Result<Vec<[f64; 2]>, Vec<Diagnostic>> {
+pub fn read(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Vec<[f64; 2]>, Vec<Diagnostic>> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut reader = Reader { text: Text::new(path, bytes), separator: None, faults: Vec::new() };
     let points = reader.points(selection);
@@ -56,7 +56,7 @@ struct Places {
 }
 
 impl<'t> Reader<'t> {
-    fn points(&mut self, selection: &Selection) -> Vec<[f64; 2]> {
+    fn points(&mut self, selection: &RecordSelection) -> Vec<[f64; 2]> {
         let Some((names, mut line)) = self.begin() else { return Vec::new() };
         let count = self.split(line).len();
         let places = match places(selection, &names, count) {
@@ -187,7 +187,7 @@ fn separator(line: TextLine) -> Option<u8> {
 }
 
 /// Finds the wanted columns among `count`, some of which have names.
-fn places(selection: &Selection, names: &[String], count: usize) -> Result<Places, String> {
+fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result<Places, String> {
     let wanted = if selection.time_step.is_some() { 1 } else { 2 };
     let of_file = match names {
         [] => format!("the file has {count} of them, without names"),
@@ -202,9 +202,9 @@ fn places(selection: &Selection, names: &[String], count: usize) -> Result<Place
         };
     }
     let found = selection.columns.iter().map(|column| match column {
-        Column::Number(number) if (1..=count as u64).contains(number) => Ok(*number as usize - 1),
-        Column::Number(number) => Err(format!("there is no column {number}: {of_file}")),
-        Column::Name(name) => names.iter().position(|own| own == name).ok_or_else(|| {
+        RecordColumn::Number(number) if (1..=count as u64).contains(number) => Ok(*number as usize - 1),
+        RecordColumn::Number(number) => Err(format!("there is no column {number}: {of_file}")),
+        RecordColumn::Name(name) => names.iter().position(|own| own == name).ok_or_else(|| {
             let like = nearest(name, names.iter().map(String::as_str));
             let like = like.map_or(String::new(), |like| format!("; did you mean `{like}`?"));
             format!("there is no column `{name}`: {of_file}{like}")
@@ -225,15 +225,15 @@ fn places(selection: &Selection, names: &[String], count: usize) -> Result<Place
 mod tests {
     use super::*;
 
-    fn select(columns: &[Column], time_step: Option<f64>) -> Selection {
-        Selection { columns: columns.to_vec(), time_step }
+    fn select(columns: &[RecordColumn], time_step: Option<f64>) -> RecordSelection {
+        RecordSelection { columns: columns.to_vec(), time_step }
     }
 
-    fn name(name: &str) -> Column {
-        Column::Name(name.into())
+    fn name(name: &str) -> RecordColumn {
+        RecordColumn::Name(name.into())
     }
 
-    fn faults(text: &str, selection: &Selection) -> Vec<String> {
+    fn faults(text: &str, selection: &RecordSelection) -> Vec<String> {
         read("r.csv", text.as_bytes(), selection).unwrap_err().into_iter().map(|problem| problem.message).collect()
     }
 
@@ -249,7 +249,7 @@ mod tests {
             assert_eq!(read("r", text.as_bytes(), &select(&[], None)).unwrap(), wanted, "{text:?}");
         }
         let text = "time,\"x\",y\n0,7,1\n1,8,2\n";
-        for columns in [[name("time"), name("y")], [Column::Number(1), Column::Number(3)]] {
+        for columns in [[name("time"), name("y")], [RecordColumn::Number(1), RecordColumn::Number(3)]] {
             assert_eq!(read("r", text.as_bytes(), &select(&columns, None)).unwrap(), [[0.0, 1.0], [1.0, 2.0]]);
         }
         let every = select(&[name("x")], Some(0.25));
@@ -273,10 +273,10 @@ mod tests {
             ("0\n1\n", &plain, "`time_step` says"),
             ("0,1,2\n1,2,3\n", &plain, "`columns` must say"),
             ("t,acc\n0,1\n1,2\n", &select(&[name("t"), name("ac")], None), "did you mean `acc`?"),
-            ("0,1\n1,2\n", &select(&[Column::Number(1), Column::Number(3)], None), "there is no column 3"),
+            ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(3)], None), "there is no column 3"),
             ("0,1\n1,2\n", &select(&[], Some(0.1)), "`columns` must say"),
-            ("0,1\n1,2\n", &select(&[Column::Number(1), Column::Number(2)], Some(0.1)), "names one column"),
-            ("0,1\n1,2\n", &select(&[Column::Number(1)], None), "names two columns"),
+            ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], Some(0.1)), "names one column"),
+            ("0,1\n1,2\n", &select(&[RecordColumn::Number(1)], None), "names two columns"),
         ] {
             let found = faults(text, selection);
             assert!(found[0].contains(said), "{text:?}: {found:?}");

@@ -5,6 +5,7 @@
 mod allocations;
 mod auto_step;
 mod cli;
+mod commands;
 mod compare;
 mod contact;
 mod decks;

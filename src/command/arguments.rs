@@ -8,7 +8,7 @@ pub const MAX_THREADS: i64 = 64;
 
 #[derive(Debug, Args)]
 pub struct DeckArgs {
-    /// The deck, a TOML file
+    /// The deck, a TOML file; - is standard input
     pub deck: PathBuf,
     /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value;
     /// repeatable: beams.portal.elements=24, loads[0].force=[0.0,0.0,-50.0], integrator.scheme=newmark
@@ -19,7 +19,7 @@ pub struct DeckArgs {
 #[derive(Debug, Args)]
 pub struct RunArgs {
     // The entries of `DeckArgs` are repeated, for clap does not find a group within an optional group.
-    /// The deck, a TOML file
+    /// The deck, a TOML file; - is standard input
     pub deck: PathBuf,
     /// Override one entry of the deck: a dotted path with list items by name or number, and a TOML value;
     /// repeatable: beams.portal.elements=24, loads[0].force=[0.0,0.0,-50.0], integrator.scheme=newmark

@@ -3,6 +3,7 @@
 use super::exit::Exit;
 use crate::diagnostic::{Diagnostic, Severity, Source, plain};
 use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Writes results for a script to standard output. A reader that has gone away is no fault.
 ///
@@ -29,7 +30,10 @@ pub fn show(problems: &[Diagnostic], source: &Source) {
         let count = &mut counts[usize::from(problem.severity == Severity::Warning)];
         *count += 1;
         if *count <= SHOWN {
-            write(&format!("{}\n", problem.draw(source, is_styled())));
+            match shows_json() {
+                true => write(&problem.json(source)),
+                false => write(&format!("{}\n", problem.draw(source, is_styled()))),
+            }
         }
     }
     for (count, thing) in counts.into_iter().zip(["error", "warning"]) {
@@ -41,13 +45,33 @@ pub fn show(problems: &[Diagnostic], source: &Source) {
 
 /// Writes an error that has no place in a deck to standard error.
 pub fn complain(message: &str) {
+    if shows_json() {
+        return write(&message_as_json("error", message));
+    }
     let (bold, normal) = if is_styled() { ("\u{1b}[1m\u{1b}[91m", "\u{1b}[0m") } else { ("", "") };
     write(&format!("{bold}error{normal}: {}", plain(message)));
 }
 
 /// Writes a line to standard error.
 pub fn say(line: &str) {
-    write(&plain(line));
+    write(&if shows_json() { message_as_json("note", line.trim()) } else { plain(line).into_owned() });
+}
+
+/// Whether diagnostics are shown as JSON: decided once, as the program begins.
+static JSON: AtomicBool = AtomicBool::new(false);
+
+/// Shows diagnostics as JSON from here on, one object a line.
+pub fn show_json() {
+    JSON.store(true, Ordering::Relaxed);
+}
+
+fn shows_json() -> bool {
+    JSON.load(Ordering::Relaxed)
+}
+
+/// A message without a place as one line of JSON.
+fn message_as_json(severity: &str, message: &str) -> String {
+    serde_json::json!({ "severity": severity, "message": message }).to_string()
 }
 
 /// Writes a line as it is, styling included, to standard error; there is nowhere to report that it cannot be written.

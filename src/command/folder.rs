@@ -2,12 +2,16 @@
 
 use super::console::{complain, say};
 use super::exit::Exit;
+use super::load::is_standard_input;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// A folder of the current folder that is named after a deck. Only the last extension is replaced, so that `a.v1.toml` and
 /// `a.v2.toml` have a folder each.
 pub fn named_after(deck: &Path, extension: &str) -> PathBuf {
-    let mut name = deck.file_stem().unwrap_or_default().to_owned();
+    // A deck on standard input has no name of its own.
+    let stem = if is_standard_input(deck) { OsStr::new("deck") } else { deck.file_stem().unwrap_or_default() };
+    let mut name = stem.to_owned();
     name.push(".");
     name.push(extension);
     PathBuf::from(name)

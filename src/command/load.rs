@@ -60,6 +60,11 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
     }
 }
 
+/// True for a deck named `-`, which comes on standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// The largest number of bytes of a deck, enough for some millions of entries.
 const LARGEST: u64 = 512 << 20;
 
@@ -68,7 +73,10 @@ fn text(path: &Path) -> Result<String, Exit> {
     let name = path.display();
     let mut bytes = Vec::new();
     // The length is bounded while reading, for a pipe has none to ask for and a device may have no end.
-    let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
+    let read = match is_standard_input(path) {
+        true => std::io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes),
+        false => File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes)),
+    };
     let judged = read.and_then(|_| match bytes.len() as u64 > LARGEST {
         true => Err(std::io::Error::other(format!("it has more than {} MB", LARGEST >> 20))),
         false => Ok(()),

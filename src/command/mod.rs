@@ -7,14 +7,17 @@ mod console;
 mod exit;
 mod folder;
 mod hint;
+mod init;
 mod load;
 mod mesh_error;
 mod recommend;
 mod report;
 mod run;
 mod schema;
+mod shell_completions;
 mod signals;
 mod study;
+mod summary;
 mod verdict;
 mod version;
 mod watchers;
@@ -25,7 +28,7 @@ use arguments::{DeckArgs, RunArgs};
 use std::path::Path;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use console::complain;
 use hint::command_hint;
 
@@ -46,6 +49,9 @@ pub struct Cli {
     command: Option<Command>,
     #[command(flatten)]
     run: Option<RunArgs>,
+    /// Show diagnostics as JSON, one object a line, on standard error
+    #[arg(long, global = true)]
+    json: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -60,8 +66,16 @@ enum Command {
     Report(report::ReportArgs),
     /// Measure error against run time over time steps, schemes, methods and meshes; or what rigid parts would cost and save
     Study(Box<study::StudyArgs>),
+    /// Print peaks, ends and balance of a folder of results
+    Summary(summary::SummaryArgs),
+    /// Print a commented deck that runs, to begin with: `rdsolve init frame > deck.toml`
+    Init(init::InitArgs),
     /// Print the JSON Schema of the deck, for completion and checks in editors
     Schema,
+    /// Print a script that lets a shell complete commands and options
+    Completions(shell_completions::CompletionsArgs),
+    /// Print the manual page
+    Man,
 }
 
 /// Reads the command line. Help, versions and most errors are shown by clap, which ends the process.
@@ -86,13 +100,20 @@ pub fn parse() -> Result<Cli, Exit> {
 /// Does what the command line asks for.
 pub fn execute(cli: Cli) -> Exit {
     signals::survive_file_limits();
+    if cli.json {
+        console::show_json();
+    }
     let done = match (cli.command, cli.run) {
         (Some(Command::Run(args)), _) | (None, Some(args)) => run::run(&args),
         (Some(Command::Check(args)), _) => check::check(&args),
         (Some(Command::Compare(args)), _) => compare::compare(&args),
         (Some(Command::Report(args)), _) => report::report(&args),
         (Some(Command::Study(args)), _) => study::study(&args),
+        (Some(Command::Summary(args)), _) => summary::summary(&args),
+        (Some(Command::Init(args)), _) => init::init(&args),
         (Some(Command::Schema), _) => schema::schema(),
+        (Some(Command::Completions(args)), _) => shell_completions::completions(&args, Cli::command()),
+        (Some(Command::Man), _) => shell_completions::man(Cli::command()),
         // Clap asks for a deck before it lets this happen.
         (None, None) => Err(Exit::Usage),
     };
@@ -102,7 +123,6 @@ pub fn execute(cli: Cli) -> Exit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn hints_know_the_commands() {

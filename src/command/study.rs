@@ -10,7 +10,7 @@ use super::arguments::MAX_THREADS;
 use super::console::{complain, counted, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
-use super::load::load;
+use super::load::{is_standard_input, load};
 use super::recommend;
 use super::signals::{EndAtOnce, stop_on_signals};
 use crate::deck::Deck;
@@ -145,6 +145,10 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     for (name, value) in args.keys()? {
         sets.push(format!("study.{}={value}", name.trim_start_matches("--").replace('-', "_")));
         names.push(name.to_owned());
+    }
+    if is_standard_input(&args.deck) {
+        complain("a study runs its deck many times: give it a file, not standard input");
+        return Err(Exit::Usage);
     }
     let mut loaded = load(&args.deck, &sets, names.clone())?;
     if let Some(wanted) = args.recommend {

@@ -91,7 +91,7 @@ fn table(a: &words::Amplitude, mut points: Vec<[f64; 2]>) -> Amplitude {
     if is_zero(&a.after) {
         points.push([points[points.len() - 1][0], 0.0]);
     }
-    Amplitude::Table(amplitude::Table::new(points))
+    Amplitude::Table(amplitude::StraightLines::new(points))
 }
 
 /// Radians per time.

@@ -16,10 +16,10 @@ use super::contact_points::connect_touching_points;
 use super::contacts::contacts;
 use super::control::{control, iterate_along};
 use super::data::{
-    Analysis, AnalysisKind, ArcLength, Constraints, Iteration, Joint, Loading, MeshFile, Model, Origin, Part, Rigid,
-    Solution, StepLength,
+    Analysis, AnalysisKind, ArcLength, Constraints, Iteration, Joint, MeshFile, Model, Origin, Part, Rigid, Solution,
+    StepLength,
 };
-use super::environment::{Fields, damping, environment};
+use super::environment::{damping, environment};
 use super::expects::expects;
 use super::groups::Groups;
 use super::initial::initial;
@@ -94,9 +94,9 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>
     let mut topology = Topology::new(nodes, report);
 
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
-    let Fields { gravity, gravity_amplitude, base_accelerations } = environment(deck, report);
+    let fields = environment(deck, report);
     joints.extend(supports(&scene, &amplitudes, &mut topology, report));
-    let contacts = contacts(&scene, &masses, gravity, &mut topology, report);
+    let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
     let loads = loads(&scene, &topology, report);
     let damping = damping(&scene, &topology, report);
     initial(&scene, &amplitudes, &mut topology, report);
@@ -126,14 +126,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>
         stiffnesses: scene.parts.stiffnesses,
         parts: scene.parts.list,
         constraints: Constraints { dependents, joints, restraints },
-        loading: Loading {
-            amplitudes,
-            nodal: loads.nodal,
-            pressures: loads.pressures,
-            gravity,
-            gravity_amplitude,
-            base_accelerations,
-        },
+        loading: fields.with(amplitudes, loads),
         damping,
         expects,
         origin: Origin { mesh, records: records.iter().flatten().map(Record::origin).collect(), rigid },

@@ -1,24 +1,35 @@
 //! `[environment]` and `[damping]`: what acts on all of a scene.
 
-use super::data::{BaseAcceleration, Damping, NodalDamping};
+use super::data::{BaseAcceleration, Damping, Loading, NodalDamping};
+use super::loads::Loads;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::vec3_or_zero;
+use crate::amplitude::Amplitude;
 use crate::deck::Deck;
 use crate::math::Vec3;
 
 /// What acts on all masses: gravity with the index of its amplitude, and the accelerations of the ground.
 #[derive(Default)]
-pub(super) struct Fields {
+pub(super) struct AccelerationFields {
     pub gravity: Vec3,
     pub gravity_amplitude: Option<usize>,
     pub base_accelerations: Vec<BaseAcceleration>,
 }
 
+impl AccelerationFields {
+    /// These with the other loads of a scene.
+    pub fn with(self, amplitudes: Vec<Amplitude>, loads: Loads) -> Loading {
+        let AccelerationFields { gravity, gravity_amplitude, base_accelerations } = self;
+        let Loads { nodal, pressures } = loads;
+        Loading { amplitudes, nodal, pressures, gravity, gravity_amplitude, base_accelerations }
+    }
+}
+
 /// Reads `[environment]`.
-pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Fields {
-    let Some(environment) = &deck.environment else { return Fields::default() };
+pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> AccelerationFields {
+    let Some(environment) = &deck.environment else { return AccelerationFields::default() };
     let mut accelerations = Vec::new();
     for base in &environment.base_acceleration {
         let owner = Owner::new("an entry of `base_acceleration`", &base.span);
@@ -37,7 +48,11 @@ pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Fields
         }
         report.find("amplitude", &deck.amplitudes, name).map(|(index, _)| index)
     });
-    Fields { gravity: vec3_or_zero(&environment.gravity), gravity_amplitude, base_accelerations: accelerations }
+    AccelerationFields {
+        gravity: vec3_or_zero(&environment.gravity),
+        gravity_amplitude,
+        base_accelerations: accelerations,
+    }
 }
 
 /// Reads `[damping]`: Rayleigh factors, and dampers on nodes.

@@ -5,7 +5,7 @@ use crate::deck::Deck;
 use crate::deck::amplitudes::Amplitude;
 use crate::deck::words::ColumnName;
 use crate::diagnostic::Diagnostic;
-use crate::record::{self, Column, Selection};
+use crate::record::{self, RecordColumn, RecordSelection};
 use crate::text_file::read_regular;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -53,11 +53,11 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<Record>, Vec<Diag
         vec![Diagnostic::error(message).at(&file.span).hint("the path is relative to the deck's folder")]
     })?;
     let column = |name: &ColumnName| match name {
-        ColumnName::Name(name) => Column::Name(name.clone()),
-        ColumnName::Number(number) => Column::Number(*number),
+        ColumnName::Name(name) => RecordColumn::Name(name.clone()),
+        ColumnName::Number(number) => RecordColumn::Number(*number),
     };
     let columns = amplitude.columns.iter().flat_map(|columns| &columns.values).map(|at| column(&at.value)).collect();
-    let selection = Selection { columns, time_step: time_step.map(|step| step.value) };
+    let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value) };
     match record::read(&path, &bytes, &selection) {
         Ok(points) => Ok(Some(Record { path, points, digest: Sha256::digest(&bytes).into() })),
         Err(found) => Err(found.into_iter().map(|problem| problem.at(&file.span)).collect()),

@@ -17,6 +17,7 @@ pub mod progress;
 pub mod report;
 pub mod result_json;
 mod run_list;
+pub mod summary;
 pub mod table;
 mod table_file;
 pub(crate) mod table_reader;

@@ -5,8 +5,8 @@ use super::source::{files, root};
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 11] = [
     &["math", "names", "quantities", "diagnostic"],
-    &["words"],
-    &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh"],
+    &["words", "text_file"],
+    &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh", "record"],
     &["elements", "constraints", "integrators"],
     &["deck"],
     &["model", "system"],
