@@ -54,6 +54,7 @@ pub mod solids;
 pub mod solve;
 pub mod state;
 pub mod study;
+pub mod sweep;
 pub mod system;
 pub mod text_file;
 pub mod words;

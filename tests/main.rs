@@ -47,6 +47,7 @@ mod stability;
 mod statics;
 mod study;
 mod sudden_loads;
+mod sweep;
 mod table_sizes;
 mod turning;
 

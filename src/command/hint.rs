@@ -3,8 +3,8 @@
 use crate::names::nearest;
 
 /// The commands, as they are written.
-pub const COMMANDS: [&str; 10] =
-    ["run", "check", "compare", "report", "study", "summary", "init", "schema", "completions", "man"];
+pub const COMMANDS: [&str; 11] =
+    ["run", "check", "compare", "report", "study", "sweep", "summary", "init", "schema", "completions", "man"];
 
 /// The hint for a word that is neither a command nor looks like the name of a file; `None` for any other word.
 pub fn command_hint(word: &str) -> Option<String> {

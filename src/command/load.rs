@@ -48,15 +48,23 @@ impl Loaded {
 /// [`Exit::InputOutput`] where the deck cannot be read, [`Exit::DeckInvalid`] or [`Exit::Usage`] where it has errors.
 pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded, Exit> {
     let source = Source::new(path.display().to_string(), text(path)?, sets).with_options(options);
+    build(source, sets).map_err(|(problems, source)| {
+        show(&problems, &source);
+        conclude(&problems, &source)
+    })
+}
+
+/// Builds the model of a deck that has been read.
+///
+/// # Errors
+/// All that is wrong, with the texts that its places refer to.
+pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
     match model::read(&source) {
         (Some(model), warnings) => {
             let hash = hash(&source, sets, &model);
             Ok(Loaded { model, warnings, source, sets: sets.to_vec(), hash })
         }
-        (None, problems) => {
-            show(&problems, &source);
-            Err(conclude(&problems, &source))
-        }
+        (None, problems) => Err((problems, source)),
     }
 }
 
@@ -69,7 +77,7 @@ pub fn is_standard_input(path: &Path) -> bool {
 const LARGEST: u64 = 512 << 20;
 
 /// The text of a deck.
-fn text(path: &Path) -> Result<String, Exit> {
+pub fn text(path: &Path) -> Result<String, Exit> {
     let name = path.display();
     let mut bytes = Vec::new();
     // The length is bounded while reading, for a pipe has none to ask for and a device may have no end.
@@ -117,18 +125,39 @@ fn conclude(problems: &[Diagnostic], source: &Source) -> Exit {
 /// # Errors
 /// [`Exit::DeckInvalid`] where the scene cannot be computed as the deck asks; the reason has been shown.
 pub fn plan(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Exit> {
-    let system = System::new(&loaded.model).map_err(|error| {
-        complain(&error);
-        Exit::Internal
-    })?;
+    prepare(loaded, threads).map_err(|unfit| match unfit {
+        Unfit::System(error) => {
+            complain(&error);
+            Exit::Internal
+        }
+        Unfit::Deck(problems) => {
+            show(&problems, &loaded.source);
+            complain(&format!("`{}` has {}", loaded.source.path, counted(problems.len(), "error")));
+            Exit::DeckInvalid
+        }
+    })
+}
+
+/// The reason why a sound model cannot be computed.
+pub enum Unfit {
+    /// There are no equations for it.
+    System(String),
+    /// What the deck asks for is out of reach.
+    Deck(Vec<Diagnostic>),
+}
+
+/// The same without a word.
+///
+/// # Errors
+/// The reason why the scene cannot be computed as the deck asks.
+pub fn prepare(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Unfit> {
+    let system = System::new(&loaded.model).map_err(Unfit::System)?;
     let plan = Plan::new(&loaded.model, &system, threads);
     let mut problems = unreachable_targets(&plan, &loaded.model);
     problems.extend(plan.massless(&loaded.model, &system));
     problems.extend(plan.partial_rotations(&loaded.model));
     if !problems.is_empty() {
-        show(&problems, &loaded.source);
-        complain(&format!("`{}` has {}", loaded.source.path, counted(problems.len(), "error")));
-        return Err(Exit::DeckInvalid);
+        return Err(Unfit::Deck(problems));
     }
     settle_cadence(&mut loaded.model, &plan);
     let warnings = plan_warnings(&plan, &loaded.model, &system);

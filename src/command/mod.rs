@@ -18,6 +18,7 @@ mod shell_completions;
 mod signals;
 mod study;
 mod summary;
+mod sweep;
 mod verdict;
 mod version;
 mod watchers;
@@ -66,6 +67,8 @@ enum Command {
     Report(report::ReportArgs),
     /// Measure error against run time over time steps, schemes, methods and meshes; or what rigid parts would cost and save
     Study(Box<study::StudyArgs>),
+    /// Run many variants of a deck, here or as one shard of many, and collect numbers of each in one table
+    Sweep(sweep::SweepArgs),
     /// Print peaks, ends and balance of a folder of results
     Summary(summary::SummaryArgs),
     /// Print a commented deck that runs, to begin with: `rdsolve init frame > deck.toml`
@@ -109,6 +112,7 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Command::Compare(args)), _) => compare::compare(&args),
         (Some(Command::Report(args)), _) => report::report(&args),
         (Some(Command::Study(args)), _) => study::study(&args),
+        (Some(Command::Sweep(args)), _) => sweep::sweep(&args),
         (Some(Command::Summary(args)), _) => summary::summary(&args),
         (Some(Command::Init(args)), _) => init::init(&args),
         (Some(Command::Schema), _) => schema::schema(),

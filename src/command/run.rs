@@ -10,13 +10,13 @@ use super::arguments::{MAX_THREADS, RunArgs};
 use super::console::{complain, print, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
-use super::load::{Loaded, load, plan, too_large};
+use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::verdict::{End, end, energy_line, energy_warning, error_bars_in_words, line, work_warning};
 use super::version::VERSION;
 use super::watchers::Watchers;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Source};
 use crate::model::{Model, Part, StepLength};
 use crate::output::error_bars::ErrorBars;
 use crate::output::log::Log;
@@ -83,6 +83,51 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         Exit::InputOutput
     })?;
     job.conclude(&end, &result, energy)
+}
+
+/// Runs a variant of a deck on one thread, without a word, into a folder of its own.
+///
+/// # Errors
+/// What has kept it from running: errors of the deck as text, or one of input/output.
+pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBool) -> Result<Status, CaseFault> {
+    let began = Instant::now();
+    let faults = |problems: &[Diagnostic], source: &Source| {
+        let errors = problems.iter().filter(|problem| problem.is_error());
+        CaseFault::Deck(errors.map(|problem| problem.draw(source, false)).collect::<Vec<_>>().join("\n"))
+    };
+    let mut loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
+    let read_s = began.elapsed().as_secs_f64();
+    let planning = Instant::now();
+    let (system, plan, warnings) = prepare(&mut loaded, 1).map_err(|unfit| match unfit {
+        Unfit::System(error) => CaseFault::Deck(error),
+        Unfit::Deck(problems) => faults(&problems, &loaded.source),
+    })?;
+    loaded.warnings.extend(warnings);
+    let made = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), stop);
+    let mut run = made.map_err(|error| CaseFault::Deck(error.to_string()))?;
+    let job = Job {
+        loaded: &loaded,
+        folder,
+        overwrite: true,
+        quiet: true,
+        mesh_error: false,
+        threads: 1,
+        stop,
+        began,
+        plan: explained(&loaded, &plan, &system),
+        sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
+        timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
+    };
+    let (end, ..) = job.compute(&mut run).map_err(CaseFault::Io)?;
+    Ok(end.status)
+}
+
+/// What keeps a case of a sweep from running.
+pub enum CaseFault {
+    /// Its deck has errors, which are these.
+    Deck(String),
+    /// A file cannot be read or written.
+    Io(io::Error),
 }
 
 /// The plan in the lines that `check` prints.

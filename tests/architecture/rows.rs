@@ -12,7 +12,7 @@ const ROWS: [&[&str]; 11] = [
     &["model", "system"],
     &["plan"],
     &["solve", "output"],
-    &["study"],
+    &["study", "sweep"],
     &["command"],
     &["main"],
 ];

@@ -2,7 +2,7 @@
 
 use super::{anchor, blocks, keep, pages, rdsolve, read, root};
 use rdsolve::diagnostic::Source;
-use rdsolve::{deck, model};
+use rdsolve::{deck, model, sweep};
 use serde_json::Value;
 use std::fs;
 
@@ -58,7 +58,11 @@ fn docs_speak_the_words_of_the_deck() {
         for block in blocks.filter(|block| !block.before.starts_with("<!-- include")) {
             let source = Source::new(page.display().to_string(), block.text.as_str(), &[]);
             let is_whole = block.text.contains("[analysis]") || block.text.contains("analysis = {");
-            let problems = if is_whole { model::read(&source).1 } else { deck::read(&source).1 };
+            let problems = match () {
+                () if block.text.starts_with("# sweep.toml") => sweep::file::read(&source).1,
+                () if is_whole => model::read(&source).1,
+                () => deck::read(&source).1,
+            };
             let errors: Vec<String> =
                 problems.iter().filter(|p| p.is_error()).map(|p| p.draw(&source, false)).collect();
             assert!(errors.is_empty(), "{}", errors.join("\n"));

@@ -1,0 +1,269 @@
+//! `rdsolve sweep sweep.toml`: many variants of one deck, in parallel here or as one shard of many, and one table of what they come to.
+
+use super::arguments::MAX_THREADS;
+use super::console::{complain, counted, print, say, show};
+use super::exit::Exit;
+use super::folder::named_after;
+use super::load::text;
+use super::run::{CaseFault, run_case};
+use super::signals::stop_on_signals;
+use super::version::VERSION;
+use crate::diagnostic::Source;
+use crate::output::result_json::Status;
+use crate::sweep::cases::Cases;
+use crate::sweep::file::{self, SweepFile};
+use crate::sweep::folder::{CaseState, FAILURE, SweepFolder};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::fs;
+use std::io::{self, IsTerminal};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A case that stands is not run again, so the same command goes on after a stop, and any number of processes may fill \
+one folder at once. A signal ends it with whole files; what was killed is run again.
+
+Exit codes: 0 all chosen cases stand, 2 usage, 3 the file of the sweep has errors, 4 a case failed, 5 expected values were missed, \
+6 input/output, 75 stopped by a signal"
+)]
+pub struct SweepArgs {
+    /// The file of the sweep, TOML: deck, [vary], [collect]
+    sweep: PathBuf,
+    /// Folder for all cases [default: the file's name with .out, in the current folder]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Cases to run at once, each on one thread [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS))]
+    jobs: Option<u16>,
+    /// One case by its number from 1, every N-th from the I-th on, or those that failed
+    #[arg(long, value_name = "I | I/N | failed")]
+    case: Option<Choice>,
+    /// Print the cases with what has become of them, and run nothing
+    #[arg(long)]
+    list: bool,
+    /// Write the summary of what stands, and run nothing
+    #[arg(long, conflicts_with_all = ["list", "case"])]
+    collect: bool,
+    /// Show errors only
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The cases that are to be run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Choice {
+    One(usize),
+    Shard { index: usize, of: usize },
+    Failed,
+}
+
+impl FromStr for Choice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Choice, String> {
+        let number = |text: &str| text.parse::<usize>().ok().filter(|number| *number > 0);
+        let choice = match text.split_once('/') {
+            None if text == "failed" => Some(Choice::Failed),
+            None => number(text).map(Choice::One),
+            Some((index, of)) => match (number(index), number(of)) {
+                (Some(index), Some(of)) if index <= of => Some(Choice::Shard { index, of }),
+                _ => None,
+            },
+        };
+        choice.ok_or_else(|| "it is a number from 1, I/N with I from 1 to N, or `failed`".into())
+    }
+}
+
+/// Runs the cases of a sweep that do not stand yet, and writes their summary.
+///
+/// # Errors
+/// The exit code of a sweep in which not all chosen cases stand; the reason has been shown.
+pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
+    let (file, sweep_folder) = read(&args.sweep)?;
+    let deck = sweep_folder.join(&file.deck);
+    let deck_text = text(&deck)?;
+    let cases = Cases::new(&file, &sweep_folder).map_err(|message| {
+        complain(&message);
+        Exit::DeckInvalid
+    })?;
+    let path = args.output.clone().unwrap_or_else(|| named_after(&args.sweep, "out"));
+    let folder = SweepFolder::new(path, (&deck.display().to_string(), &deck_text), &cases, VERSION);
+    let chosen = chosen(args.case, &folder)?;
+    if args.list {
+        return list(&folder, &cases, &chosen);
+    }
+    fs::create_dir_all(&folder.path).map_err(|error| cannot_write(&folder.path, &error))?;
+    folder.write_cases(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let sweep = Sweep { deck: &deck, text: &deck_text, cases: &cases, folder: &folder, stop: &stop, quiet: args.quiet };
+    if !args.collect {
+        stop_on_signals(&stop).map_err(|error| cannot_write(&folder.path, &error))?;
+        sweep.run(&chosen, args.case == Some(Choice::Failed), args.jobs.map_or_else(cores, usize::from))?;
+    }
+    let states = folder.write_summary(&cases, &file.collect).map_err(|error| cannot_write(&folder.path, &error))?;
+    sweep.conclude(&chosen, &states)
+}
+
+fn cannot_write(path: &Path, error: &io::Error) -> Exit {
+    complain(&format!("cannot write to `{}`: {error}", path.display()));
+    Exit::InputOutput
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS as usize)
+}
+
+/// Reads the file of a sweep; returns it with its folder.
+fn read(path: &Path) -> Result<(SweepFile, PathBuf), Exit> {
+    let source = Source::new(path.display().to_string(), text(path)?, &[]);
+    match file::read(&source) {
+        (Some(file), _) => Ok((file, path.parent().unwrap_or(Path::new("")).to_owned())),
+        (None, problems) => {
+            show(&problems, &source);
+            complain(&format!("`{}` has {}", path.display(), counted(problems.len(), "error")));
+            Err(Exit::DeckInvalid)
+        }
+    }
+}
+
+/// The cases that are asked for, counted from 0.
+fn chosen(choice: Option<Choice>, folder: &SweepFolder) -> Result<Vec<usize>, Exit> {
+    let count = folder.names.len();
+    Ok(match choice {
+        None => (0..count).collect(),
+        Some(Choice::One(case)) if case > count => {
+            complain(&format!("there is no case {case}: the sweep has {count}"));
+            return Err(Exit::Usage);
+        }
+        Some(Choice::One(case)) => vec![case - 1],
+        Some(Choice::Shard { index, of }) => (index - 1..count).step_by(of).collect(),
+        Some(Choice::Failed) => (0..count).filter(|&case| matches!(folder.state(case), CaseState::Failed(_))).collect(),
+    })
+}
+
+/// Prints a line for each case.
+fn list(folder: &SweepFolder, cases: &Cases, chosen: &[usize]) -> Result<(), Exit> {
+    let line = |&case: &usize| {
+        let state = folder.state(case);
+        let reason = if state.reason().is_empty() { String::new() } else { format!(": {}", state.reason()) };
+        format!("{} {} {}{reason}  {}\n", case + 1, folder.names[case], state.word(), cases.sets(case).join(" "))
+    };
+    print(&chosen.iter().map(line).collect::<String>())
+}
+
+/// A sweep that is under way.
+struct Sweep<'s> {
+    deck: &'s Path,
+    text: &'s str,
+    cases: &'s Cases,
+    folder: &'s SweepFolder,
+    stop: &'s AtomicBool,
+    quiet: bool,
+}
+
+impl Sweep<'_> {
+    /// Runs the chosen cases that do not stand yet, so many at once; with `again` those that failed too.
+    fn run(&self, chosen: &[usize], again: bool, jobs: usize) -> Result<(), Exit> {
+        let is_open = |case: usize| match self.folder.state(case) {
+            CaseState::Pending => true,
+            CaseState::Failed(_) => again,
+            CaseState::Done | CaseState::Missed(_) => false,
+        };
+        let open: Vec<usize> = chosen.iter().copied().filter(|&case| is_open(case)).collect();
+        let bar = self.bar(open.len());
+        let (next, fault) = (AtomicUsize::new(0), std::sync::Mutex::new(None));
+        let work = || {
+            while let Some(&case) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if self.stop.load(Ordering::Relaxed) {
+                    return;
+                }
+                // Another process may have run it meanwhile.
+                if is_open(case)
+                    && let Err(error) = self.run_one(case)
+                {
+                    // One disk that is full keeps all from running.
+                    if let Ok(mut first) = fault.lock() {
+                        first.get_or_insert(error);
+                    }
+                    return;
+                }
+                bar.inc(1);
+            }
+        };
+        std::thread::scope(|scope| (0..jobs.min(open.len())).for_each(|_| drop(scope.spawn(work))));
+        bar.finish_and_clear();
+        match fault.into_inner().ok().flatten() {
+            Some(error) => Err(cannot_write(&self.folder.path, &error)),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs one case. Its own errors are noted in its folder.
+    fn run_one(&self, case: usize) -> io::Result<()> {
+        let (folder, sets) = (self.folder.case(case), self.cases.sets(case));
+        fs::create_dir_all(&folder)?;
+        let failure = folder.join(FAILURE);
+        if failure.exists() {
+            fs::remove_file(&failure)?;
+        }
+        let source = Source::new(self.deck.display().to_string(), self.text, &sets);
+        let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &sets, &folder, self.stop)));
+        match ran {
+            Ok(Ok(Status::Stopped)) => Ok(()),
+            Ok(Ok(_)) => Ok(()),
+            Ok(Err(CaseFault::Deck(text))) => fs::write(&failure, text),
+            // Another process runs it.
+            Ok(Err(CaseFault::Io(error))) if error.kind() == io::ErrorKind::ResourceBusy => Ok(()),
+            Ok(Err(CaseFault::Io(error))) => Err(error),
+            Err(_) => fs::write(&failure, "the program itself has a fault: the run of this case has panicked"),
+        }
+    }
+
+    fn bar(&self, count: usize) -> ProgressBar {
+        if self.quiet || !io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
+        let style = ProgressStyle::with_template("{bar:32} {pos} of {len} cases  {per_sec}  {eta} left");
+        bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    }
+
+    /// Says what has become of the chosen cases.
+    fn conclude(&self, chosen: &[usize], states: &[CaseState]) -> Result<(), Exit> {
+        /// Failures that are told; all of them are in the summary.
+        const TOLD: usize = 20;
+        let of = |is: fn(&CaseState) -> bool| chosen.iter().filter(|&&case| is(&states[case])).count();
+        let failed = of(|state| matches!(state, CaseState::Failed(_)));
+        let missed = of(|state| matches!(state, CaseState::Missed(_)));
+        let pending = of(|state| matches!(state, CaseState::Pending));
+        let done = chosen.len() - failed - missed - pending;
+        let is_failure = |case: &&usize| matches!(states[**case], CaseState::Failed(_));
+        for &case in chosen.iter().filter(is_failure).take(TOLD) {
+            complain(&format!("case {}: {}", case + 1, states[case].reason()));
+        }
+        if failed > TOLD {
+            say(&format!("… and {} more: see summary.csv", failed - TOLD));
+        }
+        if !self.quiet {
+            let parts = [(missed, "missed expected values"), (failed, "failed"), (pending, "are still to be run")];
+            let parts = parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {count} {what}"));
+            let summary = self.folder.path.join("summary.csv");
+            let total = counted(chosen.len(), "case");
+            print(&format!("{total}: {done} done{}; {}\n", parts.collect::<String>(), summary.display()))?;
+        }
+        match () {
+            () if self.stop.load(Ordering::Relaxed) => {
+                complain("stopped by a signal; the same command goes on");
+                Err(Exit::Stopped)
+            }
+            () if failed > 0 => Err(Exit::NotConverged),
+            () if missed > 0 => Err(Exit::CheckFailed),
+            () => Ok(()),
+        }
+    }
+}

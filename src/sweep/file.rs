@@ -1,0 +1,315 @@
+//! The file of a sweep: the deck, what varies in it, and what is collected.
+
+use crate::diagnostic::{Diagnostic, Source, Span};
+use crate::names::{nearest, quoted};
+use std::collections::HashSet;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// What a sweep asks for.
+#[derive(Debug, Clone, Default)]
+pub struct SweepFile {
+    /// The path of the deck, relative to the file.
+    pub deck: String,
+    /// The entries of the deck that vary, in the order of the file.
+    pub axes: Vec<VariedKey>,
+    /// The path of a table of cases, relative to the file, whose header has the keys, with its place.
+    pub table: Option<(String, Span)>,
+    /// The sample of the ranges of all axes.
+    pub sample: Option<SampleOfCases>,
+    /// The numbers that are read from each result.
+    pub collect: Vec<Collected>,
+}
+
+/// An entry of the deck that varies.
+#[derive(Debug, Clone)]
+pub struct VariedKey {
+    /// The key, as `--set` takes it.
+    pub key: String,
+    /// Its values.
+    pub values: VariedValues,
+    /// Its place in the file.
+    pub place: Span,
+}
+
+/// The values that an entry takes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum VariedValues {
+    /// These values, as TOML.
+    List(Vec<String>),
+    /// A number of values from one end to the other, both included; of a sample any between them.
+    Range {
+        /// The first value.
+        from: f64,
+        /// The last value.
+        to: f64,
+        /// The number of values; `None` for a sample.
+        steps: Option<usize>,
+    },
+}
+
+/// A sample of ranges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SampleOfCases {
+    /// The way its points are spread.
+    pub kind: SampleKind,
+    /// The number of cases.
+    pub cases: usize,
+    /// What makes it another sample of the same kind.
+    pub seed: u64,
+}
+
+/// The way in which the points of a sample are spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SampleKind {
+    /// Sobol's sequence.
+    Sobol,
+    /// A Latin hypercube.
+    LatinHypercube,
+}
+
+/// A number that is read from the result of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Collected {
+    /// The name of its column.
+    pub name: String,
+    /// What the row is about, as its table names it, or "energy".
+    pub at: String,
+    /// The column of the table.
+    pub quantity: String,
+    /// The time at which it is taken.
+    pub when: CollectedWhen,
+}
+
+/// The time at which a number is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CollectedWhen {
+    /// Where it is largest.
+    Max,
+    /// Where it is least.
+    Min,
+    /// Where its magnitude is largest.
+    Abs,
+    /// At the end.
+    End,
+    /// At this time.
+    Time(f64),
+}
+
+/// The largest number of values of an axis, and of cases.
+pub const MOST_CASES: usize = 1_000_000;
+
+/// Reads the file of a sweep, with all that is wrong about it; `None` where anything is.
+pub fn read(source: &Source) -> (Option<SweepFile>, Vec<Diagnostic>) {
+    let (root, errors) = DeTable::parse_recoverable(&source.text);
+    let mut reader = Reader { source, problems: Vec::new() };
+    for error in errors {
+        let span = error.span().unwrap_or(0..0);
+        reader.error(&span, format!("this is not TOML: {}", error.message()));
+    }
+    let file = reader.file(root.get_ref());
+    let problems = reader.problems;
+    (problems.is_empty().then_some(file), problems)
+}
+
+struct Reader<'s> {
+    source: &'s Source,
+    problems: Vec<Diagnostic>,
+}
+
+type Entry<'t> = (&'t str, Span, &'t Spanned<DeValue<'t>>);
+
+impl Reader<'_> {
+    fn error(&mut self, place: &Span, message: impl Into<String>) {
+        self.problems.push(Diagnostic::error(message).at(place));
+    }
+
+    /// The entries of a table; keys that are not known are errors.
+    fn entries<'t>(&mut self, what: &str, table: &'t DeTable<'t>, known: &[&str]) -> Vec<Entry<'t>> {
+        let all = table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value));
+        let (found, strange): (Vec<Entry>, Vec<Entry>) = all.partition(|(key, ..)| known.contains(key));
+        for (key, span, _) in strange {
+            let hint = match nearest(key, known.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("it has {}", quoted(known.iter().copied())),
+            };
+            self.problems.push(Diagnostic::error(format!("{what} has no key `{key}`")).at(&span).hint(hint));
+        }
+        found
+    }
+
+    fn file<'t>(&mut self, root: &'t DeTable<'t>) -> SweepFile {
+        let mut file = SweepFile::default();
+        let entries = self.entries("a sweep", root, &["deck", "vary", "collect"]);
+        if !entries.iter().any(|(key, ..)| *key == "deck") {
+            self.error(&(0..0), "`deck` is missing: the path of the deck that varies");
+        }
+        if !entries.iter().any(|(key, ..)| *key == "vary") {
+            self.error(&(0..0), "`[vary]` is missing: the entries of the deck that vary");
+        }
+        for (key, _, value) in entries {
+            match (key, value.get_ref()) {
+                ("deck", DeValue::String(path)) => file.deck = path.to_string(),
+                ("deck", _) => self.error(&value.span(), "`deck` must be the path of a deck, in quotes"),
+                ("vary", DeValue::Table(table)) => self.vary(table, &value.span(), &mut file),
+                ("collect", DeValue::Table(table)) => {
+                    file.collect = table.iter().filter_map(|(key, value)| self.collected(key, value)).collect();
+                }
+                _ => self.error(&value.span(), format!("`[{key}]` must be a table")),
+            }
+        }
+        file
+    }
+
+    fn vary<'t>(&mut self, table: &'t DeTable<'t>, place: &Span, file: &mut SweepFile) {
+        for (key, value) in table {
+            match (key.get_ref().as_ref(), value.get_ref()) {
+                ("table", DeValue::String(path)) => file.table = Some((path.to_string(), value.span())),
+                ("sample", DeValue::Table(table)) => file.sample = self.sample(table, &value.span()),
+                (name, _) => file.axes.extend(self.axis(name, key.span(), value)),
+            }
+        }
+        if file.axes.is_empty() && file.table.is_none() && self.problems.is_empty() {
+            self.error(place, "nothing varies");
+        }
+        if let (Some((_, place)), false) = (&file.table, file.axes.is_empty() && file.sample.is_none()) {
+            self.error(&place.clone(), "a `table` of cases has all that varies: nothing else may stand beside it");
+        }
+        for axis in &file.axes {
+            match (&axis.values, file.sample) {
+                (VariedValues::List(_) | VariedValues::Range { steps: Some(_), .. }, Some(_)) => {
+                    let message = format!("a sample needs ranges: `{}` takes {{ from = .., to = .. }} alone", axis.key);
+                    self.error(&axis.place, message);
+                }
+                (VariedValues::Range { steps: None, .. }, None) => {
+                    let message = format!("`{}` needs `steps`, the number of its values, or a `sample`", axis.key);
+                    self.error(&axis.place, message);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn axis<'t>(&mut self, key: &str, place: Span, value: &'t Spanned<DeValue<'t>>) -> Option<VariedKey> {
+        let values = match value.get_ref() {
+            DeValue::Array(list) if list.is_empty() => {
+                self.error(&value.span(), format!("`{key}` has no values"));
+                return None;
+            }
+            DeValue::Array(list) => {
+                VariedValues::List(list.iter().map(|value| self.source.text[value.span()].to_owned()).collect())
+            }
+            DeValue::Table(table)
+                if table.iter().any(|(key, _)| ["from", "to", "steps"].contains(&key.get_ref().as_ref())) =>
+            {
+                self.range(key, table, &value.span())?
+            }
+            DeValue::Table(_) => {
+                let hint = format!("put the whole key into quotes: \"{key}.…\" = [..]");
+                let message = format!("`{key}` is a table, not a list of values or a range");
+                self.problems.push(Diagnostic::error(message).at(&place).hint(hint));
+                return None;
+            }
+            _ => {
+                let message = format!("`{key}` must be a list of values or {{ from = .., to = .., steps = .. }}");
+                self.error(&value.span(), message);
+                return None;
+            }
+        };
+        Some(VariedKey { key: key.to_owned(), values, place })
+    }
+
+    fn range<'t>(&mut self, key: &str, table: &'t DeTable<'t>, place: &Span) -> Option<VariedValues> {
+        let before = self.problems.len();
+        let (mut ends, mut steps) = ([None; 2], None);
+        for (name, _, value) in self.entries(&format!("the range of `{key}`"), table, &["from", "to", "steps"]) {
+            match name {
+                "from" => ends[0] = self.number(name, value),
+                "to" => ends[1] = self.number(name, value),
+                _ => steps = self.count(name, value, 1),
+            }
+        }
+        let [Some(from), Some(to)] = ends else {
+            if self.problems.len() == before {
+                self.error(place, format!("the range of `{key}` needs `from` and `to`"));
+            }
+            return None;
+        };
+        Some(VariedValues::Range { from, to, steps })
+    }
+
+    fn sample<'t>(&mut self, table: &'t DeTable<'t>, place: &Span) -> Option<SampleOfCases> {
+        let (mut kind, mut cases, mut seed) = (None, None, 0);
+        let before = self.problems.len();
+        for (name, _, value) in self.entries("a sample", table, &["kind", "cases", "seed"]) {
+            match (name, value.get_ref()) {
+                ("kind", DeValue::String(word)) if word.as_ref() == "sobol" => kind = Some(SampleKind::Sobol),
+                ("kind", DeValue::String(word)) if word.as_ref() == "latin-hypercube" => {
+                    kind = Some(SampleKind::LatinHypercube);
+                }
+                ("kind", _) => self.error(&value.span(), "`kind` can be \"sobol\" or \"latin-hypercube\""),
+                ("cases", _) => cases = self.count(name, value, 1),
+                _ => seed = self.count(name, value, 0).unwrap_or(0) as u64,
+            }
+        }
+        if self.problems.len() == before && (kind.is_none() || cases.is_none()) {
+            self.error(place, "a sample needs `kind` and `cases`");
+        }
+        Some(SampleOfCases { kind: kind?, cases: cases?, seed })
+    }
+
+    fn collected<'t>(
+        &mut self,
+        key: &Spanned<toml::de::DeString<'t>>,
+        value: &'t Spanned<DeValue<'t>>,
+    ) -> Option<Collected> {
+        let name = key.get_ref().to_string();
+        let DeValue::Table(table) = value.get_ref() else {
+            self.error(&value.span(), format!("`{name}` must be a table with `at`, `quantity` and `peak` or `time`"));
+            return None;
+        };
+        let before = self.problems.len();
+        let (mut at, mut quantity, mut when) = (None, None, None);
+        for (key, place, value) in self.entries(&format!("`{name}`"), table, &["at", "quantity", "peak", "time"]) {
+            match (key, value.get_ref()) {
+                ("at", DeValue::String(text)) => at = Some(text.to_string()),
+                ("quantity", DeValue::String(text)) => quantity = Some(text.to_string()),
+                ("at" | "quantity", _) => self.error(&value.span(), format!("`{key}` must be a name in quotes")),
+                _ if when.is_some() => self.error(&place, format!("`{name}` takes `peak` or `time`, not both")),
+                ("peak", DeValue::String(word)) if word.as_ref() == "max" => when = Some(CollectedWhen::Max),
+                ("peak", DeValue::String(word)) if word.as_ref() == "min" => when = Some(CollectedWhen::Min),
+                ("peak", DeValue::String(word)) if word.as_ref() == "abs" => when = Some(CollectedWhen::Abs),
+                ("peak", _) => self.error(&value.span(), "`peak` can be \"max\", \"min\" or \"abs\""),
+                ("time", DeValue::String(word)) if word.as_ref() == "end" => when = Some(CollectedWhen::End),
+                _ => when = self.number("time", value).map(CollectedWhen::Time),
+            }
+        }
+        if self.problems.len() == before && (at.is_none() || quantity.is_none() || when.is_none()) {
+            self.error(&value.span(), format!("`{name}` needs `at`, `quantity` and `peak` or `time`"));
+        }
+        let taken: HashSet<&str> = HashSet::from(["case", "status", "reason"]);
+        if taken.contains(name.as_str()) {
+            self.error(&key.span(), format!("`{name}` is a column of the summary already"));
+        }
+        Some(Collected { name, at: at?, quantity: quantity?, when: when? })
+    }
+
+    fn number<'t>(&mut self, name: &str, value: &'t Spanned<DeValue<'t>>) -> Option<f64> {
+        let text = self.source.text[value.span()].replace('_', "");
+        let is_number = matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_));
+        let number = text.parse().ok().filter(|number: &f64| is_number && number.is_finite());
+        if number.is_none() {
+            self.error(&value.span(), format!("`{name}` must be a number"));
+        }
+        number
+    }
+
+    fn count<'t>(&mut self, name: &str, value: &'t Spanned<DeValue<'t>>, least: usize) -> Option<usize> {
+        let text = self.source.text[value.span()].replace('_', "");
+        let count = text.parse().ok().filter(|count| (least..=MOST_CASES).contains(count));
+        if count.is_none() {
+            self.error(&value.span(), format!("`{name}` must be a whole number from {least} to {MOST_CASES}"));
+        }
+        count
+    }
+}

@@ -1,0 +1,187 @@
+//! The folder of a sweep: `cases.csv`, `summary.csv`, and a folder for each case, named by the hash of all that it is computed from.
+//!
+//! Any number of processes may fill one folder at once, on any number of machines: a case belongs to who locks its folder, and stands
+//! once its `result.json` does. Files that all of them write are moved in whole, and are the same bytes whoever writes them.
+
+use super::cases::Cases;
+use super::collect::collect;
+use super::file::Collected;
+use crate::deck::Deck;
+use crate::diagnostic::Source;
+use crate::output::{at, result_json};
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The name of the file in the folder of a case that says why it could not be run.
+pub const FAILURE: &str = "failure.txt";
+
+/// What has become of a case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CaseState {
+    /// It is still to be run, or under way elsewhere.
+    Pending,
+    /// Its result stands.
+    Done,
+    /// Its result stands, but expected values were missed: why.
+    Missed(String),
+    /// It ended early, or its deck has errors: why.
+    Failed(String),
+}
+
+impl CaseState {
+    /// The word for it in summary.csv.
+    pub fn word(&self) -> &'static str {
+        match self {
+            CaseState::Pending => "pending",
+            CaseState::Done => "done",
+            CaseState::Missed(_) => "expectation-missed",
+            CaseState::Failed(_) => "failed",
+        }
+    }
+
+    /// The reason, in one line.
+    pub fn reason(&self) -> &str {
+        match self {
+            CaseState::Pending | CaseState::Done => "",
+            CaseState::Missed(reason) | CaseState::Failed(reason) => reason,
+        }
+    }
+}
+
+/// The folder of a sweep and those of its cases.
+pub struct SweepFolder {
+    /// Its path.
+    pub path: PathBuf,
+    /// The names of the folders of all cases, in their order.
+    pub names: Vec<String>,
+}
+
+impl SweepFolder {
+    /// Finds the names of all cases: hashes of the version, the deck, the overrides and the files that the deck names.
+    pub fn new(path: PathBuf, deck: (&str, &str), cases: &Cases, version: &str) -> SweepFolder {
+        let mut digests = HashMap::new();
+        let name = |case: usize| {
+            let source = Source::new(deck.0, deck.1, &cases.sets(case));
+            name(&source, version, &mut digests)
+        };
+        SweepFolder { path, names: (0..cases.values.len()).map(name).collect() }
+    }
+
+    /// The folder of a case, counted from 0.
+    pub fn case(&self, case: usize) -> PathBuf {
+        self.path.join(&self.names[case])
+    }
+
+    /// What has become of a case.
+    pub fn state(&self, case: usize) -> CaseState {
+        let folder = self.case(case);
+        if let Ok(reason) = fs::read_to_string(folder.join(FAILURE)) {
+            return CaseState::Failed(one_line(&reason));
+        }
+        let Ok(bytes) = fs::read(folder.join(result_json::NAME)) else { return CaseState::Pending };
+        let Ok(result) = serde_json::from_slice::<Value>(&bytes) else { return CaseState::Pending };
+        let reason = one_line(result["reason"].as_str().unwrap_or_default());
+        match result["status"].as_str() {
+            Some("done") => CaseState::Done,
+            Some("expectation-missed") => CaseState::Missed(reason),
+            // A case that a signal has stopped is run again.
+            Some("stopped") | None => CaseState::Pending,
+            Some(_) => CaseState::Failed(reason),
+        }
+    }
+
+    /// Writes `cases.csv`: the folder and the values of each case.
+    ///
+    /// # Errors
+    /// The file cannot be written; the error names it.
+    pub fn write_cases(&self, cases: &Cases) -> io::Result<()> {
+        let header = ["case", "folder"].into_iter().chain(cases.keys.iter().map(String::as_str));
+        let row = |(case, values): (usize, &Vec<String>)| {
+            [vec![(case + 1).to_string(), self.names[case].clone()], values.clone()].concat()
+        };
+        self.write("cases.csv", header.map(str::to_owned).collect(), cases.values.iter().enumerate().map(row))
+    }
+
+    /// Writes `summary.csv`: what varies, what became of each case, and what is collected from it.
+    ///
+    /// # Errors
+    /// A table cannot be read, or the file cannot be written; the error names it.
+    pub fn write_summary(&self, cases: &Cases, wanted: &[Collected]) -> io::Result<Vec<CaseState>> {
+        let header = ["case".to_owned()]
+            .into_iter()
+            .chain(cases.keys.iter().cloned())
+            .chain(["status".to_owned()])
+            .chain(wanted.iter().map(|one| one.name.clone()))
+            .chain(["reason".to_owned()]);
+        let (mut rows, mut states) = (Vec::new(), Vec::new());
+        for (case, values) in cases.values.iter().enumerate() {
+            let state = self.state(case);
+            let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
+            let mut row = [vec![(case + 1).to_string()], values.clone(), vec![state.word().to_owned()]].concat();
+            for one in wanted {
+                let number = if stands { collect(&self.case(case), one)? } else { None };
+                row.push(number.map_or(String::new(), |number| format!("{number:?}")));
+            }
+            row.push(state.reason().to_owned());
+            rows.push(row);
+            states.push(state);
+        }
+        self.write("summary.csv", header.collect(), rows.into_iter())?;
+        Ok(states)
+    }
+
+    /// Writes a file of comma separated values and moves it in whole, under a name of this process until then.
+    fn write(&self, name: &str, header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let written = writer.write_record(&header).and_then(|()| {
+            let mut rows = rows;
+            rows.try_for_each(|row| writer.write_record(&row))
+        });
+        let bytes = written
+            .map_err(io::Error::from)
+            .and_then(|()| writer.into_inner().map_err(|error| io::Error::other(error.to_string())))?;
+        let (path, own) = (self.path.join(name), self.path.join(format!("{name}.{}.tmp", std::process::id())));
+        let moved =
+            fs::File::create(&own).and_then(|mut file| file.write_all(&bytes)).and_then(|()| fs::rename(&own, &path));
+        moved.map_err(|error| {
+            let _ = fs::remove_file(&own);
+            at(&path, error)
+        })
+    }
+}
+
+/// The first lines of a reason as one.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The name of a case: 16 hexadecimal digits of a SHA-256.
+fn name(source: &Source, version: &str, digests: &mut HashMap<PathBuf, Vec<u8>>) -> String {
+    let mut hasher = Sha256::new();
+    for part in [version, source.text.as_str()].into_iter().chain(source.sets.iter().map(|(_, set)| set.as_str())) {
+        hasher.update(part);
+        hasher.update([0]);
+    }
+    let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
+    if let (Some(deck), _) = crate::deck::read(source) {
+        for file in files(&deck) {
+            let path = folder.join(file);
+            let digest = digests.entry(path).or_insert_with_key(|path| {
+                fs::read(path).map(|bytes| Sha256::digest(&bytes).to_vec()).unwrap_or_default()
+            });
+            hasher.update(digest);
+        }
+    }
+    hasher.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The files that a deck is computed from, besides itself.
+fn files(deck: &Deck) -> Vec<String> {
+    let mesh = deck.mesh.iter().filter_map(|mesh| mesh.file.as_ref());
+    let records = deck.amplitudes.0.iter().filter_map(|(_, amplitude)| amplitude.file.as_ref());
+    mesh.chain(records).map(|file| file.value.clone()).collect()
+}

@@ -1,0 +1,269 @@
+//! Sweeps: what they run, what they collect, and that it does not matter who ran what, or how often they were killed.
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+use std::process::{Output, Stdio};
+use std::time::Duration;
+
+/// A block that falls and is caught by a rope.
+const DECK: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = 0.002
+[[bodies]]
+name = "block"
+center = [0.0, 0.0, 0.0]
+mass = 2.0
+inertia = [1.0, 1.0, 1.0]
+[[links]]
+name = "rope"
+from = { ground = [0.0, 0.0, 1.0] }
+to = { body = "block" }
+law = "tension-only"
+stiffness = 4000.0
+gap = 0.1
+[environment]
+gravity = [0.0, 0.0, -9.81]
+[output]
+links = true
+"#;
+const SWEEP: &str = r#"
+deck = "deck.toml"
+[vary]
+"bodies.block.mass" = [1.0, 2.0, 4.0]
+"links.rope.stiffness" = { from = 2e3, to = 6e3, steps = 5 }
+[collect]
+lowest = { at = "block", quantity = "z", peak = "min" }
+end = { at = "block", quantity = "z", time = "end" }
+half = { at = "block", quantity = "vz", time = 0.5 }
+kinetic = { at = "energy", quantity = "kinetic", peak = "max" }
+nothing = { at = "block", quantity = "moon", peak = "max" }
+"#;
+
+fn files(sweep: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("deck.toml"), DECK).unwrap();
+    fs::write(folder.path().join("s.toml"), sweep).unwrap();
+    folder
+}
+
+fn rdsolve(folder: &Path, arguments: &[&str]) -> Output {
+    Command::cargo_bin("rdsolve").unwrap().current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn rows(folder: &Path, file: &str) -> Vec<Vec<String>> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(folder.join(file)).unwrap();
+    reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+}
+
+/// All combinations are run, each as `run --set` does it, and the summary has the numbers of their tables. What stands is not run again.
+#[test]
+fn a_sweep_is_its_runs() {
+    let folder = files(SWEEP);
+    let folder = folder.path();
+    let output = rdsolve(folder, &["sweep", "s.toml"]);
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).starts_with("15 cases: 15 done; "));
+    let cases = rows(folder, "s.out/cases.csv");
+    assert_eq!(cases[0], ["case", "folder", "bodies.block.mass", "links.rope.stiffness"]);
+    assert_eq!((cases.len(), &cases[8][2..]), (16, &["2.0".to_owned(), "4000.0".to_owned()][..]));
+    // The eighth case is the deck itself.
+    assert!(rdsolve(folder, &["deck.toml", "-o", "alone", "--threads", "1"]).status.success());
+    for table in ["bodies.csv", "energy.csv", "links.csv"] {
+        let of_case = fs::read(folder.join("s.out").join(&cases[8][1]).join(table)).unwrap();
+        assert_eq!(of_case, fs::read(folder.join("alone").join(table)).unwrap(), "{table}");
+    }
+    let summary = rows(folder, "s.out/summary.csv");
+    let head = [
+        "case",
+        "bodies.block.mass",
+        "links.rope.stiffness",
+        "status",
+        "lowest",
+        "end",
+        "half",
+        "kinetic",
+        "nothing",
+        "reason",
+    ];
+    assert_eq!(summary[0], head);
+    let bodies = rows(folder, "alone/bodies.csv");
+    let column = |name: &str| bodies[0].iter().position(|column| column == name).unwrap();
+    let values =
+        |name: &str| -> Vec<f64> { bodies[1..].iter().map(|row| row[column(name)].parse().unwrap()).collect() };
+    let z = values("z");
+    let number = |place: usize| summary[8][place].parse::<f64>().unwrap();
+    assert_eq!(number(4), z.iter().copied().fold(f64::INFINITY, f64::min));
+    assert_eq!((number(5), number(6)), (z[z.len() - 1], values("vz")[250]));
+    // A free fall of 0.1 m and more: the energy conservation of a mass on a rope, x = g/ω² + √((g/ω²)² + 2 g h/ω²), to the error of steps.
+    let w2 = 4000.0_f64 / 2.0;
+    let sag = 9.81 / w2 + ((9.81_f64 / w2).powi(2) + 2.0 * 9.81 * 0.1 / w2).sqrt();
+    assert!((number(4) + 0.1 + sag).abs() < 1e-3, "{} {}", number(4), 0.1 + sag);
+    assert_eq!(summary[8][8], "");
+    let stamp = |case: usize| {
+        fs::metadata(folder.join("s.out").join(&cases[case][1]).join("result.json")).unwrap().modified().unwrap()
+    };
+    let (before, bytes) = (stamp(3), fs::read(folder.join("s.out/summary.csv")).unwrap());
+    assert!(rdsolve(folder, &["sweep", "s.toml", "--jobs", "1"]).status.success());
+    assert_eq!((stamp(3), fs::read(folder.join("s.out/summary.csv")).unwrap()), (before, bytes));
+}
+
+/// Eight processes that fill one folder at once, three that are killed on the way, and one process alone: the same summary, to the byte.
+#[test]
+fn it_does_not_matter_who_ran_what() {
+    let sweep = SWEEP.replace("steps = 5", "steps = 40");
+    let folder = files(&sweep);
+    let folder = folder.path();
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "alone", "--jobs", "2"]).status.success());
+    let program = assert_cmd::cargo::cargo_bin("rdsolve");
+    let spawn = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(&program);
+        command.current_dir(folder).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
+        command.spawn().unwrap()
+    };
+    let shards: Vec<String> = (1..=8).map(|shard| format!("{shard}/8")).collect();
+    let mut running: Vec<_> = shards
+        .iter()
+        .map(|shard| spawn(&["sweep", "s.toml", "-o", "shared", "--case", shard, "--jobs", "1"]))
+        .collect();
+    running.iter_mut().for_each(|process| assert!(process.wait().unwrap().success()));
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "shared", "--collect"]).status.success());
+    for wait in [15, 40, 90] {
+        let mut process = spawn(&["sweep", "s.toml", "-o", "killed", "--jobs", "2"]);
+        std::thread::sleep(Duration::from_millis(wait));
+        process.kill().unwrap();
+        process.wait().unwrap();
+    }
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "killed"]).status.success());
+    let [alone, shared, killed] = ["alone", "shared", "killed"].map(|out| {
+        let summary = fs::read(folder.join(out).join("summary.csv")).unwrap();
+        assert!(
+            !folder.join(out).read_dir().unwrap().any(|entry| entry
+                .unwrap()
+                .path()
+                .extension()
+                .is_some_and(|e| e == "tmp"))
+        );
+        (summary, fs::read(folder.join(out).join("cases.csv")).unwrap())
+    });
+    assert!(alone == shared && alone == killed);
+}
+
+/// Cases that fail are told with their reasons and leave the others alone; they can be run again by themselves.
+#[test]
+fn failures_are_listed_and_run_again() {
+    let folder = files(&SWEEP.replace("[1.0, 2.0, 4.0]", "[1.0, -2.0]").replace("steps = 5", "steps = 2"));
+    let folder = folder.path();
+    let output = rdsolve(folder, &["sweep", "s.toml"]);
+    assert_eq!(output.status.code(), Some(4));
+    let said = text(&output.stderr);
+    assert!(said.contains("case 3: ") && said.contains("case 4: ") && said.contains("`mass` must"), "{said}");
+    assert!(text(&output.stdout).contains("4 cases: 2 done, 2 failed"));
+    let listed = text(&rdsolve(folder, &["sweep", "s.toml", "--list"]).stdout);
+    assert_eq!(
+        (listed.lines().count(), listed.matches(" done ").count(), listed.matches(" failed: ").count()),
+        (4, 2, 2)
+    );
+    let summary = rows(folder, "s.out/summary.csv");
+    assert_eq!((&summary[1][3][..], &summary[3][3][..], &summary[3][4][..]), ("done", "failed", ""));
+    // Without a change they fail again; one case and one shard are what they say.
+    assert_eq!(rdsolve(folder, &["sweep", "s.toml", "--case", "failed"]).status.code(), Some(4));
+    assert!(rdsolve(folder, &["sweep", "s.toml", "--case", "1"]).status.success());
+    assert_eq!(text(&rdsolve(folder, &["sweep", "s.toml", "--case", "2/2", "--list"]).stdout).lines().count(), 2);
+    for (case, code) in [("0", 2), ("9", 2), ("3/2", 2), ("x", 2)] {
+        assert_eq!(rdsolve(folder, &["sweep", "s.toml", "--case", case]).status.code(), Some(code), "{case}");
+    }
+    // Expected values that are missed are results all the same.
+    let expects = "[[expect]]\nat = \"block\"\nquantity = \"z\"\npeak = \"min\"\nat_least = -0.12\n";
+    fs::write(folder.join("deck.toml"), format!("{DECK}{expects}")).unwrap();
+    fs::write(folder.join("s.toml"), SWEEP.replace("steps = 5", "steps = 1")).unwrap();
+    let output = rdsolve(folder, &["sweep", "s.toml"]);
+    assert_eq!(output.status.code(), Some(5), "{}", text(&output.stderr));
+    assert!(rows(folder, "s.out/summary.csv")[1][4].parse::<f64>().is_ok());
+}
+
+/// Cases from a table and from samples.
+#[test]
+fn cases_come_from_tables_and_samples() {
+    let table = "deck = \"deck.toml\"\n[vary]\ntable = \"cases.csv\"\n";
+    let folder = files(table);
+    let folder = folder.path();
+    fs::write(
+        folder.join("cases.csv"),
+        "# two of them\nbodies.block.mass, integrator.scheme\n1.5, newmark\n2.5, bathe\n",
+    )
+    .unwrap();
+    let output = rdsolve(folder, &["sweep", "s.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let cases = rows(folder, "s.out/cases.csv");
+    let result = fs::read_to_string(folder.join("s.out").join(&cases[2][1]).join("result.json")).unwrap();
+    assert!(result.contains("bodies.block.mass=2.5") && result.contains("integrator.scheme=bathe"));
+    for kind in ["sobol", "latin-hypercube"] {
+        let sample = format!(
+            "deck = \"deck.toml\"\n[vary]\nsample = {{ kind = \"{kind}\", cases = 6, seed = 3 }}\n\"bodies.block.mass\" = {{ from = 1.0, to = 2.0 }}\n\
+             \"links.rope.gap\" = {{ from = 0.0, to = 0.2 }}\n"
+        );
+        fs::write(folder.join("s.toml"), sample).unwrap();
+        assert!(rdsolve(folder, &["sweep", "s.toml", "-o", kind]).status.success());
+        let cases = rows(&folder.join(kind), "cases.csv");
+        assert_eq!(cases.len(), 7);
+        assert!(cases[1..].iter().all(|case| (1.0..2.0).contains(&case[2].parse::<f64>().unwrap())));
+    }
+}
+
+/// What is wrong with the file of a sweep is said all at once, each with its place.
+#[test]
+fn bad_files_are_errors_with_their_places() {
+    let folder = files("");
+    let folder = folder.path();
+    for (sweep, said) in [
+        ("", &["`deck` is missing", "`[vary]` is missing"][..]),
+        (
+            "deck = 1\nvary = 2\ncolect = {}\n",
+            &["`deck` must be the path", "`[vary]` must be a table", "did you mean `collect`?", "s.toml:3:1"],
+        ),
+        ("deck = \"deck.toml\"\n[vary]\n", &["nothing varies"]),
+        ("deck = \"deck.toml\"\n[vary]\nbodies.block.mass = [1.0]\n", &["put the whole key into quotes"]),
+        (
+            "deck = \"deck.toml\"\n[vary]\n\"a\" = []\n\"b\" = 3\n\"c\" = { from = 1.0 }\n\"d\" = { from = 1.0, to = 2.0 }\n",
+            &["`a` has no values", "`b` must be a list", "the range of `c` needs `from` and `to`", "`d` needs `steps`"],
+        ),
+        (
+            "deck = \"deck.toml\"\n[vary]\n\"a\" = { from = 1, to = 2, steps = 0 }\n",
+            &["`steps` must be a whole number from 1"],
+        ),
+        ("deck = \"deck.toml\"\n[vary]\ntable = \"x.csv\"\n\"a\" = [1]\n", &["nothing else may stand beside it"]),
+        ("deck = \"deck.toml\"\n[vary]\ntable = \"x.csv\"\n", &["cannot read the table of cases `x.csv`"]),
+        (
+            "deck = \"deck.toml\"\n[vary]\nsample = { kind = \"grid\" }\n\"a\" = [1]\n",
+            &["\"sobol\" or \"latin-hypercube\""],
+        ),
+        (
+            "deck = \"deck.toml\"\n[vary]\nsample = { kind = \"sobol\", cases = 4 }\n\"a\" = [1]\n",
+            &["a sample needs ranges"],
+        ),
+        (
+            "deck = \"deck.toml\"\n[vary]\n\"a\" = [1]\n[collect]\nx = { at = \"b\", peak = \"top\" }\ny = 1\ncase = { at = \"b\", quantity = \"z\", time = 1 }\n",
+            &["`peak` can be", "`y` must be a table", "`case` is a column of the summary already"],
+        ),
+        (
+            "deck = \"deck.toml\"\n[vary]\n\"a\" = [1]\n[collect]\nx = { at = \"b\" }\n",
+            &["`x` needs `at`, `quantity` and `peak` or `time`"],
+        ),
+    ] {
+        fs::write(folder.join("s.toml"), sweep).unwrap();
+        let output = rdsolve(folder, &["sweep", "s.toml"]);
+        let found = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{sweep}: {found}");
+        said.iter().for_each(|said| assert!(found.contains(said), "{sweep}: {found}"));
+    }
+    fs::write(folder.join("s.toml"), SWEEP.replace("deck.toml", "none.toml")).unwrap();
+    assert_eq!(rdsolve(folder, &["sweep", "s.toml"]).status.code(), Some(6));
+    assert_eq!(rdsolve(folder, &["sweep", "none.toml"]).status.code(), Some(6));
+}
