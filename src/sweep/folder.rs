@@ -6,6 +6,7 @@
 use super::cases::Cases;
 use super::collect::collect;
 use super::file::Collected;
+use super::page::page;
 use crate::deck::Deck;
 use crate::diagnostic::Source;
 use crate::output::{at, result_json};
@@ -106,7 +107,7 @@ impl SweepFolder {
         self.write("cases.csv", header.map(str::to_owned).collect(), cases.values.iter().enumerate().map(row))
     }
 
-    /// Writes `summary.csv`: what varies, what became of each case, and what is collected from it.
+    /// Writes `summary.csv`: what varies, what became of each case, and what is collected from it; and the page of it.
     ///
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
@@ -130,11 +131,14 @@ impl SweepFolder {
             rows.push(row);
             states.push(state);
         }
-        self.write("summary.csv", header.collect(), rows.into_iter())?;
+        let header: Vec<String> = header.collect();
+        let page = page(&header, &rows, &self.names, [cases.keys.len(), wanted.len()]);
+        self.move_in("summary.html", page.as_bytes())?;
+        self.write("summary.csv", header, rows.into_iter())?;
         Ok(states)
     }
 
-    /// Writes a file of comma separated values and moves it in whole, under a name of this process until then.
+    /// Writes a file of comma separated values.
     fn write(&self, name: &str, header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let written = writer.write_record(&header).and_then(|()| {
@@ -144,9 +148,14 @@ impl SweepFolder {
         let bytes = written
             .map_err(io::Error::from)
             .and_then(|()| writer.into_inner().map_err(|error| io::Error::other(error.to_string())))?;
+        self.move_in(name, &bytes)
+    }
+
+    /// Writes a file under a name of this process, and moves it in whole.
+    fn move_in(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let (path, own) = (self.path.join(name), self.path.join(format!("{name}.{}.tmp", std::process::id())));
         let moved =
-            fs::File::create(&own).and_then(|mut file| file.write_all(&bytes)).and_then(|()| fs::rename(&own, &path));
+            fs::File::create(&own).and_then(|mut file| file.write_all(bytes)).and_then(|()| fs::rename(&own, &path));
         moved.map_err(|error| {
             let _ = fs::remove_file(&own);
             at(&path, error)
