@@ -1,6 +1,6 @@
 //! Records: a quantity over time in columns of a text file, as instruments and data bases give them.
 //!
-//! Columns stand between commas, semicolons or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are
+//! Columns stand between semicolons, commas, tabs or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are
 //! comments; one line of names may come before the numbers.
 
 use crate::diagnostic::Diagnostic;
@@ -34,7 +34,8 @@ const MOST_FAULTS: usize = 10;
 /// All errors found in the file, at least one and at most some.
 pub fn read(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Vec<[f64; 2]>, Vec<Diagnostic>> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut reader = Reader { text: Text::new(path, bytes), separator: None, faults: Vec::new() };
+    let mut reader =
+        Reader { text: Text::new(path, bytes), separator: None, faults: Vec::new(), columns: 0, last: 0, blank: 0 };
     let points = reader.points(selection);
     if reader.faults.is_empty() {
         return Ok(points);
@@ -47,6 +48,11 @@ struct Reader<'t> {
     /// What stands between columns; `None` for blanks.
     separator: Option<u8>,
     faults: Vec<Fault>,
+    /// The number of columns of the first line of numbers.
+    columns: usize,
+    /// The number of the last line that was read, comments included, and of empty ones before it.
+    last: usize,
+    blank: usize,
 }
 
 /// The places of the wanted columns in a line, from 0.
@@ -59,6 +65,12 @@ impl<'t> Reader<'t> {
     fn points(&mut self, selection: &RecordSelection) -> Vec<[f64; 2]> {
         let Some((names, mut line)) = self.begin() else { return Vec::new() };
         let count = self.split(line).len();
+        if !names.is_empty() && names.len() != count {
+            let message = format!("the line of names has {} columns, that of numbers {count}", names.len());
+            self.faults.push(self.text.fault(message, line.number));
+            return Vec::new();
+        }
+        self.columns = count;
         let places = match places(selection, &names, count) {
             Ok(places) => places,
             Err(message) => {
@@ -88,7 +100,12 @@ impl<'t> Reader<'t> {
         };
         self.separator = separator(first);
         let words = self.split(first);
-        if words.iter().any(|word| word.number().is_some() || word.bytes.is_empty()) {
+        // A line of names has letters in each: `nan`, `inf` and `--` are values that are none.
+        let is_name = |word: &Word| {
+            let text = word.text();
+            text.contains(char::is_alphabetic) && text.parse::<f64>().is_err() && word.number().is_none()
+        };
+        if !words.iter().all(is_name) {
             return Some((Vec::new(), first));
         }
         let names = words.iter().map(|word| word.text().trim_matches(['"', '\'', ' ']).to_owned()).collect();
@@ -107,12 +124,21 @@ impl<'t> Reader<'t> {
     fn next_line(&mut self) -> Option<TextLine<'t>> {
         loop {
             let line = self.text.line()?;
+            (self.blank, self.last) = (line.number - self.last - 1, line.number);
             if !line.bytes.trim_ascii_start().starts_with(b"#")
                 && !line.bytes.trim_ascii_start().starts_with(b"%")
                 && !line.bytes.trim_ascii_start().starts_with(b"!")
             {
                 return Some(line);
             }
+        }
+    }
+
+    /// The number of columns of a line.
+    fn count(&self, line: TextLine<'t>) -> usize {
+        match self.separator {
+            Some(separator) => line.parts(separator).count(),
+            None => line.words().count(),
         }
     }
 
@@ -133,8 +159,19 @@ impl<'t> Reader<'t> {
 
     /// Reads one line.
     fn point(&mut self, line: TextLine<'t>, places: &Places, time_step: Option<f64>, points: &mut Vec<[f64; 2]>) {
+        let count = self.count(line);
+        if count > self.columns {
+            let message = format!("the line has {count} columns, those before it {}", self.columns);
+            self.faults.push(self.text.fault(message, line.number));
+            return;
+        }
         let Some(value) = self.number(line, places.value) else { return };
         let Some(place) = places.time else {
+            // Without times an empty line would make all later values early.
+            if self.blank > 0 && !points.is_empty() {
+                self.faults.push(self.text.fault("there is a gap: the line is empty", line.number - 1));
+                return;
+            }
             points.push([points.len() as f64 * time_step.unwrap_or(1.0), value]);
             return;
         };
@@ -183,7 +220,7 @@ impl<'t> Reader<'t> {
 
 /// What stands between the columns of a line: `None` for blanks.
 fn separator(line: TextLine) -> Option<u8> {
-    [b';', b','].into_iter().find(|separator| line.bytes.contains(separator))
+    [b';', b',', b'\t'].into_iter().find(|separator| line.bytes.contains(separator))
 }
 
 /// Finds the wanted columns among `count`, some of which have names.
@@ -194,7 +231,7 @@ fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result
         names => format!("the file has {}", quoted(names.iter().map(String::as_str))),
     };
     if selection.columns.is_empty() {
-        let which = if wanted == 1 { "that of the value" } else { "those of time and value" };
+        let which = if wanted == 1 { "that of the value" } else { "that of the time and that of the value" };
         return match count == wanted {
             true => Ok(Places { time: (wanted == 2).then_some(0), value: wanted - 1 }),
             false if count == 1 => Err("the file has one column: `time_step` says how far apart its values are".into()),
@@ -204,6 +241,9 @@ fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result
     let found = selection.columns.iter().map(|column| match column {
         RecordColumn::Number(number) if (1..=count as u64).contains(number) => Ok(*number as usize - 1),
         RecordColumn::Number(number) => Err(format!("there is no column {number}: {of_file}")),
+        RecordColumn::Name(name) if names.iter().filter(|own| *own == name).count() > 1 => {
+            Err(format!("more than one column is named `{name}`: give its number"))
+        }
         RecordColumn::Name(name) => names.iter().position(|own| own == name).ok_or_else(|| {
             let like = nearest(name, names.iter().map(String::as_str));
             let like = like.map_or(String::new(), |like| format!("; did you mean `{like}`?"));
@@ -270,6 +310,17 @@ mod tests {
             ("0 1\n1\n", &plain, "there is a gap: the line has 1 column"),
             ("0,1\n2,1\n1,1\n", &plain, "the time falls: 1 comes after 2"),
             ("0,1\n0,2\n0,3\n", &plain, "more than twice"),
+            ("0,1\n1,2,3\n", &plain, "the line has 3 columns, those before it 2"),
+            ("\"t, s\",x\n0,1\n", &plain, "the line of names has 3 columns, that of numbers 2"),
+            (
+                "0\t1\t2\n1\t\t2\n",
+                &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], None),
+                "there is a gap: column 2 is empty",
+            ),
+            ("nan\n1\n2\n", &select(&[], Some(1.0)), "`nan` is not a finite number"),
+            ("--\n1\n2\n", &select(&[], Some(1.0)), "`--` is not a finite number"),
+            ("1\n\n2\n", &select(&[], Some(1.0)), "there is a gap: the line is empty"),
+            ("t,x,x\n0,1,2\n1,2,3\n", &select(&[name("t"), name("x")], None), "more than one column is named `x`"),
             ("0\n1\n", &plain, "`time_step` says"),
             ("0,1,2\n1,2,3\n", &plain, "`columns` must say"),
             ("t,acc\n0,1\n1,2\n", &select(&[name("t"), name("ac")], None), "did you mean `acc`?"),

@@ -36,6 +36,9 @@ pub fn tell_mesh_error(
         return Err(unknown("paths of given arc length have other load factors at each step with another mesh"));
     }
     let (Some(deck), _) = crate::deck::read(source) else { return Err(unknown("the deck cannot be read again")) };
+    if !model.parts.iter().any(|part| part.kind().is_deformable()) {
+        return Err(unknown("there is none, for nothing deforms"));
+    }
     let CoarserMesh { sets, apart, unchanged } = coarser(&deck, model);
     if sets.is_empty() {
         let why = "no part can have fewer elements, or a lower degree, than it has";

@@ -69,7 +69,7 @@ enum Command {
     Study(Box<study::StudyArgs>),
     /// Run many variants of a deck, here or as one shard of many, and collect numbers of each in one table
     Sweep(sweep::SweepArgs),
-    /// Print peaks, ends and balance of a folder of results
+    /// Print peaks and ends of all columns of a folder of results
     Summary(summary::SummaryArgs),
     /// Print a commented deck that runs, to begin with: `rdsolve init frame > deck.toml`
     Init(init::InitArgs),

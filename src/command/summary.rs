@@ -1,4 +1,4 @@
-//! `rdsolve summary DIR`: peaks and ends of all columns of a result, its status and its energy balance.
+//! `rdsolve summary DIR`: peaks and ends of all columns of a result, and its status.
 
 use super::console::{complain, print};
 use super::exit::Exit;

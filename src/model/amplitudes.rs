@@ -47,10 +47,11 @@ fn read_amplitude<'d>(
             if a.file.is_none() {
                 report.reject_unused("a table without a file", &of_file);
                 let points = report.require(&owner, "points", &a.points)?;
-                return report.rising("time", points).map(|points| table(a, points));
+                let points = report.rising("time", points)?;
+                return table(a, points, report);
             }
             report.reject_unused("a table from a file", &[("points", span(&a.points))]);
-            record.map(|record| table(a, record.points.clone()))
+            table(a, record?.points.clone(), report)
         }
         words::AmplitudeKind::Sine => {
             report.reject_unused("a sine", &points);
@@ -80,7 +81,11 @@ fn read_amplitude<'d>(
 }
 
 /// A table at the scale of the deck, which jumps to zero at its ends where the deck says so.
-fn table(a: &words::Amplitude, mut points: Vec<[f64; 2]>) -> Amplitude {
+fn table<'d>(
+    a: &'d At<Table<words::Amplitude>>,
+    mut points: Vec<[f64; 2]>,
+    report: &mut Report<'d>,
+) -> Option<Amplitude> {
     let is_zero = |beyond: &Maybe<words::Beyond>| beyond.as_ref().is_some_and(|at| at.value == words::Beyond::Zero);
     let number = |given: &Maybe<f64>, default: f64| given.as_ref().map_or(default, |given| given.value);
     let (scale, shift) = (number(&a.scale, 1.0), number(&a.shift, 0.0));
@@ -91,7 +96,15 @@ fn table(a: &words::Amplitude, mut points: Vec<[f64; 2]>) -> Amplitude {
     if is_zero(&a.after) {
         points.push([points[points.len() - 1][0], 0.0]);
     }
-    Amplitude::Table(amplitude::StraightLines::new(points))
+    let is_steep = |pair: &[[f64; 2]]| {
+        let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+        pair[1][0] > pair[0][0] && !slope.is_finite()
+    };
+    if points.iter().flatten().any(|number| !number.is_finite()) || points.windows(2).any(is_steep) {
+        let place = a.scale.as_ref().map_or(&a.span, |scale| &scale.span);
+        return report.error(place, "values or slopes of this table lie beyond the range of numbers, about 1e308");
+    }
+    Some(Amplitude::Table(amplitude::StraightLines::new(points)))
 }
 
 /// Radians per time.

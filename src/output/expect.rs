@@ -104,11 +104,6 @@ impl Sample {
             sample.other = Some(value);
         }
     }
-
-    /// The difference to the other run.
-    fn difference(&self) -> Option<f64> {
-        self.other.map(|other| (self.value - other).abs())
-    }
 }
 
 impl Expectations {
@@ -236,9 +231,9 @@ impl Watch {
 
     /// The error that another run tells, of which this history is known and what it has at the time of the sample of one of both.
     fn told_by(&self, sample: Option<Sample>, other: &ComparedHistory, apart: f64, end_time: f64) -> Option<f64> {
-        let at_the_time = sample.and_then(|sample| sample.difference());
+        let pair = sample.and_then(|sample| Some([sample.value, sample.other?]));
         let anywhere = self.history.largest_differences(other, 1, 1e-9 * end_time);
-        Told::by(at_the_time, anywhere.map(|all| all[0]), apart).error
+        Told::by(pair, anywhere.map(|all| all[0]), apart).error
     }
 
     /// The value in a frame; `None` where the frame does not have it.

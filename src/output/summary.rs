@@ -4,6 +4,7 @@ use super::disk::at;
 use super::result_json;
 use super::table_reader::{TableReader, fields, number, text};
 use super::tables::TABLES;
+use crate::names::to_digits;
 use serde::Serialize;
 use serde_json::Value;
 use std::fs;
@@ -66,10 +67,11 @@ impl ResultSummary {
             Err(error) => return Err(at(&path, error)),
         };
         let mut columns = Vec::new();
-        for table in TABLES.iter().filter(|table| !table.every_step && folder.join(table.file).exists()) {
+        let is_there = |file: &str| folder.join(file).exists();
+        for table in TABLES.iter().filter(|table| !table.every_step && is_there(table.file)) {
             columns.extend(of_table(folder, table.file)?);
         }
-        if result.is_null() && columns.is_empty() {
+        if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
         }
         let list = |key: &str| result[key].as_array().into_iter().flatten();
@@ -87,13 +89,12 @@ impl ResultSummary {
 /// An expected value in words.
 fn expectation(one: &Value) -> String {
     let mark = if one["passed"].as_bool() == Some(true) { "ok  " } else { "MISS" };
-    let number = |key: &str| one[key].as_f64().map_or("none".to_owned(), |value| value.to_string());
-    format!(
-        "{mark} {}: {}, expected {}",
-        one["label"].as_str().unwrap_or_default(),
-        number("value"),
-        number("expected")
-    )
+    let number = |key: &str| one[key].as_f64().map_or("none".to_owned(), |value| to_digits(value, 7));
+    let label = one["label"].as_str().unwrap_or_default();
+    let bars = ["step_error", "mesh_error"].iter().filter_map(|key| one[*key].as_f64());
+    let bars: String = bars.map(|bar| format!(" ± {}", to_digits(bar, 2))).collect();
+    let wanted = one["bound"].as_str().unwrap_or("expected");
+    format!("{mark} {label}: {}{bars}, {wanted} {}", number("value"), number("expected"))
 }
 
 /// The extremes of all columns of numbers of a table; none where it has no rows.

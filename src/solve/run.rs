@@ -22,6 +22,13 @@ use crate::system::energy::Balance;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+/// Into how many the intervals between the times at which steps must end are cut, in the run under way and the one before.
+#[derive(Debug, Clone, Copy)]
+struct Pieces {
+    now: usize,
+    before: usize,
+}
+
 /// A run of one scene. Whatever its steps need is allocated when it is made.
 pub struct Run<'a> {
     context: Context<'a>,
@@ -94,6 +101,7 @@ impl<'a> Run<'a> {
         let mut schedule = Schedule::new(model, times(), inside);
         let mut error = StepError::new(asked);
         let mut before: Option<Kept> = None;
+        let mut pieces = Pieces { now: 1, before: 1 };
         self.follow(asked, None);
         loop {
             let mut trace = Trace::new(observer, power);
@@ -101,24 +109,24 @@ impl<'a> Run<'a> {
             let run = trace.into_kept();
             // What fails with shorter steps did come to its end with those before.
             if before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
-                return self.settle(error, &Schedule::new(model, times(), inside), observer);
+                return self.settle(error, &Schedule::new(model, times(), inside).cut(pieces.before), observer);
             }
             if !matches!(outcome, Outcome::Done) {
                 return (outcome, state);
             }
-            let other = match before.take().filter(|other| run.is_told_by(other)) {
-                Some(other) => Some((OtherRun::Before(run.apart(&other)), other)),
-                None => match self.trial(&mut error, run.longest(), power, observer) {
-                    Ok(other) => other.map(|other| (OtherRun::Trial(run.apart(&other)), other)),
-                    Err(outcome @ Outcome::Io(_)) => return (outcome, state),
-                    Err(_) => return (Outcome::Stopped { time: model.analysis.end_time }, state),
-                },
+            let other = match self.other_run(&run, before.take(), &mut error, observer) {
+                Ok(other) => other,
+                Err(outcome) => return (outcome, state),
             };
             let next = match &other {
                 Some((_, other)) => error.judge(&run, other, self.context.length),
                 None => Some(error.without_trial()),
             };
+            let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
             observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which));
+            // Jumps and kinks of loads dictate most steps: only shorter ones between them tell anything.
+            pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
+            let next = if dictated { Some(error.tolerance) } else { next };
             let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
                 self.workspace.warnings.extend(error.doubt());
                 self.step_error = Some(error);
@@ -127,7 +135,7 @@ impl<'a> Run<'a> {
             let most_steps = MOST_LONGER * self.recorder.counts.steps;
             // Steps that no tolerance limits shrink as well, or the run would be the same again.
             let compared = if inside { observer.times_to_compare() } else { Vec::new() };
-            schedule = Schedule::new(model, times().chain(compared), inside);
+            schedule = Schedule::new(model, times().chain(compared), inside).cut(pieces.now);
             let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / (power - 1) as f64);
             if let Err(error) = self.begin_again(&mut error, (tolerance, Some(longest)), observer) {
                 return (Outcome::Io(error), state);
@@ -135,6 +143,24 @@ impl<'a> Run<'a> {
             self.recorder.most_steps = most_steps;
             before = Some(run);
         }
+    }
+
+    /// The run that tells the error of this one: that before, or a trial; `None` where the trial does not come to its end.
+    ///
+    /// # Errors
+    /// The outcome that ends the run: a signal, or a fault of the observer.
+    fn other_run(
+        &mut self,
+        run: &Kept,
+        before: Option<Kept>,
+        error: &mut StepError,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<(OtherRun, Kept)>, Outcome> {
+        if let Some(before) = before.filter(|before| run.is_told_by(before)) {
+            return Ok(Some((OtherRun::Before(run.apart(&before)), before)));
+        }
+        let trial = self.trial(error, run.longest(), observer)?;
+        Ok(trial.map(|trial| (OtherRun::Trial(run.apart(&trial)), trial)))
     }
 
     /// Makes the run by the tolerance before once more, for the run under way fails or asks for far too many steps.
@@ -183,10 +209,10 @@ impl<'a> Run<'a> {
         &mut self,
         error: &mut StepError,
         longest: f64,
-        power: usize,
         observer: &mut dyn Observer,
     ) -> Result<Option<Kept>, Outcome> {
         let (model, inside) = (self.context.model, self.controller.looks_inside());
+        let power = model.solution.scheme.order() + 1;
         let recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));
         self.recorder.is_trial = true;
         let warnings = std::mem::take(&mut self.workspace.warnings);
@@ -204,7 +230,8 @@ impl<'a> Run<'a> {
         (self.workspace.rotation_drift, self.workspace.joint_violation) = seen;
         match outcome {
             Outcome::Done => Ok(Some(trace.into_kept())),
-            Outcome::Stopped { .. } | Outcome::Io(_) => Err(outcome),
+            Outcome::Stopped { .. } => Err(Outcome::Stopped { time: model.analysis.end_time }),
+            Outcome::Io(_) => Err(outcome),
             Outcome::Failed { .. } => Ok(None),
         }
     }

@@ -76,6 +76,9 @@ pub fn coarser(deck: &Deck, model: &Model) -> CoarserMesh {
                 let words: Vec<String> = halves.iter().map(u64::to_string).collect();
                 let value = if at.single { words.concat() } else { format!("[{}]", words.join(", ")) };
                 mesh.sets.push(format!("{path}.elements={value}"));
+                if order.is_none() && at.values.iter().any(|count| count.value == 1) {
+                    mesh.unchanged.push(label);
+                }
             }
             _ => match order.filter(|order| *order > 1) {
                 Some(order) => {

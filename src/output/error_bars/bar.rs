@@ -7,6 +7,9 @@ const AT_THE_TIME: f64 = 3.0;
 /// ... or this multiple of the largest at the times of comparison, whichever is larger.
 const ANYWHERE: f64 = 1.5;
 
+/// Where two runs differ by a larger part of a value, no order of convergence is to be relied on: the better one may be as wrong.
+const ASYMPTOTIC: f64 = 0.1;
+
 /// The largest value of a column with the errors that are left in it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ErrorBar {
@@ -40,9 +43,12 @@ pub struct Told {
 }
 
 impl Told {
-    /// From the differences to a run whose errors are larger by the factor `apart`: that at the time of the value, and the largest at any
+    /// From the value and that of another run at its time, whose errors are larger by the factor `apart`, and the largest difference at any
     /// time that was compared.
-    pub fn by(at_the_time: Option<f64>, anywhere: Option<f64>, apart: f64) -> Told {
+    pub fn by(pair: Option<[f64; 2]>, anywhere: Option<f64>, apart: f64) -> Told {
+        let at_the_time = pair.map(|[value, other]| (value - other).abs());
+        let differs = pair.is_some_and(|[value, other]| (value - other).abs() > ASYMPTOTIC * value.abs());
+        let apart = if differs { apart.min(2.0) } else { apart };
         let [at_the_time, anywhere] = [at_the_time, anywhere].map(|difference| difference.map(|d| d / (apart - 1.0)));
         let bars = [at_the_time.map(|error| AT_THE_TIME * error), anywhere.map(|error| ANYWHERE * error)];
         Told { error: bars.into_iter().flatten().filter(|bar| bar.is_finite()).reduce(f64::max), anywhere }

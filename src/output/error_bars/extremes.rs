@@ -39,13 +39,13 @@ impl Extremes {
         }
     }
 
-    /// Reads what another run has at the places of the extremes of this time, to `rounding`.
-    pub fn read(&mut self, rows: &CollectedRows, time: f64, rounding: f64) {
+    /// Reads what another run has at the places of the extremes of this time, to `rounding`; it may have another mesh.
+    pub fn read(&mut self, rows: &CollectedRows, time: f64, rounding: f64, same_mesh: bool) {
         for (column, extreme) in self.0.iter_mut().enumerate() {
             let Some(extreme) = extreme.as_mut().filter(|extreme| (extreme.time - time).abs() <= rounding) else {
                 continue;
             };
-            extreme.other = rows.find(extreme.row, &extreme.label, column);
+            extreme.other = rows.find((extreme.row, &extreme.label), column, same_mesh);
         }
     }
 

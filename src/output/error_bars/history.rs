@@ -11,12 +11,15 @@ pub struct ComparedHistory {
     /// The numbers of each time, and where those of the first, second, ... end.
     numbers: Vec<f64>,
     ends: Vec<usize>,
+    /// True where a time had no room.
+    is_full: bool,
 }
 
 impl ComparedHistory {
-    /// Keeps the numbers of a time, as long as there is room.
+    /// Keeps the numbers of a time; where there is no more room nothing is known any more.
     pub fn keep(&mut self, time: f64, numbers: &[f64]) {
-        if self.numbers.len() + numbers.len() > MOST {
+        self.is_full |= self.numbers.len() + numbers.len() > MOST;
+        if self.is_full {
             return;
         }
         self.times.push(time);
@@ -34,11 +37,15 @@ impl ComparedHistory {
         self.times.clear();
         self.numbers.clear();
         self.ends.clear();
+        self.is_full = false;
     }
 
     /// The largest difference to another run at any time that both have, for each of so many columns; NaN does not count. `None` where they
-    /// have no time in common. Times within `rounding` of each other are the same.
+    /// have no time in common, or one was too large to keep. Times within `rounding` of each other are the same.
     pub fn largest_differences(&self, other: &ComparedHistory, columns: usize, rounding: f64) -> Option<Vec<f64>> {
+        if self.is_full || other.is_full {
+            return None;
+        }
         let mut largest = None;
         let mut theirs = 0;
         for (mine, &time) in self.times.iter().enumerate() {

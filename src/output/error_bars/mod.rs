@@ -87,7 +87,7 @@ impl ErrorBars {
         for (table, WatchedTable { write, rows, .. }) in self.tables.iter_mut().zip(&mut theirs.tables) {
             rows.clear();
             write(rows, frame)?;
-            table.seen.largest.read(rows, frame.state.time, self.rounding);
+            table.seen.largest.read(rows, frame.state.time, self.rounding, false);
             table.unseen.keep(frame.state.time, rows.numbers());
         }
         Ok(())
@@ -119,7 +119,7 @@ impl Observer for ErrorBars {
                 seen.largest.update(rows, time);
             }
             if frame.compared {
-                before.largest.read(rows, time, self.rounding);
+                before.largest.read(rows, time, self.rounding, true);
             }
             if frame.compared || self.at_output_times {
                 seen.history.keep(time, rows.numbers());
@@ -152,7 +152,7 @@ impl Observer for ErrorBars {
         for WatchedTable { write, rows, seen, unseen, .. } in &mut self.tables {
             rows.clear();
             write(rows, frame)?;
-            seen.largest.read(rows, time, self.rounding);
+            seen.largest.read(rows, time, self.rounding, true);
             unseen.keep(time, rows.numbers());
         }
         Ok(())
@@ -177,8 +177,8 @@ impl WatchedTable {
     fn told_by(&self, compared: &Account, other: &ComparedHistory, apart: f64, rounding: f64) -> Vec<Told> {
         let anywhere = self.seen.history.largest_differences(other, self.rows.width(), rounding);
         let told = |(column, largest): (usize, &Option<extremes::Extreme>)| {
-            let at_the_time = largest.as_ref().and_then(|largest| Some((largest.value - largest.other?).abs()));
-            Told::by(at_the_time, anywhere.as_ref().map(|all| all[column]), apart)
+            let pair = largest.as_ref().and_then(|largest| Some([largest.value, largest.other?]));
+            Told::by(pair, anywhere.as_ref().map(|all| all[column]), apart)
         };
         compared.largest.0.iter().enumerate().map(told).collect()
     }

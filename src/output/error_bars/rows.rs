@@ -52,11 +52,11 @@ impl CollectedRows {
         self.keys[start..end].trim_end()
     }
 
-    /// The number of a thing in a column of numbers: in this row if it is about that, else in the first that is. Nodes between named points
-    /// and elements lie elsewhere in another mesh, so for these it is that of largest magnitude in the column.
-    pub fn find(&self, row: usize, label: &str, column: usize) -> Option<f64> {
+    /// The number of a thing in a column of numbers: in this row if it is about that, else in the first that is. In another mesh, nodes
+    /// between named points and elements lie elsewhere, so for these it is that of largest magnitude in the column.
+    pub fn find(&self, (row, label): (usize, &str), column: usize, same_mesh: bool) -> Option<f64> {
         let same_rows = self.ends.get(row).is_some() && self.label(row) == label;
-        if !same_rows && (self.by_element || label.ends_with(']')) {
+        if !same_mesh && (self.by_element || label.ends_with(']')) {
             let all = (0..self.ends.len()).filter_map(|row| self.number_at(row, column));
             return all.reduce(|most, number| if number.abs() > most.abs() { number } else { most });
         }

@@ -22,6 +22,8 @@ pub struct EmbeddedErrorController {
     stepper: Box<RungeKuttaStepper>,
     /// Error of displacements allowed for the whole run, relative to the largest displacement.
     tolerance: f64,
+    /// The same as the deck asks for it.
+    asked: f64,
     /// Length of the next step.
     next: f64,
     /// Largest displacement and rotation so far.
@@ -37,6 +39,7 @@ impl EmbeddedErrorController {
         EmbeddedErrorController {
             stepper,
             tolerance,
+            asked: tolerance,
             next: first,
             motion: Size::default(),
             first,
@@ -80,7 +83,9 @@ impl EmbeddedErrorController {
 
 impl FollowTolerance for EmbeddedErrorController {
     fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
-        (self.tolerance, self.next) = (tolerance, self.first);
+        // A trial has a longer first step too, or what that decides would be the same in both runs.
+        let longer = (tolerance / self.asked).powf(1.0 / self.stepper.error_order()).clamp(1.0, 2.0);
+        (self.tolerance, self.next) = (tolerance, self.first * longer);
         self.longest = longest.unwrap_or(f64::INFINITY);
     }
 }

@@ -60,6 +60,8 @@ pub struct ErrorController<'a> {
     stepper: Box<Implicit<'a>>,
     /// Error of displacements allowed for the whole run, relative to the largest displacement.
     tolerance: f64,
+    /// The same as the deck asks for it.
+    asked: f64,
     /// The error constant c of the scheme.
     constant: f64,
     /// The order p of the scheme.
@@ -102,6 +104,7 @@ impl<'a> ErrorController<'a> {
         ErrorController {
             stepper,
             tolerance,
+            asked: tolerance,
             constant: mean * error_constant(scheme),
             order: scheme.order() as i32,
             length: first,
@@ -260,7 +263,8 @@ impl FollowTolerance for ErrorController<'_> {
     fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
         self.tolerance = tolerance;
         self.stepper.newton.ending.follow(tolerance);
-        self.length = self.first;
+        // A trial has a longer first step too, or what that decides would be the same in both runs.
+        self.length = self.first * (tolerance / self.asked).powf(1.0 / f64::from(self.order)).clamp(1.0, 2.0);
         self.longest = longest.unwrap_or(self.most);
         (self.lasting_intensity, self.intensity) = (None, None);
         self.lasting.forget();

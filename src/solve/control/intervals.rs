@@ -70,6 +70,25 @@ impl Schedule {
         divide(model, events)
     }
 
+    /// The same with each interval cut into so many equal ones: steps become shorter where nothing but the ends of intervals sets their length.
+    pub fn cut(mut self, pieces: usize) -> Schedule {
+        let cut = |interval: &Interval| {
+            let &Interval { from, to, steps, due, jump, compared } = interval;
+            let last = pieces - 1;
+            let time = move |k: usize| if k == pieces { to } else { from + (to - from) * (k as f64 / pieces as f64) };
+            (0..pieces).map(move |k| Interval {
+                from: time(k),
+                to: time(k + 1),
+                steps: steps.div_ceil(pieces),
+                due: due && k == last,
+                jump: jump && k == last,
+                compared: compared && k == last,
+            })
+        };
+        self.intervals = self.intervals.iter().flat_map(cut).collect();
+        self
+    }
+
     /// The times of a trial run, of which nothing is written.
     pub fn of_trial(model: &Model, compared: impl Iterator<Item = f64>, inside: bool) -> Schedule {
         let mut events: Vec<Event> = compared.map(|time| comparison(time, !inside)).collect();
@@ -118,9 +137,6 @@ fn add_output_times(model: &Model, out: &mut Vec<Event>, ends: bool) {
     }
 }
 
-/// The largest number of points of a table at each of which a step ends.
-const MOST_KINKS: usize = 5000;
-
 fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
     let driving = || {
         let loads = model.loading.nodal.iter().filter_map(|load| load.amplitude);
@@ -136,8 +152,7 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
         }));
     }
     if model.analysis.step_length.is_automatic() {
-        // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion. A long record is taken for a
-        // smooth signal, of which the scene tells how much it follows.
+        // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion.
         let motions = model
             .constraints
             .restraints
@@ -145,10 +160,7 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
             .filter_map(|restraint| restraint.motion.as_ref())
             .map(|motion| motion.amplitude);
         for amplitude in motions.chain(driving()) {
-            let kinks = model.loading.amplitudes[amplitude].kinks();
-            if kinks.len() <= MOST_KINKS {
-                out.extend(kinks.into_iter().map(|time| at(time, false, true)));
-            }
+            out.extend(model.loading.amplitudes[amplitude].kinks().into_iter().map(|time| at(time, false, true)));
         }
     }
 }

@@ -83,7 +83,7 @@ impl StepError {
         let estimate = difference / (run.apart(other) - 1.0);
         let before = std::mem::replace(&mut self.estimate, told.then_some(estimate));
         if !told {
-            return (!run.has_steps_of(other)).then(|| self.without_trial());
+            return Some(self.without_trial());
         }
         // Runs that have nothing in common tell little of how much shorter steps must be, and a few of them that there is no such length.
         let lost = difference > SATURATED;

@@ -12,6 +12,8 @@ const MOST_NODES: usize = 20_000;
 
 /// Errors of steps add up to less than their sum: they fall at least with this power of it.
 const SLOPE: f64 = 0.8;
+/// Number of steps for whose ends there is room from the first step on; memory that is not touched costs nothing.
+const USUAL_STEPS: usize = 1 << 16;
 /// Runs of nearly the same steps tell nothing of each other.
 const TELLING: f64 = 1.1;
 
@@ -19,11 +21,9 @@ const TELLING: f64 = 1.1;
 pub struct Trace<'o> {
     observer: &'o mut dyn Observer,
     kept: Kept,
-    /// The error of a step goes with this power of its length.
-    power: i32,
 }
 
-/// What a trace keeps. It is allocated with the first step.
+/// What a trace keeps; the ends of steps grow with it.
 #[derive(Debug, Clone, Default)]
 pub struct Kept {
     /// Displacements of the compared nodes, one time after the other.
@@ -34,15 +34,17 @@ pub struct Kept {
     velocities: Vec<[Vec3; 2]>,
     /// Number of times so far.
     times: usize,
-    /// Sum over the steps of the power of their length with which their errors go.
-    left: f64,
+    /// The ends of all steps, the first at t = 0.
+    ends: Vec<f64>,
+    /// The error of a step goes with this power of its length.
+    power: i32,
     longest: f64,
 }
 
 impl<'o> Trace<'o> {
     /// An empty trace in front of another observer; the error of a step goes with this power of its length.
     pub fn new(observer: &'o mut dyn Observer, power: usize) -> Self {
-        Trace { observer, kept: Kept::default(), power: power as i32 }
+        Trace { observer, kept: Kept { power: power as i32, ..Kept::default() } }
     }
 
     /// What was kept.
@@ -63,7 +65,7 @@ impl Observer for Unseen<'_> {
 impl Observer for Trace<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if !frame.inside {
-            self.kept.left += frame.dt.powi(self.power);
+            self.kept.ends.push(frame.state.time);
             self.kept.longest = self.kept.longest.max(frame.dt);
         }
         self.kept.look(frame);
@@ -71,7 +73,7 @@ impl Observer for Trace<'_> {
     }
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {
-        self.kept = Kept::default();
+        self.kept = Kept { power: self.kept.power, ..Kept::default() };
         self.observer.restart(model)
     }
 }
@@ -82,6 +84,7 @@ impl Kept {
         let Frame { model, state, .. } = frame;
         let stride = model.nodes.len().div_ceil(MOST_NODES).max(1);
         if self.displacements.capacity() == 0 {
+            self.ends.reserve(USUAL_STEPS);
             self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
             self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
@@ -101,19 +104,38 @@ impl Kept {
         self.times += 1;
     }
 
-    /// The factor by which the error of another run is larger, as its steps tell.
+    /// The factor by which the error of another run is larger, as those of its steps tell that this one has not gone too.
     pub fn apart(&self, other: &Kept) -> f64 {
-        (other.left / self.left).powf(SLOPE)
+        let [own, theirs] = [(self, other), (other, self)].map(|(run, than)| run.own_steps(than));
+        if own.left > 0.0 { (theirs.left / own.left).powf(SLOPE) } else { 1.0 }
     }
 
     /// True where the steps of another run are enough longer to tell the error of this one.
     pub fn is_told_by(&self, other: &Kept) -> bool {
-        self.apart(other) > TELLING
+        !self.has_steps_of(other) && self.apart(other) > TELLING
     }
 
-    /// True where both went the same steps, which something else than their tolerance dictates.
+    /// True where most steps are those of the other run, which something else than their tolerance dictates.
     pub fn has_steps_of(&self, other: &Kept) -> bool {
-        (self.apart(other) - 1.0).abs() < TELLING - 1.0
+        2 * self.own_steps(other).count < self.ends.len().saturating_sub(1)
+    }
+
+    /// The steps that another run has not gone.
+    fn own_steps(&self, other: &Kept) -> OwnSteps {
+        let mut own = OwnSteps { count: 0, left: 0.0 };
+        let mut at = 0;
+        for step in self.ends.windows(2) {
+            let rounding = 1e-9 * (step[1] - step[0]);
+            while other.ends.get(at).is_some_and(|time| *time < step[0] - rounding) {
+                at += 1;
+            }
+            let is = |place: usize, time: f64| other.ends.get(place).is_some_and(|end| (end - time).abs() <= rounding);
+            if !(is(at, step[0]) && is(at + 1, step[1])) {
+                own.count += 1;
+                own.left += (step[1] - step[0]).powi(self.power);
+            }
+        }
+        own
     }
 
     /// The longest step.
@@ -175,6 +197,12 @@ impl Kept {
         let moved = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
         Motion(moved, self.rotations.iter().map(angle).fold(0.0, f64::max))
     }
+}
+
+/// Steps that another run has not gone: their number, and the sum of the power of their length with which their errors go.
+struct OwnSteps {
+    count: usize,
+    left: f64,
 }
 
 struct Motion(f64, f64);
