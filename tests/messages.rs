@@ -350,6 +350,9 @@ fn geometry() {
     assert_snapshot!("zero_orientation", portal(&[("orientation = [0.0, 1.0, 0.0]", "orientation = [0.0, 0.0, 0.0]")]));
     assert_snapshot!("no_length", portal(&[("knee_right = [1.5, 0.0, 2.0]", "knee_right = [0.0, 0.0, 2.0]")]));
     assert_snapshot!("elements_per_segment", portal(&[("elements = 12", "elements = [12, 0]")]));
+    assert_snapshot!("grading_out_of_range", portal(&[("elements = 12", "elements = 12\ngrading = [0.0, 1.5, 0.5]")]));
+    assert_snapshot!("grading_per_segment", portal(&[("elements = 12", "elements = 12\ngrading = [0.1, 0.2]")]));
+    assert_snapshot!("grading_of_two", portal(&[("elements = 12", "elements = [12, 2, 12]\ngrading = 0.1")]));
     assert_snapshot!(
         "short_path",
         portal(&[("path = [\"foot_left\", \"knee_left\", \"knee_right\", \"foot_right\"]", "path = \"foot_left\"")])

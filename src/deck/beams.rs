@@ -20,6 +20,10 @@ pub struct Beam {
     pub group: Maybe<String>,
     /// Elements per segment, 1 or more, or a list with one number for each segment.
     pub elements: Maybe<OneOrMany<u64>>,
+    /// Length of the first and the last element of a segment over that of its longest, above 0 to 1, or a list with one for each segment:
+    /// from either end to the middle each element is longer than the one before by the same factor. For plastic hinges at the ends of
+    /// legs, and other short ends; 3 elements or more. Default: 1, all of one length.
+    pub grading: Maybe<OneOrMany<f64>>,
     /// Name of a material; left out where the section gives stiffnesses.
     pub material: Maybe<String>,
     /// Name of a section.

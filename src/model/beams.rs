@@ -1,6 +1,7 @@
 //! `[[beams]]`: paths or groups of the mesh → nodes and elements.
 
 use super::data::{Beam, BeamElement, Part, PartIndex, PartKind};
+use super::grading::{cuts, gradings};
 use super::part_context::PartContext;
 use super::paths::{counts, path, segments};
 use super::report::Owner;
@@ -70,7 +71,8 @@ fn read_beam<'d>(
         return None;
     }
     elements.iter_mut().for_each(|element| element.section = section);
-    Some(Beam { name, order, mass, rotary_inertia: flag(&beam.rotary_inertia, true), yielding, elements })
+    let graded = beam.grading.as_ref().is_some_and(|grading| grading.values.iter().any(|part| part.value < 1.0));
+    Some(Beam { name, order, mass, rotary_inertia: flag(&beam.rotary_inertia, true), yielding, graded, elements })
 }
 
 /// A beam whose nodes and elements are to be made.
@@ -90,6 +92,7 @@ impl<'d> Line<'_, 'd> {
         let unused = [
             ("path", span(&self.beam.path)),
             ("elements", span(&self.beam.elements)),
+            ("grading", span(&self.beam.grading)),
             ("offset_start", span(&self.beam.offset_start)),
             ("offset_end", span(&self.beam.offset_end)),
         ];
@@ -142,19 +145,25 @@ impl<'d> Line<'_, 'd> {
         let lengths = segments(self.owner, points, &path, cx);
         let frames = self.orientation.and_then(|orientation| frames(points, &path, orientation, cx));
         let counts = elements.and_then(|elements| counts(elements, path.len() - 1, cx))?;
+        let gradings = gradings(&self.beam.grading, &counts, cx)?;
         lengths?;
         let frames = frames.filter(|_| sound)?;
         let (inner, _) = lobatto(self.order + 1);
         let mut nodes = vec![path[0]];
         let mut made = Vec::new();
-        for (segment, &count) in counts.iter().enumerate() {
+        for (segment, (&count, &grading)) in counts.iter().zip(&gradings).enumerate() {
+            let cuts = (grading < 1.0).then(|| cuts(count, grading));
             let [start, end] = [path[segment], path[segment + 1]];
             let [x0, x1] = [cx.nodes.x(start), cx.nodes.x(end)];
             for element in 0..count {
                 let mut ids = [*nodes.last()?; 5];
                 for (i, xi) in inner.iter().enumerate().skip(1) {
                     let last = element + 1 == count && i == self.order;
-                    let s = (element as f64 + 0.5 * (1.0 + xi)) / count as f64;
+                    let part = 0.5 * (1.0 + xi);
+                    let s = match &cuts {
+                        Some(cuts) => cuts[element] + (cuts[element + 1] - cuts[element]) * part,
+                        None => (element as f64 + part) / count as f64,
+                    };
                     ids[i] = if last { end } else { self.add_node(nodes.len(), x0 + (x1 - x0) * s, cx) };
                     nodes.push(ids[i]);
                 }

@@ -25,6 +25,7 @@ mod displacement_targets;
 mod ends;
 mod environment;
 mod expects;
+mod grading;
 mod groups;
 mod initial;
 mod initial_given;

@@ -137,7 +137,7 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
         made.push(BeamElement { nodes, frame, section: m.stiffnesses.len() - 1 });
     }
     let name = format!("beam{}", m.count(PartKind::Beam));
-    m.add(Beam { name, order, mass, rotary_inertia: true, yielding: None, elements: made });
+    m.add(Beam { name, order, mass, rotary_inertia: true, yielding: None, graded: false, elements: made });
 }
 
 pub fn line(m: &mut Model, ends: [usize; 2], law: LinkLaw, damping: f64, direction: Option<Vec3>) {

@@ -35,6 +35,7 @@ pub fn model() -> Model {
         order,
         mass: MassKind::Consistent,
         rotary_inertia: true,
+        graded: false,
         yielding: None,
         elements,
     };

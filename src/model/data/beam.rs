@@ -22,6 +22,8 @@ pub struct Beam {
     pub rotary_inertia: bool,
     /// The fibres and their law; `None` where the material is elastic.
     pub yielding: Option<FibreModel>,
+    /// True where the elements of a segment differ in length.
+    pub graded: bool,
     /// The elements along the line.
     pub elements: Vec<BeamElement>,
 }

@@ -1,14 +1,26 @@
-//! Beams: how they yield.
+//! Beams: how long their elements are, and how they yield.
 
 use super::explanation::Explanation;
 use crate::elements::beam::IntegrationRule;
-use crate::model::{Beam, Model};
+use crate::model::{Beam, BeamElement, Model};
+use crate::names::short;
 use crate::system::System;
 use crate::system::parts::beams::merges_fibres;
 
 /// Adds lines about beams.
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     for beam in model.each::<Beam>() {
+        if beam.graded {
+            let length = |e: &BeamElement| {
+                let [start, end] = e.ends(beam.order).map(|node| model.nodes[node].x);
+                (end - start).norm()
+            };
+            let lengths = beam.elements.iter().map(length);
+            let [shortest, longest] =
+                lengths.fold([f64::INFINITY, 0.0], |[least, most], length| [length.min(least), length.max(most)]);
+            let graded = format!("elements {} to {} long, the shortest at the ends", short(shortest), short(longest));
+            text.add("grading", format!("beam `{}`: {graded}", beam.name));
+        }
         let Some(yielding) = &beam.yielding else { continue };
         let (fibres, points) = (yielding.fibres.len(), yielding.points);
         let rule = if yielding.rule == IntegrationRule::Gauss { "Gauss" } else { "Lobatto" };
