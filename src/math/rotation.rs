@@ -191,6 +191,16 @@ pub fn rates(theta: &Vec3, d: &Vec3, dd: &Vec3) -> (Vec3, Vec3) {
     (omega, alpha)
 }
 
+/// The rates Θ̇ and Θ̈ of the rotation vector of a motion with the spatial angular velocity and acceleration ω and α: the inverse of
+/// [`rates`].
+#[inline]
+pub fn vector_rates(theta: &Vec3, omega: &Vec3, alpha: &Vec3) -> (Vec3, Vec3) {
+    let d = inverse_tangent(theta, omega);
+    // The part Ṫ Θ̇ of the acceleration is that of the rotation vector itself.
+    let (_, own) = rates(theta, &d, &Vec3::zeros());
+    (d, inverse_tangent(theta, &(alpha - own)))
+}
+
 /// The change T⁻¹(Θ) δθ of the rotation vector when a small spatial rotation δθ follows exp(Θ~).
 #[inline]
 pub fn inverse_tangent(theta: &Vec3, dtheta: &Vec3) -> Vec3 {
@@ -217,6 +227,39 @@ fn inverse_coefficient(t2: f64) -> f64 {
     } else {
         let h = 0.5 * t2.sqrt();
         (1.0 - h / h.tan()) / t2
+    }
+}
+
+/// A rotation vector with its coefficients, for several rates at one place.
+#[derive(Debug, Clone, Copy)]
+pub struct Chart {
+    theta: Vec3,
+    coefficients: (f64, f64, f64, f64),
+    inverse: f64,
+}
+
+impl Chart {
+    /// The coefficients at a rotation vector.
+    #[inline]
+    pub fn new(theta: &Vec3) -> Self {
+        let t2 = theta.norm_squared();
+        Chart { theta: *theta, coefficients: coefficients(t2), inverse: inverse_coefficient(t2) }
+    }
+
+    /// ω = T Θ̇ and the part Ṫ Θ̇ of α.
+    #[inline]
+    pub fn rates(&self, d: &Vec3) -> (Vec3, Vec3) {
+        let (theta, (c1, c2, d1, d2)) = (&self.theta, self.coefficients);
+        let txd = theta.cross(d);
+        let ttd = theta.cross(&txd);
+        (d + c1 * txd + c2 * ttd, theta.dot(d) * (d1 * txd + d2 * ttd) + c2 * d.cross(&txd))
+    }
+
+    /// T⁻¹ v.
+    #[inline]
+    pub fn inverse(&self, v: &Vec3) -> Vec3 {
+        let txv = self.theta.cross(v);
+        v - 0.5 * txv + self.inverse * self.theta.cross(&txv)
     }
 }
 
@@ -285,6 +328,13 @@ mod tests {
             let spin = dR * matrix(&exp(&t)).transpose();
             assert!((spin - crate::math::skew(&w)).amax() < 3e-7, "{t}");
             assert!(((omega(h) - omega(-h)) / (2.0 * h) - alpha).amax() < 3e-7, "{t}");
+            // The same sums in another order, and the inverse: a few roundings of numbers up to ten, near 2π of more.
+            let (chart, (_, own)) = (Chart::new(&t), rates(&t, &d, &Vec3::zeros()));
+            let (w_chart, own_chart) = chart.rates(&d);
+            assert!((w_chart - w).amax() < 1e-14 && (own_chart - own).amax() < 1e-13, "{t}");
+            assert!((chart.inverse(&w) - d).amax() < 1e-12, "{t}");
+            let (d_back, dd_back) = vector_rates(&t, &w, &alpha);
+            assert!((d_back - d).amax() < 1e-12 && (dd_back - dd).amax() < 1e-11, "{t}");
         }
     }
 

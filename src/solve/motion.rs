@@ -4,9 +4,9 @@
 use super::context::Context;
 use super::workspace::Workspace;
 use crate::integrators::Coefficients;
-use crate::math::{Vec6, stack};
+use crate::math::{Vec6, angular, stack};
 use crate::state::{Increment, Node, State};
-use crate::system::{Prescribed, Side, between};
+use crate::system::{Prescribed, Side, TurningBody, between};
 
 /// The relation between displacements, velocities and accelerations in a stage of a step.
 #[derive(Clone, Copy)]
@@ -80,7 +80,7 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     }
 }
 
-/// Writes the predicted increments, and the multipliers of the last step as a first guess.
+/// Writes the predicted increments, what rotations of bodies start from, and the multipliers of the last step as a first guess.
 pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
     for &node in &cx.independent_nodes {
         ws.increments[node].q = match stage.prediction {
@@ -91,6 +91,7 @@ pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
             }
         };
     }
+    start_turning(cx, ws, state, stage);
     measure_reach(cx, ws, state);
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
 }
@@ -108,6 +109,43 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
         let [v, a] = stage.start_rates(cx, state, node, [own_v, own_a]);
         stage.scheme.differentiate(&mut ws.increments[node], &v, &a, &own_a);
     }
+    if stage.scheme.turning.is_some() {
+        for (body, start) in cx.system.turning_bodies.iter().zip(&ws.turning) {
+            body.differentiate(start, &mut ws.increments[body.node], stage.scheme);
+        }
+    }
+}
+
+/// Writes the increments at the end of the step in place of those at the instant of equilibrium.
+pub fn finish(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
+    let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { &cx.system.turning_bodies } else { &[] };
+    let mut bodies = bodies.iter().peekable();
+    for &node in &cx.independent_nodes {
+        let start = &state.nodes[node];
+        let [v, a] = stage.start_rates(cx, state, node, rates_of(start));
+        let at_instant = ws.increments[node];
+        let end = &mut ws.increments[node];
+        *end = stage.scheme.finish(&at_instant, &v, &a);
+        if let Some(body) = TurningBody::next_at(&mut bodies, node) {
+            body.finish(start, &at_instant, end, stage.scheme);
+        }
+    }
+}
+
+/// Writes what the rotations of bodies start from in a stage, as the scheme uses it.
+fn start_turning(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
+    if stage.scheme.turning.is_none() {
+        return;
+    }
+    ws.turning.clear();
+    ws.turning.extend(cx.system.turning_bodies.iter().map(|body| {
+        let node = &state.nodes[body.node];
+        let of_scheme = stage.start_rates(cx, state, body.node, rates_of(node)).map(|rates| angular(&rates));
+        match stage.start_rates {
+            Some(_) => body.start_of_stage(node, of_scheme, stage.scheme),
+            None => body.start(node, &of_scheme[1], stage.scheme),
+        }
+    }));
 }
 
 /// Writes the trial motion at the instant of equilibrium from the increments: rates by the scheme, then prescribed

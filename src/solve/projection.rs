@@ -114,7 +114,8 @@ impl ConstraintProjection {
     /// Factorizes masses and joints at the given configuration; false where the matrix is singular and the joints
     /// cannot be closed.
     fn factor(&mut self, nodes: &[Node]) -> bool {
-        let weights = TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+        let weights =
+            TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
         let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly }, forces, loading, .. } = self;
         assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
         let values = solver.values();

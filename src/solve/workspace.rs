@@ -6,7 +6,7 @@ use super::load_steps::LoadSteps;
 use super::warning::Warnings;
 use crate::linear::TooLarge;
 use crate::state::{Increment, Node};
-use crate::system::{Forces, Loading, Prescribed};
+use crate::system::{Forces, Loading, Prescribed, TurningStart};
 
 /// The numbers of the step at hand.
 pub struct Workspace {
@@ -14,6 +14,8 @@ pub struct Workspace {
     pub trial: Vec<Node>,
     /// Increments of the nodes from the start of the step, with their rates.
     pub increments: Vec<Increment>,
+    /// What the rotations of bodies start from in the stage at hand, in the order of the system's.
+    pub(super) turning: Vec<TurningStart>,
     /// History variables at the end of the step.
     pub history: Vec<f64>,
     /// Residual forces of the trial motion, and the multipliers of joints.
@@ -63,6 +65,7 @@ impl Workspace {
         Ok(Workspace {
             trial: context::at_rest(cx.model),
             increments: vec![Increment::ZERO; n],
+            turning: Vec::with_capacity(cx.system.turning_bodies.len()),
             history: vec![0.0; cx.system.history],
             forces: Forces::new(cx.system, n).on_threads(cx.plan.threads),
             r: vec![0.0; cx.plan.dofs.unknowns()],

@@ -219,6 +219,8 @@ pub struct TangentWeights {
     pub rate: f64,
     /// Factor ∂q̈/∂q of the mass.
     pub acceleration: f64,
+    /// [`crate::integrators::Coefficients::turning`].
+    pub turning: Option<f64>,
     /// Moduli of the materials in K.
     pub moduli: Moduli,
 }
@@ -417,10 +419,9 @@ impl Assembly {
         for (node, _) in &self.nodes {
             own[*node] = Mat6::zeros();
         }
-        let of_motion = (weights.rate, weights.acceleration);
         let gyroscopic = self.gyroscopic && weights.stiffness;
         for inertia in &system.inertias {
-            own[inertia.node] += inertia.tangent(&nodes[inertia.node], of_motion, system.mass_damping, gyroscopic);
+            own[inertia.node] += inertia.tangent(&nodes[inertia.node], &weights, system.mass_damping, gyroscopic);
         }
         for damping in &system.nodal_damping {
             for i in 0..3 {

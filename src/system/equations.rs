@@ -7,6 +7,7 @@ use super::multipliers::Multipliers;
 use super::parts::links::{self, LinkElement};
 use super::scale::Scale;
 use super::thread_partition::Partition;
+use super::turning_body::TurningBody;
 use super::{build, plane_motion, thread_partition};
 use crate::constraints::joint::Joint;
 use crate::constraints::rigid_link::{self, RigidLink};
@@ -24,6 +25,8 @@ pub struct System {
     pub history: usize,
     /// Lumped inertia, at most one entry for each node, in ascending order of nodes.
     pub inertias: Vec<Inertia>,
+    /// The bodies that turn by their angular momentum in implicit schemes.
+    pub turning_bodies: Vec<TurningBody>,
     /// The consistent mass matrices, element by element.
     pub(super) consistent: Vec<ConsistentMass>,
     /// The dependent nodes, ordered so that a master stands before the nodes that depend on it.
@@ -107,16 +110,18 @@ impl System {
         let rigid_links =
             model.constraints.dependents.iter().map(|r| RigidLink::new(r.node, r.master, &x, r.dofs)).collect();
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
-        let (inertias, consistent) = build::masses(model, &x);
+        let (mut inertias, consistent) = build::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
         let groups = build::groups(model, &x, plane);
         let joints = build::joints(model, &x, plane);
+        let turning_bodies = TurningBody::of(model, (&mut inertias, &consistent), &rigid_links, plane);
         let contacts = groups.iter().position(|group| group.kind.is_unilateral());
         Ok(System {
             history: groups.last().map_or(0, |group| group.history.end),
             contacts: contacts.unwrap_or(groups.len()),
             groups,
             inertias,
+            turning_bodies,
             consistent,
             rigid_links,
             joints,
@@ -139,6 +144,7 @@ impl System {
             contacts: 0,
             history: 0,
             inertias: self.inertias.clone(),
+            turning_bodies: Vec::new(),
             consistent: self.consistent.clone(),
             rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),

@@ -1,6 +1,7 @@
 //! Inertia of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: a mass m and a tensor
 //! J₀ at a node with the Newton-Euler equations (33). All that falls on one node is summed once, before the run.
 
+use super::assembly::TangentWeights;
 use super::scale::Scale;
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, quadrature, skew};
@@ -17,6 +18,8 @@ pub struct Inertia {
     pub J0: Mat3,
     /// True where J₀ ≠ 0.
     pub rotary: bool,
+    /// True where the node turns by its angular momentum: one of [`super::TurningBody`].
+    pub turns: bool,
 }
 
 impl Inertia {
@@ -72,7 +75,8 @@ impl Inertia {
     /// Derivative of the inertia and mass-damping forces, with the sign of a stiffness, for increments of the weights
     /// q̇ and q̈. With `gyroscopic` it is complete, which makes it unsymmetric by C(r) (37) and the rotation of J;
     /// without, it is M and α M alone.
-    pub fn tangent(&self, node: &Node, (rate, acceleration): (f64, f64), damping: f64, gyroscopic: bool) -> Mat6 {
+    pub fn tangent(&self, node: &Node, weights: &TangentWeights, damping: f64, gyroscopic: bool) -> Mat6 {
+        let TangentWeights { rate, acceleration, turning, .. } = *weights;
         let mut K = Mat6::zeros();
         let w = acceleration + damping * rate;
         K.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
@@ -80,7 +84,9 @@ impl Inertia {
         if self.rotary {
             let J = self.J(node);
             let mut k = w * J;
-            if gyroscopic {
+            if let (true, true, Some(kappa)) = (gyroscopic, self.turns, turning) {
+                k += self.momentum_tangent(node, &J, rate, acceleration / rate, kappa);
+            } else if gyroscopic {
                 let (omega, alpha) = (skew(&node.omega), skew(&node.alpha));
                 let L = skew(&(J * node.omega));
                 let C = omega * J - L;
@@ -91,6 +97,14 @@ impl Inertia {
             K.fixed_view_mut::<3, 3>(3, 3).copy_from(&k);
         }
         K
+    }
+
+    /// The derivative of the rate of angular momentum e J ω + …, less e `rate` J, for a small turn δθ. The momentum changes by
+    /// δθ×π + J δΩ, the angular velocity in body axes by δΩ = (rate + ½ ω~ + κ rate J⁻¹ (π~ − ω~J)) δθ; what a finite rotation vector
+    /// adds is of second order in the step.
+    fn momentum_tangent(&self, node: &Node, J: &Mat3, rate: f64, e: f64, kappa: f64) -> Mat3 {
+        let (omega, L) = (skew(&node.omega), skew(&(J * node.omega)));
+        e * (0.5 * J * omega - L + kappa * rate * (L - omega * J))
     }
 }
 
@@ -113,7 +127,7 @@ impl Lumped {
     pub fn finish(self) -> Vec<Inertia> {
         let entry = |(node, (mass, J0)): (usize, (f64, Mat3))| {
             let rotary = J0 != Mat3::zeros();
-            (mass > 0.0 || rotary).then_some(Inertia { node, mass, J0, rotary })
+            (mass > 0.0 || rotary).then_some(Inertia { node, mass, J0, rotary, turns: false })
         };
         self.0.into_iter().enumerate().filter_map(entry).collect()
     }

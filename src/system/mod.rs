@@ -24,6 +24,7 @@ mod plane_motion;
 pub mod results;
 mod scale;
 mod thread_partition;
+mod turning_body;
 
 pub use contacts::ContactState;
 pub use dofs::{DofMap, NodeRows};
@@ -38,3 +39,4 @@ pub use parts::beams::SectionPoint;
 pub use parts::links::LinkState;
 pub use parts::shells::ShellState;
 pub use scale::Scale;
+pub use turning_body::{TurningBody, TurningStart};

@@ -50,11 +50,12 @@ fn drift(m: &Model) -> (f64, f64) {
 /// the largest force over 100 steps. Angular momentum follows the scheme, of second order.
 #[test]
 fn free_flight_keeps_momentum() {
-    let e: Vec<(f64, f64)> = [0.02, 0.01, 0.005].iter().map(|&dt| drift(&flyer(false, dt))).collect();
+    let e: Vec<(f64, f64)> = [0.02, 0.01, 0.005, 0.0025, 0.00125].iter().map(|&dt| drift(&flyer(false, dt))).collect();
     eprintln!("linear, angular: {e:?}");
     assert!(e.iter().all(|e| e.0 < 1e-11), "{e:?}");
-    assert!(order(e[0].1, e[1].1) > 1.8 && order(e[1].1, e[2].1) > 1.9, "{e:?}");
-    assert!(e[2].1 < 1e-3, "{e:?}");
+    // Errors of other signs, of bodies and of the beam, meet on the longer steps.
+    assert!(order(e[0].1, e[2].1) > 3.6 && order(e[3].1, e[4].1) > 1.9, "{e:?}");
+    assert!(e[2].1 < 2e-4, "{e:?}");
 }
 
 /// The same while the beam yields. Its stiffness jumps as fibres begin and end to yield, which costs the scheme some of its order in

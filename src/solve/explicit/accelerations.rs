@@ -5,8 +5,8 @@
 use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
-use crate::math::rotation::{inverse_tangent, rates};
-use crate::math::{Vec3, Vec6, angular, linear, stack};
+use crate::math::rotation::vector_rates;
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::joints::constraints_violated;
@@ -197,7 +197,8 @@ impl Accelerations {
 
 /// Forms and factorizes the matrix of masses and joints in the trial motion.
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
-    let weights = TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, moduli: Moduli::Elastic };
+    let weights =
+        TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
     let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
@@ -226,10 +227,7 @@ fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
 
 /// Writes the rates of the increment at the end of a step that give these velocities and accelerations.
 pub fn set_rates(increment: &mut Increment, motion: &NodeRates) {
-    let theta = angular(&increment.q);
-    let d = inverse_tangent(&theta, &motion.omega);
-    // The part Ṫ Θ̇ of the acceleration is that of the rotation vector itself.
-    let (_, own) = rates(&theta, &d, &Vec3::zeros());
+    let (d, dd) = vector_rates(&angular(&increment.q), &motion.omega, &motion.alpha);
     increment.d = stack(&motion.v, &d);
-    increment.dd = stack(&motion.a, &inverse_tangent(&theta, &(motion.alpha - own)));
+    increment.dd = stack(&motion.a, &dd);
 }

@@ -5,7 +5,7 @@ use super::jump;
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::motion::{Stage, differentiate, move_to_step_end, move_trial, rates_of};
+use crate::solve::motion::{Stage, differentiate, finish, move_to_step_end, move_trial};
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
@@ -29,10 +29,7 @@ pub fn accept(
 ) -> Result<(), Failure> {
     let dt = to - state.time;
     let account = Account { work, ..account(cx, ws, state, stage, dt) };
-    for &node in &cx.independent_nodes {
-        let [v, a] = stage.start_rates(cx, state, node, rates_of(&state.nodes[node]));
-        ws.increments[node] = stage.scheme.finish(&ws.increments[node], &v, &a);
-    }
+    finish(cx, ws, state, stage);
     move_to_step_end(cx, ws, state, stage.scheme);
     if let Some(projection) = projection.as_deref_mut() {
         projection.project(cx, ws, state, stage.scheme, dt)?;

@@ -3,7 +3,7 @@
 use super::newton::Newton;
 use crate::integrators::TwoStages;
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, angular, stack};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, rates_of};
@@ -80,6 +80,12 @@ impl<'a> Composite<'a> {
             let v0 = stack(&start.v, &inverse_tangent(&-angular(&q0), &start.omega));
             let [v, _] = rates_of(&between.nodes[node]);
             self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];
+        }
+        for body in &cx.system.turning_bodies {
+            let nodes = [&self.start.nodes[body.node], &between.nodes[body.node]];
+            let [start, between] = nodes.map(|node| body.momentum(node));
+            let [_, second] = &mut self.start_rates[body.node];
+            *second = stack(&linear(second), &(start * b.start + between * b.between));
         }
     }
 }

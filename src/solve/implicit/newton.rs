@@ -421,7 +421,7 @@ impl Newton {
         let at_start =
             self.searched.is_none() && state.time == 0.0 && ws.prescribed.instant.iter().all(|given| given.u == 0.0);
         loop {
-            let weights = TangentWeights { stiffness: true, rate, acceleration, moduli };
+            let weights = TangentWeights { stiffness: true, rate, acceleration, turning: scheme.turning, moduli };
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             ws.factorizations += 1;

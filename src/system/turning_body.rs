@@ -1,0 +1,223 @@
+//! The rotation of a rigid body within a step of an implicit scheme.
+//!
+//! In the coordinates of a rotation vector a body that turns freely is accelerated, and a scheme that takes this for a motion makes
+//! or loses energy by it. So the relation of the scheme between velocities and accelerations is taken for the angular momentum
+//! π = J ω in axes fixed in space, which no moment of the body's own inertia changes, and its relation between rotation vectors and
+//! their rates is made exact to third order for the acceleration g of the rotation vector of a body without moments:
+//!
+//! Θ̇ = r₁ Θ + r₂ ω₀ + r₃ α₀ + κ (g(Θ, Θ̇) − g₀), ω = T Θ̇, π̇ = e₁ J ω + e₂ π₀ + e₃ π̇₀, α = J⁻¹ (π̇ − ω×π).
+//!
+//! A free body keeps its angular momentum to rounding, and the error of its rotation is of third order or higher; under moments, which
+//! enter π̇ alone, the scheme is what it is for all other nodes, with its order and its stability. T and Θ̇ are those of [`rotation`].
+//! Momentum in space: J. C. Simo, K. K. Wong, Int. J. Numer. Meth. Engng 31 (1991).
+//!
+//! What the deck holds or drives in rotation, what moves in a plane, what has the same inertia about all axes, and what has one that no
+//! body can have, turns like all other nodes. So do point masses and bodies that carry masses of dependent nodes: J is then not the inertia
+//! of what turns, its centre of mass is not the node, and the rule would lose more energy than that of the nodes.
+
+use super::inertia::{ConsistentMass, Inertia};
+use crate::constraints::rigid_link::RigidLink;
+use crate::integrators::Coefficients;
+use crate::math::{Mat3, Vec3, Vec6, angular, rotation};
+use crate::model::{AnalysisKind, Model};
+use crate::state::{Increment, Node};
+use std::iter::Peekable;
+use std::slice::Iter;
+
+/// The part of the largest principal inertia below which one is none, and by which rounding may exceed the sum of the two others.
+const NEGLIGIBLE: f64 = 1e-9;
+
+/// How often a rate is put into the acceleration that it depends on: each time the error shrinks by a third of the turn of a step.
+const PASSES: usize = 2;
+
+/// A body that turns by its angular momentum.
+#[derive(Debug, Clone)]
+pub struct TurningBody {
+    /// The node.
+    pub node: usize,
+    /// The inertia tensor about the node, in body axes, which are global at t = 0, and its inverse.
+    J0: Mat3,
+    J0_inverse: Mat3,
+}
+
+/// What the rotation of a body starts from in a stage, in the axes of the body there. Seen from the body it is space that turns, by −Θ:
+/// vectors of the motion have the opposite sign.
+#[derive(Debug, Clone, Copy)]
+pub struct TurningStart {
+    /// The rotation of the body.
+    R: Mat3,
+    /// What stands in place of −ω₀ and −α₀ in the relation of the scheme between rotation vectors and their rates.
+    omega: Vec3,
+    alpha: Vec3,
+    /// The part e₂ π₀ + e₃ π̇₀ of π̇.
+    momentum: Vec3,
+    /// −g₀.
+    free: Vec3,
+}
+
+impl TurningBody {
+    /// The bodies of a model that turn so, in ascending order of nodes; their inertias are marked.
+    pub fn of(
+        model: &Model,
+        (inertias, consistent): (&mut [Inertia], &[ConsistentMass]),
+        links: &[RigidLink],
+        plane: Option<usize>,
+    ) -> Vec<TurningBody> {
+        if model.analysis.kind != AnalysisKind::Dynamic || plane.is_some() {
+            return Vec::new();
+        }
+        let carries = carriers(model.nodes.len(), (inertias, consistent), links);
+        let held = |node: usize| model.constraints.restraints.iter().any(|held| held.node == node && held.dof > 2);
+        let follows = |node: usize| links.iter().any(|link| link.node == node && link.dofs[3..].contains(&true));
+        let is_body = |node: usize| model.bodies.iter().any(|body| body.node == node);
+        let turning = |inertia: &mut Inertia| {
+            let Inertia { node, J0, .. } = *inertia;
+            let alone = |node: usize| is_body(node) && !carries[node] && !held(node) && !follows(node);
+            let J0_inverse = inverse_of_a_body(&J0).filter(|_| alone(node))?;
+            inertia.turns = true;
+            Some(TurningBody { node, J0, J0_inverse })
+        };
+        inertias.iter_mut().filter_map(turning).collect()
+    }
+
+    /// The body at a node, where nodes are asked for in ascending order; bodies at nodes that are not asked for do not move.
+    pub fn next_at<'a>(bodies: &mut Peekable<Iter<'a, TurningBody>>, node: usize) -> Option<&'a TurningBody> {
+        while bodies.next_if(|body| body.node < node).is_some() {}
+        bodies.next_if(|body| body.node == node)
+    }
+
+    /// What a step from `node` starts from, where the scheme takes `alpha` for the angular acceleration.
+    pub fn start(&self, node: &Node, alpha: &Vec3, scheme: &Coefficients) -> TurningStart {
+        let R = node.R();
+        let [of_new, _, of_alpha, of_own] = scheme.of_velocities();
+        let (omega, alpha) = (R.tr_mul(&node.omega), R.tr_mul(alpha));
+        let momentum = self.J0 * omega;
+        let rate = |alpha: &Vec3| self.J0 * alpha + omega.cross(&momentum);
+        // A steady rotation has no acceleration: the weight of π₀ is that of π but for the sign, and for rounding that would add up.
+        let mut given = momentum * -of_new + rate(&alpha) * of_alpha;
+        if of_own != 0.0 {
+            given += rate(&R.tr_mul(&node.alpha)) * of_own;
+        }
+        TurningStart { R, omega: -omega, alpha: -alpha, momentum: given, free: -self.free_acceleration(&omega) }
+    }
+
+    /// What a second stage from `node` starts from, where `before` stands in place of the angular velocity and `momentum` of the angular
+    /// acceleration, that of angular momentum.
+    pub fn start_of_stage(&self, node: &Node, [before, momentum]: [Vec3; 2], scheme: &Coefficients) -> TurningStart {
+        let R = node.R();
+        let given = R.tr_mul(&momentum) * scheme.of_velocities()[2];
+        let free = -self.free_acceleration(&R.tr_mul(&node.omega));
+        TurningStart { R, omega: -R.tr_mul(&before), alpha: Vec3::zeros(), momentum: given, free }
+    }
+
+    /// Writes the rates of the rotation vector in `increment`, at the instant of equilibrium.
+    #[inline]
+    pub fn differentiate(&self, start: &TurningStart, increment: &mut Increment, scheme: &Coefficients) {
+        let theta = -start.R.tr_mul(&angular(&increment.q));
+        let chart = rotation::Chart::new(&theta);
+        let [r1, r2, r3] = scheme.rate;
+        let given = theta * r1 + start.omega * r2 + start.alpha * r3;
+        let (mut d, mut motion) = (given, chart.rates(&given));
+        if let Some(kappa) = scheme.turning.filter(|kappa| *kappa != 0.0) {
+            for _ in 0..PASSES {
+                let (omega, own) = motion;
+                let free = chart.inverse(&(-self.free_acceleration(&omega) - own));
+                d = given + kappa * (free - start.free);
+                motion = chart.rates(&d);
+            }
+        }
+        let (omega, own) = motion;
+        let momentum = self.J0 * omega;
+        let given = start.momentum + rotation::change(&rotation::exp(&theta), &start.momentum);
+        let alpha = self.J0_inverse * (given - momentum * scheme.of_velocities()[0] - omega.cross(&momentum));
+        set(&mut increment.d, &(start.R * -d));
+        set(&mut increment.dd, &(start.R * chart.inverse(&(alpha + own))));
+    }
+
+    /// Writes the rotation vector and its rates in `end`, at the end of a step that begins at `node`.
+    pub fn finish(&self, node: &Node, at_instant: &Increment, end: &mut Increment, scheme: &Coefficients) {
+        let theta = angular(&at_instant.q);
+        if scheme.instant == 1.0 {
+            set(&mut end.q, &theta);
+            set(&mut end.d, &angular(&at_instant.d));
+            set(&mut end.dd, &angular(&at_instant.dd));
+            return;
+        }
+        let (omega, alpha) = rotation::rates(&theta, &angular(&at_instant.d), &angular(&at_instant.dd));
+        let there = Node { rotation: rotation::exp(&theta) * node.rotation, omega, ..*node };
+        let rate_there = self.momentum_rate(&there, &alpha);
+        let rate = self.momentum_rate(node, &node.alpha);
+        let [of_q, of_d, of_dd] = scheme.end;
+        let rate_then = rate * of_dd[2] + rate_there * of_dd[3];
+        let momentum_then = self.momentum(node) * of_d[1] + rate * of_d[2] + rate_there * of_d[3];
+        // The rotation vector follows by the acceleration with which the scheme comes to the new velocity.
+        let vector = |dd: &Vec3| theta * of_q[0] + node.omega * of_q[1] + node.alpha * of_q[2] + dd * of_q[3];
+        let turned = |q: &Vec3| rotation::matrix(&rotation::renormalise(&(rotation::exp(q) * node.rotation)));
+        let divided = |R: &Mat3, v: &Vec3| R * (self.J0_inverse * R.tr_mul(v));
+        // From the velocity at the start, which a steady rotation keeps to the last bit.
+        let omega_then = |R: &Mat3| node.omega + divided(R, &(momentum_then - R * (self.J0 * R.tr_mul(&node.omega))));
+        let [a1, a2, a3, _] = scheme.acceleration;
+        let mut q = vector(&(theta * a1 + node.omega * a2 + node.alpha * a3));
+        for _ in 1..PASSES {
+            let d = rotation::inverse_tangent(&q, &omega_then(&turned(&q)));
+            q = vector(&((d - node.omega * of_d[1] - node.alpha * of_d[2]) / of_d[3]));
+        }
+        let R = turned(&q);
+        let omega = omega_then(&R);
+        let (d, dd) = rotation::vector_rates(&q, &omega, &divided(&R, &(rate_then - omega.cross(&momentum_then))));
+        set(&mut end.q, &q);
+        set(&mut end.d, &d);
+        set(&mut end.dd, &dd);
+    }
+
+    /// The angular momentum about the node, global components.
+    pub fn momentum(&self, node: &Node) -> Vec3 {
+        let R = node.R();
+        R * (self.J0 * R.tr_mul(&node.omega))
+    }
+
+    /// Its rate J α + ω×π at an angular acceleration.
+    pub fn momentum_rate(&self, node: &Node, alpha: &Vec3) -> Vec3 {
+        let R = node.R();
+        R * (self.J0 * R.tr_mul(alpha)) + node.omega.cross(&(R * (self.J0 * R.tr_mul(&node.omega))))
+    }
+
+    /// The angular acceleration at which the angular momentum has this rate.
+    pub fn acceleration(&self, node: &Node, rate: &Vec3) -> Vec3 {
+        let R = node.R();
+        R * (self.J0_inverse * R.tr_mul(&(rate - node.omega.cross(&self.momentum(node)))))
+    }
+
+    /// The angular acceleration J₀⁻¹ (J₀ Ω×Ω) of a body on which no moment acts, in body axes.
+    fn free_acceleration(&self, omega: &Vec3) -> Vec3 {
+        self.J0_inverse * (self.J0 * omega).cross(omega)
+    }
+}
+
+/// Which nodes carry masses of dependent nodes; `links` as they are sorted, masters first.
+fn carriers(nodes: usize, (inertias, consistent): (&[Inertia], &[ConsistentMass]), links: &[RigidLink]) -> Vec<bool> {
+    let mut massive = vec![false; nodes];
+    let of_elements = consistent.iter().flat_map(|element| &element.nodes);
+    inertias.iter().map(|inertia| &inertia.node).chain(of_elements).for_each(|&node| massive[node] = true);
+    let mut carries = vec![false; nodes];
+    for link in links.iter().rev() {
+        carries[link.master] |= massive[link.node] || carries[link.node];
+    }
+    carries
+}
+
+/// Writes the angular part of six components.
+fn set(of: &mut Vec6, angular: &Vec3) {
+    (0..3).for_each(|i| of[3 + i] = angular[i]);
+}
+
+/// The inverse of an inertia tensor that a body can have: no principal inertia vanishes or exceeds the sum of the others, which bounds the
+/// acceleration of free rotation by ω². `None` too where all are alike: such a body turns steadily when it is free.
+fn inverse_of_a_body(J0: &Mat3) -> Option<Mat3> {
+    let mut J = J0.symmetric_eigenvalues();
+    J.as_mut_slice().sort_by(f64::total_cmp);
+    let largest = J[2];
+    let is_body = J[0] > NEGLIGIBLE * largest && largest <= (J[0] + J[1]) * (1.0 + NEGLIGIBLE);
+    let is_sphere = largest - J[0] <= NEGLIGIBLE * largest;
+    J0.try_inverse().filter(|_| is_body && !is_sphere)
+}
