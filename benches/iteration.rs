@@ -10,7 +10,7 @@ use rdsolve::model::{self, Model, Update};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Outcome, Run, Wanted};
 use rdsolve::state::State;
-use rdsolve::system::assembly::TangentWeights;
+use rdsolve::system::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;

@@ -9,7 +9,7 @@ use rdsolve::elements::Moduli;
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Node};
-use rdsolve::system::assembly::TangentWeights;
+use rdsolve::system::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::hint::black_box;
 use std::process::Command;

@@ -171,7 +171,7 @@ fn tumbling_bodies_keep_the_order() {
     let of = |scheme: &str, dt: f64| {
         let weightless = opening(scheme, dt, 1.0).replace("-9.81", "0.0"); // weight at once would set all modes swinging
         let model = read_deck(&(weightless + TUMBLING_BODIES));
-        assert_eq!(System::new(&model).unwrap().turning_bodies.len(), 3);
+        assert_eq!(System::new(&model).unwrap().turning_bodies().len(), 3);
         let [body, tip] = ["a", "tip"].map(|name| node(&model, name));
         let mut forces = Vec::new();
         let motion = run_to_the_end(&model, &mut |frame| {

@@ -52,7 +52,7 @@ pub(super) fn cuts(count: usize, grading: f64) -> Vec<f64> {
         cuts[element + 1] = end;
         cuts[count - element - 1] = 1.0 - end;
     }
-    if count % 2 == 0 {
+    if count.is_multiple_of(2) {
         cuts[count / 2] = 0.5;
     }
     (cuts[0], cuts[count]) = (0.0, 1.0);

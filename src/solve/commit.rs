@@ -69,7 +69,7 @@ pub fn commit(
 /// Updates the algorithmic accelerations of schemes that have them.
 fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut State) {
     let Some([of_a, of_start, of_end]) = cx.algorithmic_acceleration else { return };
-    let mut bodies = cx.system.turning_bodies.iter().peekable();
+    let mut bodies = cx.system.turning_bodies().iter().peekable();
     for &node in &cx.independent_nodes {
         let (start, end, increment) = (&state.nodes[node], &ws.trial[node], &ws.increments[node]);
         let before = stack(&start.a, &start.alpha);

@@ -11,7 +11,7 @@ use crate::integrators::Stepping;
 use crate::math::{Vec6, angular, linear, stack};
 use crate::model::StepLength;
 use crate::state::{Configuration, State};
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 
 /// Motions by such an acceleration in a step, as parts of the model's length and in radians, that rotations of slender parts may have
 /// without stretching what they should only bend.

@@ -110,7 +110,7 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
         stage.scheme.differentiate(&mut ws.increments[node], &v, &a, &own_a);
     }
     if stage.scheme.turning.is_some() {
-        for (body, start) in cx.system.turning_bodies.iter().zip(&ws.turning) {
+        for (body, start) in cx.system.turning_bodies().iter().zip(&ws.turning) {
             body.differentiate(start, &mut ws.increments[body.node], stage.scheme);
         }
     }
@@ -118,7 +118,7 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
 
 /// Writes the increments at the end of the step in place of those at the instant of equilibrium.
 pub fn finish(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { &cx.system.turning_bodies } else { &[] };
+    let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { cx.system.turning_bodies() } else { &[] };
     let mut bodies = bodies.iter().peekable();
     for &node in &cx.independent_nodes {
         let start = &state.nodes[node];
@@ -138,7 +138,7 @@ fn start_turning(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage)
         return;
     }
     ws.turning.clear();
-    ws.turning.extend(cx.system.turning_bodies.iter().map(|body| {
+    ws.turning.extend(cx.system.turning_bodies().iter().map(|body| {
         let node = &state.nodes[body.node];
         let of_scheme = stage.start_rates(cx, state, body.node, rates_of(node)).map(|rates| angular(&rates));
         match stage.start_rates {

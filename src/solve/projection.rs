@@ -18,7 +18,7 @@ use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, angular};
 use crate::plan::Plan;
 use crate::state::{Configuration, Node, State};
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 use crate::system::{Forces, Loading, System};
 
 /// Mass given to a degree of freedom without one, relative to the largest: so it is the one that gives way.

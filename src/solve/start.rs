@@ -10,7 +10,7 @@ use crate::elements::Moduli;
 use crate::math::{Vec3, Vec6, rotation, stack};
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 
 /// The largest change of initial velocities, relative to the largest velocity, that joints may require without a word: a deck gives
 /// its numbers with some digits only.

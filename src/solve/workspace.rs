@@ -65,7 +65,7 @@ impl Workspace {
         Ok(Workspace {
             trial: context::at_rest(cx.model),
             increments: vec![Increment::ZERO; n],
-            turning: Vec::with_capacity(cx.system.turning_bodies.len()),
+            turning: Vec::with_capacity(cx.system.turning_bodies().len()),
             history: vec![0.0; cx.system.history],
             forces: Forces::new(cx.system, n).on_threads(cx.plan.threads),
             r: vec![0.0; cx.plan.dofs.unknowns()],

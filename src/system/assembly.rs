@@ -9,7 +9,8 @@ use super::equations::{Forces, System};
 use super::group::Group;
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
-use crate::elements::{ElementBlock, Moduli};
+use super::tangent_weights::TangentWeights;
+use crate::elements::ElementBlock;
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
 use crate::state::{Configuration, Node};
@@ -208,21 +209,6 @@ struct Scratch {
     projections: Vec<Vec<Mat6>>,
     /// A projected matrix, or one that is made of few numbers.
     projected: Vec<f64>,
-}
-
-/// The weights of the terms of a tangent.
-#[derive(Debug, Clone, Copy)]
-pub struct TangentWeights {
-    /// True where K is formed; false for the mass matrix alone.
-    pub stiffness: bool,
-    /// Factor ∂q̇/∂q of the damping.
-    pub rate: f64,
-    /// Factor ∂q̈/∂q of the mass.
-    pub acceleration: f64,
-    /// [`crate::integrators::Coefficients::turning`].
-    pub turning: Option<f64>,
-    /// Moduli of the materials in K.
-    pub moduli: Moduli,
 }
 
 /// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by

@@ -26,7 +26,7 @@ pub struct System {
     /// Lumped inertia, at most one entry for each node, in ascending order of nodes.
     pub inertias: Vec<Inertia>,
     /// The bodies that turn by their angular momentum in implicit schemes.
-    pub turning_bodies: Vec<TurningBody>,
+    turning_bodies: Vec<TurningBody>,
     /// The consistent mass matrices, element by element.
     pub(super) consistent: Vec<ConsistentMass>,
     /// The dependent nodes, ordered so that a master stands before the nodes that depend on it.
@@ -86,6 +86,11 @@ impl Forces {
 }
 
 impl System {
+    /// The bodies that turn by their angular momentum in implicit schemes, in ascending order of nodes.
+    pub fn turning_bodies(&self) -> &[TurningBody] {
+        &self.turning_bodies
+    }
+
     /// Builds the system from the model at its initial positions.
     ///
     /// # Errors

@@ -1,8 +1,8 @@
 //! Inertia of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: a mass m and a tensor
 //! J₀ at a node with the Newton-Euler equations (33). All that falls on one node is summed once, before the run.
 
-use super::assembly::TangentWeights;
 use super::scale::Scale;
+use super::tangent_weights::TangentWeights;
 use crate::elements::Force;
 use crate::math::{Mat3, Mat6, Vec3, quadrature, skew};
 use crate::state::Node;

@@ -23,6 +23,7 @@ mod plane;
 mod plane_motion;
 pub mod results;
 mod scale;
+mod tangent_weights;
 mod thread_partition;
 mod turning_body;
 
@@ -39,4 +40,5 @@ pub use parts::beams::SectionPoint;
 pub use parts::links::LinkState;
 pub use parts::shells::ShellState;
 pub use scale::Scale;
+pub use tangent_weights::TangentWeights;
 pub use turning_body::{TurningBody, TurningStart};

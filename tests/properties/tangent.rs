@@ -15,7 +15,7 @@ use rdsolve::math::{Mat3, Vec3, Vec6, angular, skew, stack};
 use rdsolve::model::{AnalysisKind, Beam, Link, MassKind, Model, NodalDamping, PartKind, Pressure, StepLength};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
-use rdsolve::system::assembly::TangentWeights;
+use rdsolve::system::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, System};
 
 /// A scene at an instant within a step.
@@ -86,7 +86,7 @@ impl Instant {
             self.scheme.differentiate(&mut increments[i], &v, &a, &a);
         }
         if self.scheme.turning.is_some() {
-            for body in &self.system.turning_bodies {
+            for body in self.system.turning_bodies() {
                 let start = &self.start[body.node];
                 let from = body.start(start, &start.alpha, &self.scheme);
                 body.differentiate(&from, &mut increments[body.node], &self.scheme);
@@ -305,7 +305,7 @@ fn of_turning_bodies_lacks_no_gyroscopic_term() {
         // What nothing excites is no unknown.
         (scene.nodes[node].v, scene.nodes[node].omega) = (vector(&mut rng, 1.0), vector(&mut rng, 1.0));
     }
-    assert_eq!(System::new(&scene).unwrap().turning_bodies.len(), 4);
+    assert_eq!(System::new(&scene).unwrap().turning_bodies().len(), 4);
     for (name, scheme) in schemes {
         let mut whole = Vec::new();
         let mut without = GYROSCOPIC_TERMS.map(|_| Vec::new());

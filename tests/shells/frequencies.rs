@@ -7,7 +7,7 @@ use rdsolve::math::Vec3;
 use rdsolve::model::Model;
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Node};
-use rdsolve::system::assembly::TangentWeights;
+use rdsolve::system::TangentWeights;
 use rdsolve::system::{Excitation, Forces, Loading, Side, System};
 use std::f64::consts::TAU;
 

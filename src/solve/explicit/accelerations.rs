@@ -13,7 +13,7 @@ use crate::solve::joints::constraints_violated;
 use crate::solve::projection::ConstraintProjection;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Increment, State};
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::{Masses, NodeRates};
 

@@ -81,7 +81,7 @@ impl<'a> Composite<'a> {
             let [v, _] = rates_of(&between.nodes[node]);
             self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];
         }
-        for body in &cx.system.turning_bodies {
+        for body in cx.system.turning_bodies() {
             let nodes = [&self.start.nodes[body.node], &between.nodes[body.node]];
             let [start, between] = nodes.map(|node| body.momentum(node));
             let [_, second] = &mut self.start_rates[body.node];

@@ -7,7 +7,7 @@ use crate::linear::Solver;
 use crate::math::{Vec6, angular, linear};
 use crate::model::Model;
 use crate::state::Configuration;
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 use crate::system::{DofMap, Group, System};
 
 /// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred

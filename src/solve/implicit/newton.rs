@@ -30,7 +30,7 @@ use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, Node, State};
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 
 /// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace.
 pub struct Newton {

@@ -8,7 +8,7 @@ use crate::solve::context::Context;
 use crate::solve::linear_system::LinearSystem;
 use crate::solve::warning::Instability;
 use crate::state::{Configuration, Node};
-use crate::system::assembly::TangentWeights;
+use crate::system::TangentWeights;
 use crate::system::{DofMap, Forces, Loading, System};
 
 /// Number of bisections for the load at which the first eigenvalue is negative: 1e-5 of the step.
