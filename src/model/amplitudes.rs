@@ -44,14 +44,7 @@ fn read_amplitude<'d>(
     match kind {
         words::AmplitudeKind::Table => {
             report.reject_unused("a table", &[&waves[..], &phase, &window].concat());
-            if a.file.is_none() {
-                report.reject_unused("a table without a file", &of_file);
-                let points = report.require(&owner, "points", &a.points)?;
-                let points = report.rising("time", points)?;
-                return table(a, points, report);
-            }
-            report.reject_unused("a table from a file", &[("points", span(&a.points))]);
-            table(a, record?.points.clone(), report)
+            of_points_or_file(&owner, a, record, report)
         }
         words::AmplitudeKind::Sine => {
             report.reject_unused("a sine", &points);
@@ -78,6 +71,24 @@ fn read_amplitude<'d>(
             Some(Amplitude::Constant)
         }
     }
+}
+
+/// A table through the points of the deck, or of a file.
+fn of_points_or_file<'d>(
+    owner: &Owner<'d>,
+    a: &'d At<Table<words::Amplitude>>,
+    record: Option<&Record>,
+    report: &mut Report<'d>,
+) -> Option<Amplitude> {
+    if a.file.is_some() {
+        report.reject_unused("a table from a file", &[("points", span(&a.points))]);
+        return table(a, record?.points.clone(), report);
+    }
+    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
+    report.reject_unused("a table without a file", &of_file);
+    let points = report.require(owner, "points", &a.points)?;
+    let points = report.rising("time", points)?;
+    table(a, points, report)
 }
 
 /// A table at the scale of the deck, which jumps to zero at its ends where the deck says so.
