@@ -287,8 +287,9 @@ const GYROSCOPIC_TERMS: [(&str, GyroscopicTerm); 4] = [
 #[test]
 fn of_turning_bodies_lacks_no_gyroscopic_term() {
     let rotation = RotationUpdate::Exponential;
-    let family = |alpha_m, alpha_f, gamma, beta| AlphaFamily { alpha_m, alpha_f, gamma, beta, rotation };
-    let schemes: [(&str, Box<dyn Fn(f64) -> Coefficients>); 5] = [
+    let family = move |alpha_m, alpha_f, gamma, beta| AlphaFamily { alpha_m, alpha_f, gamma, beta, rotation };
+    type OfStep = Box<dyn Fn(f64) -> Coefficients>;
+    let schemes: [(&str, OfStep); 5] = [
         ("wilson-theta", Box::new(move |dt| WilsonTheta { theta: 1.4, rotation }.coefficients(dt))),
         ("newmark", Box::new(move |dt| family(0.0, 0.0, 0.5, 0.25).coefficients(dt))),
         ("hht-alpha", Box::new(move |dt| family(0.0, 0.3, 0.8, 0.4225).coefficients(dt))),
