@@ -9,7 +9,6 @@ use super::run::{CaseFault, run_case};
 use super::signals::stop_on_signals;
 use super::version::VERSION;
 use crate::diagnostic::Source;
-use crate::output::result_json::Status;
 use crate::sweep::cases::Cases;
 use crate::sweep::file::{self, SweepFile};
 use crate::sweep::folder::{CaseState, FAILURE, SweepFolder};
@@ -214,7 +213,6 @@ impl Sweep<'_> {
         let source = Source::new(self.deck.display().to_string(), self.text, &sets);
         let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &sets, &folder, self.stop)));
         match ran {
-            Ok(Ok(Status::Stopped)) => Ok(()),
             Ok(Ok(_)) => Ok(()),
             Ok(Err(CaseFault::Deck(text))) => fs::write(&failure, text),
             // Another process runs it.
