@@ -79,6 +79,26 @@ impl<const B: usize> BlockLu<B> {
         self.blocks.as_flattened_mut().as_flattened_mut()
     }
 
+    /// Hands each entry of the matrix as assembled, before `factor`, to `visit`: external row, external column, value.
+    pub(super) fn each_entry(&self, visit: &mut dyn FnMut(usize, usize, f64)) {
+        let (order, graph) = (&self.elimination.order, &self.graph);
+        let mut block = |place: usize, g: usize, h: usize| {
+            for j in 0..graph.sizes[h] {
+                for i in 0..graph.sizes[g] {
+                    visit(graph.first[g] + i, graph.first[h] + j, self.blocks[place][j][i]);
+                }
+            }
+        };
+        for k in 0..self.elimination.groups() {
+            let below = self.elimination.below(k);
+            block(self.start[k], order[k], order[k]);
+            for (t, &i) in below.iter().enumerate() {
+                block(self.start[k] + 1 + t, order[i as usize], order[k]);
+                block(self.start[k] + 1 + below.len() + t, order[k], order[i as usize]);
+            }
+        }
+    }
+
     /// A place in [`BlockLu::values`] for entries that are not wanted.
     pub(super) fn spare(&self) -> usize {
         (self.blocks.len() - 1) * B * B

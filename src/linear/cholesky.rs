@@ -56,7 +56,7 @@ impl Cholesky {
     /// # Errors
     /// The factor does not fit into memory.
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
-        let elimination = Elimination::new(&graph);
+        let elimination = Elimination::new(&graph).postordered(&graph);
         memory::require(graph.unknowns(), elimination.nonzeros)?;
         let external: Vec<usize> = elimination.order.iter().flat_map(|&g| graph.first[g]..graph.first[g + 1]).collect();
         let mut position = vec![0; external.len()];
@@ -124,6 +124,20 @@ impl Cholesky {
     /// The entries of the matrix, to be filled before each factorisation.
     pub(super) fn values(&mut self) -> &mut [f64] {
         &mut self.values
+    }
+
+    /// Hands each entry of both triangles to `visit`: external row, external column, value.
+    pub(super) fn each_entry(&self, visit: &mut dyn FnMut(usize, usize, f64)) {
+        for (column, &j) in self.external.iter().enumerate() {
+            let from = self.pattern.col_ptr()[column];
+            for (place, &row) in self.pattern.row_idx_of_col_raw(column).iter().enumerate() {
+                let (i, value) = (self.external[row], self.values[from + place]);
+                visit(i, j, value);
+                if row != column {
+                    visit(j, i, value);
+                }
+            }
+        }
     }
 
     /// A place in [`Cholesky::values`] for entries that are not wanted.

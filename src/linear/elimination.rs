@@ -111,6 +111,15 @@ impl Elimination {
         Some(Elimination { order, position, start, below, nonzeros, flops, block_flops, name })
     }
 
+    /// The same elimination in postorder, in which update matrices come from a stack.
+    pub fn postordered(self, graph: &Graph) -> Self {
+        let order = self.postorder();
+        if order == self.order {
+            return self;
+        }
+        Self::fill(graph, order, self.name, f64::INFINITY).unwrap_or(self)
+    }
+
     /// The groups in postorder of the elimination tree: the fill is the same, and the columns of a supernode follow each
     /// other.
     fn postorder(&self) -> Vec<usize> {

@@ -7,6 +7,7 @@ use super::factorization::Factorization;
 use super::graph::Graph;
 use super::memory::TooLarge;
 use super::pivot::Singular;
+use super::sparse::Sparse;
 use super::stats::Stats;
 use super::structure::Structure;
 
@@ -73,6 +74,18 @@ impl Solver {
     /// overwrite them.
     pub fn values(&mut self) -> &mut [f64] {
         each!(self, inner => inner.values())
+    }
+
+    /// The matrix as assembled, before [`Solver::factor`], over the first `rows` external rows and columns.
+    pub fn matrix(&self, rows: usize) -> Sparse {
+        Sparse::from_entries(rows, |visit| {
+            let mut inside = |i: usize, j: usize, value: f64| {
+                if i < rows && j < rows {
+                    visit(i, j, value);
+                }
+            };
+            each!(self, inner => inner.each_entry(&mut inside));
+        })
     }
 
     /// A place in [`Solver::values`] that belongs to no entry: assembly adds there what is to be dropped.

@@ -1,0 +1,226 @@
+//! Lanczos' method with several starting vectors and thick restarts, all vectors kept orthogonal to each other.
+//!
+//! Band form: the vectors V are expanded one by one, w = S v, and what is new in w becomes one more vector. With q vectors
+//! expanded S V_q = V H, where the first q rows of H are symmetric and the others, as many as there are starting vectors, hold
+//! the residuals of Ritz pairs. A restart keeps the Ritz vectors wanted and the vectors not yet expanded, for which the same
+//! holds (K. Wu & H. Simon, SIAM J. Matrix Anal. Appl. 22 (2000); A. Ruhe, Math. Comp. 33 (1979)).
+//!
+//! The metric may be semi-definite: vectors start in the range of S, and eigenvectors are taken from S y / θ, which leaves the null
+//! space behind (B. Nour-Omid, B. N. Parlett, T. Ericsson & P. S. Jensen, Math. Comp. 48 (1987)).
+
+use super::basis::{Basis, Noise, dot};
+use super::dense;
+
+/// What is left of a vector after orthogonalisation counts as nothing below this part of it.
+const NEGLIGIBLE: f64 = 1e-11;
+/// Vectors beyond those wanted, by which restarts go on.
+const ROOM: usize = 24;
+
+/// An operator that is symmetric in a metric: (S x)·B y = x·B (S y).
+pub trait SymmetricOperator {
+    /// Length of its vectors.
+    fn dimension(&self) -> usize;
+    /// y ← S x.
+    fn apply(&mut self, x: &[f64], y: &mut [f64]);
+    /// y ← B x.
+    fn metric(&mut self, x: &[f64], y: &mut [f64]);
+}
+
+/// An eigenvalue of S with its vector, of length 1 in the metric.
+#[derive(Debug, Clone)]
+pub struct EigenPair {
+    /// The eigenvalue θ.
+    pub theta: f64,
+    /// The eigenvector.
+    pub vector: Vec<f64>,
+}
+
+/// A Krylov space of an operator.
+pub struct Lanczos {
+    basis: Basis,
+    /// Entries of H by columns; each of an expanded vector has a row for every vector there was then.
+    H: Vec<Vec<f64>>,
+    noise: Noise,
+    /// Applications of the operator so far.
+    pub applications: usize,
+    /// Restarts so far.
+    pub restarts: usize,
+}
+
+/// The Ritz pairs of a space.
+struct Ritz {
+    /// Their values, the largest magnitude first.
+    theta: Vec<f64>,
+    /// Their vectors by the expanded vectors of the basis.
+    s: Vec<Vec<f64>>,
+    /// The lengths of their residuals.
+    residual: Vec<f64>,
+}
+
+impl Lanczos {
+    /// The space of `width` starting vectors of all frequencies, the same in every run.
+    pub fn new(operator: &mut dyn SymmetricOperator, width: usize, wanted: usize, threads: bool) -> Lanczos {
+        let room = most(wanted) + 2 * width;
+        let mut lanczos = Lanczos {
+            basis: Basis::new(operator.dimension(), room.min(operator.dimension() + 1), threads),
+            H: Vec::new(),
+            noise: Noise(1),
+            applications: 0,
+            restarts: 0,
+        };
+        lanczos.start(operator, width);
+        lanczos
+    }
+
+    /// Adds vectors of all frequencies, which find what the others have no part of; false where there are none: the space is
+    /// the whole range of the operator.
+    pub fn start(&mut self, operator: &mut dyn SymmetricOperator, width: usize) -> bool {
+        let before = self.basis.len();
+        for _ in 0..width {
+            let random: Vec<f64> = (0..operator.dimension()).map(|_| self.noise.next()).collect();
+            let mut w = vec![0.0; random.len()];
+            operator.apply(&random, &mut w);
+            self.applications += 1;
+            self.add(operator, w);
+        }
+        self.basis.len() > before
+    }
+
+    /// Makes a vector orthogonal to all others and adds what is left of it; returns its products with the others, and last its
+    /// length.
+    fn add(&mut self, operator: &mut dyn SymmetricOperator, mut w: Vec<f64>) -> Vec<f64> {
+        let mut Bw = vec![0.0; w.len()];
+        operator.metric(&w, &mut Bw);
+        let before = dot(&w, &Bw).max(0.0).sqrt();
+        let mut column = vec![0.0; self.basis.len()];
+        for _ in 0..2 {
+            let products = self.basis.products(&Bw);
+            self.basis.subtract(&products, &mut w);
+            column.iter_mut().zip(&products).for_each(|(sum, product)| *sum += product);
+            operator.metric(&w, &mut Bw);
+        }
+        let length = dot(&w, &Bw).max(0.0).sqrt();
+        if length > NEGLIGIBLE * before && length.is_normal() {
+            self.basis.push(&w, 1.0 / length);
+            column.push(length);
+        }
+        column
+    }
+
+    /// Expands one more vector; false where all are: the space is invariant.
+    fn expand(&mut self, operator: &mut dyn SymmetricOperator) -> bool {
+        let next = self.H.len();
+        if next == self.basis.len() {
+            return false;
+        }
+        let mut w = vec![0.0; operator.dimension()];
+        operator.apply(self.basis.vector(next), &mut w);
+        self.applications += 1;
+        let column = self.add(operator, w);
+        self.H.push(column);
+        true
+    }
+
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        self.H[column].get(row).copied().unwrap_or(0.0)
+    }
+
+    fn ritz(&self) -> Option<Ritz> {
+        let q = self.H.len();
+        let (values, vectors) = dense::symmetric(q, |i, j| 0.5 * (self.entry(i, j) + self.entry(j, i)))?;
+        let mut order: Vec<usize> = (0..q).collect();
+        order.sort_by(|&a, &b| values[b].abs().total_cmp(&values[a].abs()));
+        let residual = |s: &[f64]| {
+            let row = |i: usize| -> f64 { (0..q).map(|j| self.entry(i, j) * s[j]).sum() };
+            (q..self.basis.len()).map(|i| row(i).powi(2)).sum::<f64>().sqrt()
+        };
+        Some(Ritz {
+            theta: order.iter().map(|&k| values[k]).collect(),
+            residual: order.iter().map(|&k| residual(&vectors[k])).collect(),
+            s: order.iter().map(|&k| vectors[k].clone()).collect(),
+        })
+    }
+
+    /// Ritz values after so many expansions in all, the largest magnitude first: first estimates.
+    pub fn probe(&mut self, operator: &mut dyn SymmetricOperator, expansions: usize) -> Vec<f64> {
+        while self.H.len() < expansions && self.expand(operator) {}
+        self.ritz().map_or_else(Vec::new, |ritz| ritz.theta)
+    }
+
+    /// Goes on until the `wanted` pairs of largest magnitude have residuals below `tolerance` times their values, and returns them
+    /// with one estimate beyond them, if there is one. Fewer are returned where the operator has no more; none where the
+    /// iteration does not come to its end within `most` applications of the operator.
+    pub fn converge(
+        &mut self,
+        operator: &mut dyn SymmetricOperator,
+        wanted: usize,
+        tolerance: f64,
+        limit: usize,
+    ) -> Option<(Vec<EigenPair>, Option<f64>)> {
+        let most = most(wanted);
+        let mut look = wanted + 2;
+        loop {
+            let goes_on = self.H.len() < most && self.expand(operator);
+            let q = self.H.len();
+            if goes_on && q < look && q < most {
+                continue;
+            }
+            look = q + 4.max(q / 16);
+            let ritz = self.ritz()?;
+            let there = wanted.min(ritz.theta.len());
+            // What lies far below the others is rounding, and has no digits to converge to.
+            let floor = 1e-14 * ritz.theta.first().map_or(0.0, |theta| theta.abs());
+            let open = (0..there).filter(|&k| ritz.residual[k] > tolerance * ritz.theta[k].abs() + floor).count();
+            let whole = q == self.basis.len();
+            if open == 0 && (there == wanted || whole) {
+                if there < wanted && self.start(operator, 1) {
+                    continue;
+                }
+                return Some(self.pairs(&ritz, there));
+            }
+            if self.applications > limit {
+                return None;
+            }
+            if q >= most {
+                self.restart(&ritz, wanted, most);
+                look = 0;
+            }
+        }
+    }
+
+    /// Keeps the Ritz vectors wanted, and half of the others.
+    fn restart(&mut self, ritz: &Ritz, wanted: usize, most: usize) {
+        let (q, p) = (self.H.len(), self.basis.len());
+        let keep = (wanted + (most - wanted) / 3).min(q);
+        let mut H = Vec::with_capacity(keep);
+        for k in 0..keep {
+            let mut column = vec![0.0; keep + p - q];
+            column[k] = ritz.theta[k];
+            for i in q..p {
+                column[keep + i - q] = (0..q).map(|j| self.entry(i, j) * ritz.s[k][j]).sum();
+            }
+            H.push(column);
+        }
+        self.basis.replace(&ritz.s[..keep], q);
+        self.H = H;
+        self.restarts += 1;
+    }
+
+    /// The first pairs and the value that follows them.
+    fn pairs(&self, ritz: &Ritz, count: usize) -> (Vec<EigenPair>, Option<f64>) {
+        let (q, p) = (self.H.len(), self.basis.len());
+        let pair = |k: usize| {
+            // S y / θ = y + V r / θ, with the coefficients r of the residual.
+            let mut factors = ritz.s[k].clone();
+            let rest = |i: usize| (0..q).map(|j| self.entry(i, j) * ritz.s[k][j]).sum::<f64>() / ritz.theta[k];
+            factors.extend((q..p).map(rest));
+            EigenPair { theta: ritz.theta[k], vector: self.basis.combine(&factors) }
+        };
+        ((0..count).map(pair).collect(), ritz.theta.get(count).copied())
+    }
+}
+
+/// Most vectors that are expanded before a restart.
+fn most(wanted: usize) -> usize {
+    2 * wanted + ROOM
+}
