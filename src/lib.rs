@@ -44,6 +44,7 @@ pub mod materials;
 pub mod math;
 pub mod mesh;
 pub mod model;
+pub mod modes;
 pub mod names;
 pub mod output;
 pub mod plan;

@@ -42,6 +42,12 @@ pub enum Unit {
     Stress,
     /// A force times a length.
     Energy,
+    /// A number per time.
+    Frequency,
+    /// A mass.
+    Mass,
+    /// A mass times a length squared.
+    Inertia,
     /// A mass times a velocity.
     Momentum,
     /// A mass times a velocity times a length.
@@ -68,6 +74,9 @@ impl fmt::Display for Unit {
             Unit::MomentPerLength => "force·length/length",
             Unit::Stress => "force/length²",
             Unit::Energy => "force·length",
+            Unit::Frequency => "1/time",
+            Unit::Mass => "mass",
+            Unit::Inertia => "mass·length²",
             Unit::Momentum => "mass·length/time",
             Unit::AngularMomentum => "mass·length²/time",
         })
@@ -293,6 +302,63 @@ pub const ENERGY: [Column; 18] = {
         lx,
         ly,
         lz,
+    ]
+};
+
+/// A mode: its frequency and what else there is of it.
+pub const MODE: [Column; 20] = {
+    const fn factor(name: &'static str) -> Column {
+        let meaning = "participation factor: φᵀ M r over the modal mass, for a unit rigid motion r along or about an axis through \
+            the centre of mass";
+        Column::scalar(name, meaning, Unit::One).in_axes(Axes::Global)
+    }
+    const fn mass(name: &'static str) -> Column {
+        let meaning = "effective mass: that of a rigid motion along the axis which moves with the mode";
+        Column::scalar(name, meaning, Unit::Mass).kind("effective mass").in_axes(Axes::Global)
+    }
+    const fn inertia(name: &'static str) -> Column {
+        let meaning = "effective moment of inertia, likewise, about an axis through the centre of mass";
+        Column::scalar(name, meaning, Unit::Inertia).kind("effective inertia").in_axes(Axes::Global)
+    }
+    [
+        Column::scalar(
+            "frequency",
+            "frequency; 0 of a motion without stiffness, and of one that does not oscillate",
+            Unit::Frequency,
+        ),
+        Column::scalar("period", "period; empty where nothing oscillates", Unit::Time),
+        Column::scalar("angular_frequency", "2π times the frequency", Unit::AngularVelocity),
+        Column::scalar(
+            "damping_ratio",
+            "part of critical damping; empty where nothing oscillates nor decays",
+            Unit::One,
+        )
+        .positive("decays"),
+        Column::scalar("growth", "rate at which the motion grows, as exp(growth t)", Unit::Frequency)
+            .positive("grows: the state is unstable"),
+        Column::scalar(
+            "factor",
+            "factor of the loads at which the structure buckles; empty of natural modes",
+            Unit::One,
+        ),
+        Column::scalar("modal_mass", "φᵀ M φ, with a shape φ whose largest displacement is 1", Unit::Mass),
+        factor("participation_x"),
+        factor("participation_y"),
+        factor("participation_z"),
+        factor("participation_rx"),
+        factor("participation_ry"),
+        factor("participation_rz"),
+        mass("mass_x"),
+        mass("mass_y"),
+        mass("mass_z"),
+        inertia("inertia_x"),
+        inertia("inertia_y"),
+        inertia("inertia_z"),
+        Column::scalar(
+            "strain",
+            "part of the strain energy in beams, bars, shells and links; the rest is that of stressed joints and loads that follow",
+            Unit::One,
+        ),
     ]
 };
 

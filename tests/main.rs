@@ -30,6 +30,7 @@ mod materials;
 mod mesh;
 mod messages;
 mod model;
+mod modes;
 mod order;
 mod output;
 mod paths;

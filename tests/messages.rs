@@ -806,3 +806,25 @@ fn contacts() {
                   [[expect]]\nat = \"block\"\nquantity = \"ux\"\nat_least = 0.0\nvalue = 1.0\ntolerance = 0.1";
     assert_snapshot!("expect_bounds", portal_and(bounds));
 }
+
+#[test]
+fn modes() {
+    let asked = |keys: &str| portal(&[("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys)]);
+    assert_snapshot!("modes_and_up_to", asked("kind = \"modal\"\nmodes = 3\nup_to = 50.0"));
+    assert_snapshot!("modes_numbers", asked("kind = \"modal\"\nup_to = -1.0\nend_time = 2.0"));
+    assert_snapshot!("modes_none", asked("kind = \"modal\"\nmodes = 0\ncontrol = \"arc-length\""));
+    assert_snapshot!("modes_too_many", asked("kind = \"modal\"\nmodes = 100000"));
+    assert_snapshot!("modes_of_buckling", asked("kind = \"buckling\"\nup_to = 5.0\ndamped = true"));
+    assert_snapshot!("modes_of_motion", portal(&[("end_time = 0.3", "end_time = 0.3\nmodes = 3\ndamped = true")]));
+    let expect = |of: &str| format!("kind = \"modal\"\nmodes = 3\n[[expect]]\n{of}\nvalue = 1.0\ntolerance = 0.1\n");
+    assert_snapshot!(
+        "modes_expected",
+        asked(
+            &(expect("mode = 4\nquantity = \"frequency\"")
+                + &expect("mode = 0\nquantity = \"frequncy\"\ntime = 1.0")
+                    .replace("kind = \"modal\"\nmodes = 3\n", ""))
+        )
+    );
+    let expect = "[[expect]]\nmode = 1\nquantity = \"frequency\"\nvalue = 1.0\ntolerance = 0.1\n[materials.steel]";
+    assert_snapshot!("modes_expected_of_motion", portal(&[("[materials.steel]", expect)]));
+}

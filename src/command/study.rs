@@ -10,7 +10,7 @@ use super::arguments::MAX_THREADS;
 use super::console::{complain, counted, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
-use super::load::{is_standard_input, load};
+use super::load::{Loaded, is_standard_input, load};
 use super::recommend;
 use super::signals::{EndAtOnce, stop_on_signals};
 use crate::deck::Deck;
@@ -135,6 +135,15 @@ fn climbed(text: &str) -> Result<Climbed, String> {
     }
 }
 
+/// Refuses decks of modes, which have no steps.
+fn with_steps(loaded: Loaded) -> Result<Loaded, Exit> {
+    if loaded.model.analysis.modes.is_none() {
+        return Ok(loaded);
+    }
+    complain("a study compares motions in time or load steps, and this deck asks for modes, which have none");
+    Err(Exit::DeckInvalid)
+}
+
 /// Runs the studies of a deck and prints their outcome.
 ///
 /// # Errors
@@ -150,7 +159,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         complain("a study runs its deck many times: give it a file, not standard input");
         return Err(Exit::Usage);
     }
-    let mut loaded = load(&args.deck, &sets, names.clone())?;
+    let mut loaded = with_steps(load(&args.deck, &sets, names.clone())?)?;
     if let Some(wanted) = args.recommend {
         // The last of the overrides stand for options: what completes them goes before.
         let defaults = recommend::defaults(&loaded.model, wanted);

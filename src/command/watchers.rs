@@ -49,6 +49,11 @@ impl Observer for Watchers {
         self.files.on_step(frame)
     }
 
+    fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.on_modes(frame)?;
+        self.files.on_modes(frame)
+    }
+
     fn restart(&mut self, model: &Model) -> io::Result<()> {
         self.log.sum_up()?;
         self.log.say(

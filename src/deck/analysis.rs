@@ -9,22 +9,21 @@ use crate::integrators::SCHEMES;
 use crate::integrators::scheme::{MakeScheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
 
-/// What is computed and over what time.
+/// What is computed, and over what time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Analysis {
-    /// Whether inertia acts.
+    /// What is computed.
     #[schemars(required)]
     pub kind: Maybe<AnalysisKind>,
     /// How a static analysis advances along its path. Default: "time".
     pub control: Maybe<Control>,
-    /// The run goes from t = 0 to this time, above 0; with arc-length control until the load first reaches it.
-    #[schemars(required)]
+    /// The run goes from t = 0 to this time, above 0; with arc-length control until the load first reaches it. Required for "dynamic" and
+    /// "static".
     pub end_time: Maybe<f64>,
     /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-
     /// difference as long as is stable. With arc-length control the length of the first step, which sets the
-    /// arc length of the others.
-    #[schemars(required)]
+    /// arc length of the others. Required for "dynamic" and "static".
     pub time_step: Maybe<NumberOrAuto>,
     /// With time_step = "auto": error of displacements at the end of the run owed to the length of the steps,
     /// relative to the largest displacement; between 0 and 1. Default: 1e-3.
@@ -38,8 +37,15 @@ pub struct Analysis {
     pub steps: Maybe<u64>,
     /// With arc-length control: the arc length grows to at most this multiple of the first. Default: no limit.
     pub growth: Maybe<f64>,
-    /// Whether motion out of a global plane is omitted where nothing can cause it. Default: "auto".
+    /// Whether motion out of a global plane is omitted where nothing can cause it. Default: "auto"; "off" for modes, which may lead
+    /// anywhere.
     pub plane: Maybe<Plane>,
+    /// With "modal" and "buckling": number of modes, the lowest, 1 or more. Default: 10.
+    pub modes: Maybe<u64>,
+    /// With "modal", instead of `modes`: all modes up to this frequency, above 0.
+    pub up_to: Maybe<f64>,
+    /// With "modal": complex modes, with damping and the gyroscopic moments of bodies that spin. Default: false.
+    pub damped: Maybe<bool>,
 }
 
 /// The quantity that steps advance by.
@@ -82,7 +88,7 @@ pub enum Displacement {
     Uz,
 }
 
-/// The kind of analysis, by whether inertia acts.
+/// The kind of analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AnalysisKind {
@@ -91,6 +97,10 @@ pub enum AnalysisKind {
     Dynamic,
     /// Load stepping without inertia; a load without an amplitude grows linearly from 0 at t = 0 to 1 at the end time.
     Static,
+    /// Natural modes about the equilibrium under what acts at t = 0.
+    Modal,
+    /// Factors of what acts at t = 0 at which the structure buckles, by linear buckling analysis.
+    Buckling,
 }
 
 /// The treatment of motion out of a global plane.

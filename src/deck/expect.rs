@@ -10,9 +10,11 @@ use super::words::{Maybe, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Name of a point, body, beam, bar, shell, link, joint or contact, "energy", or "analysis" for its time.
-    #[schemars(required)]
+    /// Name of a point, body, beam, bar, shell, link, joint or contact, "energy", or "analysis" for its time. Required without
+    /// `mode`.
     pub at: Maybe<String>,
+    /// Instead of `at`: number of a mode, 1 or more; the quantity is then a column of modes.csv, and needs no time.
+    pub mode: Maybe<u64>,
     /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "fx" to "mz" of a joint, what
     /// it does to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest
     /// anywhere.

@@ -200,6 +200,26 @@ impl ElementBlock for YieldingBars {
         }
     }
 
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        let history = &now.history[self.history_range(e)];
+        let (at, there) = (self.strain(e, now.nodes), self.strain(e, stressed));
+        let along = at.e * at.e.transpose();
+        let modulus = self.tension(&at, now.dt, history, Moduli::Elastic).modulus;
+        let force = self.tension(&there, now.dt, history, Moduli::Elastic).material;
+        let mut k = self.area / self.elements[e].free * modulus * along;
+        if at.length > 0.0 {
+            k += force / at.length * (Mat3::identity() - along);
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                K[6 * i + j] = k[(i, j)];
+                K[6 * i + 3 + j] = -k[(i, j)];
+                K[6 * (3 + i) + j] = -k[(i, j)];
+                K[6 * (3 + i) + 3 + j] = k[(i, j)];
+            }
+        }
+    }
+
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut sum = Dissipation::default();
         for (e, new) in new.chunks_exact_mut(self.variables).enumerate() {

@@ -38,6 +38,11 @@ pub trait ElementBlock: Send + Sync {
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
+    /// The elastic tangent of element `e` in the configuration `now` with the stresses that it has where its nodes are those `stressed`: what
+    /// stresses add to stiffness, apart from what displacements do. By default all is that of the nodes `stressed`.
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        self.tangent(e, &Configuration { nodes: stressed, lead: None, ..*now }, 0.0, Moduli::Elastic, K);
+    }
     /// Writes the history variables at `part` of the way from the last state to `now` into `new`, which has the length
     /// [`ElementBlock::history`], and returns the work that material points dissipate or store inelastically on that way.
     fn update_history(&self, _now: &Configuration, _part: f64, _new: &mut [f64]) -> Dissipation {

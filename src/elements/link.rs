@@ -85,6 +85,18 @@ impl LinkLaw {
     }
 }
 
+/// Writes the matrix of two nodes between which `k` acts.
+fn set_pair(k: &crate::math::Mat3, K: &mut [f64]) {
+    for i in 0..3 {
+        for j in 0..3 {
+            K[6 * i + j] = k[(i, j)];
+            K[6 * i + 3 + j] = -k[(i, j)];
+            K[6 * (3 + i) + j] = -k[(i, j)];
+            K[6 * (3 + i) + 3 + j] = k[(i, j)];
+        }
+    }
+}
+
 /// The force of a link and its derivatives.
 struct LinkForce {
     force: f64,
@@ -245,14 +257,18 @@ impl ElementBlock for Links {
             let across = (crate::math::Mat3::identity() - along) / line.length;
             k += r.force * across + r.damping * line.e * (across * line.dv).transpose();
         }
-        for i in 0..3 {
-            for j in 0..3 {
-                K[6 * i + j] = k[(i, j)];
-                K[6 * i + 3 + j] = -k[(i, j)];
-                K[6 * (3 + i) + j] = -k[(i, j)];
-                K[6 * (3 + i) + 3 + j] = k[(i, j)];
-            }
+        set_pair(&k, K);
+    }
+
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        let link = &self.0[e];
+        let line = link.line(now.nodes);
+        let mut k = link.law.force(line.delta).1 * line.e * line.e.transpose();
+        if link.direction.is_none() && line.length > 0.0 {
+            let across = (crate::math::Mat3::identity() - line.e * line.e.transpose()) / line.length;
+            k += link.law.force(link.line(stressed).delta).0 * across;
         }
+        set_pair(&k, K);
     }
 
     fn energy(&self, now: &Configuration) -> f64 {

@@ -2,6 +2,7 @@
 
 use super::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use super::data::{ERROR_TOLERANCE, FIRST_STEP};
+use super::modes::{ModesGiven, modes};
 use super::report::{Owner, Report};
 use super::values::{chosen, span};
 use crate::deck::Deck;
@@ -46,6 +47,7 @@ pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure
                 step_length: StepLength::Fixed { step: 0.0 },
                 least_step: 0.0,
                 plane: true,
+                modes: None,
             }
         }
     };
@@ -58,7 +60,12 @@ pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure
 
 fn times<'d>(analysis: &'d words::Analysis, span: &'d Span, report: &mut Report<'d>) -> Analysis {
     let owner = Owner::new("`[analysis]`", span);
-    let kind = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
+    let word = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
+    let kind = match modes(analysis, word, report) {
+        ModesGiven::Asked(analysis) => return analysis,
+        ModesGiven::Static => AnalysisKind::Static,
+        ModesGiven::Dynamic => AnalysisKind::Dynamic,
+    };
     let end_time = report.require_positive(&owner, "end_time", &analysis.end_time);
     let (time_step, error_tolerance) = time_step(&owner, analysis, kind, report);
     let least_step = report.positive("least_step", &analysis.least_step);
@@ -100,6 +107,7 @@ fn times<'d>(analysis: &'d words::Analysis, span: &'d Span, report: &mut Report<
         step_length,
         least_step: least_step.unwrap_or(least),
         plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto),
+        modes: None,
     }
 }
 

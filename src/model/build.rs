@@ -30,6 +30,7 @@ use super::masses::masses;
 use super::materials::materials;
 use super::merge_diagnostics::merge_diagnostics;
 use super::mesh_file::{Input, MeshNodes};
+use super::modes::{check_modal, hold_at_start};
 use super::names::Names;
 use super::node_places::place_nodes;
 use super::nodes::{Nodes, Topology};
@@ -108,7 +109,9 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>
     let study = study(&scene, &scheme, &topology.list, report);
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
     if !report.has_errors() {
-        check_amplitude_ends(deck, &amplitudes, scene.analysis.end_time, report);
+        if scene.analysis.modes.is_none() {
+            check_amplitude_ends(deck, &amplitudes, scene.analysis.end_time, report);
+        }
         let linked = links.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
         check_unjoined(&scene, &topology, Ties::new(&topology, &joints, linked), report);
         check_proportions(&scene, &topology, report);
@@ -152,7 +155,7 @@ fn ground<'d>(deck: &'d Deck, input: Option<&'d Input>, analysis: Analysis, repo
     let bodies = bodies(deck, &mut nodes, report);
     let mesh = MeshNodes::add(deck, input, &mut nodes, report);
     let names = Names::declare(deck, &bodies, mesh, report);
-    let materials = materials(deck, analysis.kind, report);
+    let materials = materials(deck, analysis.has_inertia(), report);
     let mut context = PartContext {
         deck,
         names: &names,
@@ -168,7 +171,7 @@ fn ground<'d>(deck: &'d Deck, input: Option<&'d Input>, analysis: Analysis, repo
     shells(&mut context);
     let PartContext { groups, mut parts, sections, .. } = context;
     parts.stiffnesses = sections.stiffnesses;
-    let (bodies, rigid) = rigid_bodies(deck, analysis.kind, bodies, &mut parts, &mut nodes, report);
+    let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
     Ground { scene: Scene { deck, analysis, names, bodies, parts }, nodes, groups, rigid }
 }
 
@@ -197,7 +200,9 @@ fn check(
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);
-    if kind == AnalysisKind::Static {
+    if scene.analysis.modes.is_some() {
+        check_modal(deck, report);
+    } else if kind == AnalysisKind::Static {
         check_static(deck, report);
     }
     check_explicit(deck, kind, &**scheme, &parts.list, report);
@@ -231,6 +236,9 @@ fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
     }
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
+    }
+    if model.analysis.modes.is_some() {
+        hold_at_start(model);
     }
     drop_unused(model);
     if all_nodes {

@@ -149,7 +149,7 @@ impl LawReader<'_, '_> {
         surface: (usize, &Surface),
         points: &[ContactPoint],
     ) -> Result<ChosenStiffness, &'static str> {
-        if self.scene.analysis.kind != AnalysisKind::Dynamic {
+        if !self.scene.analysis.has_inertia() {
             return Err(
                 "in a static analysis nothing says how stiff it should be: give force over the penetration that may be",
             );

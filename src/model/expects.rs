@@ -1,6 +1,6 @@
 //! `[[expect]]`: values that a run must reach.
 
-use super::data::{DIRECTIONS, Expect, ExpectAt, Part, Tolerance, When, quantities_of};
+use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, Part, Tolerance, When, quantities_of};
 use super::displacement_targets::displacement_target;
 use super::nodes::Topology;
 use super::place::Place;
@@ -30,12 +30,22 @@ pub(super) fn expects<'d>(
     report: &mut Report<'d>,
 ) -> Vec<Expect> {
     let mut tables = Expects { scene, topology, is_arc_length, report };
-    let tables_of = scene.deck.expect.iter();
+    let modes = scene.analysis.modes.is_some();
+    for entry in scene.deck.expect.iter().filter(|entry| modes && entry.mode.is_none()) {
+        let hint = "`mode` in place of `at` expects something of a mode";
+        tables
+            .report
+            .push(Diagnostic::note("this is not looked at in an analysis of modes").at(&entry.span).hint(hint));
+    }
+    let tables_of = scene.deck.expect.iter().filter(|entry| !modes || entry.mode.is_some());
     tables_of.filter_map(|table| tables.expect(&Owner::new("`[[expect]]`", &table.span), table)).collect()
 }
 
 impl<'d> Expects<'_, 'd> {
     fn expect(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<Expect> {
+        if let Some(number) = &expect.mode {
+            return self.expect_mode(owner, expect, number);
+        }
         let name = self.report.require(owner, "at", &expect.at);
         let at = name.and_then(|name| self.expect_at(name));
         let quantity = self.report.require(owner, "quantity", &expect.quantity);
@@ -70,6 +80,43 @@ impl<'d> Expects<'_, 'd> {
             tolerance,
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
             label: format!("{quantity} of {} {moment}", name?.value),
+        })
+    }
+
+    /// A quantity of a mode.
+    fn expect_mode(&mut self, owner: &Owner<'d>, expect: &'d words::Expect, number: &At<u64>) -> Option<Expect> {
+        let keys = [
+            ("at", span(&expect.at)),
+            ("time", span(&expect.time)),
+            ("when", span(&expect.when)),
+            ("peak", span(&expect.peak)),
+        ];
+        self.report.reject_unused("a mode", &keys);
+        let Some(asked) = &self.scene.analysis.modes else {
+            let hint = "`kind = \"modal\"` or `\"buckling\"` in `[analysis]` finds modes";
+            return self.report.error_with(&number.span, "`mode` needs an analysis of modes", hint);
+        };
+        if number.value == 0 {
+            return self.report.error(&number.span, "`mode` must be at least 1");
+        }
+        if let ModeExtent::Count(count) = asked.extent
+            && number.value > count as u64
+        {
+            let hint = format!("`modes` of `[analysis]` is {count}");
+            return self.report.error_with(&number.span, "this mode is not computed", hint);
+        }
+        let quantity = self.report.require(owner, "quantity", &expect.quantity);
+        let name = At { value: format!("mode {}", number.value), span: number.span.clone() };
+        let column = quantity.and_then(|quantity| self.column(&quantities::MODE, quantity, &name));
+        let ((value, tolerance), quantity) = (self.judged(owner, expect)?, column?);
+        Some(Expect {
+            at: ExpectAt::Mode(number.value as usize - 1),
+            quantity: quantity.to_owned(),
+            when: When::Abs,
+            value,
+            tolerance,
+            source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
+            label: format!("{quantity} of {}", name.value),
         })
     }
 

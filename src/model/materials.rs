@@ -1,6 +1,6 @@
 //! `[materials.x]`: what a material is made of, and its law where it yields.
 
-use super::data::{AnalysisKind, MassKind};
+use super::data::MassKind;
 use super::report::{Owner, Report};
 use super::values::span;
 use crate::deck::Deck;
@@ -22,7 +22,7 @@ pub(super) struct Materials<'d> {
 }
 
 /// Checks `[materials]`.
-pub(super) fn materials<'d>(deck: &'d Deck, kind: AnalysisKind, report: &mut Report<'d>) -> Materials<'d> {
+pub(super) fn materials<'d>(deck: &'d Deck, has_inertia: bool, report: &mut Report<'d>) -> Materials<'d> {
     let laws = deck.materials.0.iter().map(|(name, material)| {
         let owner = Owner::new(format!("material `{}`", name.value), &material.span);
         let model = report.require(&owner, "model", &material.kind);
@@ -38,7 +38,7 @@ pub(super) fn materials<'d>(deck: &'d Deck, kind: AnalysisKind, report: &mut Rep
     let laws = laws.collect();
     let pulls = |environment: &Environment| environment.gravity.is_some() || !environment.base_acceleration.is_empty();
     let pulled = deck.environment.as_ref().is_some_and(|environment| pulls(environment));
-    Materials { table: &deck.materials, laws, inertia_matters: kind == AnalysisKind::Dynamic || pulled }
+    Materials { table: &deck.materials, laws, inertia_matters: has_inertia || pulled }
 }
 
 impl<'d> Materials<'d> {

@@ -36,6 +36,7 @@ mod masses;
 mod materials;
 mod merge_diagnostics;
 mod mesh_file;
+mod modes;
 mod names;
 mod nearest_nodes;
 mod node_places;

@@ -5,7 +5,7 @@
 //! has the same inertia in rigid motion; lumped mass comes to it as elements get smaller.
 
 use super::bodies::{Bodies, title};
-use super::data::{AnalysisKind, Body, MassIntegrals, Rigid};
+use super::data::{Body, MassIntegrals, Rigid};
 use super::nodes::Nodes;
 use super::parts::Parts;
 use super::report::{Owner, Report};
@@ -24,7 +24,7 @@ const ROUND_OFF: f64 = 1e-12;
 /// bodies.
 pub(super) fn rigid_bodies<'d>(
     deck: &'d Deck,
-    kind: AnalysisKind,
+    has_inertia: bool,
     bodies: Bodies<'d>,
     parts: &mut Parts,
     nodes: &mut Nodes,
@@ -33,7 +33,7 @@ pub(super) fn rigid_bodies<'d>(
     let mut made = Vec::new();
     let mut list = bodies.list;
     for (body, of, span) in bodies.of_parts {
-        let mut maker = Maker { deck, kind, bodies: &mut list, parts, nodes, report };
+        let mut maker = Maker { deck, has_inertia, bodies: &mut list, parts, nodes, report };
         made.extend(maker.rigid_body(body, &of, span));
     }
     (list, made)
@@ -41,7 +41,7 @@ pub(super) fn rigid_bodies<'d>(
 
 struct Maker<'a, 'd> {
     deck: &'d Deck,
-    kind: AnalysisKind,
+    has_inertia: bool,
     bodies: &'a mut [Body],
     parts: &'a mut Parts,
     nodes: &'a mut Nodes,
@@ -66,7 +66,7 @@ impl<'d> Maker<'_, 'd> {
             cells.extend(self.take_out(part, origin, &mut sums));
         }
         let (center, inertia) = (sums.center(), sums.inertia());
-        if self.kind == AnalysisKind::Dynamic {
+        if self.has_inertia {
             if sums.mass <= 0.0 {
                 let message = format!("the parts of {} have no mass", owner.what);
                 return self.report.error_with(

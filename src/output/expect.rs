@@ -181,6 +181,13 @@ impl Observer for Expectations {
         Ok(())
     }
 
+    fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
+        for watch in self.watches.iter_mut().filter(|watch| matches!(watch.expect.at, ExpectAt::Mode(_))) {
+            watch.sample = watch.value(frame).map(|value| Sample { time: frame.state.time, value, other: None });
+        }
+        Ok(())
+    }
+
     fn restart(&mut self, _: &Model) -> io::Result<()> {
         for watch in &mut self.watches {
             watch.before = (watch.sample.take(), std::mem::take(&mut watch.history));
@@ -265,6 +272,9 @@ impl Watch {
         let reason = match (self.quantity, self.sample, *when) {
             _ if passed => None,
             (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
+            (_, None, _) if matches!(self.expect.at, ExpectAt::Mode(_)) => {
+                Some(format!("there is no such mode, or it has no `{quantity}`"))
+            }
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
             (_, None, When::Target(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),

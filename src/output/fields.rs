@@ -10,7 +10,7 @@
 use super::disk::{at, create, replace};
 use super::run_list::RunList;
 use super::vtu::{self, Cell};
-use crate::math::{Mat3, Vec3, rotation};
+use crate::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
 use crate::model::{Drawing, Model, Part};
 use crate::solids::outline::OutlineCell;
 use crate::solve::{Frame, ShellState};
@@ -157,7 +157,16 @@ fn names(model: &Model) -> csv::Result<Vec<u8>> {
 
 /// Whether a file of this name is one that [`Fields`] writes.
 pub fn is_file(name: &str) -> bool {
-    LISTS.contains(&name) || is_grid(name)
+    LISTS.contains(&name) || is_grid(name) || name == MODES || is_mode(name)
+}
+
+/// The list of the grids of modes.
+pub const MODES: &str = "modes.pvd";
+
+/// Whether a file of this name is the grid of a mode.
+fn is_mode(name: &str) -> bool {
+    let number = name.strip_prefix("mode_").and_then(|rest| rest.strip_suffix(".vtu"));
+    number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// The files that are written however many grids there are.
@@ -250,6 +259,53 @@ impl Fields {
         }
         self.listed.clear();
         Ok(())
+    }
+
+    /// Writes a grid of each mode, with its shape as displacements of the state, and the list of them by number.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
+        let Some(modes) = frame.modes else { return Ok(()) };
+        let mut listed = String::new();
+        for (number, mode) in (1..).zip(&modes.list) {
+            let (text, bytes) = (&mut self.text, &mut self.bytes);
+            text.clear();
+            text.push_str(vtu::OPEN);
+            text.push_str("<FieldData>\n");
+            vtu::array(text, bytes, "TimeValue", 1, [f64::from(number)].into_iter());
+            vtu::array(text, bytes, "frequency", 1, [mode.frequency()].into_iter());
+            text.push_str("</FieldData>\n");
+            text.push_str(&self.piece);
+            let (places, now) = (&self.places, &frame.state.nodes);
+            let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
+                vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
+            };
+            let arm = |p: &Place| now[p.node].R() * p.arm;
+            let moved = |p: &Place, shape: &[Vec6]| linear(&shape[p.node]) + angular(&shape[p.node]).cross(&arm(p));
+            text.push_str("<PointData>\n");
+            vectors(text, "displacement", &|p| moved(p, &mode.shape));
+            vectors(text, "rotation", &|p| angular(&mode.shape[p.node]));
+            if !mode.quadrature.is_empty() {
+                vectors(text, "displacement_ahead", &|p| moved(p, &mode.quadrature));
+                vectors(text, "rotation_ahead", &|p| angular(&mode.quadrature[p.node]));
+            }
+            text.push_str("</PointData>\n<Points>\n");
+            vectors(text, "Points", &|p| now[p.node].x + arm(p));
+            text.push_str("</Points>\n<CellData>\n");
+            text.push_str(&self.parts);
+            text.push_str("</CellData>\n");
+            text.push_str(&self.cells);
+            text.push_str(vtu::CLOSE);
+            let name = format!("mode_{number:04}.vtu");
+            let path = self.dir.join(&name);
+            self.list.note(&name)?;
+            create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
+            let _ = writeln!(listed, "<DataSet timestep=\"{number}\" part=\"0\" file=\"{name}\"/>");
+        }
+        let list = format!("{LIST}{listed}</Collection>\n</VTKFile>\n");
+        self.list.note(MODES)?;
+        replace(&self.dir.join(MODES), list.as_bytes())
     }
 
     fn write(&mut self, frame: &Frame) -> io::Result<()> {

@@ -94,6 +94,18 @@ impl Observer for Files {
         if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
     }
 
+    fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
+        for OpenTable { kind, file, write } in &mut self.tables {
+            if kind.needs.has(Wanted::MODES) {
+                write(file, frame)?;
+            }
+        }
+        match &mut self.fields {
+            Some(fields) => fields.on_modes(frame),
+            None => Ok(()),
+        }
+    }
+
     fn restart(&mut self, model: &Model) -> io::Result<()> {
         if let Some(fields) = &mut self.fields {
             fields.withdraw()?;

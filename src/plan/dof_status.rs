@@ -30,7 +30,11 @@ pub type NodeStatus = [DofStatus; 6];
 pub fn classify(model: &Model, system: &System) -> Vec<NodeStatus> {
     let n = model.nodes.len();
     let resisted = resistance(system, n);
-    let moved = causes(model, system, &resisted);
+    let moved = match model.analysis.modes {
+        // Whatever can move has modes.
+        Some(_) => vec![[true; 6]; n],
+        None => causes(model, system, &resisted),
+    };
     let normal = system.plane;
     let mut statuses = vec![[DofStatus::Unused; 6]; n];
     for inertia in &system.inertias {

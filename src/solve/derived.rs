@@ -34,8 +34,10 @@ impl Wanted {
     pub const PLASTIC_STRAINS: Wanted = Wanted(1 << 7);
     /// Stress resultants of shells.
     pub const SHELLS: Wanted = Wanted(1 << 8);
+    /// Modes about the state at the end of the run.
+    pub const MODES: Wanted = Wanted(1 << 9);
     /// All quantities.
-    pub const ALL: Wanted = Wanted((1 << 9) - 1);
+    pub const ALL: Wanted = Wanted((1 << 10) - 1);
 
     /// True where all of `what` is in the set.
     pub const fn has(self, what: Wanted) -> bool {

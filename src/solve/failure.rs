@@ -1,6 +1,7 @@
 //! The failures of steps, with the names of what failed.
 
 use crate::model::{DIRECTIONS, Model};
+use crate::modes::ModesFault;
 use crate::names::to_digits;
 use crate::plan::Plan;
 use crate::system::System;
@@ -139,6 +140,8 @@ pub enum Failure {
         /// The length of the step.
         dt: f64,
     },
+    /// There are no modes about the state.
+    Modes(ModesFault),
     /// The motion left the range of numbers.
     NotFinite {
         /// The largest residual forces, or those that are no numbers.
@@ -285,6 +288,7 @@ impl Failure {
                 };
                 format!("no convergence in {iterations} iterations{limit}; the largest unbalanced forces are")
             }
+            Failure::Modes(fault) => fault.to_string(),
             Failure::NotFinite { .. } => {
                 "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
             }

@@ -2,6 +2,7 @@
 
 use super::derived::Derived;
 use crate::model::Model;
+use crate::modes::Modes;
 use crate::state::State;
 
 /// One accepted step, read-only.
@@ -36,6 +37,8 @@ pub struct Frame<'a> {
     pub reactions: &'a [f64],
     /// Quantities computed for output only.
     pub derived: &'a Derived,
+    /// The modes about the state, where the frame is theirs.
+    pub modes: Option<&'a Modes>,
 }
 
 /// What a step took.
@@ -55,6 +58,11 @@ pub struct Effort {
 pub trait Observer {
     /// Receives each accepted step. An error is an input/output error; it ends the run with exit code 6.
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()>;
+
+    /// Receives the modes about a state, which has been shown before. An error is one of input/output.
+    fn on_modes(&mut self, _: &Frame) -> std::io::Result<()> {
+        Ok(())
+    }
 
     /// Forgets what it has received: the run begins again at t = 0, with shorter steps. Nothing is done where nothing is kept. An error is
     /// one of input/output.

@@ -20,6 +20,7 @@ mod linear_system;
 mod links;
 mod load_steps;
 mod march;
+mod modes;
 mod motion;
 mod outcome;
 mod projection;

@@ -10,6 +10,7 @@ use super::report::StepReport;
 use super::sample::Sample;
 use super::workspace::Workspace;
 use crate::model::{Cadence, Model};
+use crate::modes::Modes;
 use crate::state::State;
 use crate::system::energy::Energy;
 use std::time::{Duration, Instant};
@@ -202,6 +203,27 @@ impl Recorder {
         observer.on_step(&self.frame(cx, ws, state, step, [true, false])).map_err(Outcome::Io)
     }
 
+    /// Shows the modes about a state that has been shown.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write.
+    pub fn notify_modes(
+        &mut self,
+        cx: &Context,
+        ws: &Workspace,
+        state: &State,
+        observer: &mut dyn Observer,
+        modes: &Modes,
+    ) -> Result<(), Outcome> {
+        let began = Instant::now();
+        let report = &StepReport::begin(0.0);
+        let step = &AcceptedStep { dt: 0.0, report, cuts: 0, due: true, compared: false, last: true, passed: &[] };
+        let frame = Frame { modes: Some(modes), ..self.frame(cx, ws, state, step, [true, true]) };
+        observer.on_modes(&frame).map_err(Outcome::Io)?;
+        self.observing += began.elapsed();
+        Ok(())
+    }
+
     /// Decides whether tables are due, and whether fields are drawn; fields are drawn at the end too.
     fn is_due(&mut self, model: &Model, step: &AcceptedStep, time: f64) -> (bool, bool) {
         let (output, at) = (&model.output, (self.counts.steps, time));
@@ -243,6 +265,7 @@ impl Recorder {
             compared,
             reactions: if self.wanted.has_now(Wanted::REACTIONS, due || compared) { &state.reactions } else { &[] },
             derived: &self.derived,
+            modes: None,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),
         }

@@ -6,6 +6,7 @@ use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::{Observer, OtherRun};
 use super::march::March;
+use super::modes;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::sample::Samples;
@@ -83,7 +84,7 @@ impl<'a> Run<'a> {
         recorder.begin(cx, &state);
         let mut march =
             March { cx, ws, state: &mut state, recorder, observer, samples: Samples::new(&schedule.samples), stop };
-        let mut outcome = controller.run(&mut march, schedule);
+        let mut outcome = modes::lead(controller, &mut march, schedule);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }

@@ -37,6 +37,17 @@ pub enum Warning {
     Unstable(Instability),
     /// The same out of the plane of a plane motion.
     UnstableOutOfPlane(Instability),
+    /// Modes of the state grow.
+    Grows {
+        /// The number of modes that do, of those found.
+        modes: usize,
+        /// The largest rate.
+        rate: f64,
+        /// Its mode, from 1.
+        fastest: usize,
+    },
+    /// What modes leave out, in words.
+    Modes(String),
 }
 
 /// Where and how an equilibrium becomes unstable.
@@ -113,6 +124,12 @@ impl fmt::Display for Warning {
                 short(*depth),
                 to_digits(100.0 * depth / size, 2)
             ),
+            Warning::Grows { modes, rate, fastest } => write!(
+                f,
+                "the state is unstable: mode {fastest} grows with rate {} ({modes} of the modes found grow)",
+                to_digits(*rate, 4)
+            ),
+            Warning::Modes(doubts) => f.write_str(doubts),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);

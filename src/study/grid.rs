@@ -208,6 +208,9 @@ fn analysis(model: &Model, deck: &Deck) -> String {
         stop: _,
         steps: _,
         growth: _,
+        modes: _,
+        up_to: _,
+        damped: _,
     } = &*at.value;
     if let Some(least) = least_step {
         text += &format!(", least_step = {}", float(least.value));

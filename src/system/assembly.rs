@@ -36,6 +36,8 @@ pub struct Assembly {
     threads: bool,
     /// True where the gyroscopic matrix C(r) (37) is part of the tangent; it is in the residual always.
     gyroscopic: bool,
+    /// True where [`Configuration::lead`] holds the nodes whose stresses act: see [`Assembly::stressed`].
+    of_stresses: bool,
     scratch: Scratch,
 }
 
@@ -287,6 +289,7 @@ impl Assembly {
             arms,
             threads: system.uses_threads(threads),
             gyroscopic: system.gyroscopic && !solver.is_symmetric(),
+            of_stresses: false,
             scratch: Scratch {
                 local: vec![0.0; local],
                 own: vec![Mat6::zeros(); nodes],
@@ -307,6 +310,57 @@ impl Assembly {
         weights: TangentWeights,
         solver: &mut Solver,
     ) {
+        self.without_joints(system, now, loading, forces, weights, solver);
+        self.add_joints(system, now.nodes, forces, weights, solver.values());
+    }
+
+    /// The same without the rows of multipliers and what penalties add, but with the derivative of the joints' forces: what acts on
+    /// motions that the joints allow.
+    pub fn unconstrained(
+        &mut self,
+        system: &System,
+        now: &Configuration,
+        loading: &Loading,
+        forces: &mut Forces,
+        weights: TangentWeights,
+        solver: &mut Solver,
+    ) {
+        self.without_joints(system, now, loading, forces, weights, solver);
+        if weights.stiffness {
+            let Scratch { projections, projected, .. } = &mut self.scratch;
+            let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+            let values = solver.values();
+            joints::stiffnesses(system, now.nodes, &forces.multipliers, |j, K| {
+                how.add((K, joints::WIDTH), &self.joints[j], projected, values);
+            });
+        }
+    }
+
+    /// As [`Assembly::unconstrained`] with K in a configuration `now`, but with the stresses that elements have at the nodes that stand as
+    /// [`Configuration::lead`] there.
+    pub fn stressed(
+        &mut self,
+        system: &System,
+        now: &Configuration,
+        loading: &Loading,
+        forces: &mut Forces,
+        weights: TangentWeights,
+        solver: &mut Solver,
+    ) {
+        self.of_stresses = true;
+        self.unconstrained(system, now, loading, forces, weights, solver);
+        self.of_stresses = false;
+    }
+
+    fn without_joints(
+        &mut self,
+        system: &System,
+        now: &Configuration,
+        loading: &Loading,
+        forces: &Forces,
+        weights: TangentWeights,
+        solver: &mut Solver,
+    ) {
         let nodes = now.nodes;
         let values = solver.values();
         values.fill(0.0);
@@ -318,7 +372,6 @@ impl Assembly {
         self.form_nodes(system, nodes, loading, forces, weights);
         self.add_nodes(values);
         self.add_masses(system, weights, values);
-        self.add_joints(system, nodes, forces, weights, values);
     }
 
     fn add_elements(
@@ -336,12 +389,12 @@ impl Assembly {
                 let last = (first + CHUNK).min(block.len());
                 let Scratch { local, projections, projected, .. } = &mut self.scratch;
                 let local = &mut local[..length * (last - first)];
-                let sparse = group.kind.is_unilateral();
+                let (sparse, of_stresses) = (group.kind.is_unilateral(), self.of_stresses);
                 let inactive = |e: usize| sparse && block.is_inactive(e, now);
-                let fill = |(k, K): (usize, &mut [f64])| {
-                    if !inactive(first + k) {
-                        block.tangent(first + k, now, rate, moduli, K);
-                    }
+                let fill = |(k, K): (usize, &mut [f64])| match now.lead {
+                    _ if inactive(first + k) => {}
+                    Some(stressed) if of_stresses => block.stressed_tangent(first + k, now, stressed, K),
+                    _ => block.tangent(first + k, now, rate, moduli, K),
                 };
                 if self.threads {
                     local.par_chunks_mut(length).enumerate().for_each(fill);

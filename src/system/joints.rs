@@ -95,6 +95,17 @@ impl System {
         }
     }
 
+    /// Writes the changes of the gaps for small motions (u, θ) of all nodes, dependent nodes included.
+    pub fn gaps_of_motion(&self, nodes: &[Node], motions: &[Vec6], gaps: &mut [f64]) {
+        for (joint, first) in self.numbered() {
+            let [a, b] = joint.nodes.map(|n| &nodes[n]);
+            for (k, row) in joint.equations.iter().enumerate() {
+                let [Ga, Gb] = row.gradient(a, b);
+                gaps[first + k] = Ga.dot(&motions[joint.nodes[0]]) + Gb.dot(&motions[joint.nodes[1]]);
+            }
+        }
+    }
+
     /// The largest gap relative to its reference: `reach`, the size of positions, for lengths, and 1 for angles.
     pub fn largest_gap(&self, gaps: &[f64], reach: f64) -> f64 {
         let rows = self.joints.iter().flat_map(|joint| &joint.equations);
@@ -211,6 +222,34 @@ fn set_penalties(
     }
 }
 
+/// Adds the derivative of the force of a constraint equation to the matrix of its joint.
+fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, K: &mut [f64]) {
+    row.stiffness(a, b, lambda, |i, j, block| {
+        for r in 0..3 {
+            for c in 0..3 {
+                K[(3 * i + r) * WIDTH + 3 * j + c] += block[(r, c)];
+            }
+        }
+    });
+}
+
+/// Forms the derivative of the forces of each joint, as [`tangents`] does the whole matrix, and hands it to `add` with its number.
+pub(super) fn stiffnesses(
+    system: &System,
+    nodes: &[Node],
+    multipliers: &Multipliers,
+    mut add: impl FnMut(usize, &mut [f64]),
+) {
+    let mut K = [0.0; WIDTH * WIDTH];
+    for (j, (joint, first)) in system.numbered().enumerate() {
+        K.fill(0.0);
+        for (row, &lambda) in joint.equations.iter().zip(&multipliers.values[first..]) {
+            add_stiffness(row, joint.nodes.map(|n| &nodes[n]), lambda, &mut K);
+        }
+        add(j, &mut K);
+    }
+}
+
 /// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
 /// `projections` are those of the nodes onto independent nodes; with `stiffness` the matrix holds the derivative of the
 /// joint's forces.
@@ -232,13 +271,7 @@ pub(super) fn tangents(
         for (k, row) in joint.equations.iter().enumerate() {
             let (s, lambda) = (multipliers.penalties[first + k], multipliers.values[first + k]);
             if stiffness {
-                row.stiffness(a, b, lambda, |i, j, block| {
-                    for r in 0..3 {
-                        for c in 0..3 {
-                            K[(3 * i + r) * WIDTH + 3 * j + c] += block[(r, c)];
-                        }
-                    }
-                });
+                add_stiffness(row, [a, b], lambda, &mut K);
             }
             let [Ga, Gb] = row.gradient(a, b);
             let G: [f64; 12] = std::array::from_fn(|i| if i < 6 { Ga[i] } else { Gb[i - 6] });

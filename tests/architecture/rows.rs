@@ -3,7 +3,7 @@
 use super::source::{files, root};
 
 /// Rows from the bottom up; siblings do not know each other.
-const ROWS: [&[&str]; 11] = [
+const ROWS: [&[&str]; 12] = [
     &["math", "names", "quantities", "diagnostic"],
     &["words", "text_file"],
     &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh", "record"],
@@ -11,6 +11,7 @@ const ROWS: [&[&str]; 11] = [
     &["deck"],
     &["model", "system"],
     &["plan"],
+    &["modes"],
     &["solve", "output"],
     &["study", "sweep"],
     &["command"],

@@ -57,6 +57,7 @@ pub fn model() -> Model {
             step_length: StepLength::Fixed { step: 0.1 },
             least_step: 1e-6,
             plane: false,
+            modes: None,
         },
         solution: Solution {
             scheme_is_chosen: false,
@@ -217,6 +218,7 @@ impl Extras {
             derived: &self.derived,
             passed: &[],
             negative_pivots: None,
+            modes: None,
         }
     }
 }

@@ -115,6 +115,10 @@ impl Observer for Watchers<'_> {
         self.expectations.on_step(frame)
     }
 
+    fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.on_modes(frame)
+    }
+
     fn restart(&mut self, model: &Model) -> io::Result<()> {
         self.rows.clear();
         self.expectations.restart(model)

@@ -81,11 +81,17 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        // Where material yields, its state counts more than what a correction stretches.
+        let lead = now.lead.filter(|_| self.elements[e].section.history() == 0);
         if self.damping > 0.0 {
-            tangent::<N, S, true>(self, e, now, rate_weight, moduli, K);
+            tangent::<N, S, true>(self, e, (now, lead), rate_weight, moduli, K);
         } else {
-            tangent::<N, S, false>(self, e, now, rate_weight, moduli, K);
+            tangent::<N, S, false>(self, e, (now, lead), rate_weight, moduli, K);
         }
+    }
+
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        tangent::<N, S, false>(self, e, (now, Some(stressed)), 0.0, Moduli::Elastic, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {

@@ -6,7 +6,7 @@ use super::quaternion::{Quat, dot, left, multiply, right, right_unit, rotation_c
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 
 /// A row over z: p at 0..4, p′ at 4..8, r′ at 8..11; the last place is unused, so that a row fills whole registers.
 type Row = [f64; 12];
@@ -277,18 +277,17 @@ fn add_damping<const N: usize, S: BeamSection>(
     (beams.damping * n, beams.damping * m)
 }
 
-/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`]; symmetric unless `DAMPED`.
+/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses that `lead` tells; symmetric unless
+/// `DAMPED`.
 pub(super) fn tangent<const N: usize, S: BeamSection, const DAMPED: bool>(
     beams: &Beams<N, S>,
     e: usize,
-    now: &Configuration,
+    (now, lead): (&Configuration, Option<&[Node]>),
     rate_weight: f64,
     moduli: Moduli,
     K: &mut [f64],
 ) {
     let element = &beams.elements[e];
-    // Where material yields, its state counts more than what a correction stretches.
-    let lead = now.lead.filter(|_| element.section.history() == 0);
     let motion = beams.gather(element, now.nodes);
     let q = &motion.0;
     let mut pairs = [[[[0.0; 8]; 7]; N]; N];

@@ -71,10 +71,14 @@ where
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         if self.damping > 0.0 {
-            tangent::<_, N, V, M, _, true>(self, e, now, rate_weight, moduli, K);
+            tangent::<_, N, V, M, _, true>(self, e, (now, None), rate_weight, moduli, K);
         } else {
-            tangent::<_, N, V, M, _, false>(self, e, now, rate_weight, moduli, K);
+            tangent::<_, N, V, M, _, false>(self, e, (now, None), rate_weight, moduli, K);
         }
+    }
+
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        tangent::<_, N, V, M, _, false>(self, e, (now, Some(stressed)), 0.0, Moduli::Elastic, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {

@@ -6,7 +6,7 @@ use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Str
 use super::section::{ShellSection, ShellStiffness};
 use crate::elements::block::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 use std::array::from_fn;
 
 /// A row of B by positions and rotations of the nodes.
@@ -135,11 +135,12 @@ impl<const N: usize, const M: usize> Rows<N, M> {
     }
 }
 
-/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`]; symmetric unless `DAMPED`.
+/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses at the nodes `stressed` in place of its own;
+/// symmetric unless `DAMPED`.
 pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, const DAMPED: bool>(
     shells: &Shells<T, N, V, M, S>,
     e: usize,
-    now: &Configuration,
+    (now, stressed): (&Configuration, Option<&[Node]>),
     rate_weight: f64,
     moduli: Moduli,
     K: &mut [f64],
@@ -149,7 +150,10 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, cons
 {
     let element = &shells.elements[e];
     let motion = element.gather(now.nodes);
-    let strains = element.strains::<T>(&motion);
+    let strains = match stressed {
+        Some(nodes) => element.strains::<T>(&element.gather(nodes)),
+        None => element.strains::<T>(&motion),
+    };
     let mut place = ShellStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
     let (shear, drill) = element.shear_and_drilling(&strains);

@@ -1,7 +1,8 @@
 //! The analysis and the solution procedure.
 
+use super::modes::ModesAsked;
 use super::step_length::{FIRST_STEP, StepLength};
-use crate::deck::analysis::{AnalysisKind, Gyroscopic, Method, Update};
+use crate::deck::analysis::{Gyroscopic, Method, Update};
 use crate::integrators::Scheme;
 use std::sync::Arc;
 
@@ -18,9 +19,26 @@ pub struct Analysis {
     pub least_step: f64,
     /// True where out-of-plane motion that nothing can excite is omitted from the unknowns.
     pub plane: bool,
+    /// The modes that are found about the state at the end.
+    pub modes: Option<ModesAsked>,
+}
+
+/// The kind of analysis, by whether inertia acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AnalysisKind {
+    /// Motion in time.
+    #[default]
+    Dynamic,
+    /// Load steps without inertia.
+    Static,
 }
 
 impl Analysis {
+    /// True where masses matter: in motion in time, and in modes.
+    pub fn has_inertia(&self) -> bool {
+        self.kind == AnalysisKind::Dynamic || self.modes.is_some()
+    }
+
     /// The length of step on which samples and studies are based: that of fixed steps, or about that of the first.
     pub fn nominal_step(&self) -> f64 {
         match &self.step_length {

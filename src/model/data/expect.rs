@@ -31,6 +31,8 @@ pub enum ExpectAt {
     Node(usize),
     /// Columns of energy.csv.
     Energy,
+    /// Columns of modes.csv, of the mode at this place of its list.
+    Mode(usize),
     /// Columns of the table of links or of contacts, and the magnitude of the force of a contact.
     Part(PartIndex),
     /// Force and moment on the first end of a joint.

@@ -71,6 +71,56 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     Ok(Some(Ok(scene)))
 }
 
+/// Pictures of a mode in one swing.
+const PHASES: usize = 16;
+/// The largest number of pictures of all modes.
+const PICTURES: usize = 640;
+/// Largest displacement of a mode as it is shown, as a part of the size of the scene.
+const SWING: f64 = 0.1;
+
+/// The modes of a folder as a moving scene, and their number: each swings once, one after the other. The time is the number of the mode
+/// and the part of its period. `None` where there are no modes.
+///
+/// # Errors
+/// As for [`scene`].
+pub fn modes(folder: &Path) -> io::Result<Option<(PageScene, usize)>> {
+    let grids = listed(&folder.join("modes.pvd"))?;
+    let Some((_, first)) = grids.first() else { return Ok(None) };
+    let kinds = kinds(&folder.join("fields.csv"))?;
+    let first = Grid::read(folder.join(first))?;
+    let points = first.array("Points", 3)?;
+    let count = points.len() / 3;
+    if count > POINTS {
+        return Ok(None);
+    }
+    let mut scene = PageScene { x0: points.iter().map(|x| *x as f32).collect(), ..PageScene::default() };
+    cells(&first, &kinds, count, &mut scene)?;
+    let bounds = (0..3).map(|axis| {
+        let of = || points.iter().skip(axis).step_by(3).copied();
+        of().fold(f64::NEG_INFINITY, f64::max) - of().fold(f64::INFINITY, f64::min)
+    });
+    let swing = SWING * bounds.map(|side| side * side).sum::<f64>().sqrt();
+    let most = (NUMBERS / (3 * count).max(1)).min(PICTURES) / PHASES;
+    for (number, file) in grids.iter().take(most.max(1)) {
+        let grid = Grid::read(folder.join(file))?;
+        let u = grid.array("displacement", 3)?;
+        let ahead = grid.array("displacement_ahead", 3).unwrap_or_else(|_| vec![0.0; u.len()]);
+        if u.len() != 3 * count || ahead.len() != u.len() {
+            return Err(grid.wrong("the points of the first grid"));
+        }
+        let largest = u.iter().chain(&ahead).map(|u| u.abs()).fold(f64::MIN_POSITIVE, f64::max);
+        for phase in 0..PHASES {
+            let part = phase as f64 / PHASES as f64;
+            let (sin, cos) = (std::f64::consts::TAU * part).sin_cos();
+            scene.times.push((number + part) as f32);
+            let moved = u.iter().zip(&ahead).map(|(u, ahead)| swing / largest * (cos * u + sin * ahead));
+            scene.u.extend(moved.map(|u| u as f32));
+        }
+    }
+    scene.all = scene.times.len();
+    Ok(Some((scene, grids.len())))
+}
+
 /// The times and names of the grids; empty where there is no list.
 fn listed(path: &Path) -> io::Result<Vec<(f64, String)>> {
     let list = match fs::read_to_string(path) {

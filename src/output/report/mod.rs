@@ -55,7 +55,14 @@ pub fn page(folder: &Path) -> io::Result<String> {
         histories.extend(History::read(folder, file)?.filter(|history| !history.times.is_empty()));
     }
     let mut notes: Vec<String> = histories.iter().map(History::left_out).filter(|note| !note.is_empty()).collect();
-    let scene = match grids::scene(folder)? {
+    let modes = grids::modes(folder)?;
+    if let Some((scene, all)) = &modes {
+        let shown = scene.times.last().map_or(0.0, |time| time.floor());
+        notes.push(format!(
+            "scene: modes 1 to {shown} of {all} swing one after the other; t is the number of the mode and the part of its period"
+        ));
+    }
+    let scene = match modes.map(|(scene, _)| Some(Ok(scene))).map_or_else(|| grids::scene(folder), Ok)? {
         Some(Ok(scene)) => Some(scene),
         Some(Err(reason)) => {
             notes.push(reason);

@@ -5,6 +5,9 @@ mod contacts;
 mod energy;
 mod layers;
 mod links;
+mod mode_parts;
+mod mode_shapes;
+mod modes;
 mod nodes;
 mod parts;
 mod reactions;
@@ -27,6 +30,9 @@ pub static TABLES: &[&TableKind] = &[
     &shells::TABLE,
     &layers::TABLE,
     &parts::TABLE,
+    &modes::TABLE,
+    &mode_parts::TABLE,
+    &mode_shapes::TABLE,
     &steps::TABLE,
 ];
 

@@ -1,7 +1,7 @@
 //! The analysis and its integration scheme in words.
 
 use super::explanation::Explanation;
-use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
+use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
 
 /// Adds lines about the analysis.
 pub fn explain(text: &mut Explanation, model: &Model) {
@@ -9,6 +9,9 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     let steps = (analysis.end_time / analysis.nominal_step() - 1e-9).ceil().max(1.0);
     let end = analysis.end_time;
     match (analysis.kind, &analysis.step_length) {
+        (AnalysisKind::Static, _) if analysis.modes.is_some() => {
+            analysis.modes.iter().for_each(|asked| text.add("analysis", modes(asked)));
+        }
         (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
         (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
         (AnalysisKind::Dynamic, step_length) => {
@@ -26,6 +29,21 @@ pub fn explain(text: &mut Explanation, model: &Model) {
             text.add("scheme", format!("{}{chosen}", model.solution.scheme.in_words()));
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
+    }
+}
+
+fn modes(asked: &ModesAsked) -> String {
+    let which = match asked.extent {
+        ModeExtent::Count(1) => "the lowest".to_owned(),
+        ModeExtent::Count(count) => format!("the {count} lowest"),
+        ModeExtent::UpTo(frequency) => format!("all up to {frequency} per time"),
+    };
+    match (asked.kind, asked.damped) {
+        (ModeKind::Natural, false) => format!("natural modes, {which}, about the equilibrium under what acts at t = 0"),
+        (ModeKind::Natural, true) => format!(
+            "complex modes, {which}, with damping and gyroscopic moments, about the equilibrium under what acts at t = 0"
+        ),
+        (ModeKind::Buckling, _) => format!("linear buckling, {which} factors of what acts at t = 0"),
     }
 }
 

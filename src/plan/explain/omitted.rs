@@ -55,7 +55,11 @@ fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
     let kinds = || model.parts.iter().filter_map(Part::mass_kind);
     let deformable = kinds().next().is_some();
     let mut out = Vec::new();
-    if model.analysis.kind == AnalysisKind::Static {
+    if let Some(asked) = &model.analysis.modes {
+        if !asked.damped && system.is_damped() {
+            out.push("damping: `damped = true` takes it into modes");
+        }
+    } else if model.analysis.kind == AnalysisKind::Static {
         out.push("inertia and damping: the analysis is static");
     } else {
         out.extend(gyroscopic(plan, model, system));
@@ -66,7 +70,7 @@ fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
     if !deformable {
         out.push("element stiffness: there are bodies, links and joints only");
     }
-    if model.analysis.kind != AnalysisKind::Static {
+    if model.analysis.has_inertia() {
         if deformable && kinds().all(|kind| kind != MassKind::Consistent) {
             out.push("off-diagonal mass terms: masses are lumped");
         }

@@ -1,0 +1,136 @@
+//! Modes: `kind = "modal"` and `"buckling"` of `[analysis]`.
+//!
+//! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
+//! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
+
+use super::data::{Analysis, AnalysisKind, History, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
+use super::report::Report;
+use super::values::{flag, span};
+use crate::amplitude::Amplitude;
+use crate::deck::Deck;
+use crate::deck::analysis::{self as words, AnalysisKind as Word};
+use crate::diagnostic::Diagnostic;
+
+/// Number of modes unless the deck says otherwise.
+const MODES: usize = 10;
+/// Most modes that are computed at once.
+const MOST: usize = 2000;
+/// The static analysis in which loads are brought on ends at this time, as if it were their factor.
+const END: f64 = 1.0;
+/// Load steps; they are halved where they fail.
+const STEP: f64 = 0.1;
+/// Shortest load step.
+const LEAST_STEP: f64 = STEP / 1024.0;
+
+/// What a deck asks for.
+pub(super) enum ModesGiven {
+    /// Modes.
+    Asked(Analysis),
+    /// Load steps.
+    Static,
+    /// Motion in time.
+    Dynamic,
+}
+
+/// Reads the keys of modes.
+pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report) -> ModesGiven {
+    let of_modal = [("up_to", span(&analysis.up_to)), ("damped", span(&analysis.damped))];
+    let kind = match word {
+        Word::Modal => ModeKind::Natural,
+        Word::Buckling => ModeKind::Buckling,
+        Word::Static | Word::Dynamic => {
+            let (what, given) = match word {
+                Word::Static => ("a static analysis", ModesGiven::Static),
+                _ => ("a dynamic analysis", ModesGiven::Dynamic),
+            };
+            report.reject_unused(what, &[("modes", span(&analysis.modes))]);
+            report.reject_unused(what, &of_modal);
+            return given;
+        }
+    };
+    let what = if kind == ModeKind::Natural { "a modal analysis" } else { "a buckling analysis" };
+    let of_paths = [
+        ("control", span(&analysis.control)),
+        ("stop", span(&analysis.stop)),
+        ("steps", span(&analysis.steps)),
+        ("growth", span(&analysis.growth)),
+    ];
+    report.reject_unused(what, &of_paths);
+    if kind == ModeKind::Buckling {
+        report.reject_unused(what, &of_modal);
+    }
+    for (key, place) in [
+        ("end_time", span(&analysis.end_time)),
+        ("time_step", span(&analysis.time_step)),
+        ("error_tolerance", span(&analysis.error_tolerance)),
+        ("least_step", span(&analysis.least_step)),
+    ] {
+        if let Some(place) = place {
+            let message = format!("`{key}` has no effect in {what}");
+            let hint = "loads are those at t = 0, brought on in load steps of the program's own";
+            report.push(Diagnostic::note(message).at(place).hint(hint));
+        }
+    }
+    let plane = analysis.plane.as_ref().is_some_and(|plane| plane.value == words::Plane::Auto);
+    let modes = Some(ModesAsked { kind, extent: extent(analysis, report), damped: flag(&analysis.damped, false) });
+    let (end_time, least_step) = (END, LEAST_STEP);
+    let step_length = StepLength::Fixed { step: STEP };
+    ModesGiven::Asked(Analysis { kind: AnalysisKind::Static, end_time, step_length, least_step, plane, modes })
+}
+
+fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
+    if let (Some(_), Some(up_to)) = (&analysis.modes, &analysis.up_to) {
+        let hint = "the number of modes follows from the frequency";
+        report.error_with::<()>(&up_to.span, "`[analysis]` has `modes` or `up_to`, not both", hint);
+    }
+    if let Some(frequency) = report.positive("up_to", &analysis.up_to) {
+        return ModeExtent::UpTo(frequency);
+    }
+    let count = report.count("modes", &analysis.modes, MODES);
+    if let Some(at) = analysis.modes.as_ref().filter(|_| count > MOST) {
+        report.error_with::<()>(&at.span, "`modes` asks for too many", format!("at most {MOST} are computed at once"));
+    }
+    ModeExtent::Count(count)
+}
+
+/// Warns of what has no effect on modes.
+pub(super) fn check_modal(deck: &Deck, report: &mut Report) {
+    let Some(integrator) = &deck.integrator else { return };
+    for place in span(&integrator.kind).into_iter().chain(integrator.values.places()) {
+        let message = "this has no effect on modes";
+        report.push(Diagnostic::note(message).at(place).hint("nothing is integrated in time"));
+    }
+}
+
+/// Replaces loads and motions by those that act at t = 0, without amplitudes, so that they grow over the static analysis.
+pub(super) fn hold_at_start(model: &mut Model) {
+    let loading = &mut model.loading;
+    let at_start = |amplitude: &mut Option<usize>| amplitude.take().map_or(1.0, |i| loading.amplitudes[i].value(0.0));
+    for load in &mut loading.nodal {
+        let factor = at_start(&mut load.amplitude);
+        load.force *= factor;
+        load.moment *= factor;
+    }
+    for load in &mut loading.pressures {
+        load.pressure *= at_start(&mut load.amplitude);
+    }
+    loading.gravity *= at_start(&mut loading.gravity_amplitude);
+    for base in loading.base_accelerations.drain(..) {
+        loading.gravity -= loading.amplitudes[base.amplitude].value(0.0) * base.direction;
+    }
+    for restraint in &mut model.constraints.restraints {
+        let Some(motion) = &mut restraint.motion else { continue };
+        let displaced = match motion.history {
+            History::Displacement => motion.scale * loading.amplitudes[motion.amplitude].value(0.0),
+            // Velocities and accelerations begin undisplaced.
+            _ => 0.0,
+        };
+        if displaced == 0.0 {
+            restraint.motion = None;
+            continue;
+        }
+        motion.scale = displaced;
+        motion.amplitude = loading.amplitudes.len();
+        loading.amplitudes.push(Amplitude::Ramp { start: 0.0, end: END });
+    }
+}

@@ -1,0 +1,228 @@
+//! Linear buckling: the factors λ of the loads at which K + λ K' is singular, K the stiffness of the unloaded state.
+//!
+//! K' is the rate at which the tangent changes with the loads: the stiffness of stresses K(σ) of the linear response, that of loads that
+//! follow and of the forces of joints. It is taken by differences between stresses at small loads and their opposite, in the geometry
+//! without loads: what the deflection before buckling changes is left out, for the square of a rotation times the stiffness along a
+//! slender part counts as much as its product with other rotations, and only both together are small.
+
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::mode::Modes;
+use super::pencil::{Pencil, weights};
+use super::shape::Shapes;
+use crate::linear::eigen::{EigenPair, Lanczos, SymmetricOperator};
+use crate::linear::{Solver, Sparse};
+use crate::math::rotation::RotationUpdate;
+use crate::math::{Vec6, angular, linear};
+use crate::model::{ModeExtent, ModeKind};
+use crate::state::{Configuration, Increment, Node};
+use crate::system::Loading;
+use crate::system::assembly::Assembly;
+
+/// Length of residuals relative to their eigenvalues.
+const TOLERANCE: f64 = 1e-9;
+const WIDTH: usize = 2;
+/// Displacement of the first differences relative to the size of the scene, and rotation.
+const SMALL: f64 = 1e-6;
+/// Part of the lowest factor at which the final differences are taken: they miss its square.
+const PART: f64 = 1e-3;
+/// Factors farther from zero than the nearest by the inverse of this are rounding.
+const FARTHEST: f64 = 1e-8;
+/// Searches for factors that pivots show and the iteration has not found.
+const SEARCHES: usize = 8;
+
+/// The operator −K⁻¹ K' in the metric of K; its eigenvalues are 1/λ.
+struct Buckling<'p, 'a> {
+    pencil: &'p mut Pencil<'a>,
+    K: &'p Sparse,
+    rate: &'p Sparse,
+}
+
+impl SymmetricOperator for Buckling<'_, '_> {
+    fn dimension(&self) -> usize {
+        self.K.rows()
+    }
+
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
+        self.rate.multiply(x, y);
+        y.iter_mut().for_each(|y| *y = -*y);
+        self.pencil.solve(y);
+    }
+
+    fn metric(&mut self, x: &[f64], y: &mut [f64]) {
+        self.K.multiply(x, y);
+    }
+}
+
+/// Finds the lowest factors of the loads.
+///
+/// # Errors
+/// The reason why there are none, or why some are missing.
+pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    if at.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()) {
+        return Err(ModesFault::MovedSupport);
+    }
+    let wanted = match at.model.analysis.modes.as_ref().map(|asked| asked.extent) {
+        Some(ModeExtent::Count(count)) => count,
+        _ => 1,
+    };
+    let nothing = Loading { factors: vec![0.0; at.loading.factors.len()], ..Loading::default() };
+    let nothing = Loading { pressures: vec![0.0; at.loading.pressures.len()], ..nothing };
+    let unloaded = Linearized { loading: &nothing, ..*at };
+    let mut pencil = Pencil::new(unloaded, linear);
+    let K = pencil.matrix(weights(0.0, 0.0));
+    match pencil.factor(0.0) {
+        Ok(0) => {}
+        Ok(_) => return Err(ModesFault::UnstableUnloaded),
+        Err(row) => return Err(pencil.singular(row)),
+    }
+    let response = Response::to(at.loading, &mut pencil);
+    if response.is_nothing() {
+        return Err(ModesFault::NoLoads);
+    }
+    let first = response.rate(at.loading, SMALL / response.size(&pencil), &mut pencil);
+    let lowest = factors(&mut pencil, (&K, &first), 1)?;
+    let Some((lowest, _)) = lowest.first() else { return Err(ModesFault::NoBuckling) };
+    let rate = response.rate(at.loading, PART * lowest, &mut pencil);
+    let found = factors(&mut pencil, (&K, &rate), wanted)?;
+    if found.is_empty() {
+        return Err(ModesFault::NoBuckling);
+    }
+    let shapes = Shapes::new(&pencil);
+    let list = found.iter().map(|(factor, vector)| shapes.buckling(&pencil, *factor, vector)).collect();
+    let mut doubts = Vec::new();
+    if found.len() < wanted {
+        let found = found.len();
+        doubts.push(format!(
+            "{found} factors were found, and no more within reach: the others lie much farther, or only stiffen"
+        ));
+    }
+    if !at.system.loads_have_potential(at.system.plane) {
+        doubts.push(
+            "loads that follow, and moments about axes fixed in space, have no potential: factors are those of the symmetric part \
+             of their stiffness, which is what buckles statically where it is not their work that shakes (flutter)"
+                .to_owned(),
+        );
+    }
+    let (factorizations, solves) = (pencil.factorizations, pencil.solves);
+    Ok(Modes { kind: ModeKind::Buckling, list, masses: shapes.masses, unstable: 0, factorizations, solves, doubts })
+}
+
+/// The lowest positive factors with their vectors, ascending. K is factorised when they are found.
+fn factors(
+    pencil: &mut Pencil,
+    (K, rate): (&Sparse, &Sparse),
+    wanted: usize,
+) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
+    let threads = pencil.at.plan.threads > 1;
+    pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
+    let mut operator = Buckling { pencil: &mut *pencil, K, rate };
+    let mut lanczos = Lanczos::new(&mut operator, WIDTH, wanted, threads);
+    let mut goal = wanted;
+    for _ in 0..SEARCHES {
+        let positive = |pairs: Vec<EigenPair>| {
+            let largest = pairs.first().map_or(0.0, |pair| pair.theta.abs());
+            let positive = pairs.into_iter().filter(|pair| pair.theta > FARTHEST * largest);
+            positive.map(|pair| (1.0 / pair.theta, pair.vector)).collect::<Vec<_>>()
+        };
+        let mut operator = Buckling { pencil: &mut *pencil, K, rate };
+        let limit = lanczos.applications + 60 * goal + 600;
+        let (pairs, next) =
+            lanczos.converge(&mut operator, goal, TOLERANCE, limit).ok_or(ModesFault::NotConverged { wanted: goal })?;
+        let whole = pairs.len() < goal || next.is_none();
+        let reached = pairs.last().map_or(0.0, |pair| 1.0 / pair.theta.abs());
+        let mut found = positive(pairs);
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // Factors of reversed loads take places of their own.
+        if found.len() < wanted && !whole && goal < 4 * wanted + 24 {
+            goal += (wanted - found.len()).max(goal / 2);
+            continue;
+        }
+        let next = next.map_or(f64::INFINITY, |theta| 1.0 / theta.abs());
+        if whole || next - reached <= 1e-4 * reached {
+            if whole {
+                found.truncate(wanted);
+                return Ok(found);
+            }
+            goal += 1;
+            continue;
+        }
+        let there = pencil.factor_along(rate, reached + 0.1 * (next - reached));
+        pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
+        let missing = there.unwrap_or(found.len()).saturating_sub(found.len());
+        if missing == 0 {
+            found.truncate(wanted);
+            return Ok(found);
+        }
+        goal += missing;
+        let mut operator = Buckling { pencil: &mut *pencil, K, rate };
+        lanczos.start(&mut operator, missing);
+    }
+    Err(ModesFault::Missed { found: wanted, there: goal })
+}
+
+/// The linear response to unit loads.
+struct Response {
+    /// Small motions of all nodes.
+    motions: Vec<Vec6>,
+    multipliers: Vec<f64>,
+}
+
+impl Response {
+    /// The response to these loads; K is factorised.
+    fn to(loading: &Loading, pencil: &mut Pencil) -> Response {
+        let forces = |pencil: &mut Pencil, loading: &Loading| -> Vec<f64> {
+            let Pencil { at, nodes, forces, .. } = pencil;
+            let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+            at.system.residual(&now, loading, forces);
+            at.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
+        };
+        let (before, mut f) = (forces(pencil, pencil.at.loading), forces(pencil, loading));
+        f.iter_mut().zip(before).for_each(|(f, before)| *f -= before);
+        let multipliers = pencil.respond(&mut f);
+        Response { motions: pencil.at.motions(&pencil.nodes, &f), multipliers }
+    }
+
+    /// True where the loads move nothing and load no joint.
+    fn is_nothing(&self) -> bool {
+        self.motions.iter().all(|motion| *motion == Vec6::zeros()) && self.multipliers.iter().all(|value| *value == 0.0)
+    }
+
+    /// The largest motion, displacements relative to the size of the scene.
+    fn size(&self, pencil: &Pencil) -> f64 {
+        let origin = pencil.nodes.first().map(|node| node.x).unwrap_or_default();
+        let length = pencil.nodes.iter().map(|node| (node.x - origin).norm()).fold(f64::MIN_POSITIVE, f64::max);
+        let size = |motion: &Vec6| (linear(motion).norm() / length).max(angular(motion).norm());
+        self.motions.iter().map(size).fold(f64::MIN_POSITIVE, f64::max)
+    }
+
+    /// The rate of the tangent with the load factor, by the difference between the factors ±ε.
+    fn rate(&self, loading: &Loading, epsilon: f64, pencil: &mut Pencil) -> Sparse {
+        let [plus, minus] = [epsilon, -epsilon].map(|factor| {
+            let loads = Loading {
+                factors: loading.factors.iter().map(|f| f * factor).collect(),
+                pressures: loading.pressures.iter().map(|p| p * factor).collect(),
+                field: loading.field * factor,
+            };
+            let nodes = self.moved(factor, pencil);
+            let multipliers: Vec<f64> = self.multipliers.iter().map(|value| value * factor).collect();
+            pencil.stressed_matrix(&nodes, &loads, &multipliers)
+        });
+        Sparse::sum(&[(0.5 / epsilon, &plus), (-0.5 / epsilon, &minus)])
+    }
+
+    /// The nodes at a load factor.
+    fn moved(&self, factor: f64, pencil: &Pencil) -> Vec<Node> {
+        let start = &pencil.nodes;
+        let mut nodes = start.clone();
+        let of = |motion: &Vec6| Increment { q: motion * factor, ..Increment::ZERO };
+        let mut increments: Vec<Increment> = self.motions.iter().map(of).collect();
+        for ((node, start), increment) in nodes.iter_mut().zip(start).zip(&increments) {
+            node.advance(start, increment, RotationUpdate::Exponential);
+        }
+        for dependent in &pencil.at.system.rigid_links {
+            dependent.move_with_master(&mut nodes, &mut increments, &start[dependent.node]);
+        }
+        nodes
+    }
+}

@@ -1,0 +1,182 @@
+//! Complex modes (K + s C + s² M) φ = 0 with damping and the gyroscopic moments of bodies that spin; K need not be symmetric.
+//!
+//! With z = (φ, s φ) the roots nearest to a shift σ are the largest eigenvalues 1/(s − σ) of
+//!   φ' = −(K + σ C + σ² M)⁻¹ (C φ + M (s φ + σ φ)),   (s φ)' = φ + σ φ',
+//! a real operator for a real shift (F. Tisseur & K. Meerbergen, SIAM Rev. 43 (2001)). The shift is above zero, where motions that
+//! last or decay have no root, so that what has no stiffness is no exception.
+
+use super::fault::ModesFault;
+use super::gyroscopic::Gyroscopic;
+use super::linearized::Linearized;
+use super::modal::lowest_square;
+use super::mode::{EigenMode, Modes};
+use super::pencil::{Pencil, weights};
+use super::shape::Shapes;
+use crate::linear::eigen::{Arnoldi, Complex, ComplexPair, Operator};
+use crate::linear::{Factorization, Solver, Sparse};
+use crate::model::{ModeExtent, ModeKind};
+use crate::system::assembly::Assembly;
+use std::f64::consts::TAU;
+
+/// Length of residuals relative to eigenvalues.
+const TOLERANCE: f64 = 1e-11;
+/// Starting vectors: pairs of equal roots are found together.
+const WIDTH: usize = 2;
+/// Roots below this part of the shift are zero: those of motions without stiffness are double, and rounding splits a double root by
+/// the square root of its size.
+const ZERO: f64 = 3e-6;
+
+/// A root grows where its real part is larger than this part of it.
+const GROWS: f64 = 1e-7;
+/// Modes for which there is room where a frequency is given.
+const UP_TO: usize = 100;
+
+/// The operator of a shift.
+struct Quadratic<'q, 'a> {
+    pencil: &'q mut Pencil<'a>,
+    damping: &'q Sparse,
+    shift: f64,
+    /// Weights by which motions are measured, and the square of the frequency by which velocities are.
+    diagonal: Vec<f64>,
+    square: f64,
+    scratch: Vec<f64>,
+}
+
+impl Operator for Quadratic<'_, '_> {
+    fn dimension(&self) -> usize {
+        2 * self.diagonal.len()
+    }
+
+    fn apply(&mut self, z: &[f64], out: &mut [f64]) {
+        let n = self.diagonal.len();
+        let ((x, y), (new_x, new_y)) = (z.split_at(n), out.split_at_mut(n));
+        self.scratch.iter_mut().zip(x).zip(y).for_each(|((sum, x), y)| *sum = y + self.shift * x);
+        self.pencil.mass.multiply(&self.scratch, new_x);
+        self.damping.multiply(x, &mut self.scratch);
+        new_x.iter_mut().zip(&self.scratch).for_each(|(b, c)| *b = -(*b + c));
+        self.pencil.solve(new_x);
+        new_y.iter_mut().zip(x).zip(&*new_x).for_each(|((y, x), new)| *y = x + self.shift * new);
+    }
+
+    fn weigh(&self, z: &[f64], out: &mut [f64]) {
+        let n = self.diagonal.len();
+        for i in 0..n {
+            out[i] = self.diagonal[i] * z[i];
+            out[n + i] = self.diagonal[i] / self.square * z[n + i];
+        }
+    }
+}
+
+/// Finds the complex modes that the model asks for.
+///
+/// # Errors
+/// The reason why there are none.
+pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    let gyroscopic = Gyroscopic::of(at);
+    let (square, natural) = {
+        let mut pencil = Pencil::new(*at, (&mut *linear.0, &mut *linear.1));
+        if pencil.mass.is_zero() {
+            return Err(ModesFault::NoMass);
+        }
+        (lowest_square(&mut pencil)?, pencil.factorizations)
+    };
+    let mut own = None;
+    if gyroscopic.acts() || !at.system.loads_have_potential(at.system.plane) {
+        let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
+        let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
+        own = Some((solver, assembly));
+    }
+    let mut pencil = match &mut own {
+        Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
+        None => Pencil::new(*at, linear),
+    };
+    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let shift = square.sqrt();
+    let pairs = nearest(&mut pencil, &gyroscopic, shift, extent)?;
+    let shapes = Shapes::new(&pencil);
+    let mut list =
+        roots(&pairs, shift).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
+    list.sort_by(|a, b| size(a.root).total_cmp(&size(b.root)));
+    match extent {
+        ModeExtent::Count(count) => list.truncate(count),
+        ModeExtent::UpTo(frequency) => list.retain(|mode| mode.frequency() <= frequency),
+    }
+    let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
+    let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
+    let (kind, masses) = (ModeKind::Natural, shapes.masses);
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts: gyroscopic.doubts })
+}
+
+/// The eigenvalues 1/(s − σ) of the roots nearest to the shift, as many as are asked for.
+fn nearest(
+    pencil: &mut Pencil,
+    gyroscopic: &Gyroscopic,
+    shift: f64,
+    extent: ModeExtent,
+) -> Result<Vec<ComplexPair>, ModesFault> {
+    let (unknowns, threads) = (pencil.at.unknowns(), pencil.at.plan.threads > 1);
+    let (plain, with_rates) = (pencil.matrix(weights(0.0, 0.0)), pencil.matrix(weights(1.0, 0.0)));
+    let of_bodies = Sparse::from_entries(unknowns, |visit| gyroscopic.damping(visit));
+    let damping = Sparse::sum(&[(1.0, &with_rates), (-1.0, &plain), (1.0, &of_bodies)]);
+    pencil.factor_quadratic(shift, gyroscopic).map_err(|row| pencil.singular(row))?;
+    let square = shift * shift;
+    let diagonal = |row: usize| {
+        let of = |matrix: &Sparse| {
+            matrix.row(row).filter(|(column, _)| *column == row).map(|(_, value)| value).sum::<f64>().abs()
+        };
+        (of(&plain) + square * of(&pencil.mass)).max(f64::MIN_POSITIVE)
+    };
+    let diagonal: Vec<f64> = (0..unknowns).map(diagonal).collect();
+    let scratch = vec![0.0; unknowns];
+    let mut operator = Quadratic { pencil, damping: &damping, shift, diagonal, square, scratch };
+    let wanted = if let ModeExtent::Count(count) = extent { count } else { UP_TO };
+    let most = 12 * wanted + 240;
+    let mut arnoldi = Arnoldi::new(&mut operator, WIDTH, most, threads);
+    let enough = |thetas: &[Complex]| enough(thetas, shift, extent);
+    arnoldi.converge(&mut operator, TOLERANCE, most, enough).ok_or(ModesFault::NotConverged { wanted })
+}
+
+fn size(root: Complex) -> f64 {
+    root[0].hypot(root[1])
+}
+
+/// s = σ + 1/θ.
+fn root(theta: Complex, shift: f64) -> Complex {
+    let square = theta[0] * theta[0] + theta[1] * theta[1];
+    let s = [shift + theta[0] / square, -theta[1] / square];
+    if size(s) <= ZERO * shift { [0.0; 2] } else { s }
+}
+
+/// The modes of some roots: of two that are conjugate that above the real axis, of the double root of a motion without stiffness
+/// one.
+fn roots(pairs: &[ComplexPair], shift: f64) -> impl Iterator<Item = (Complex, &ComplexPair)> {
+    let mut zeros = 0;
+    pairs.iter().filter_map(move |pair| {
+        let s = root(pair.theta, shift);
+        if s == [0.0; 2] {
+            zeros += 1;
+            return (zeros % 2 == 1).then_some((s, pair));
+        }
+        // What lies on the real axis to the digits of a double root does not oscillate.
+        let s = if s[1].abs() <= 1e-9 * s[0].abs() { [s[0], 0.0] } else { s };
+        (s[1] >= 0.0).then_some((s, pair))
+    })
+}
+
+/// The number of roots, the nearest to the shift first, that hold all modes wanted; `None` where there are not enough yet.
+fn enough(thetas: &[Complex], shift: f64, extent: ModeExtent) -> Option<usize> {
+    let all: Vec<Complex> = thetas.iter().map(|theta| root(*theta, shift)).collect();
+    let distance = |theta: &Complex| 1.0 / size(*theta);
+    let reached = thetas.last().map_or(0.0, distance);
+    // Within this distance of zero everything is nearer to the shift than what has been reached.
+    let radius = reached - shift;
+    let there = all.iter().filter(|s| size(**s) <= radius);
+    match extent {
+        ModeExtent::Count(count) => {
+            let zeros = there.clone().filter(|s| **s == [0.0; 2]).count();
+            let others = there.filter(|s| size(**s) > 0.0 && s[1] >= 0.0).count();
+            (zeros.div_ceil(2) + others >= count).then_some(thetas.len())
+        }
+        ModeExtent::UpTo(frequency) => (radius >= TAU * frequency).then_some(thetas.len()),
+    }
+}

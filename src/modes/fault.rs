@@ -1,0 +1,100 @@
+//! The reasons why there are no modes.
+
+use crate::linear::TooLarge;
+use std::fmt;
+
+/// The reason why modes were not found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ModesFault {
+    /// Nothing that moves has mass.
+    NoMass,
+    /// The matrix is singular, whatever the shift.
+    Singular {
+        /// Name of the node or joint whose pivot vanishes.
+        label: String,
+        /// Name of the degree of freedom.
+        direction: &'static str,
+    },
+    /// The iteration did not come to its end.
+    NotConverged {
+        /// Modes wanted.
+        wanted: usize,
+    },
+    /// Some modes stay hidden: there are more than were found.
+    Missed {
+        /// Modes found below a frequency.
+        found: usize,
+        /// Modes that there are, by the signs of pivots.
+        there: usize,
+    },
+    /// More modes lie in the range than are computed at once.
+    TooMany {
+        /// Modes in the range.
+        there: usize,
+        /// Modes that are computed at most.
+        most: usize,
+    },
+    /// A support moves, and buckling has factors of loads only.
+    MovedSupport,
+    /// The state without loads is unstable already.
+    UnstableUnloaded,
+    /// No load acts, or none moves anything.
+    NoLoads,
+    /// No positive factor of the loads lets anything buckle.
+    NoBuckling,
+    /// There is no memory.
+    TooLarge(TooLarge),
+}
+
+impl From<TooLarge> for ModesFault {
+    fn from(error: TooLarge) -> ModesFault {
+        ModesFault::TooLarge(error)
+    }
+}
+
+impl fmt::Display for ModesFault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            ModesFault::NoMass => write!(
+                f,
+                "nothing that moves has mass, so there are no modes: materials need a density, or points a mass (`[[masses]]`)"
+            ),
+            ModesFault::Singular { label, direction } => write!(
+                f,
+                "neither stiffness nor mass resists at `{label}` in direction {direction}: modes are not defined; hold it \
+                 there, or give it a mass"
+            ),
+            ModesFault::NotConverged { wanted } => {
+                write!(f, "the iteration for {wanted} modes did not converge (fewer `modes`)")
+            }
+            ModesFault::Missed { found, there } => write!(
+                f,
+                "{found} modes were found where there are {there}: those listed are right, but some between them are missing"
+            ),
+            ModesFault::TooMany { there, most } => {
+                write!(f, "{there} modes lie below `up_to`, and at most {most} are computed at once: a lower `up_to`")
+            }
+            ModesFault::MovedSupport => write!(
+                f,
+                "a support is displaced, and a buckling analysis finds factors of loads only: replace it by the force that it exerts"
+            ),
+            ModesFault::UnstableUnloaded => {
+                write!(
+                    f,
+                    "the scene is unstable without loads (compressed by its own prestress): nothing is left to buckle"
+                )
+            }
+            ModesFault::NoLoads => write!(
+                f,
+                "no load acts at t = 0 and deforms anything: a buckling analysis needs loads, whose factors it finds"
+            ),
+            ModesFault::NoBuckling => write!(
+                f,
+                "no factor of these loads lets anything buckle: they only stiffen what they act on; reversed loads may not"
+            ),
+            ModesFault::TooLarge(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ModesFault {}

@@ -1,0 +1,65 @@
+//! A state about which the motion is linearized.
+
+use crate::linear::{Factorization, Solver, TooLarge};
+use crate::math::{Vec3, Vec6};
+use crate::model::{DIRECTIONS, Model};
+use crate::plan::Plan;
+use crate::state::{Node, State};
+use crate::system::assembly::Assembly;
+use crate::system::{Loading, System};
+
+/// A state, and what the scene is there.
+#[derive(Clone, Copy)]
+pub struct Linearized<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The system of equations.
+    pub system: &'a System,
+    /// The plan, with the numbering of the unknowns.
+    pub plan: &'a Plan,
+    /// The state.
+    pub state: &'a State,
+    /// The loads that act in it.
+    pub loading: &'a Loading,
+}
+
+impl Linearized<'_> {
+    /// A solver of its own, with the symmetric part of matrices.
+    ///
+    /// # Errors
+    /// There is no memory for it.
+    pub fn symmetric_solver(&self) -> Result<(Solver, Assembly), TooLarge> {
+        let Linearized { system, plan, .. } = self;
+        let solver = Solver::new(&plan.structure, Factorization::Cholesky, plan.threads)?;
+        let assembly = Assembly::new(system, &plan.dofs, &solver, plan.threads);
+        Ok((solver, assembly))
+    }
+
+    /// The nodes of the state, at rest.
+    pub fn nodes_at_rest(&self) -> Vec<Node> {
+        let zero = Vec3::zeros();
+        self.state.nodes.iter().map(|node| Node { v: zero, omega: zero, a: zero, alpha: zero, ..*node }).collect()
+    }
+
+    /// Number of unknowns that are degrees of freedom of nodes.
+    pub fn unknowns(&self) -> usize {
+        self.plan.dofs.nodal_dofs().len()
+    }
+
+    /// The small motions of all nodes, dependent ones included, for those of the unknowns.
+    pub fn motions(&self, nodes: &[Node], x: &[f64]) -> Vec<Vec6> {
+        let mut motions: Vec<Vec6> = self.plan.dofs.each_node().iter().map(|rows| rows.gather(x)).collect();
+        self.system.project(nodes, &mut motions);
+        motions
+    }
+
+    /// The name of a row.
+    pub fn name(&self, row: usize) -> (String, &'static str) {
+        match self.plan.dofs.nodal_dofs().get(row) {
+            Some(&(node, dof)) => (self.model.nodes[node].label.clone(), DIRECTIONS[dof]),
+            None => self.system.row(row - self.unknowns()).map_or((String::new(), ""), |(joint, equation)| {
+                (self.model.constraints.joints[joint].name.clone(), equation.word())
+            }),
+        }
+    }
+}

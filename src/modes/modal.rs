@@ -1,0 +1,202 @@
+//! Natural modes K φ = ω² M φ, the lowest first.
+//!
+//! Lanczos' method on (K − σ M)⁻¹ M finds the eigenvalues nearest to the shift σ, which lies below all of them: at zero where K is
+//! positive definite, else below zero, so that motions without stiffness, of frequency zero, are found like all others. The number
+//! of negative pivots of K − s M, with s just above the last mode, is the number of modes that there are (T. Ericsson & A. Ruhe,
+//! Math. Comp. 35 (1980)); where one is missing, the search goes on with new vectors.
+
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::mode::Modes;
+use super::pencil::Pencil;
+use super::shape::Shapes;
+use crate::linear::Solver;
+use crate::linear::eigen::{EigenPair, Lanczos};
+use crate::model::{ModeExtent, ModeKind};
+use crate::system::assembly::Assembly;
+use std::f64::consts::TAU;
+
+/// Length of the residual of S φ = θ φ, relative to θ; eigenvalues have an error of its square over the distance to the next.
+const TOLERANCE: f64 = 1e-9;
+/// Starting vectors: pairs of equal frequencies, which symmetry makes, are found together.
+const WIDTH: usize = 2;
+/// Most modes that are computed at once.
+pub(super) const MOST: usize = 2000;
+/// Searches for modes that the pivots show and the iteration has not found.
+const SEARCHES: usize = 8;
+/// Part of the shift below which an eigenvalue is rounding.
+const ROUNDING: f64 = 1e-14;
+/// Expansions after which a shift is judged.
+const PROBE: usize = 12;
+/// Shifts that are tried.
+const SHIFTS: usize = 30;
+/// A shift within these multiples of the lowest frequency squared that is not zero serves as well as any other.
+const FITS: [f64; 2] = [0.03, 1e3];
+/// Eigenvalues that are smaller than others by such a factor are zero, or next to it: a shift at zero would drown the others.
+const APART: f64 = 1e9;
+
+/// Finds the natural modes that the model asks for.
+///
+/// # Errors
+/// The reason why there are none, or why some are missing.
+pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    let mut pencil = Pencil::new(*at, linear);
+    if pencil.mass.is_zero() {
+        return Err(ModesFault::NoMass);
+    }
+    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let goal = match extent {
+        ModeExtent::Count(count) => Goal { wanted: count, below: None },
+        ModeExtent::UpTo(frequency) => {
+            let below = (TAU * frequency).powi(2);
+            let there = count_below(&mut pencil, below)?;
+            if there > MOST {
+                return Err(ModesFault::TooMany { there, most: MOST });
+            }
+            Goal { wanted: there, below: Some(below) }
+        }
+    };
+    let pairs = match goal.wanted {
+        0 => Vec::new(),
+        _ => complete(&mut pencil, goal)?,
+    };
+    let shapes = Shapes::new(&pencil);
+    let list = shapes.natural(&pencil, &pairs);
+    let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
+    let (factorizations, solves) = (pencil.factorizations, pencil.solves);
+    let kind = ModeKind::Natural;
+    let doubts = match (list.len(), extent) {
+        (0, ModeExtent::UpTo(frequency)) => vec![format!("no mode lies below `up_to` = {frequency}")],
+        (found, ModeExtent::Count(count)) if found < count => {
+            vec![format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")]
+        }
+        _ => Vec::new(),
+    };
+    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts })
+}
+
+/// An estimate of the lowest ω² that is not zero.
+///
+/// # Errors
+/// The matrix is singular whatever the shift.
+pub(super) fn lowest_square(pencil: &mut Pencil) -> Result<f64, ModesFault> {
+    let mut lanczos = settle(pencil, 1)?;
+    let thetas = lanczos.probe(pencil, PROBE);
+    let shift = pencil.shift;
+    let mut values = thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta);
+    let least = 1e-4 * shift.abs();
+    Ok(values.find(|lambda| *lambda > least).unwrap_or(if least > 0.0 { shift.abs() } else { 1.0 }))
+}
+
+/// The modes that are to be found.
+#[derive(Clone, Copy)]
+struct Goal {
+    wanted: usize,
+    /// The eigenvalue below which they lie, where that was asked for.
+    below: Option<f64>,
+}
+
+/// The number of eigenvalues below `s`, which moves a little where it meets one.
+fn count_below(pencil: &mut Pencil, s: f64) -> Result<usize, ModesFault> {
+    let mut row = 0;
+    for moved in [1.0, 1.0 + 1e-9, 1.0 + 1e-7] {
+        match pencil.factor(s * moved) {
+            Ok(count) => return Ok(count),
+            Err(at) => row = at,
+        }
+    }
+    Err(pencil.singular(row))
+}
+
+/// The modes wanted by their eigenvalues λ = ω², ascending, with vectors of modal mass 1.
+fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
+    let mut lanczos = settle(pencil, wanted)?;
+    let shift = pencil.shift;
+    let mut goal = wanted;
+    for _ in 0..SEARCHES {
+        let limit = lanczos.applications + 40 * goal + 400;
+        let converged = lanczos.converge(pencil, goal, TOLERANCE, limit);
+        let (pairs, next) = converged.ok_or(ModesFault::NotConverged { wanted: goal })?;
+        let value = |theta: f64| shift + 1.0 / theta;
+        let found: Vec<f64> = pairs.iter().map(|pair| value(pair.theta)).collect();
+        let last = found.iter().copied().fold(shift, f64::max);
+        let missing = match (below, next.map(value)) {
+            (Some(below), _) => wanted - found.iter().filter(|lambda| **lambda <= below).count().min(wanted),
+            (None, None) => 0,
+            // Modes of equal frequency are counted together.
+            (None, Some(next)) if next - last <= 1e-4 * (last - shift) => {
+                goal += 1;
+                continue;
+            }
+            (None, Some(next)) => {
+                let there = count_below(pencil, last + 0.1 * (next - last))?;
+                let missing = there.saturating_sub(found.len());
+                if missing > 0 {
+                    pencil.factor(shift).map_err(|row| pencil.singular(row))?;
+                }
+                missing
+            }
+        };
+        if missing == 0 {
+            return Ok(sorted(pairs, shift, wanted));
+        }
+        goal = found.len() + missing;
+        if !lanczos.start(pencil, missing) {
+            return Ok(sorted(pairs, shift, wanted));
+        }
+    }
+    Err(ModesFault::Missed { found: wanted, there: goal })
+}
+
+fn sorted(pairs: Vec<EigenPair>, shift: f64, wanted: usize) -> Vec<(f64, Vec<f64>)> {
+    let value = |theta: f64| {
+        let lambda = shift + 1.0 / theta;
+        // The sum rounds.
+        if lambda.abs() <= ROUNDING * shift.abs() { 0.0 } else { lambda }
+    };
+    let mut all: Vec<(f64, Vec<f64>)> = pairs.into_iter().map(|pair| (value(pair.theta), pair.vector)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all.truncate(wanted);
+    all
+}
+
+/// Factorises at a shift below all eigenvalues, near the first that is not zero, and begins the iteration there.
+fn settle(pencil: &mut Pencil, wanted: usize) -> Result<Lanczos, ModesFault> {
+    let threads = pencil.at.plan.threads > 1;
+    let mut shift = 0.0;
+    let mut row = 0;
+    for _ in 0..SHIFTS {
+        match pencil.factor(shift) {
+            Ok(0) => {}
+            // Some eigenvalues lie below the shift, or K is singular.
+            judged => {
+                row = judged.err().unwrap_or(row);
+                shift = if shift < 0.0 { 16.0 * shift } else { -1e-6 * pencil.least_ratio() };
+                continue;
+            }
+        }
+        let mut lanczos = Lanczos::new(pencil, WIDTH, wanted, threads);
+        let thetas = lanczos.probe(pencil, PROBE);
+        match better_shift(shift, &thetas) {
+            Some(better) if better != shift => shift = better,
+            _ => return Ok(lanczos),
+        }
+    }
+    Err(pencil.singular(row))
+}
+
+/// A shift that suits the first estimates of 1/(λ − σ), the largest first, better; `None` where this one will do.
+fn better_shift(shift: f64, thetas: &[f64]) -> Option<f64> {
+    let values: Vec<f64> = thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta).collect();
+    if shift == 0.0 {
+        // What follows a wide gap is the first motion with stiffness.
+        let gap = values.windows(2).position(|pair| pair[1] > APART * pair[0].abs())?;
+        return Some(-values[gap + 1]);
+    }
+    let elastic = values.iter().copied().find(|lambda| lambda.abs() > 1e-4 * shift.abs())?;
+    if elastic < 0.0 {
+        return None;
+    }
+    let ratio = elastic / shift.abs();
+    (!(FITS[0]..=FITS[1]).contains(&ratio)).then_some(-elastic)
+}

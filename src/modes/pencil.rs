@@ -1,0 +1,245 @@
+//! The matrices of small motions about a state, K − σ M factorised at a shift.
+
+use super::fault::ModesFault;
+use super::gyroscopic::Gyroscopic;
+use super::linearized::Linearized;
+use crate::elements::Moduli;
+use crate::linear::eigen::SymmetricOperator;
+use crate::linear::{Solver, Sparse};
+use crate::state::{Configuration, Node};
+use crate::system::assembly::Assembly;
+use crate::system::{Forces, Loading, TangentWeights};
+
+/// The weights K + rate·C + acceleration·M.
+pub fn weights(rate: f64, acceleration: f64) -> TangentWeights {
+    TangentWeights { stiffness: true, rate, acceleration, turning: None, moduli: Moduli::Elastic }
+}
+
+/// K − σ M with its factors, and M.
+pub struct Pencil<'a> {
+    /// The state.
+    pub at: Linearized<'a>,
+    /// Its nodes, at rest.
+    pub nodes: Vec<Node>,
+    /// The solver of the matrix.
+    pub solver: &'a mut Solver,
+    assembly: &'a mut Assembly,
+    /// Forces in the state, with the multipliers of joints.
+    pub forces: Forces,
+    /// M over the unknowns of nodes.
+    pub mass: Sparse,
+    /// The shift σ.
+    pub shift: f64,
+    /// Number of unknowns of nodes.
+    unknowns: usize,
+    /// A right-hand side with the rows of multipliers.
+    rhs: Vec<f64>,
+    /// The part of a solution that is found already.
+    first: Vec<f64>,
+    /// Factorizations so far.
+    pub factorizations: usize,
+    /// Solutions so far.
+    pub solves: usize,
+}
+
+impl<'a> Pencil<'a> {
+    /// The matrices of a state, not factorised yet.
+    pub fn new(at: Linearized<'a>, (solver, assembly): (&'a mut Solver, &'a mut Assembly)) -> Pencil<'a> {
+        let nodes = at.nodes_at_rest();
+        let unknowns = at.unknowns();
+        let mut forces = Forces::new(at.system, nodes.len());
+        forces.multipliers.values.copy_from_slice(&at.state.multipliers);
+        let now = Configuration { nodes: &nodes, history: &at.state.history, dt: 0.0, lead: None };
+        at.system.residual(&now, at.loading, &mut forces);
+        let of_mass = TangentWeights { stiffness: false, ..weights(0.0, 1.0) };
+        assembly.unconstrained(at.system, &now, at.loading, &mut forces, of_mass, solver);
+        let mass = solver.matrix(unknowns);
+        Pencil {
+            at,
+            nodes,
+            assembly,
+            forces,
+            mass,
+            shift: 0.0,
+            unknowns,
+            rhs: vec![0.0; at.plan.dofs.unknowns()],
+            first: vec![0.0; unknowns],
+            factorizations: 0,
+            solves: 0,
+            solver,
+        }
+    }
+
+    /// Forms K + rate·C + acceleration·M with or without joints in the solver.
+    fn form(&mut self, weights: TangentWeights, joints: bool) {
+        let Pencil { at, nodes, forces, solver, assembly, .. } = self;
+        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+        if joints {
+            assembly.tangent(at.system, &now, at.loading, forces, weights, solver);
+        } else {
+            assembly.unconstrained(at.system, &now, at.loading, forces, weights, solver);
+        }
+    }
+
+    /// K + rate·C + acceleration·M over the unknowns of nodes, without the rows of joints.
+    pub fn matrix(&mut self, weights: TangentWeights) -> Sparse {
+        self.form(weights, false);
+        self.solver.matrix(self.unknowns)
+    }
+
+    /// Factorises K − σ M. Returns the number of eigenvalues below σ.
+    ///
+    /// # Errors
+    /// The row of a pivot that vanishes.
+    pub fn factor(&mut self, shift: f64) -> Result<usize, usize> {
+        self.shift = shift;
+        self.form(weights(0.0, -shift), true);
+        self.factorizations += 1;
+        self.solver.factor().map_err(|singular| singular.row)?;
+        Ok(self.solver.negative_eigenvalues().saturating_sub(self.forces.multipliers.gaps.len()))
+    }
+
+    /// Solves for the motion that a force on the unknowns of nodes causes, in place.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        let multipliers = self.forces.multipliers.gaps.len();
+        self.solves += 1;
+        if multipliers == 0 {
+            return self.solver.solve(b);
+        }
+        let Pencil { at, nodes, solver, forces, unknowns, rhs, first, .. } = self;
+        rhs[..*unknowns].copy_from_slice(b);
+        rhs[*unknowns..].fill(0.0);
+        solver.solve(rhs);
+        first.copy_from_slice(&rhs[..*unknowns]);
+        // Redundant equations are regularised, which leaves a small part of each gap: a second solution takes it away.
+        let motions = at.motions(nodes, first);
+        at.system.gaps_of_motion(nodes, &motions, &mut forces.multipliers.gaps);
+        rhs[..*unknowns].fill(0.0);
+        forces.multipliers.write_rhs(&mut rhs[*unknowns..]);
+        solver.solve(rhs);
+        self.solves += 1;
+        for ((b, first), more) in b.iter_mut().zip(first).zip(rhs) {
+            *b = *first + *more;
+        }
+    }
+
+    /// K of the state with the stresses that elements have at other positions of the nodes, and with other loads and multipliers, over the
+    /// unknowns of nodes and without the rows of joints.
+    pub fn stressed_matrix(&mut self, nodes: &[Node], loading: &Loading, multipliers: &[f64]) -> Sparse {
+        let Pencil { at, forces, solver, assembly, .. } = self;
+        forces.multipliers.values.copy_from_slice(multipliers);
+        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+        at.system.residual(&now, loading, forces);
+        let now = Configuration { nodes: &self.nodes, lead: Some(nodes), ..now };
+        assembly.stressed(at.system, &now, loading, forces, weights(0.0, 0.0), solver);
+        let matrix = solver.matrix(self.unknowns);
+        // The state itself again.
+        self.forces.multipliers.values.copy_from_slice(&self.at.state.multipliers);
+        let now = Configuration { nodes: &self.nodes, history: &self.at.state.history, dt: 0.0, lead: None };
+        self.at.system.residual(&now, self.at.loading, &mut self.forces);
+        matrix
+    }
+
+    /// Factorises K + σ C + σ² M with the matrices of bodies that spin.
+    ///
+    /// # Errors
+    /// The row of a pivot that vanishes.
+    pub fn factor_quadratic(&mut self, shift: f64, gyroscopic: &Gyroscopic) -> Result<(), usize> {
+        self.form(weights(shift, shift * shift), true);
+        self.factorizations += 1;
+        let solver = &mut self.solver;
+        gyroscopic.entries(&mut |i, j, [rate, turn]| {
+            if let Some(slot) = solver.slot(i, j) {
+                solver.values()[slot] += shift * rate + turn;
+            }
+        });
+        self.solver.factor().map_err(|singular| singular.row)
+    }
+
+    /// Factorises K + λ K', with K' symmetric. Returns the number of negative eigenvalues; `None` where it is singular.
+    pub fn factor_along(&mut self, rate: &Sparse, lambda: f64) -> Option<usize> {
+        self.form(weights(0.0, 0.0), true);
+        self.factorizations += 1;
+        for (i, j, value) in rate.entries().filter(|(i, j, _)| i <= j) {
+            if let Some(slot) = self.solver.slot(i, j) {
+                self.solver.values()[slot] += lambda * value;
+            }
+        }
+        self.solver.factor().ok()?;
+        Some(self.solver.negative_eigenvalues().saturating_sub(self.forces.multipliers.gaps.len()))
+    }
+
+    /// Solves as [`Pencil::solve`] does, and returns the multipliers of joints besides.
+    pub fn respond(&mut self, b: &mut [f64]) -> Vec<f64> {
+        let Pencil { at, nodes, solver, forces, unknowns, rhs, .. } = self;
+        let (at, multipliers, n) = (*at, &mut forces.multipliers, *unknowns);
+        multipliers.values.fill(0.0);
+        multipliers.gaps.fill(0.0);
+        rhs[..n].copy_from_slice(b);
+        let mut sum = vec![0.0; n];
+        for _ in 0..3 {
+            multipliers.write_rhs(&mut rhs[n..]);
+            solver.solve(rhs);
+            sum.iter_mut().zip(&*rhs).for_each(|(sum, x)| *sum += x);
+            multipliers.add(&rhs[n..]);
+            let motions = at.motions(nodes, &sum);
+            at.system.gaps_of_motion(nodes, &motions, &mut multipliers.gaps);
+            rhs[..n].fill(0.0);
+            if multipliers.gaps.is_empty() {
+                break;
+            }
+        }
+        b.copy_from_slice(&sum);
+        self.solves += 1;
+        std::mem::replace(&mut self.forces.multipliers.values, self.at.state.multipliers.clone())
+    }
+
+    /// Takes into the multipliers of joints what balances these forces on the unknowns of nodes; returns the motion that they would cause
+    /// besides.
+    pub fn balance(&mut self, forces: &[f64]) -> Vec<f64> {
+        let Pencil { solver, forces: Forces { multipliers, .. }, unknowns, rhs, .. } = self;
+        rhs[..*unknowns].copy_from_slice(forces);
+        rhs[*unknowns..].fill(0.0);
+        multipliers.gaps.fill(0.0);
+        solver.solve(rhs);
+        self.solves += 1;
+        multipliers.add(&rhs[*unknowns..]);
+        rhs[..*unknowns].to_vec()
+    }
+
+    /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both.
+    pub fn least_ratio(&mut self) -> f64 {
+        self.form(weights(0.0, 0.0), false);
+        let mut least = f64::INFINITY;
+        for row in 0..self.unknowns {
+            let mass: f64 = self.mass.row(row).filter(|(column, _)| *column == row).map(|(_, m)| m).sum();
+            let Some(slot) = self.solver.slot(row, row) else { continue };
+            let stiffness = self.solver.values()[slot];
+            if mass > 0.0 && stiffness > 0.0 {
+                least = least.min(stiffness / mass);
+            }
+        }
+        if least.is_finite() { least } else { 1.0 }
+    }
+
+    /// The fault of a matrix that is singular at this row.
+    pub fn singular(&self, row: usize) -> ModesFault {
+        let (label, direction) = self.at.name(row);
+        ModesFault::Singular { label, direction }
+    }
+}
+
+impl SymmetricOperator for Pencil<'_> {
+    fn dimension(&self) -> usize {
+        self.unknowns
+    }
+
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
+        self.mass.multiply(x, y);
+        self.solve(y);
+    }
+
+    fn metric(&mut self, x: &[f64], y: &mut [f64]) {
+        self.mass.multiply(x, y);
+    }
+}

@@ -1,0 +1,71 @@
+//! The strain energy of small motions, part by part.
+
+use super::linearized::Linearized;
+use super::mode::Share;
+use crate::elements::Moduli;
+use crate::math::Vec6;
+use crate::model::Part;
+use crate::state::{Configuration, Node};
+
+/// Twice the strain energies of a small motion.
+#[derive(Clone, Default)]
+pub struct Energies {
+    /// Those of the parts, in the order of the model.
+    pub parts: Vec<Share>,
+    /// The sum of all terms of all elements, without their signs, by which rounding is measured.
+    pub without_signs: f64,
+}
+
+/// Sums φᵀ K φ over the elements of each part, for several shapes: the matrix of an element is formed once for all.
+pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<Energies> {
+    let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+    let mut all = vec![Energies::default(); shapes.len()];
+    let (mut K, mut phi) = (Vec::new(), Vec::new());
+    for group in &at.system.groups {
+        let (block, own) = (&group.block, &group.configuration(&now));
+        let width = if block.is_empty() { 0 } else { block.dofs() * block.nodes(0).len() };
+        for e in 0..block.len() {
+            if group.kind.is_unilateral() && block.is_inactive(e, own) {
+                continue;
+            }
+            K.clear();
+            K.resize(width * width, 0.0);
+            block.tangent(e, own, 0.0, Moduli::Elastic, &mut K);
+            let part = match group.kind.is_deformable() || group.kind.is_unilateral() {
+                true => group.part,
+                false => place(&at.model.parts, group.part, group.part_of(e, at.model)),
+            };
+            for (shape, energies) in shapes.iter().zip(&mut all) {
+                phi.clear();
+                phi.extend(block.nodes(e).iter().flat_map(|&n| shape[n].iter().copied().take(block.dofs())));
+                energies.add(&at.model.parts, part, &K, &phi);
+            }
+        }
+    }
+    all.iter_mut().for_each(|energies| energies.parts.sort_by_key(|share| share.part));
+    all
+}
+
+/// The place of a part in the list, from one place on.
+fn place(parts: &[Part], from: usize, part: &Part) -> usize {
+    from + parts[from..].iter().position(|other| std::ptr::eq(other, part)).unwrap_or(0)
+}
+
+impl Energies {
+    /// Adds the energy of an element with this matrix, row-major, in this motion.
+    fn add(&mut self, parts: &[Part], part: usize, K: &[f64], phi: &[f64]) {
+        let (mut energy, mut without_signs) = (0.0, 0.0);
+        for (row, left) in K.chunks(phi.len()).zip(phi) {
+            for (k, right) in row.iter().zip(phi) {
+                let term = left * k * right;
+                energy += term;
+                without_signs += term.abs();
+            }
+        }
+        self.without_signs += without_signs;
+        match self.parts.last_mut() {
+            Some(last) if parts[last.part].is_one_with(&parts[part]) => last.strain += energy,
+            _ => self.parts.push(Share { part, strain: energy }),
+        }
+    }
+}
