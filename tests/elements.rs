@@ -131,8 +131,8 @@ fn shells() -> Vec<(&'static str, Box<dyn ElementBlock>, Vec<Vec3>)> {
     let corners = [[0.0, 0.0], [1.2, 0.1], [1.3, 0.9], [-0.2, 1.1]].map(|[x, y]| Vec3::new(x, y, 0.0));
     let x: Vec<Vec3> = corners.iter().map(|c| frame * (c + vector(rng, 0.1))).collect();
     let normals: Vec<Vec3> = x.iter().map(|_| frame * (Vec3::z() + vector(rng, 0.1)).normalize()).collect();
-    let four = || [shell::ShellGeometry { nodes: &[0, 1, 2, 3], normals: &normals }].into_iter();
-    let three = || [shell::ShellGeometry { nodes: &[0, 1, 2], normals: &normals[..3] }].into_iter();
+    let four = || [shell::ShellGeometry::new(&[0, 1, 2, 3], &normals)].into_iter();
+    let three = || [shell::ShellGeometry::new(&[0, 1, 2], &normals[..3])].into_iter();
     vec![
         ("quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.0)), x.clone()),
         ("damped quadrilateral", Box::new(Quadrilaterals::new(four(), &x, &plate, 0.2)), x.clone()),

@@ -43,6 +43,7 @@ use super::report::Report;
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
 use super::sections::Sections;
+use super::shell_edges::set_bulges;
 use super::shells::shells;
 use super::slivers::check_slivers;
 use super::study::study;
@@ -84,7 +85,7 @@ pub fn build(deck: &Deck, input: Option<&Input>, records: &[Option<Record>]) -> 
 fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>], report: &mut Report<'d>) -> Model {
     let Procedure { analysis, scheme, iteration } = analysis(deck, report);
     let amplitudes = amplitudes(deck, records, report);
-    let Ground { scene, mut nodes, groups, rigid } = ground(deck, input, analysis, report);
+    let Ground { mut scene, mut nodes, groups, rigid } = ground(deck, input, analysis, report);
 
     // These tables connect nodes.
     let masses = masses(&scene, &mut nodes, report);
@@ -97,6 +98,7 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
     let fields = environment(deck, report);
     joints.extend(supports(&scene, &amplitudes, &mut topology, report));
+    set_bulges(&mut scene.parts.list, &topology);
     let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
     let loads = loads(&scene, &topology, report);
     let damping = damping(&scene, &topology, report);

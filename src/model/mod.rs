@@ -22,6 +22,7 @@ mod contacts;
 mod control;
 mod data;
 mod displacement_targets;
+
 mod ends;
 mod environment;
 mod expects;
@@ -54,6 +55,7 @@ mod report;
 mod rigid;
 mod scene;
 mod sections;
+mod shell_edges;
 mod shells;
 mod sight;
 mod slivers;

@@ -186,6 +186,7 @@ impl<'d> Patch<'_, 'd> {
             elements.push(ShellElement {
                 nodes: std::array::from_fn(|k| grid.nodes[id(k)].unwrap_or_default()),
                 normals: std::array::from_fn(|k| grid.normals[id(k)]),
+                bulge: [0.0; 4],
             });
         };
         for j in 0..m {

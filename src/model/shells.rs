@@ -143,6 +143,7 @@ fn of_group<'d>(
             let element = || ShellElement {
                 nodes: std::array::from_fn(|k| first + face.nodes()[at(k)] as usize),
                 normals: std::array::from_fn(|k| normals[at(k)]),
+                bulge: [0.0; 4],
             };
             (face.nodes().len() == corners).then(|| (number as u32, element()))
         };

@@ -5,6 +5,7 @@ use super::nodes::Topology;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
+use super::shell_edges::{Edge, edges_of_shells};
 use super::spot::Spot;
 use super::values::{span, vec3_or_zero};
 use crate::deck::loads as words;
@@ -46,6 +47,7 @@ pub(super) fn spread_load<'d>(
         follows: follower.is_some(),
         scene,
         topology,
+        edges: if load.force_per_length.is_some() { edges_of_shells(&scene.parts.list) } else { HashMap::new() },
         forces: BTreeMap::new(),
         faces: Vec::new(),
     };
@@ -57,7 +59,7 @@ pub(super) fn spread_load<'d>(
             spread.over(place, name, report);
         }
     }
-    let load = |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude };
+    let load = |(node, [force, moment]): (usize, [Vec3; 2])| Load { node, force, moment, follower: false, amplitude };
     let faces = spread.faces;
     let pressure = if faces.is_empty() { None } else { Some(Pressure { faces, pressure, amplitude }) };
     (spread.forces.into_iter().map(load).collect(), pressure)
@@ -73,7 +75,10 @@ struct Spread<'a, 'd> {
     follows: bool,
     scene: &'a Scene<'d>,
     topology: &'a Topology,
-    forces: BTreeMap<usize, Vec3>,
+    /// The edges of shells, for a load per length.
+    edges: HashMap<[usize; 2], Edge>,
+    /// Force and moment by node.
+    forces: BTreeMap<usize, [Vec3; 2]>,
     faces: Vec<Face>,
 }
 
@@ -117,10 +122,19 @@ impl<'d> Spread<'_, 'd> {
         pair.iter().any(|&node| self.topology.is_loose(&spot(node), "this load", report))
     }
 
-    /// Distributes the force on a segment to its ends in equal halves.
+    /// Distributes the force on a segment to its ends in equal halves. The edge of a shell bulges by ½ r (1 − r) L (θ_a − θ_b) in
+    /// its surface, on which the load does work too: moments about the normal at the ends, opposite to each other.
     fn along(&mut self, pair: [usize; 2], line: Vec3) {
-        let half = 0.5 * (self.topology.x(pair[1]) - self.topology.x(pair[0])).norm();
-        pair.iter().for_each(|&node| *self.forces.entry(node).or_default() += half * line);
+        let along = self.topology.x(pair[1]) - self.topology.x(pair[0]);
+        let edge = self.edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]);
+        let moment = edge.map_or_else(Vec3::zeros, |edge| {
+            edge.bulge * along.norm() / 12.0 * along.cross(&line).dot(&edge.normal) * edge.normal
+        });
+        for (node, moment) in pair.into_iter().zip([moment, -moment]) {
+            let [force, sum] = self.forces.entry(node).or_default();
+            *force += 0.5 * along.norm() * line;
+            *sum += moment;
+        }
     }
 
     fn over_surface(&mut self, surface: PartIndex) {
@@ -132,7 +146,7 @@ impl<'d> Spread<'_, 'd> {
             let x: Vec<Vec3> = nodes.iter().map(|&node| self.topology.x(node)).collect();
             let parts = shell::shares(&x).into_iter().zip(shell::faces(&x));
             for (&node, (share, face)) in nodes.iter().zip(parts) {
-                *self.forces.entry(node).or_default() += share * self.area - self.pressure * face;
+                self.forces.entry(node).or_default()[0] += share * self.area - self.pressure * face;
             }
         }
     }

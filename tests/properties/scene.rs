@@ -184,7 +184,11 @@ pub fn shell(
         let split = [[of[0], of[1], of[2], of[2]], [of[0], of[2], of[3], of[3]]];
         let whole = [of];
         let of: &[[usize; 4]] = if corners == 3 { &split } else { &whole };
-        elements.extend(of.iter().map(|&nodes| ShellElement { nodes, normals }));
+        elements.extend(of.iter().map(|&nodes| ShellElement {
+            nodes,
+            normals,
+            bulge: shell::ShellGeometry::new(&nodes[..corners], &normals).bulge,
+        }));
     }
     let name = format!("shell{}", model.count(PartKind::Shell));
     let plate = Plate { thickness: 0.1, E: 2e3, nu: 0.3, drilling: DRILLING };

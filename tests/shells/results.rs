@@ -34,12 +34,12 @@ impl Patch {
     fn block(&self, yielding: Option<&LayerModel>) -> Box<dyn ElementBlock> {
         let plate = Plate { thickness: H, E, nu: NU, drilling: DRILLING };
         let normals = [Vec3::z(); 4];
-        let all = self.elements.iter().map(|nodes| ShellGeometry { nodes, normals: &normals[..nodes.len()] });
+        let all = self.elements.iter().map(|nodes| ShellGeometry::new(nodes, &normals[..nodes.len()]));
         match (yielding, self.elements[0].len()) {
             (None, 3) => Box::new(Triangles::new(all, &self.x, &plate, 0.0)),
             (None, _) => Box::new(Quadrilaterals::new(all, &self.x, &plate, 0.0)),
-            (Some(law), 3) => law.shells::<Triangle, 3, 2, 3>(all, &self.x, &plate, 0.0),
-            (Some(law), _) => law.shells::<Quadrilateral, 4, 3, 5>(all, &self.x, &plate, 0.0),
+            (Some(law), 3) => law.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, &plate, 0.0),
+            (Some(law), _) => law.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, &plate, 0.0),
         }
     }
 

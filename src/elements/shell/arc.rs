@@ -4,7 +4,6 @@
 //! φ²/6 in the moment of a given rotation. Slopes w of the director are therefore lengthened, w′ = w (1 + S wᵀw), where S wᵀw
 //! is the squared angle over the element in the direction in which it bends, over 24: the remaining error is of order φ⁴.
 
-use super::interpolation::Interpolation;
 use crate::math::{Mat3, Vec3};
 
 /// The slopes w of the directors and the products that w′ and its derivatives need.
@@ -16,20 +15,20 @@ pub(super) struct Arc<const V: usize> {
     y: [Vec3; 2],
     /// H_kb = Σ S_kd w_d·w_b.
     H: [[f64; 2]; 2],
+    S: [[f64; 2]; 2],
 }
 
 impl<const V: usize> Arc<V> {
     /// Lengthens the slopes `w`.
     #[inline(always)]
-    pub fn new<K: Interpolation<N, V>, const N: usize>(w: [Vec3; V]) -> Self {
-        let S = &K::ARC;
+    pub fn new(S: &[[f64; 2]; 2], w: [Vec3; V]) -> Self {
         let y = [S[0][0] * w[0] + S[0][1] * w[1], S[1][0] * w[0] + S[1][1] * w[1]];
         let H = [[y[0].dot(&w[0]), y[0].dot(&w[1])], [y[1].dot(&w[0]), y[1].dot(&w[1])]];
         let mut long = w;
         for b in 0..2 {
             long[b] += H[0][b] * w[0] + H[1][b] * w[1];
         }
-        Arc { w, long, y, H }
+        Arc { w, long, y, H, S: *S }
     }
 
     /// P_kb = Σ S_kc p_b·w_c.
@@ -67,14 +66,14 @@ impl<const V: usize> Arc<V> {
 
     /// ∂²(p·w′)/∂w_k∂w_l, k and l below 2.
     #[inline(always)]
-    pub fn hessian<K: Interpolation<N, V>, const N: usize>(&self, p: &[Vec3; V]) -> [[Mat3; 2]; 2] {
+    pub fn hessian(&self, p: &[Vec3; V]) -> [[Mat3; 2]; 2] {
         let P = self.P(p);
         let pw = p[0] * self.w[0].transpose() + p[1] * self.w[1].transpose();
         let pw = pw + pw.transpose();
         [0, 1].map(|k| {
             [0, 1].map(|l| {
                 let outer = p[l] * self.y[k].transpose() + self.y[l] * p[k].transpose();
-                K::ARC[k][l] * pw + outer + (P[k][l] + P[l][k]) * Mat3::identity()
+                self.S[k][l] * pw + outer + (P[k][l] + P[l][k]) * Mat3::identity()
             })
         })
     }

@@ -1,7 +1,7 @@
 //! Forces, energies and results of shells.
 
 use super::interpolation::Interpolation;
-use super::kinematics::{Bending, Shells, Strains};
+use super::kinematics::{Shells, Strains};
 use super::results;
 use super::section::ShellSection;
 use super::tangent::tangent;
@@ -11,10 +11,10 @@ use crate::materials::Dissipation;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
-impl<K, const N: usize, const V: usize, const M: usize, S> ElementBlock for Shells<K, N, V, M, S>
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> ElementBlock for Shells<K, N, V, P, E, S>
 where
-    K: Interpolation<N, V>,
-    S: ShellSection<M>,
+    K: Interpolation<N, V, P>,
+    S: ShellSection<P, E>,
 {
     fn len(&self) -> usize {
         self.elements.len()
@@ -40,13 +40,12 @@ where
         for element in &self.elements {
             let motion = element.gather(now.nodes);
             let strains = element.strains::<K>(&motion);
-            let (shear, drill) = element.shear_and_drilling(&strains);
-            let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
-            let mut gradient = element.strain_hessian::<K, true>(&stress).gradient(&motion);
-            Bending::new::<K, N>(element.by_slopes(&stress.plane[1]), &motion).add_gradient::<K, N>(&mut gradient);
+            let shear = element.shear_stress(&strains.shear);
+            let stress = Strains { plane: element.section.stress(&strains.plane, now), shear };
+            let mut gradient = element.gradient::<K, true>(&stress, &motion);
             if self.damping > 0.0 {
                 let viscous = self.viscous_stress(element, &motion, now.nodes);
-                gradient = gradient.plus(1.0, &element.strain_hessian::<K, false>(&viscous).gradient(&motion));
+                gradient = gradient.plus(1.0, &element.gradient::<K, false>(&viscous, &motion));
             }
             for a in 0..N {
                 let f = &mut F[element.nodes[a]];
@@ -71,14 +70,14 @@ where
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         if self.damping > 0.0 {
-            tangent::<_, N, V, M, _, true>(self, e, (now, None), rate_weight, moduli, K);
+            tangent::<_, N, V, P, E, _, true>(self, e, (now, None), rate_weight, moduli, K);
         } else {
-            tangent::<_, N, V, M, _, false>(self, e, (now, None), rate_weight, moduli, K);
+            tangent::<_, N, V, P, E, _, false>(self, e, (now, None), rate_weight, moduli, K);
         }
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        tangent::<_, N, V, M, _, false>(self, e, (now, Some(stressed)), 0.0, Moduli::Elastic, K);
+        tangent::<_, N, V, P, E, _, false>(self, e, (now, Some(stressed)), 0.0, Moduli::Elastic, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
@@ -94,11 +93,9 @@ where
         let mut sum = 0.0;
         for element in &self.elements {
             let strains = element.strains::<K>(&element.gather(now.nodes));
-            let (shear, drill) = element.shear_and_drilling(&strains);
+            let shear = element.shear_stress(&strains.shear);
             sum += element.section.energy(&strains.plane, now);
-            for a in 0..N {
-                sum += 0.5 * (shear[a] * strains.shear[a] + drill[a] * strains.drill[a]);
-            }
+            sum += 0.5 * shear.iter().zip(&strains.shear).map(|(a, b)| a * b).sum::<f64>();
         }
         sum
     }
@@ -112,10 +109,8 @@ where
             let motion = element.gather(now.nodes);
             let rates = element.strain_rates::<K>(&motion, &element.rates(&motion, now.nodes));
             let stress = element.elastic_stress(&rates);
-            let power = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            sum += power(stress.plane.as_flattened(), rates.plane.as_flattened())
-                + power(&stress.shear, &rates.shear)
-                + power(&stress.drill, &rates.drill);
+            sum += stress.plane.dot(&rates.plane);
+            sum += stress.shear.iter().zip(&rates.shear).map(|(a, b)| a * b).sum::<f64>();
         }
         self.damping * sum
     }

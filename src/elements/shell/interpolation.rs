@@ -1,9 +1,12 @@
 //! Shape functions, edges and integration points of the two shapes of shell elements.
 
-/// The interpolation of an element with N nodes and V vectors that make up the slopes of the surface.
-pub trait Interpolation<const N: usize, const V: usize>: Send + Sync + Sized {
+/// The interpolation of an element with N nodes and V vectors that make up the slopes of the surface, of which P pairs are
+/// multiplied.
+pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + Sync + Sized {
     /// The vectors v_i = Σ SLOPES[i][a] x_a.
     const SLOPES: [[f64; N]; V];
+    /// Which slopes are multiplied.
+    const PAIRS: [[usize; 2]; P];
     /// The ends of the edges at whose middles shear is taken, in the direction of the coordinate along them.
     const EDGES: [[usize; 2]; N];
     /// Integration points (ξ, η): as many as nodes, of equal weight.
@@ -15,10 +18,19 @@ pub trait Interpolation<const N: usize, const V: usize>: Send + Sync + Sized {
     /// The factor α by which bending within the element adds to its shear flexibility: κGh → κGh h²/(h² + α ℓ²), ℓ the longest
     /// edge (Lyly, Stenberg & Vihinen 1993; MacNeal 1978 for beams).
     const FLEXIBILITY: f64;
+    /// The part of the bulge of an edge that stress works on: all of it, or what a triangle that bends is best with. Elements that
+    /// share an edge take the same.
+    const BULGE: f64;
     /// The point (ξ, η) whose tangents give the axes of the plane.
     const CENTRE: [f64; 2];
     /// S of [`super::arc`]: a 24th of the squared spans of the element in (ξ, η).
     const ARC: [[f64; 2]; 2];
+    /// The sign of θ_a − θ_b along an edge a → b that is taken the other way round the element.
+    #[inline(always)]
+    fn sense(edge: usize) -> f64 {
+        let [a, b] = Self::EDGES[edge];
+        if b == (a + 1) % N { 1.0 } else { -1.0 }
+    }
     /// The coefficients of the v_i in x,ξ and x,η.
     fn slopes(at: [f64; 2]) -> [[f64; V]; 2];
     /// The coefficients of the shear strains of the edges in those along ξ and η. That of an edge is x,along·d, with the whole
@@ -38,14 +50,16 @@ const NEAR: f64 = 0.25 * (1.0 + GAUSS) * (1.0 + GAUSS);
 const FAR: f64 = 0.25 * (1.0 - GAUSS) * (1.0 - GAUSS);
 const SIDE: f64 = 0.25 * (1.0 - GAUSS * GAUSS);
 
-impl Interpolation<4, 3> for Quadrilateral {
+impl Interpolation<4, 3, 6> for Quadrilateral {
     const SLOPES: [[f64; 4]; 3] = [[-0.25, 0.25, 0.25, -0.25], [-0.25, -0.25, 0.25, 0.25], [0.25, -0.25, 0.25, -0.25]];
+    const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [0, 2], [1, 2], [2, 2]];
     const EDGES: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
     const POINTS: [[f64; 2]; 4] = [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]];
     const VALUES: [[f64; 4]; 4] =
         [[NEAR, SIDE, FAR, SIDE], [SIDE, NEAR, SIDE, FAR], [FAR, SIDE, NEAR, SIDE], [SIDE, FAR, SIDE, NEAR]];
     const AREA: f64 = 4.0;
     const FLEXIBILITY: f64 = 0.0;
+    const BULGE: f64 = 1.0;
     const CENTRE: [f64; 2] = [0.0, 0.0];
     const ARC: [[f64; 2]; 2] = [[1.0 / 6.0, 0.0], [0.0, 1.0 / 6.0]];
 
@@ -61,16 +75,17 @@ impl Interpolation<4, 3> for Quadrilateral {
     }
 }
 
-const SIXTH: f64 = 1.0 / 6.0;
-const THIRDS: f64 = 2.0 / 3.0;
-
-impl Interpolation<3, 2> for Triangle {
+impl Interpolation<3, 2, 3> for Triangle {
     const SLOPES: [[f64; 3]; 2] = [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
+    const PAIRS: [[usize; 2]; 3] = [[0, 0], [1, 1], [0, 1]];
     const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
-    const POINTS: [[f64; 2]; 3] = [[SIXTH, SIXTH], [THIRDS, SIXTH], [SIXTH, THIRDS]];
-    const VALUES: [[f64; 3]; 3] = [[THIRDS, SIXTH, SIXTH], [SIXTH, THIRDS, SIXTH], [SIXTH, SIXTH, THIRDS]];
+    /// The middles of the sides 0-1, 1-2 and 2-0.
+    const POINTS: [[f64; 2]; 3] = [[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+    const VALUES: [[f64; 3]; 3] = [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
     const AREA: f64 = 0.5;
     const FLEXIBILITY: f64 = 0.1;
+    /// The factor α of Felippa's template.
+    const BULGE: f64 = 1.5;
     const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
     /// The value is half the sum of e eᵀ/24 over the edges e, which prefers no corner.
     const ARC: [[f64; 2]; 2] = [[1.0 / 24.0, -1.0 / 48.0], [-1.0 / 48.0, 1.0 / 24.0]];

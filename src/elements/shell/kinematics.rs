@@ -1,44 +1,46 @@
-//! Kinematics of a shell element: from the motion of its nodes to its strains, their rates and their second derivatives.
+//! Kinematics of a shell element: from the motion of its nodes to its strains, their rates and their derivatives.
 
 use super::arc::Arc;
+use super::edge::EdgeTangents;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
-use super::section::{ShellSection, ShellStiffness};
+use super::section::{InPlane, ShellSection, ShellStiffness};
 use crate::math::Vec3;
 use crate::state::Node;
 use std::array::from_fn;
 use std::marker::PhantomData;
 
-/// One element: N nodes, V vectors of the slopes of the surface, M stress modes.
-pub(super) struct Shell<const N: usize, const V: usize, const M: usize, S> {
+/// Which slopes are multiplied: see [`Interpolation::PAIRS`].
+type Pairs<const P: usize> = [[usize; 2]; P];
+
+/// One element: N nodes, V slopes of the surface, P products of them, E numbers of the membrane.
+pub(super) struct Shell<const N: usize, const V: usize, const P: usize, const E: usize, S> {
     /// Nodes, counter-clockwise about the normal.
     pub nodes: [usize; N],
     /// Directors at t = 0.
     pub D: [Vec3; N],
-    /// Axes in the plane of the element at t = 0.
-    pub T: [Vec3; 2],
-    /// Coefficients of the in-plane strains ½ v·Q v and v·Q w, with v the slopes of x and w those of d.
-    pub Q: [[[f64; V]; V]; M],
+    /// Tangents of the nodes at t = 0: the axes of the element, turned until they are normal to the directors.
+    pub T: [[Vec3; 2]; N],
+    /// The slopes v_i = Σ slopes[i][a] x_a.
+    pub slopes: [[f64; N]; V],
+    /// S of [`super::arc`].
+    pub arc: [[f64; 2]; 2],
+    /// The edges.
+    pub edges: [EdgeTangents; N],
     /// Strains at t = 0.
-    pub start: Strains<N, M>,
+    pub start: Strains<N, P, E>,
     /// Stiffness of the shear strains at the edges.
     pub shear: [[f64; N]; N],
-    /// Coefficients of v in x,₁ and x,₂, by integration point.
-    pub slopes: [[[f64; V]; 2]; N],
-    /// Stiffness of the drilling strains at integration points.
-    pub drilling: [[f64; N]; N],
     /// The sections at its integration points.
     pub section: S,
 }
 
 /// The strains of an element, or the stresses conjugate to them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Strains<const N: usize, const M: usize> {
-    /// Membrane and bending, by stress mode.
-    pub plane: [[f64; M]; 2],
+pub(super) struct Strains<const N: usize, const P: usize, const E: usize> {
+    /// Membrane and bending.
+    pub plane: InPlane<P, E>,
     /// Transverse shear by edge.
     pub shear: [f64; N],
-    /// Drilling by integration point.
-    pub drill: [f64; N],
 }
 
 /// Positions and directors of the nodes, or their rates, or a gradient by them.
@@ -50,7 +52,7 @@ pub(super) struct NodalVectors<const N: usize> {
     pub turning: [[Vec3; N]; 3],
 }
 
-/// σ·∂²ε.
+/// σ·∂²ε of the strains that are bilinear in positions and directors.
 pub(super) struct StrainHessian<const N: usize> {
     /// Coefficients of x_a·x_b.
     pub xx: [[f64; N]; N],
@@ -59,9 +61,9 @@ pub(super) struct StrainHessian<const N: usize> {
 }
 
 /// A group of shells of one interpolation `K`, whose sections are of type `S`.
-pub struct Shells<K, const N: usize, const V: usize, const M: usize, S = ShellStiffness<M>> {
+pub struct Shells<K, const N: usize, const V: usize, const P: usize, const E: usize, S = ShellStiffness<P, E>> {
     /// The elements.
-    pub(super) elements: Vec<Shell<N, V, M, S>>,
+    pub(super) elements: Vec<Shell<N, V, P, E, S>>,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
     /// The interpolation, which holds no data.
@@ -69,9 +71,9 @@ pub struct Shells<K, const N: usize, const V: usize, const M: usize, S = ShellSt
 }
 
 /// Quadrilaterals of four nodes.
-pub type Quadrilaterals<S = ShellStiffness<5>> = Shells<Quadrilateral, 4, 3, 5, S>;
+pub type Quadrilaterals<S = ShellStiffness<6, 11>> = Shells<Quadrilateral, 4, 3, 6, 11, S>;
 /// Triangles of three nodes.
-pub type Triangles<S = ShellStiffness<3>> = Shells<Triangle, 3, 2, 3, S>;
+pub type Triangles<S = ShellStiffness<3, 7>> = Shells<Triangle, 3, 2, 3, 7, S>;
 
 /// Σ factors_i v_i.
 #[inline(always)]
@@ -83,11 +85,21 @@ pub(super) fn sum<const V: usize>(factors: &[f64; V], v: &[Vec3; V]) -> Vec3 {
     sum
 }
 
+/// Σ v.
+#[inline(always)]
+fn total<const N: usize>(v: &[Vec3; N]) -> Vec3 {
+    let mut sum = v[0];
+    for v in &v[1..] {
+        sum += v;
+    }
+    sum
+}
+
 impl<const N: usize> NodalVectors<N> {
-    /// The vectors that make up the slopes of a field with the given nodal values.
+    /// The slopes of a field with the given nodal values.
     #[inline(always)]
-    pub fn slopes<K: Interpolation<N, V>, const V: usize>(values: &[Vec3; N]) -> [Vec3; V] {
-        from_fn(|i| sum(&K::SLOPES[i], values))
+    pub fn slopes<const V: usize>(slopes: &[[f64; N]; V], values: &[Vec3; N]) -> [Vec3; V] {
+        from_fn(|i| sum(&slopes[i], values))
     }
 
     /// This + s · other.
@@ -100,7 +112,18 @@ impl<const N: usize> NodalVectors<N> {
     }
 }
 
-impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
+/// A stress as symmetric coefficients of pairs of slopes.
+#[inline(always)]
+pub(super) fn by_pairs<const V: usize, const P: usize>(pairs: &Pairs<P>, stress: &[f64]) -> [[f64; V]; V] {
+    let mut Q = [[0.0; V]; V];
+    for (&[i, j], s) in pairs.iter().zip(stress) {
+        Q[i][j] = *s;
+        Q[j][i] = *s;
+    }
+    Q
+}
+
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N, V, P, E, S> {
     /// Positions and directors of the nodes.
     #[inline(always)]
     pub fn gather(&self, nodes: &[Node]) -> NodalVectors<N> {
@@ -111,8 +134,8 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
             let R = node.R();
             motion.x[a] = node.relative_position(first);
             motion.turning[0][a] = R * self.D[a];
-            motion.turning[1][a] = R * self.T[0];
-            motion.turning[2][a] = R * self.T[1];
+            motion.turning[1][a] = R * self.T[a][0];
+            motion.turning[2][a] = R * self.T[a][1];
         }
         motion
     }
@@ -129,136 +152,150 @@ impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
 
     /// Strains from zero, those at t = 0 included; bending by angles with `ARC`, by chords without.
     #[inline(always)]
-    pub fn measure<K: Interpolation<N, V>, const ARC: bool>(&self, motion: &NodalVectors<N>) -> Strains<N, M> {
+    pub fn measure<K: Interpolation<N, V, P>, const ARC: bool>(&self, motion: &NodalVectors<N>) -> Strains<N, P, E> {
         let NodalVectors { x, turning: [d, t1, t2] } = motion;
-        let (v, mut w) = (NodalVectors::slopes::<K, V>(x), NodalVectors::slopes::<K, V>(d));
+        let (v, mut w) = (NodalVectors::slopes(&self.slopes, x), NodalVectors::slopes(&self.slopes, d));
         if ARC {
-            w = Arc::new::<K, N>(w).long;
+            w = Arc::new(&self.arc, w).long;
         }
-        let mut strains = Strains { plane: [[0.0; M]; 2], shear: [0.0; N], drill: [0.0; N] };
-        for i in 0..V {
-            for j in 0..V {
-                let (membrane, bending) = (0.5 * v[i].dot(&v[j]), v[i].dot(&w[j]));
-                for m in 0..M {
-                    strains.plane[0][m] += self.Q[m][i][j] * membrane;
-                    strains.plane[1][m] += self.Q[m][i][j] * bending;
-                }
-            }
+        let mut strains = Strains { plane: InPlane::ZERO, shear: [0.0; N] };
+        let membrane = &mut strains.plane.membrane;
+        let bending = &mut strains.plane.bending;
+        for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
+            membrane[n] = if i == j { 0.5 * v[i].dot(&v[i]) } else { v[i].dot(&v[j]) };
+            bending[n] = if i == j { v[i].dot(&w[i]) } else { v[i].dot(&w[j]) + v[j].dot(&w[i]) };
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
-            strains.shear[e] = 0.5 * (x[b] - x[a]).dot(&(d[a] + d[b]));
+            let along = x[b] - x[a];
+            let edge = &self.edges[e];
+            membrane[P + e] = along.dot(&(edge.vector(0, &t1[a], &t2[a]) + edge.vector(1, &t1[b], &t2[b])));
+            strains.shear[e] = 0.5 * along.dot(&(d[a] + d[b]));
         }
-        for g in 0..N {
-            let [x1, x2] = self.slopes[g].map(|s| sum(&s, &v));
-            strains.drill[g] = 0.5 * (sum(&K::VALUES[g], t2).dot(&x1) - sum(&K::VALUES[g], t1).dot(&x2));
-        }
+        let mean = 0.5 / N as f64;
+        membrane[E - 1] = mean * (total(t1).dot(&v[1]) - total(t2).dot(&v[0]));
         strains
     }
 
     /// Strains from t = 0.
     #[inline(always)]
-    pub fn strains<K: Interpolation<N, V>>(&self, motion: &NodalVectors<N>) -> Strains<N, M> {
+    pub fn strains<K: Interpolation<N, V, P>>(&self, motion: &NodalVectors<N>) -> Strains<N, P, E> {
         let mut strains = self.measure::<K, true>(motion);
-        for m in 0..M {
-            strains.plane[0][m] -= self.start.plane[0][m];
-            strains.plane[1][m] -= self.start.plane[1][m];
-        }
-        for a in 0..N {
-            strains.shear[a] -= self.start.shear[a];
-            strains.drill[a] -= self.start.drill[a];
-        }
+        let less = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a -= b);
+        less(&mut strains.plane.membrane, &self.start.plane.membrane);
+        less(&mut strains.plane.bending, &self.start.plane.bending);
+        less(&mut strains.shear, &self.start.shear);
         strains
     }
 
     /// Strain rates, bending by chords: half the difference of the strains ahead and behind by a unit of time, which is exact for
     /// polynomials of second degree.
     #[inline(always)]
-    pub fn strain_rates<K: Interpolation<N, V>>(
+    pub fn strain_rates<K: Interpolation<N, V, P>>(
         &self,
         motion: &NodalVectors<N>,
         rates: &NodalVectors<N>,
-    ) -> Strains<N, M> {
+    ) -> Strains<N, P, E> {
         let (mut ahead, behind) =
             (self.measure::<K, false>(&motion.plus(1.0, rates)), self.measure::<K, false>(&motion.plus(-1.0, rates)));
         let half = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a = 0.5 * (*a - b));
-        half(ahead.plane.as_flattened_mut(), behind.plane.as_flattened());
+        half(&mut ahead.plane.membrane, &behind.plane.membrane);
+        half(&mut ahead.plane.bending, &behind.plane.bending);
         half(&mut ahead.shear, &behind.shear);
-        half(&mut ahead.drill, &behind.drill);
         ahead
     }
 
-    /// The stresses of transverse shear and drilling.
+    /// The stresses of transverse shear.
     #[inline(always)]
-    pub fn shear_and_drilling(&self, strains: &Strains<N, M>) -> ([f64; N], [f64; N]) {
-        let times = |C: &[[f64; N]; N], e: &[f64; N]| from_fn(|i| (0..N).map(|j| C[i][j] * e[j]).sum());
-        (times(&self.shear, &strains.shear), times(&self.drilling, &strains.drill))
+    pub fn shear_stress(&self, shear: &[f64; N]) -> [f64; N] {
+        from_fn(|i| (0..N).map(|j| self.shear[i][j] * shear[j]).sum())
     }
 
-    /// Σ stress_m Q_m: the stress of the membrane or of bending as coefficients of pairs of slopes.
+    /// The gradient Bᵀσ: forces, and the derivatives of energy by d, t₁ and t₂. Bending by angles with `ARC`, by chords without.
     #[inline(always)]
-    pub fn by_slopes(&self, plane: &[f64; M]) -> [[f64; V]; V] {
-        let mut Q = [[0.0; V]; V];
-        for m in 0..M {
-            for i in 0..V {
-                for j in 0..V {
-                    Q[i][j] += plane[m] * self.Q[m][i][j];
-                }
+    pub fn gradient<K: Interpolation<N, V, P>, const ARC: bool>(
+        &self,
+        stress: &Strains<N, P, E>,
+        motion: &NodalVectors<N>,
+    ) -> NodalVectors<N> {
+        let NodalVectors { x, turning: [d, t1, t2] } = motion;
+        let (v, w) = (NodalVectors::slopes(&self.slopes, x), NodalVectors::slopes(&self.slopes, d));
+        let N_ = by_pairs::<V, P>(&K::PAIRS, &stress.plane.membrane);
+        let M = by_pairs::<V, P>(&K::PAIRS, &stress.plane.bending);
+        let mut along: [Vec3; V] = from_fn(|i| sum(&N_[i], &v));
+        let bent: [Vec3; V] = from_fn(|i| sum(&M[i], &v));
+        let across = if ARC {
+            let arc = Arc::new(&self.arc, w);
+            (0..V).for_each(|i| along[i] += sum(&M[i], &arc.long));
+            arc.gradient(&bent)
+        } else {
+            (0..V).for_each(|i| along[i] += sum(&M[i], &w));
+            bent
+        };
+        let drill = stress.plane.membrane[E - 1] * 0.5 / N as f64;
+        along[0] -= drill * total(t2);
+        along[1] += drill * total(t1);
+        let mut gradient = NodalVectors {
+            x: [Vec3::zeros(); N],
+            turning: [[Vec3::zeros(); N], [drill * v[1]; N], [-drill * v[0]; N]],
+        };
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let (edge, half, bulge) = (&self.edges[e], 0.5 * stress.shear[e], stress.plane.membrane[P + e]);
+            let force =
+                half * (d[a] + d[b]) + bulge * (edge.vector(0, &t1[a], &t2[a]) + edge.vector(1, &t1[b], &t2[b]));
+            gradient.x[a] -= force;
+            gradient.x[b] += force;
+            let length = x[b] - x[a];
+            for (node, [c1, c2]) in [a, b].into_iter().zip(edge.0) {
+                gradient.turning[0][node] += half * length;
+                gradient.turning[1][node] += bulge * c1 * length;
+                gradient.turning[2][node] += bulge * c2 * length;
             }
         }
-        Q
+        for i in 0..V {
+            for a in 0..N {
+                gradient.x[a] += self.slopes[i][a] * along[i];
+                gradient.turning[0][a] += self.slopes[i][a] * across[i];
+            }
+        }
+        gradient
     }
 
     /// σ·∂²ε; with `ARC` without bending, which [`Bending`] adds.
     #[inline(always)]
-    pub fn strain_hessian<K: Interpolation<N, V>, const ARC: bool>(&self, stress: &Strains<N, M>) -> StrainHessian<N> {
+    pub fn strain_hessian<K: Interpolation<N, V, P>, const ARC: bool>(
+        &self,
+        stress: &Strains<N, P, E>,
+    ) -> StrainHessian<N> {
         let mut out = StrainHessian { xx: [[0.0; N]; N], xd: [[[0.0; N]; N]; 3] };
-        for (part, plane) in stress.plane.iter().enumerate().take(if ARC { 1 } else { 2 }) {
-            let Q = self.by_slopes(plane);
+        let parts = [&stress.plane.membrane[..], &stress.plane.bending[..]];
+        for (part, plane) in parts.into_iter().enumerate().take(if ARC { 1 } else { 2 }) {
+            let Q = by_pairs::<V, P>(&K::PAIRS, plane);
             let to = if part == 0 { &mut out.xx } else { &mut out.xd[0] };
             for a in 0..N {
-                let half: [f64; V] = from_fn(|j| (0..V).map(|i| K::SLOPES[i][a] * Q[i][j]).sum());
+                let half: [f64; V] = from_fn(|j| (0..V).map(|i| self.slopes[i][a] * Q[i][j]).sum());
                 for b in 0..N {
-                    to[a][b] = (0..V).map(|j| half[j] * K::SLOPES[j][b]).sum();
+                    to[a][b] = (0..V).map(|j| half[j] * self.slopes[j][b]).sum();
                 }
             }
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
-            let half = 0.5 * stress.shear[e];
-            for to in [a, b] {
-                out.xd[0][b][to] += half;
-                out.xd[0][a][to] -= half;
+            let (half, bulge) = (0.5 * stress.shear[e], stress.plane.membrane[P + e]);
+            for (to, [c1, c2]) in [a, b].into_iter().zip(self.edges[e].0) {
+                for (k, c) in [half, bulge * c1, bulge * c2].into_iter().enumerate() {
+                    out.xd[k][b][to] += c;
+                    out.xd[k][a][to] -= c;
+                }
             }
         }
-        for g in 0..N {
-            for a in 0..N {
-                for (k, along, sign) in [(1, 1, -0.5), (2, 0, 0.5)] {
-                    let slope: f64 = (0..V).map(|i| self.slopes[g][along][i] * K::SLOPES[i][a]).sum();
-                    let s = sign * stress.drill[g] * slope;
-                    for b in 0..N {
-                        out.xd[k][a][b] += s * K::VALUES[g][b];
-                    }
-                }
+        let drill = stress.plane.membrane[E - 1] * 0.5 / N as f64;
+        for a in 0..N {
+            let (first, second) = (drill * self.slopes[1][a], drill * self.slopes[0][a]);
+            for b in 0..N {
+                out.xd[1][a][b] += first;
+                out.xd[2][a][b] -= second;
             }
         }
         out
-    }
-}
-
-impl<const N: usize> StrainHessian<N> {
-    /// The gradient Bᵀσ: forces, and the derivatives of energy by d, t₁ and t₂.
-    #[inline(always)]
-    pub fn gradient(&self, motion: &NodalVectors<N>) -> NodalVectors<N> {
-        let mut gradient = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
-        for a in 0..N {
-            gradient.x[a] = sum(&self.xx[a], &motion.x);
-            for k in 0..3 {
-                gradient.x[a] += sum(&self.xd[k][a], &motion.turning[k]);
-                for b in 0..N {
-                    gradient.turning[k][b] += self.xd[k][a][b] * motion.x[a];
-                }
-            }
-        }
-        gradient
     }
 }
 
@@ -273,56 +310,47 @@ pub(super) struct Bending<const V: usize> {
 }
 
 impl<const V: usize> Bending<V> {
-    /// `Q`: see [`Shell::by_slopes`].
+    /// `Q`: see [`by_pairs`].
     #[inline(always)]
-    pub fn new<K: Interpolation<N, V>, const N: usize>(Q: [[f64; V]; V], motion: &NodalVectors<N>) -> Self {
-        let v = NodalVectors::slopes::<K, V>(&motion.x);
-        let arc = Arc::new::<K, N>(NodalVectors::slopes::<K, V>(&motion.turning[0]));
+    pub fn new<const N: usize, const P: usize, const E: usize, S>(
+        element: &Shell<N, V, P, E, S>,
+        Q: [[f64; V]; V],
+        motion: &NodalVectors<N>,
+    ) -> Self {
+        let v = NodalVectors::slopes(&element.slopes, &motion.x);
+        let arc = Arc::new(&element.arc, NodalVectors::slopes(&element.slopes, &motion.turning[0]));
         Bending { arc, p: from_fn(|k| sum(&Q[k], &v)), Q }
-    }
-
-    /// Adds its part of Bᵀσ.
-    #[inline(always)]
-    pub fn add_gradient<K: Interpolation<N, V>, const N: usize>(&self, gradient: &mut NodalVectors<N>) {
-        let g = self.arc.gradient(&self.p);
-        for i in 0..V {
-            let f = sum(&self.Q[i], &self.arc.long);
-            for a in 0..N {
-                gradient.x[a] += K::SLOPES[i][a] * f;
-                gradient.turning[0][a] += K::SLOPES[i][a] * g[i];
-            }
-        }
     }
 }
 
-impl<K, const N: usize, const V: usize, const M: usize, S> Shells<K, N, V, M, S>
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Shells<K, N, V, P, E, S>
 where
-    K: Interpolation<N, V>,
-    S: ShellSection<M>,
+    K: Interpolation<N, V, P>,
+    S: ShellSection<P, E>,
 {
     /// The stress of damping.
     #[inline(always)]
     pub(super) fn viscous_stress(
         &self,
-        element: &Shell<N, V, M, S>,
+        element: &Shell<N, V, P, E, S>,
         motion: &NodalVectors<N>,
         nodes: &[Node],
-    ) -> Strains<N, M> {
+    ) -> Strains<N, P, E> {
         let rates = element.strain_rates::<K>(motion, &element.rates(motion, nodes));
         let mut stress = element.elastic_stress(&rates);
         let times = |a: &mut [f64]| a.iter_mut().for_each(|a| *a *= self.damping);
-        times(stress.plane.as_flattened_mut());
+        times(&mut stress.plane.membrane);
+        times(&mut stress.plane.bending);
         times(&mut stress.shear);
-        times(&mut stress.drill);
         stress
     }
 }
 
-impl<const N: usize, const V: usize, const M: usize, S: ShellSection<M>> Shell<N, V, M, S> {
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S: ShellSection<P, E>> Shell<N, V, P, E, S> {
     /// The elastic stress at the given strains.
     #[inline(always)]
-    pub fn elastic_stress(&self, strains: &Strains<N, M>) -> Strains<N, M> {
-        let (shear, drill) = self.shear_and_drilling(strains);
-        Strains { plane: self.section.elastic().stress(&strains.plane), shear, drill }
+    pub fn elastic_stress(&self, strains: &Strains<N, P, E>) -> Strains<N, P, E> {
+        let plane = self.section.elastic().stress(&strains.plane);
+        Strains { plane, shear: self.shear_stress(&strains.shear) }
     }
 }

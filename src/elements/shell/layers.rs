@@ -1,6 +1,7 @@
 //! A shell of layers in plane stress, each with history variables of its own, that yields. Transverse shear stays elastic.
 
-use super::section::{ShellSection, ShellStiffness, StrainOperator};
+use super::plane_strains::PointStrains;
+use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::{Dissipation, MaterialLaw, PlaneStress};
@@ -45,44 +46,61 @@ pub struct Layers {
     stiffness: [[f64; 3]; 3],
 }
 
+/// The stiffness of an element in its plane, and what it is made of.
+pub(super) struct InPlaneStiffness<const P: usize, const E: usize> {
+    /// The stiffness before the material yields.
+    pub elastic: ShellStiffness<P, E>,
+    /// The stiffness of drilling, a part of it.
+    pub drilling: Drilling<E>,
+    /// The strains at its integration points.
+    pub points: Vec<PointStrains<P, E>>,
+}
+
 /// The sections of one element.
-pub struct LayeredSection<const M: usize> {
+pub struct LayeredSection<const P: usize, const E: usize> {
     layers: Arc<Layers>,
-    elastic: ShellStiffness<M>,
-    points: Vec<StrainOperator<M>>,
+    elastic: ShellStiffness<P, E>,
+    drilling: Drilling<E>,
+    points: Vec<PointStrains<P, E>>,
     /// Start of its range in the history of the group.
     first: usize,
 }
 
-impl<const M: usize> LayeredSection<M> {
-    /// `points`: the strains at its integration points; `first`: the start of its range in the history of the group.
+impl<const P: usize, const E: usize> LayeredSection<P, E> {
+    /// `first`: the start of its range in the history of the group.
     pub(super) fn new(
         layers: &Arc<Layers>,
-        elastic: ShellStiffness<M>,
-        points: Vec<StrainOperator<M>>,
+        InPlaneStiffness { elastic, drilling, points }: InPlaneStiffness<P, E>,
         first: usize,
     ) -> Self {
-        LayeredSection { layers: Arc::clone(layers), elastic, points, first }
+        LayeredSection { layers: Arc::clone(layers), elastic, drilling, points, first }
     }
 
     /// The range of the history of the group that the element has.
     fn history_range(&self) -> Range<usize> {
-        self.first..self.first + ShellSection::<M>::history(self)
+        self.first..self.first + ShellSection::<P, E>::history(self)
+    }
+
+    /// The stress of drilling, which stays elastic.
+    #[inline(always)]
+    fn drilling(&self, strain: &InPlane<P, E>) -> InPlane<P, E> {
+        InPlane { membrane: self.drilling.stress(&strain.membrane), ..InPlane::ZERO }
     }
 
     /// Membrane strain and curvature at an integration point.
     #[inline(always)]
-    fn strain(point: &StrainOperator<M>, strain: &[[f64; M]; 2]) -> [[f64; 3]; 2] {
-        strain.map(|part| from_fn(|i| (0..M).map(|m| point.A[(i, m)] * part[m]).sum()))
+    fn strain(point: &PointStrains<P, E>, strain: &InPlane<P, E>) -> [[f64; 3]; 2] {
+        let membrane = from_fn(|i| (0..E).map(|m| point.membrane[(i, m)] * strain.membrane[m]).sum());
+        [membrane, from_fn(|i| (0..P).map(|m| point.bending[(i, m)] * strain.bending[m]).sum())]
     }
 
     /// Calls `of` for each layer of each integration point with the point, [z, volume], strain and history variables.
     #[inline(always)]
     fn each(
         &self,
-        strain: &[[f64; M]; 2],
+        strain: &InPlane<P, E>,
         old: &[f64],
-        mut of: impl FnMut(&StrainOperator<M>, [f64; 2], &[f64; 3], &[f64]),
+        mut of: impl FnMut(&PointStrains<P, E>, [f64; 2], &[f64; 3], &[f64]),
     ) {
         let all = self.layers.at.len() * self.layers.variables;
         for (point, old) in self.points.iter().zip(old[self.history_range()].chunks_exact(all)) {
@@ -94,8 +112,8 @@ impl<const M: usize> LayeredSection<M> {
     #[inline(always)]
     fn through(
         &self,
-        point: &StrainOperator<M>,
-        strain: &[[f64; M]; 2],
+        point: &PointStrains<P, E>,
+        strain: &InPlane<P, E>,
         old: &[f64],
         mut of: impl FnMut([f64; 2], &[f64; 3], &[f64]),
     ) {
@@ -107,11 +125,13 @@ impl<const M: usize> LayeredSection<M> {
 
     /// Adds to the stress of the element that of a point, where the section has the resultants N and M.
     #[inline(always)]
-    fn add(point: &StrainOperator<M>, section: &[[f64; 3]; 2], stress: &mut [[f64; M]; 2]) {
-        for (stress, section) in stress.iter_mut().zip(section) {
-            for m in 0..M {
-                stress[m] += point.weight * (0..3).map(|i| point.A[(i, m)] * section[i]).sum::<f64>();
-            }
+    fn add(point: &PointStrains<P, E>, section: &[[f64; 3]; 2], stress: &mut InPlane<P, E>) {
+        let [N, M] = section.map(|part| part.map(|s| point.weight * s));
+        for m in 0..E {
+            stress.membrane[m] += (0..3).map(|i| point.membrane[(i, m)] * N[i]).sum::<f64>();
+        }
+        for m in 0..P {
+            stress.bending[m] += (0..3).map(|i| point.bending[(i, m)] * M[i]).sum::<f64>();
         }
     }
 }
@@ -125,24 +145,28 @@ fn accumulate(section: &mut [[f64; 3]; 2], [z, w]: [f64; 2], sigma: &[f64; 3]) {
     }
 }
 
-/// K ← K − w Aᵀ C A.
+/// K ← K − w Aᵀ C B.
 #[inline(always)]
-fn subtract<const M: usize>(w: f64, A: &SMatrix<f64, 3, M>, C: &[[f64; 3]; 3], K: &mut [[f64; M]; M]) {
-    for n in 0..M {
-        let column: [f64; 3] = from_fn(|i| w * (0..3).map(|j| C[i][j] * A[(j, n)]).sum::<f64>());
-        for m in 0..M {
+fn subtract<const R: usize, const Q: usize>(
+    w: f64,
+    (A, C, B): (&SMatrix<f64, 3, R>, &[[f64; 3]; 3], &SMatrix<f64, 3, Q>),
+    K: &mut [[f64; Q]; R],
+) {
+    for n in 0..Q {
+        let column: [f64; 3] = from_fn(|i| w * (0..3).map(|j| C[i][j] * B[(j, n)]).sum::<f64>());
+        for m in 0..R {
             K[m][n] -= (0..3).map(|i| A[(i, m)] * column[i]).sum::<f64>();
         }
     }
 }
 
-impl<const M: usize> ShellSection<M> for LayeredSection<M> {
-    fn elastic(&self) -> &ShellStiffness<M> {
+impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E> {
+    fn elastic(&self) -> &ShellStiffness<P, E> {
         &self.elastic
     }
 
-    fn stress(&self, strain: &[[f64; M]; 2], now: &Configuration) -> [[f64; M]; 2] {
-        let mut stress = [[0.0; M]; 2];
+    fn stress(&self, strain: &InPlane<P, E>, now: &Configuration) -> InPlane<P, E> {
+        let mut stress = self.drilling(strain);
         let all = self.layers.at.len() * self.layers.variables;
         for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
             let mut section = [[0.0; 3]; 2];
@@ -157,15 +181,15 @@ impl<const M: usize> ShellSection<M> for LayeredSection<M> {
     /// The derivative is the elastic one less what yielding layers lose.
     fn linearise<'a>(
         &'a self,
-        strain: &[[f64; M]; 2],
+        strain: &InPlane<P, E>,
         now: &Configuration,
         moduli: Moduli,
-        tangent: &'a mut ShellStiffness<M>,
-    ) -> ([[f64; M]; 2], &'a ShellStiffness<M>) {
+        tangent: &'a mut ShellStiffness<P, E>,
+    ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>) {
         if moduli == Moduli::Elastic {
             return (self.stress(strain, now), &self.elastic);
         }
-        let mut stress = [[0.0; M]; 2];
+        let mut stress = self.drilling(strain);
         let mut yields = false;
         let all = self.layers.at.len() * self.layers.variables;
         for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
@@ -193,24 +217,24 @@ impl<const M: usize> ShellSection<M> for LayeredSection<M> {
                     tangent.clone_from(&self.elastic);
                     (tangent.coupled, yields) = (true, true);
                 }
-                let StrainOperator { A, weight } = point;
-                for (loss, K) in loss.iter().zip([&mut tangent.N, &mut tangent.NM, &mut tangent.M]) {
-                    subtract(*weight, A, loss, K);
-                }
+                let PointStrains { membrane, bending, weight } = point;
+                subtract(*weight, (membrane, &loss[0], membrane), &mut tangent.N);
+                subtract(*weight, (membrane, &loss[1], bending), &mut tangent.NM);
+                subtract(*weight, (bending, &loss[2], bending), &mut tangent.M);
             }
         }
         (stress, if yields { tangent } else { &self.elastic })
     }
 
-    fn energy(&self, strain: &[[f64; M]; 2], now: &Configuration) -> f64 {
-        let mut sum = 0.0;
+    fn energy(&self, strain: &InPlane<P, E>, now: &Configuration) -> f64 {
+        let mut sum = 0.5 * self.drilling(strain).dot(strain);
         self.each(strain, now.history, |_, [_, w], strain, old| {
             sum += w * self.layers.law.elastic_energy(PlaneStress, strain, old);
         });
         sum
     }
 
-    fn update_history(&self, strain: &[[f64; M]; 2], now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+    fn update_history(&self, strain: &InPlane<P, E>, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut dissipation = Dissipation::default();
         let mut new = new[self.history_range()].chunks_exact_mut(self.layers.variables);
         self.each(strain, now.history, |_, [_, w], strain, old| {
@@ -221,7 +245,7 @@ impl<const M: usize> ShellSection<M> for LayeredSection<M> {
         dissipation
     }
 
-    fn layers(&self, strain: &[[f64; M]; 2], now: &Configuration, layers: &mut [LayerStress]) -> usize {
+    fn layers(&self, strain: &InPlane<P, E>, now: &Configuration, layers: &mut [LayerStress]) -> usize {
         let count = self.layers.at.len();
         let layers = &mut layers[..count];
         layers.fill(LayerStress::default());

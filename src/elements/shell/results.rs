@@ -26,26 +26,23 @@ fn project(axis: &Vec3, normal: &Vec3) -> Vec3 {
 }
 
 /// Σ stress · strain.
-fn work<const N: usize, const M: usize>(stress: &Strains<N, M>, strain: &Strains<N, M>) -> f64 {
-    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    product(stress.plane.as_flattened(), strain.plane.as_flattened())
-        + product(&stress.shear, &strain.shear)
-        + product(&stress.drill, &strain.drill)
+fn work<const N: usize, const P: usize, const E: usize>(stress: &Strains<N, P, E>, strain: &Strains<N, P, E>) -> f64 {
+    stress.plane.dot(&strain.plane) + stress.shear.iter().zip(&strain.shear).map(|(a, b)| a * b).sum::<f64>()
 }
 
 /// The resultants of element `e`, whose nodes lay at `X`; axis 1 is `axis` projected on the surface at t = 0.
-pub(super) fn resultants<K, const N: usize, const V: usize, const M: usize, S>(
-    shells: &Shells<K, N, V, M, S>,
+pub(super) fn resultants<K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
+    shells: &Shells<K, N, V, P, E, S>,
     e: usize,
     axis: &Vec3,
     X: &[Vec3],
     now: &Configuration,
 ) -> Option<ShellResultants>
 where
-    K: Interpolation<N, V>,
-    S: ShellSection<M>,
+    K: Interpolation<N, V, P>,
+    S: ShellSection<P, E>,
 {
-    let element: &Shell<N, V, M, S> = &shells.elements[e];
+    let element: &Shell<N, V, P, E, S> = &shells.elements[e];
     let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
     let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
     let normal = area.normalize();
@@ -54,9 +51,9 @@ where
 
     let motion = element.gather(now.nodes);
     let strains = element.strains::<K>(&motion);
-    let (shear, drill) = element.shear_and_drilling(&strains);
-    let stress = Strains { plane: element.section.stress(&strains.plane, now), shear, drill };
-    let start = NodalVectors { x: X, turning: [element.D, [element.T[0]; N], [element.T[1]; N]] };
+    let shear = element.shear_stress(&strains.shear);
+    let stress = Strains { plane: element.section.stress(&strains.plane, now), shear };
+    let start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
     // This mean stress is conjugate to the strain of a change of positions and directors.
     let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
         let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
@@ -76,7 +73,7 @@ where
     let mut layers = [LayerStress::default(); MOST_LAYERS];
     let count = element.section.layers(&strains.plane, now, &mut layers);
     // Layers have the axes of the element, which are rotated to `t`.
-    let own = sum(&K::slopes(K::CENTRE)[0], &NodalVectors::slopes::<K, V>(&X)).normalize();
+    let own = sum(&element.slopes[0], &X);
     let turned = [t[0].dot(&own), -t[1].dot(&own)];
     layers[..count].iter_mut().for_each(|layer| layer.stress = rotate(&layer.stress, turned));
     Some(ShellResultants { frame: frame(&X, &t, &motion), N: forces, M: moments, Q: shears, layers, count })

@@ -3,31 +3,53 @@
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::Dissipation;
+use crate::math::fma;
 use crate::state::Configuration;
-use nalgebra::SMatrix;
+use std::array::from_fn;
 
-/// The sections of one element. Strains and stresses are the M numbers of the membrane and the M of bending, integrated over the
-/// element.
-pub trait ShellSection<const M: usize>: Send + Sync {
+/// Strains of an element in its plane, integrated over it, or the stresses conjugate to them: E numbers of the membrane and P of
+/// bending, see [`super::plane_strains`].
+#[derive(Debug, Clone, Copy)]
+pub struct InPlane<const P: usize, const E: usize> {
+    /// Numbers of the membrane.
+    pub membrane: [f64; E],
+    /// Numbers of bending.
+    pub bending: [f64; P],
+}
+
+impl<const P: usize, const E: usize> InPlane<P, E> {
+    /// All zero.
+    pub const ZERO: Self = InPlane { membrane: [0.0; E], bending: [0.0; P] };
+
+    /// σ·ε over membrane and bending.
+    #[inline]
+    pub fn dot(&self, other: &Self) -> f64 {
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        sum(&self.membrane, &other.membrane) + sum(&self.bending, &other.bending)
+    }
+}
+
+/// The sections of one element.
+pub trait ShellSection<const P: usize, const E: usize>: Send + Sync {
     /// The stiffness before the material yields.
-    fn elastic(&self) -> &ShellStiffness<M>;
+    fn elastic(&self) -> &ShellStiffness<P, E>;
     /// Stress at a strain.
-    fn stress(&self, strain: &[[f64; M]; 2], now: &Configuration) -> [[f64; M]; 2];
+    fn stress(&self, strain: &InPlane<P, E>, now: &Configuration) -> InPlane<P, E>;
     /// Stress and its derivative, which `tangent` holds where it is not the elastic one.
     fn linearise<'a>(
         &'a self,
-        strain: &[[f64; M]; 2],
+        strain: &InPlane<P, E>,
         now: &Configuration,
         moduli: Moduli,
-        tangent: &'a mut ShellStiffness<M>,
-    ) -> ([[f64; M]; 2], &'a ShellStiffness<M>);
+        tangent: &'a mut ShellStiffness<P, E>,
+    ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>);
     /// Elastic energy.
-    fn energy(&self, strain: &[[f64; M]; 2], now: &Configuration) -> f64;
+    fn energy(&self, strain: &InPlane<P, E>, now: &Configuration) -> f64;
     /// Writes the history variables of the element at `part` of the way to `now` into its range of `new`, the history of the
     /// group, and returns the dissipation.
     fn update_history(
         &self,
-        _strain: &[[f64; M]; 2],
+        _strain: &InPlane<P, E>,
         _now: &Configuration,
         _part: f64,
         _new: &mut [f64],
@@ -35,7 +57,7 @@ pub trait ShellSection<const M: usize>: Send + Sync {
         Dissipation::default()
     }
     /// Writes the mean stress and the largest plastic strain of each layer, in axes of the element, and returns the number of layers.
-    fn layers(&self, _strain: &[[f64; M]; 2], _now: &Configuration, _layers: &mut [LayerStress]) -> usize {
+    fn layers(&self, _strain: &InPlane<P, E>, _now: &Configuration, _layers: &mut [LayerStress]) -> usize {
         0
     }
     /// Largest accumulated plastic strain, by the history variables of the group.
@@ -48,39 +70,77 @@ pub trait ShellSection<const M: usize>: Send + Sync {
     }
 }
 
+/// The stiffness of drilling that strains do not feel, which stays elastic.
+#[derive(Debug, Clone)]
+pub struct Drilling<const E: usize> {
+    /// What the following are multiplied by.
+    pub stiffness: f64,
+    /// Rows r of r rᵀ by the numbers of the membrane.
+    pub rows: [[f64; E]; 2],
+    /// Further entries of the diagonal, of the edges that are held straight.
+    pub edges: [f64; E],
+}
+
+impl<const E: usize> Drilling<E> {
+    /// The stress of the numbers of the membrane.
+    #[inline(always)]
+    pub fn stress(&self, membrane: &[f64; E]) -> [f64; E] {
+        let mut stress = from_fn(|i| self.stiffness * self.edges[i] * membrane[i]);
+        for row in &self.rows {
+            let s = self.stiffness * row.iter().zip(membrane).map(|(r, e)| r * e).sum::<f64>();
+            (0..E).for_each(|i| stress[i] += s * row[i]);
+        }
+        stress
+    }
+
+    /// Adds the stiffness.
+    pub fn add_to(&self, K: &mut [[f64; E]; E]) {
+        for i in 0..E {
+            K[i][i] += self.stiffness * self.edges[i];
+            for j in 0..E {
+                K[i][j] += self.stiffness * self.rows.iter().map(|row| row[i] * row[j]).sum::<f64>();
+            }
+        }
+    }
+}
+
 /// The stiffness C of an element in its plane, σ = C ε. As a [`ShellSection`] it is one that stays elastic.
 #[derive(Debug, Clone)]
-pub struct ShellStiffness<const M: usize> {
+pub struct ShellStiffness<const P: usize, const E: usize> {
     /// Membrane.
-    pub N: [[f64; M]; M],
+    pub N: [[f64; E]; E],
     /// Bending.
-    pub M: [[f64; M]; M],
+    pub M: [[f64; P]; P],
     /// Rows of the membrane, columns of bending.
-    pub NM: [[f64; M]; M],
+    pub NM: [[f64; P]; E],
     /// `NM` is not zero.
     pub coupled: bool,
 }
 
-impl<const M: usize> ShellStiffness<M> {
+impl<const P: usize, const E: usize> ShellStiffness<P, E> {
     /// No stiffness.
-    pub const ZERO: Self = ShellStiffness { N: [[0.0; M]; M], M: [[0.0; M]; M], NM: [[0.0; M]; M], coupled: false };
-
-    /// The stiffness of a homogeneous section from that of its membrane; `ratio` of bending to membrane: h²/12.
-    pub fn new(N: [[f64; M]; M], ratio: f64) -> Self {
-        ShellStiffness { N, M: N.map(|row| row.map(|c| ratio * c)), ..Self::ZERO }
-    }
+    pub const ZERO: Self = ShellStiffness { N: [[0.0; E]; E], M: [[0.0; P]; P], NM: [[0.0; P]; E], coupled: false };
 
     /// σ = C ε, membrane and bending.
     #[inline(always)]
-    pub fn stress(&self, [e, k]: &[[f64; M]; 2]) -> [[f64; M]; 2] {
-        let mut stress = [[0.0; M]; 2];
-        for i in 0..M {
-            for j in 0..M {
-                stress[0][i] += self.N[i][j] * e[j];
-                stress[1][i] += self.M[i][j] * k[j];
-                if self.coupled {
-                    stress[0][i] += self.NM[i][j] * k[j];
-                    stress[1][i] += self.NM[j][i] * e[j];
+    pub fn stress(&self, strain: &InPlane<P, E>) -> InPlane<P, E> {
+        let mut stress = InPlane::ZERO;
+        // By columns of symmetric matrices: no sum waits for the one before.
+        for i in 0..E {
+            for j in 0..E {
+                stress.membrane[j] = fma(self.N[i][j], strain.membrane[i], stress.membrane[j]);
+            }
+        }
+        for i in 0..P {
+            for j in 0..P {
+                stress.bending[j] = fma(self.M[i][j], strain.bending[i], stress.bending[j]);
+            }
+        }
+        if self.coupled {
+            for i in 0..E {
+                for j in 0..P {
+                    stress.membrane[i] += self.NM[i][j] * strain.bending[j];
+                    stress.bending[j] += self.NM[i][j] * strain.membrane[i];
                 }
             }
         }
@@ -88,43 +148,29 @@ impl<const M: usize> ShellStiffness<M> {
     }
 }
 
-/// σ·ε over membrane and bending.
-#[inline]
-pub(super) fn product<const M: usize>(a: &[[f64; M]; 2], b: &[[f64; M]; 2]) -> f64 {
-    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
-}
-
-impl<const M: usize> ShellSection<M> for ShellStiffness<M> {
+impl<const P: usize, const E: usize> ShellSection<P, E> for ShellStiffness<P, E> {
     #[inline(always)]
-    fn elastic(&self) -> &ShellStiffness<M> {
+    fn elastic(&self) -> &ShellStiffness<P, E> {
         self
     }
 
     #[inline(always)]
-    fn stress(&self, strain: &[[f64; M]; 2], _: &Configuration) -> [[f64; M]; 2] {
+    fn stress(&self, strain: &InPlane<P, E>, _: &Configuration) -> InPlane<P, E> {
         ShellStiffness::stress(self, strain)
     }
 
     #[inline(always)]
     fn linearise<'a>(
         &'a self,
-        strain: &[[f64; M]; 2],
+        strain: &InPlane<P, E>,
         _: &Configuration,
         _: Moduli,
-        _: &'a mut ShellStiffness<M>,
-    ) -> ([[f64; M]; 2], &'a ShellStiffness<M>) {
+        _: &'a mut ShellStiffness<P, E>,
+    ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>) {
         (ShellStiffness::stress(self, strain), self)
     }
 
-    fn energy(&self, strain: &[[f64; M]; 2], _: &Configuration) -> f64 {
-        0.5 * product(strain, &ShellStiffness::stress(self, strain))
+    fn energy(&self, strain: &InPlane<P, E>, _: &Configuration) -> f64 {
+        0.5 * strain.dot(&ShellStiffness::stress(self, strain))
     }
-}
-
-/// The strains ε₁, ε₂, γ₁₂ at an integration point from those of the element.
-pub(super) struct StrainOperator<const M: usize> {
-    /// The matrix of the operator.
-    pub A: SMatrix<f64, 3, M>,
-    /// Area that belongs to the point.
-    pub weight: f64,
 }

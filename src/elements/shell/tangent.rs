@@ -2,7 +2,7 @@
 
 use super::arc::Arc;
 use super::interpolation::Interpolation;
-use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, sum};
+use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, by_pairs};
 use super::section::{ShellSection, ShellStiffness};
 use crate::elements::block::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
@@ -13,10 +13,10 @@ use std::array::from_fn;
 type Row<const N: usize> = [[f64; 6]; N];
 
 /// The rows of B: one for each strain.
-struct Rows<const N: usize, const M: usize> {
-    plane: [[Row<N>; M]; 2],
+struct Rows<const N: usize, const P: usize, const E: usize> {
+    membrane: [Row<N>; E],
+    bending: [Row<N>; P],
     shear: [Row<N>; N],
-    drill: [Row<N>; N],
 }
 
 /// y ← y + s x.
@@ -35,118 +35,143 @@ fn set_entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3)
     row[a] = [x.x, x.y, x.z, theta.x, theta.y, theta.z];
 }
 
-impl<const N: usize, const V: usize, const M: usize, S> Shell<N, V, M, S> {
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N, V, P, E, S> {
     /// ∂ε/∂(x, θ), where `moment(k, a, g)` turns the derivative g by d (k = 0), t₁ or t₂ of node a into that by its rotation.
     #[inline(always)]
-    fn rows<K: Interpolation<N, V>, const ARC: bool>(
+    fn rows<K: Interpolation<N, V, P>, const ARC: bool>(
         &self,
         motion: &NodalVectors<N>,
         moment: impl Fn(usize, usize, &Vec3) -> Vec3,
-        rows: &mut Rows<N, M>,
+        rows: &mut Rows<N, P, E>,
     ) {
         let NodalVectors { x, turning: [d, t1, t2] } = motion;
-        let (v, w) = (NodalVectors::slopes::<K, V>(x), NodalVectors::slopes::<K, V>(d));
-        let arc = Arc::new::<K, N>(w);
-        let at = |y: &[Vec3; V], a: usize| (0..V).map(|i| K::SLOPES[i][a] * y[i]).sum::<Vec3>();
-        for m in 0..M {
-            let y: [Vec3; V] = from_fn(|i| sum(&self.Q[m][i], &v));
-            let z: [Vec3; V] = from_fn(|i| sum(&self.Q[m][i], if ARC { &arc.long } else { &w }));
+        let (v, w) = (NodalVectors::slopes(&self.slopes, x), NodalVectors::slopes(&self.slopes, d));
+        let arc = Arc::new(&self.arc, w);
+        let bent = if ARC { &arc.long } else { &w };
+        for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
+            let mut y = [Vec3::zeros(); V];
+            y[i] = v[j];
+            y[j] = v[i];
             let g = if ARC { arc.gradient(&y) } else { y };
             for a in 0..N {
-                set_entry(&mut rows.plane[0][m], a, &at(&y, a), &Vec3::zeros());
-                set_entry(&mut rows.plane[1][m], a, &at(&z, a), &moment(0, a, &at(&g, a)));
+                let [s, t] = [self.slopes[i][a], self.slopes[j][a]];
+                let along = if i == j { s * v[i] } else { s * v[j] + t * v[i] };
+                set_entry(&mut rows.membrane[n], a, &along, &Vec3::zeros());
+                let along = if i == j { s * bent[i] } else { s * bent[j] + t * bent[i] };
+                let across: Vec3 = (0..V).map(|i| self.slopes[i][a] * g[i]).sum();
+                set_entry(&mut rows.bending[n], a, &along, &moment(0, a, &across));
             }
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             rows.shear[e] = [[0.0; 6]; N];
-            let (mean, half) = (0.5 * (d[a] + d[b]), 0.5 * (x[b] - x[a]));
-            set_entry(&mut rows.shear[e], a, &-mean, &moment(0, a, &half));
-            set_entry(&mut rows.shear[e], b, &mean, &moment(0, b, &half));
-        }
-        for g in 0..N {
-            let values = &K::VALUES[g];
-            let [x1, x2] = self.slopes[g].map(|s| 0.5 * sum(&s, &v));
-            let (t1, t2) = (0.5 * sum(values, t1), 0.5 * sum(values, t2));
-            let y: [Vec3; V] = from_fn(|i| self.slopes[g][0][i] * t2 - self.slopes[g][1][i] * t1);
-            for a in 0..N {
-                let theta = values[a] * (moment(2, a, &x1) - moment(1, a, &x2));
-                set_entry(&mut rows.drill[g], a, &at(&y, a), &theta);
+            rows.membrane[P + e] = [[0.0; 6]; N];
+            let along = x[b] - x[a];
+            let (mean, half) = (0.5 * (d[a] + d[b]), 0.5 * along);
+            let edge = &self.edges[e];
+            let bulge = edge.vector(0, &t1[a], &t2[a]) + edge.vector(1, &t1[b], &t2[b]);
+            for (end, node, sign) in [(0, a, -1.0), (1, b, 1.0)] {
+                set_entry(&mut rows.shear[e], node, &(sign * mean), &moment(0, node, &half));
+                let [c1, c2] = edge.0[end];
+                let turn = moment(1, node, &(c1 * along)) + moment(2, node, &(c2 * along));
+                set_entry(&mut rows.membrane[P + e], node, &(sign * bulge), &turn);
             }
+        }
+        let mean = 0.5 / N as f64;
+        let (t1, t2): (Vec3, Vec3) = (t1.iter().sum(), t2.iter().sum());
+        for a in 0..N {
+            let along = mean * (self.slopes[1][a] * t1 - self.slopes[0][a] * t2);
+            let turn = mean * (moment(1, a, &v[1]) - moment(2, a, &v[0]));
+            set_entry(&mut rows.membrane[E - 1], a, &along, &turn);
         }
     }
 
     /// C B, with the in-plane stiffness `plane`.
     #[inline(always)]
-    fn times(&self, plane: &ShellStiffness<M>, B: &Rows<N, M>) -> Rows<N, M> {
-        let zero = [[0.0; 6]; N];
-        let mut CB = Rows { plane: [[zero; M]; 2], shear: [zero; N], drill: [zero; N] };
-        for i in 0..M {
-            for j in 0..M {
-                add(&mut CB.plane[0][i], plane.N[i][j], &B.plane[0][j]);
-                add(&mut CB.plane[1][i], plane.M[i][j], &B.plane[1][j]);
-                if plane.coupled {
-                    add(&mut CB.plane[0][i], plane.NM[i][j], &B.plane[1][j]);
-                    add(&mut CB.plane[1][i], plane.NM[j][i], &B.plane[0][j]);
+    fn times(&self, plane: &ShellStiffness<P, E>, B: &Rows<N, P, E>) -> Rows<N, P, E> {
+        let mut CB = Rows::ZERO;
+        for i in 0..E {
+            for j in 0..E {
+                add(&mut CB.membrane[i], plane.N[i][j], &B.membrane[j]);
+            }
+        }
+        for i in 0..P {
+            for j in 0..P {
+                add(&mut CB.bending[i], plane.M[i][j], &B.bending[j]);
+            }
+        }
+        if plane.coupled {
+            for i in 0..E {
+                for j in 0..P {
+                    add(&mut CB.membrane[i], plane.NM[i][j], &B.bending[j]);
+                    add(&mut CB.bending[j], plane.NM[i][j], &B.membrane[i]);
                 }
             }
         }
         for i in 0..N {
             for j in 0..N {
                 add(&mut CB.shear[i], self.shear[i][j], &B.shear[j]);
-                add(&mut CB.drill[i], self.drilling[i][j], &B.drill[j]);
             }
         }
         CB
     }
 }
 
-impl<const N: usize, const M: usize> Rows<N, M> {
+impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
     const ZERO: Self = {
         let zero = [[0.0; 6]; N];
-        Rows { plane: [[zero; M]; 2], shear: [zero; N], drill: [zero; N] }
+        Rows { membrane: [zero; E], bending: [zero; P], shear: [zero; N] }
     };
 
     /// Each row.
     #[inline(always)]
     fn all(&self) -> impl Iterator<Item = &Row<N>> {
-        self.plane.as_flattened().iter().chain(&self.shear).chain(&self.drill)
+        self.membrane.iter().chain(&self.bending).chain(&self.shear)
     }
 
     /// Each row, to be changed.
     #[inline(always)]
     fn all_mut(&mut self) -> impl Iterator<Item = &mut Row<N>> {
-        self.plane.as_flattened_mut().iter_mut().chain(&mut self.shear).chain(&mut self.drill)
+        self.membrane.iter_mut().chain(&mut self.bending).chain(&mut self.shear)
     }
 
     /// Row i of BᵀX, i = component k of node a.
     #[inline(always)]
-    fn transpose_times(&self, a: usize, k: usize, X: &Self, row: &mut Row<N>) {
-        for m in 0..M {
-            // Membrane strains do not depend on rotations.
+    fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(
+        &self,
+        a: usize,
+        k: usize,
+        X: &Self,
+        row: &mut Row<N>,
+    ) {
+        for m in 0..P {
+            // Products of slopes do not depend on rotations.
             if k < 3 {
-                add(row, self.plane[0][m][a][k], &X.plane[0][m]);
+                add(row, self.membrane[m][a][k], &X.membrane[m]);
             }
-            add(row, self.plane[1][m][a][k], &X.plane[1][m]);
+            add(row, self.bending[m][a][k], &X.bending[m]);
         }
-        for i in 0..N {
-            add(row, self.shear[i][a][k], &X.shear[i]);
-            add(row, self.drill[i][a][k], &X.drill[i]);
+        for (e, ends) in K::EDGES.into_iter().enumerate() {
+            if ends.contains(&a) {
+                add(row, self.membrane[P + e][a][k], &X.membrane[P + e]);
+                add(row, self.shear[e][a][k], &X.shear[e]);
+            }
         }
+        add(row, self.membrane[E - 1][a][k], &X.membrane[E - 1]);
     }
 }
 
 /// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses at the nodes `stressed` in place of its own;
 /// symmetric unless `DAMPED`.
-pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, const DAMPED: bool>(
-    shells: &Shells<T, N, V, M, S>,
+pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const E: usize, S, const DAMPED: bool>(
+    shells: &Shells<T, N, V, P, E, S>,
     e: usize,
     (now, stressed): (&Configuration, Option<&[Node]>),
     rate_weight: f64,
     moduli: Moduli,
     K: &mut [f64],
 ) where
-    T: Interpolation<N, V>,
-    S: ShellSection<M>,
+    T: Interpolation<N, V, P>,
+    S: ShellSection<P, E>,
 {
     let element = &shells.elements[e];
     let motion = element.gather(now.nodes);
@@ -156,17 +181,15 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, cons
     };
     let mut place = ShellStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
-    let (shear, drill) = element.shear_and_drilling(&strains);
-    let stress = Strains { plane, shear, drill };
+    let stress = Strains { plane, shear: element.shear_stress(&strains.shear) };
     let turning = &motion.turning;
-    let mut B = Rows::<N, M>::ZERO;
+    let mut B = Rows::<N, P, E>::ZERO;
     element.rows::<T, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-    set_product(&B, &element.times(C, &B), K);
-    let bending = Bending::new::<T, N>(element.by_slopes(&stress.plane[1]), &motion);
-    add_bending::<T, N, V>(&bending, &turning[0], K);
+    set_product::<T, N, V, P, E>(&B, &element.times(C, &B), K);
+    let bending = Bending::new(element, by_pairs(&T::PAIRS, &stress.plane.bending), &motion);
+    add_bending(&bending, &element.slopes, &turning[0], K);
     let hessian = element.strain_hessian::<T, true>(&stress);
-    let mut gradient = hessian.gradient(&motion);
-    bending.add_gradient::<T, N>(&mut gradient);
+    let gradient = element.gradient::<T, true>(&stress, &motion);
     add_strain_hessian(&hessian, &gradient, &motion, K);
     if DAMPED {
         add_damping(shells, element, &motion, now, rate_weight, &mut B, K);
@@ -176,23 +199,23 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const M: usize, S, cons
 /// K += the derivatives of the forces of damping by positions and rotations, and `rate_weight` times those by their rates. `B` is
 /// scratch.
 #[inline(always)]
-fn add_damping<T, const N: usize, const V: usize, const M: usize, S>(
-    shells: &Shells<T, N, V, M, S>,
-    element: &Shell<N, V, M, S>,
+fn add_damping<T, const N: usize, const V: usize, const P: usize, const E: usize, S>(
+    shells: &Shells<T, N, V, P, E, S>,
+    element: &Shell<N, V, P, E, S>,
     motion: &NodalVectors<N>,
     now: &Configuration,
     rate_weight: f64,
-    B: &mut Rows<N, M>,
+    B: &mut Rows<N, P, E>,
     K: &mut [f64],
 ) where
-    T: Interpolation<N, V>,
-    S: ShellSection<M>,
+    T: Interpolation<N, V, P>,
+    S: ShellSection<P, E>,
 {
     let turning = &motion.turning;
     let rates = element.rates(motion, now.nodes);
     let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
     // ∂ε̇/∂(x, θ): ε̇ is linear in positions and in their rates; ḋ = ω × d rotates with d.
-    let (mut D, mut turned) = (Rows::<N, M>::ZERO, Rows::<N, M>::ZERO);
+    let (mut D, mut turned) = (Rows::<N, P, E>::ZERO, Rows::<N, P, E>::ZERO);
     element.rows::<T, false>(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
     element.rows::<T, false>(motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
     element.rows::<T, false>(motion, |k, a, g| turning[k][a].cross(g), B);
@@ -206,23 +229,28 @@ fn add_damping<T, const N: usize, const V: usize, const M: usize, S>(
         D.as_flattened_mut().iter_mut().for_each(|d| *d *= shells.damping);
     }
     let mut viscous = [[[[0.0; 6]; N]; 6]; N];
-    set_product(
+    set_product::<T, N, V, P, E>(
         B,
         &element.times(element.section.elastic(), &D),
         viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
     );
     K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);
-    let hessian = element.strain_hessian::<T, false>(&shells.viscous_stress(element, motion, now.nodes));
-    add_strain_hessian(&hessian, &hessian.gradient(motion), motion, K);
+    let stress = shells.viscous_stress(element, motion, now.nodes);
+    let hessian = element.strain_hessian::<T, false>(&stress);
+    add_strain_hessian(&hessian, &element.gradient::<T, false>(&stress, motion), motion, K);
 }
 
 /// K ← BᵀX.
 #[inline(always)]
-fn set_product<const N: usize, const M: usize>(B: &Rows<N, M>, X: &Rows<N, M>, K: &mut [f64]) {
+fn set_product<T: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize, const E: usize>(
+    B: &Rows<N, P, E>,
+    X: &Rows<N, P, E>,
+    K: &mut [f64],
+) {
     for a in 0..N {
         for k in 0..6 {
             let mut row = [[0.0; 6]; N];
-            B.transpose_times(a, k, X, &mut row);
+            B.transpose_times::<T, V>(a, k, X, &mut row);
             let at = (6 * a + k) * 6 * N;
             K[at..at + 6 * N].copy_from_slice(row.as_flattened());
         }
@@ -280,8 +308,9 @@ fn add_mixed(a: usize, b: usize, block: &Mat3, K: &mut [f64], width: usize) {
 
 /// K += σ·∂²ε of bending measured by angles.
 #[inline(always)]
-fn add_bending<T: Interpolation<N, V>, const N: usize, const V: usize>(
+fn add_bending<const N: usize, const V: usize>(
     bending: &Bending<V>,
+    slopes: &[[f64; N]; V],
     d: &[Vec3; N],
     K: &mut [f64],
 ) {
@@ -289,17 +318,17 @@ fn add_bending<T: Interpolation<N, V>, const N: usize, const V: usize>(
     let width = 6 * N;
     let J: [[Mat3; V]; V] = from_fn(|b| from_fn(|k| arc.slope(b, k)));
     let mixed: [[Mat3; V]; V] = from_fn(|i| from_fn(|k| (0..V).map(|b| Q[i][b] * J[b][k]).sum()));
-    let H = arc.hessian::<T, N>(p);
+    let H = arc.hessian(p);
     for b in 0..N {
         let turn = -skew(&d[b]);
         let along =
-            |row: &[Mat3]| -> Mat3 { row.iter().enumerate().map(|(k, m)| T::SLOPES[k][b] * m).sum::<Mat3>() * turn };
+            |row: &[Mat3]| -> Mat3 { row.iter().enumerate().map(|(k, m)| slopes[k][b] * m).sum::<Mat3>() * turn };
         let mixed: [Mat3; V] = from_fn(|i| along(&mixed[i]));
         let H = [along(&H[0]), along(&H[1])];
         for a in 0..N {
-            let block = (0..V).map(|i| T::SLOPES[i][a] * mixed[i]).sum();
+            let block = (0..V).map(|i| slopes[i][a] * mixed[i]).sum();
             add_mixed(a, b, &block, K, width);
-            let block = skew(&d[a]) * (T::SLOPES[0][a] * H[0] + T::SLOPES[1][a] * H[1]);
+            let block = skew(&d[a]) * (slopes[0][a] * H[0] + slopes[1][a] * H[1]);
             add_block(6 * a + 3, 6 * b + 3, &block, K, width);
         }
     }

@@ -49,6 +49,17 @@ pub struct ShellElement {
     pub nodes: [usize; 4],
     /// Unit normals of the surface at the nodes, at t = 0.
     pub normals: [Vec3; 4],
+    /// The part of the bulge of each edge, from each node to the next, that stress works on.
+    pub bulge: [f64; 4],
+}
+
+impl ShellElement {
+    /// The nodes of an edge, the lower first.
+    pub fn edge(&self, a: usize, corners: usize) -> [usize; 2] {
+        let mut ends = [self.nodes[a], self.nodes[(a + 1) % corners]];
+        ends.sort_unstable();
+        ends
+    }
 }
 
 impl PartAnswers for Shell {

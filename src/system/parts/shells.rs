@@ -77,14 +77,16 @@ impl Assembled for Shell {
 
 fn block(part: &Shell, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
     let corners = part.corners;
-    let elements = part.elements[piece]
-        .iter()
-        .map(|e| shell::ShellGeometry { nodes: &e.nodes[..corners], normals: &e.normals[..corners] });
+    let elements = part.elements[piece].iter().map(|e| shell::ShellGeometry {
+        nodes: &e.nodes[..corners],
+        normals: &e.normals[..corners],
+        bulge: e.bulge,
+    });
     match (&part.yielding, corners) {
         (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
         (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),
-        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3>(elements, x, &part.plate, beta),
-        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 5>(elements, x, &part.plate, beta),
+        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, &part.plate, beta),
+        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(elements, x, &part.plate, beta),
     }
 }
 

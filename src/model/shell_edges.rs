@@ -1,0 +1,105 @@
+//! The part of the bulge of each edge of a shell that the stress in its elements works on.
+
+use super::data::{Part, PartType, Shell, ShellElement};
+use super::nodes::Topology;
+use crate::elements::shell::{Interpolation, Quadrilateral, Triangle};
+use crate::math::Vec3;
+use std::collections::{HashMap, HashSet};
+
+/// Part of the normal of an edge in its surface, squared, that is free at a node taken to be held across the edge: that of an edge
+/// along the line of its support, up to the rounding of coordinates.
+const FREE: f64 = 1e-6;
+
+/// Part of the thickness by which an edge of a surface may rise over its chord, or its ends turn against each other over its length,
+/// and still be taken as flat.
+const FLAT: f64 = 0.05;
+
+/// Sets [`ShellElement::bulge`]: nothing where both ends are held across the edge, by supports or by the same node, since what holds
+/// an edge at its ends holds it between them too, and nothing where the surface is curved along it, since drilling by bending
+/// alone would lock thin shells; otherwise the same part for all elements of the edge, so that a stress that passes through drives no
+/// rotation.
+pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology) {
+    let (mut curved, mut of_quadrilaterals) = (HashSet::new(), HashSet::new());
+    let mixed = parts.iter().filter_map(Shell::of).any(|shell| shell.corners == 3);
+    for shell in parts.iter().filter_map(Shell::of) {
+        for element in &shell.elements {
+            let edges = (0..shell.corners).map(|a| (a, element.edge(a, shell.corners)));
+            if mixed && shell.corners == 4 {
+                of_quadrilaterals.extend(edges.clone().map(|(_, edge)| edge));
+            }
+            let flat = |a: usize| is_flat(topology, element, [a, (a + 1) % shell.corners], shell.plate.thickness);
+            curved.extend(edges.filter(|(a, _)| !flat(*a)).map(|(_, edge)| edge));
+        }
+    }
+    for shell in parts.iter_mut().filter_map(Shell::of_mut) {
+        let corners = shell.corners;
+        for element in &mut shell.elements {
+            for a in 0..corners {
+                let edge = element.edge(a, corners);
+                let straight = curved.contains(&edge) || is_straight(topology, element, [a, (a + 1) % corners]);
+                element.bulge[a] = if straight {
+                    0.0
+                } else if corners == 4 || of_quadrilaterals.contains(&edge) {
+                    Quadrilateral::BULGE
+                } else {
+                    Triangle::BULGE
+                };
+            }
+        }
+    }
+}
+
+/// True for an edge along which the surface of an element is flat.
+fn is_flat(topology: &Topology, element: &ShellElement, ends: [usize; 2], thickness: f64) -> bool {
+    let along = topology.x(element.nodes[ends[1]]) - topology.x(element.nodes[ends[0]]);
+    let [n, m] = ends.map(|a| element.normals[a]);
+    let rise = n.dot(&along).abs().max(m.dot(&along).abs());
+    ((n - m).norm() * along.norm()).max(2.0 * rise) <= FLAT * thickness
+}
+
+/// True for an edge whose ends are both held across it.
+fn is_straight(topology: &Topology, element: &ShellElement, ends: [usize; 2]) -> bool {
+    let nodes = ends.map(|a| element.nodes[a]);
+    let along = topology.x(nodes[1]) - topology.x(nodes[0]);
+    let held = |a: usize| is_held(topology, element.nodes[a], &element.normals[a].cross(&along));
+    ends.into_iter().all(held) || carrier(topology, nodes[0]) == carrier(topology, nodes[1])
+}
+
+/// True for a node whose displacement along `direction` is given by supports.
+fn is_held(topology: &Topology, node: usize, direction: &Vec3) -> bool {
+    let free = (0..3).filter(|&dof| topology.restraint(node, dof).is_none()).map(|dof| direction[dof].powi(2));
+    free.sum::<f64>() <= FREE * direction.norm_squared()
+}
+
+/// The node that a node follows in its displacements: itself where it follows none.
+fn carrier(topology: &Topology, mut node: usize) -> usize {
+    while let Some(master) = topology.master_in(node, 0)
+        && (1..3).all(|dof| topology.master_in(node, dof) == Some(master))
+    {
+        node = master;
+    }
+    node
+}
+
+/// An edge of a shell.
+pub(super) struct Edge {
+    /// Mean normal of its ends.
+    pub normal: Vec3,
+    /// See [`set_bulges`].
+    pub bulge: f64,
+}
+
+/// The edges of all shells by their nodes, the lower first; of a fold the edge of the first shell.
+pub(super) fn edges_of_shells(parts: &[Part]) -> HashMap<[usize; 2], Edge> {
+    let mut edges = HashMap::new();
+    for shell in parts.iter().filter_map(Shell::of) {
+        let corners = shell.corners;
+        for element in &shell.elements {
+            for a in 0..corners {
+                let normal = (element.normals[a] + element.normals[(a + 1) % corners]).normalize();
+                edges.entry(element.edge(a, corners)).or_insert(Edge { normal, bulge: element.bulge[a] });
+            }
+        }
+    }
+    edges
+}
