@@ -9,6 +9,7 @@ use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::mode::Modes;
 use super::pencil::{Pencil, weights};
+use super::rest::multipliers_at_rest;
 use super::shape::Shapes;
 use crate::linear::eigen::{EigenPair, Lanczos, SymmetricOperator};
 use crate::linear::{Solver, Sparse};
@@ -22,10 +23,14 @@ use crate::system::assembly::Assembly;
 /// Length of residuals relative to their eigenvalues.
 const TOLERANCE: f64 = 1e-9;
 const WIDTH: usize = 2;
-/// Displacement of the first differences relative to the size of the scene, and rotation.
-const SMALL: f64 = 1e-6;
-/// Part of the lowest factor at which the final differences are taken: they miss its square.
-const PART: f64 = 1e-3;
+/// Step of the first differences, as a displacement relative to the size of the scene and a rotation.
+const SMALL: f64 = 1e-4;
+/// Step of the final differences, as such a motion at most, and as a part of the lowest factor. The cube of a rotation θ stretches and
+/// shears a part of slenderness s by s² θ² of what the load does, which differences of second order would keep: those of sixth order
+/// leave s² θ⁶, and rounding 1e-15 s²/θ.
+const STEP: f64 = 3e-3;
+/// Weights of the differences of sixth order between the states at 1, 2 and 3 steps and their opposites.
+const DIFFERENCES: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 /// Factors farther from zero than the nearest by the inverse of this are rounding.
 const FARTHEST: f64 = 1e-8;
 /// Searches for factors that pivots show and the iteration has not found.
@@ -69,6 +74,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     let nothing = Loading { factors: vec![0.0; at.loading.factors.len()], ..Loading::default() };
     let nothing = Loading { pressures: vec![0.0; at.loading.pressures.len()], ..nothing };
     let unloaded = Linearized { loading: &nothing, ..*at };
+    let rests = multipliers_at_rest(&unloaded, (&mut *linear.0, &mut *linear.1)).is_some();
     let mut pencil = Pencil::new(unloaded, linear);
     let K = pencil.matrix(weights(0.0, 0.0));
     match pencil.factor(0.0) {
@@ -83,16 +89,29 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     let first = response.rate(at.loading, SMALL / response.size(&pencil), &mut pencil);
     let lowest = factors(&mut pencil, (&K, &first), 1)?;
     let Some((lowest, _)) = lowest.first() else { return Err(ModesFault::NoBuckling) };
-    let rate = response.rate(at.loading, PART * lowest, &mut pencil);
+    let rate = response.rate(at.loading, (STEP * lowest).min(STEP / response.size(&pencil)), &mut pencil);
     let found = factors(&mut pencil, (&K, &rate), wanted)?;
     if found.is_empty() {
         return Err(ModesFault::NoBuckling);
     }
     let shapes = Shapes::new(&pencil);
     let list = found.iter().map(|(factor, vector)| shapes.buckling(&pencil, *factor, vector)).collect();
+    let doubts = doubts(at, rests, (found.len(), wanted));
+    let (factorizations, solves) = (pencil.factorizations, pencil.solves);
+    Ok(Modes { kind: ModeKind::Buckling, list, masses: shapes.masses, unstable: 0, factorizations, solves, doubts })
+}
+
+/// What is doubtful about so many factors found of those wanted, in words; the scene may not rest without loads.
+fn doubts(at: &Linearized, rests: bool, (found, wanted): (usize, usize)) -> Vec<String> {
     let mut doubts = Vec::new();
-    if found.len() < wanted {
-        let found = found.len();
+    if !rests {
+        doubts.push(
+            "without the loads the scene is not in equilibrium (prestress): factors are those of the loads on the geometry as it is \
+             given, with the prestress that parts have there"
+                .to_owned(),
+        );
+    }
+    if found < wanted {
         doubts.push(format!(
             "{found} factors were found, and no more within reach: the others lie much farther, or only stiffen"
         ));
@@ -104,8 +123,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
                 .to_owned(),
         );
     }
-    let (factorizations, solves) = (pencil.factorizations, pencil.solves);
-    Ok(Modes { kind: ModeKind::Buckling, list, masses: shapes.masses, unstable: 0, factorizations, solves, doubts })
+    doubts
 }
 
 /// The lowest positive factors with their vectors, ascending. K is factorised when they are found.
@@ -196,9 +214,10 @@ impl Response {
         self.motions.iter().map(size).fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// The rate of the tangent with the load factor, by the difference between the factors ±ε.
+    /// The rate of the tangent with the load factor, by differences at multiples of the factors ±ε.
     fn rate(&self, loading: &Loading, epsilon: f64, pencil: &mut Pencil) -> Sparse {
-        let [plus, minus] = [epsilon, -epsilon].map(|factor| {
+        let mut at = |steps: f64| {
+            let factor = steps * epsilon;
             let loads = Loading {
                 factors: loading.factors.iter().map(|f| f * factor).collect(),
                 pressures: loading.pressures.iter().map(|p| p * factor).collect(),
@@ -207,8 +226,11 @@ impl Response {
             let nodes = self.moved(factor, pencil);
             let multipliers: Vec<f64> = self.multipliers.iter().map(|value| value * factor).collect();
             pencil.stressed_matrix(&nodes, &loads, &multipliers)
-        });
-        Sparse::sum(&[(0.5 / epsilon, &plus), (-0.5 / epsilon, &minus)])
+        };
+        let pairs = [1.0, 2.0, 3.0].map(|steps| [at(steps), at(-steps)]);
+        let terms = pairs.iter().zip(DIFFERENCES);
+        let terms = terms.flat_map(|([plus, minus], weight)| [(weight / epsilon, plus), (-weight / epsilon, minus)]);
+        Sparse::sum(&terms.collect::<Vec<_>>())
     }
 
     /// The nodes at a load factor.

@@ -90,7 +90,7 @@ impl fmt::Display for ModesFault {
             ),
             ModesFault::NoBuckling => write!(
                 f,
-                "no factor of these loads lets anything buckle: they only stiffen what they act on; reversed loads may not"
+                "no factor of these loads is found that lets anything buckle: they only stiffen what they act on; reverse them, and it may"
             ),
             ModesFault::TooLarge(error) => error.fmt(f),
         }
