@@ -8,7 +8,7 @@
 use super::fault::ModesFault;
 use super::gyroscopic::Gyroscopic;
 use super::linearized::Linearized;
-use super::modal::lowest_square;
+use super::modal::{fewer, lowest_square};
 use super::mode::{EigenMode, Modes};
 use super::pencil::{Pencil, weights};
 use super::shape::Shapes;
@@ -25,11 +25,24 @@ const WIDTH: usize = 2;
 /// Roots below this part of the shift are zero: those of motions without stiffness are double, and rounding splits a double root by
 /// the square root of its size.
 const ZERO: f64 = 3e-6;
+/// Where motions have no stiffness, roots below this multiple of what the stiffness of rigid motions rounds to are theirs.
+const SPLIT: f64 = 4.0;
+/// Part of the shift from which roots that count as zero may be others.
+const DOUBTFUL: f64 = 0.1;
 
 /// A root grows where its real part is larger than this part of it.
 const GROWS: f64 = 1e-7;
 /// Modes for which there is room where a frequency is given.
 const UP_TO: usize = 100;
+
+/// Where roots are looked for.
+#[derive(Clone, Copy)]
+struct Near {
+    /// The shift σ.
+    shift: f64,
+    /// Roots up to this size are zero.
+    zero: f64,
+}
 
 /// The operator of a shift.
 struct Quadratic<'q, 'a> {
@@ -73,12 +86,13 @@ impl Operator for Quadratic<'_, '_> {
 /// The reason why there are none.
 pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
     let gyroscopic = Gyroscopic::of(at);
-    let (square, natural) = {
+    let (square, free, natural) = {
         let mut pencil = Pencil::new(*at, (&mut *linear.0, &mut *linear.1));
         if pencil.mass.is_zero() {
             return Err(ModesFault::NoMass);
         }
-        (lowest_square(&mut pencil)?, pencil.factorizations)
+        let square = lowest_square(&mut pencil)?;
+        (square, pencil.shift < 0.0, pencil.factorizations)
     };
     let mut own = None;
     if gyroscopic.acts() || !at.system.loads_have_potential(at.system.plane) {
@@ -91,29 +105,45 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         None => Pencil::new(*at, linear),
     };
     let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
-    let shift = square.sqrt();
-    let pairs = nearest(&mut pencil, &gyroscopic, shift, extent)?;
     let shapes = Shapes::new(&pencil);
+    let shift = square.sqrt();
+    let rounding = if free { shapes.rounding(&pencil).sqrt() } else { 0.0 };
+    let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
+    let mut pairs = nearest(&mut pencil, &gyroscopic, near, extent)?;
+    pairs.retain(|pair| {
+        let larger = dot(&pair.real, &pair.real) >= dot(&pair.imaginary, &pair.imaginary);
+        pencil.allows(&(if larger { &pair.real } else { &pair.imaginary })[..pencil.at.unknowns()])
+    });
     let mut list =
-        roots(&pairs, shift).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
+        roots(&pairs, near).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
     list.sort_by(|a, b| size(a.root).total_cmp(&size(b.root)));
     match extent {
         ModeExtent::Count(count) => list.truncate(count),
         ModeExtent::UpTo(frequency) => list.retain(|mode| mode.frequency() <= frequency),
     }
+    let mut doubts = gyroscopic.doubts;
+    if let (found, ModeExtent::Count(count)) = (list.len(), extent)
+        && found < count
+    {
+        doubts.push(fewer(found, count));
+    }
+    if near.zero > DOUBTFUL * shift {
+        doubts.push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
+    }
     let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
     let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
     let (kind, masses) = (ModeKind::Natural, shapes.masses);
-    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts: gyroscopic.doubts })
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts })
 }
 
 /// The eigenvalues 1/(s − σ) of the roots nearest to the shift, as many as are asked for.
 fn nearest(
     pencil: &mut Pencil,
     gyroscopic: &Gyroscopic,
-    shift: f64,
+    near: Near,
     extent: ModeExtent,
 ) -> Result<Vec<ComplexPair>, ModesFault> {
+    let shift = near.shift;
     let (unknowns, threads) = (pencil.at.unknowns(), pencil.at.plan.threads > 1);
     let (plain, with_rates) = (pencil.matrix(weights(0.0, 0.0)), pencil.matrix(weights(1.0, 0.0)));
     let of_bodies = Sparse::from_entries(unknowns, |visit| gyroscopic.damping(visit));
@@ -132,8 +162,12 @@ fn nearest(
     let wanted = if let ModeExtent::Count(count) = extent { count } else { UP_TO };
     let most = 12 * wanted + 240;
     let mut arnoldi = Arnoldi::new(&mut operator, WIDTH, most, threads);
-    let enough = |thetas: &[Complex]| enough(thetas, shift, extent);
+    let enough = |thetas: &[Complex]| enough(thetas, near, extent);
     arnoldi.converge(&mut operator, TOLERANCE, most, enough).ok_or(ModesFault::NotConverged { wanted })
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn size(root: Complex) -> f64 {
@@ -141,18 +175,18 @@ fn size(root: Complex) -> f64 {
 }
 
 /// s = σ + 1/θ.
-fn root(theta: Complex, shift: f64) -> Complex {
+fn root(theta: Complex, Near { shift, zero }: Near) -> Complex {
     let square = theta[0] * theta[0] + theta[1] * theta[1];
     let s = [shift + theta[0] / square, -theta[1] / square];
-    if size(s) <= ZERO * shift { [0.0; 2] } else { s }
+    if size(s) <= zero { [0.0; 2] } else { s }
 }
 
 /// The modes of some roots: of two that are conjugate that above the real axis, of the double root of a motion without stiffness
 /// one.
-fn roots(pairs: &[ComplexPair], shift: f64) -> impl Iterator<Item = (Complex, &ComplexPair)> {
+fn roots(pairs: &[ComplexPair], near: Near) -> impl Iterator<Item = (Complex, &ComplexPair)> {
     let mut zeros = 0;
     pairs.iter().filter_map(move |pair| {
-        let s = root(pair.theta, shift);
+        let s = root(pair.theta, near);
         if s == [0.0; 2] {
             zeros += 1;
             return (zeros % 2 == 1).then_some((s, pair));
@@ -164,12 +198,12 @@ fn roots(pairs: &[ComplexPair], shift: f64) -> impl Iterator<Item = (Complex, &C
 }
 
 /// The number of roots, the nearest to the shift first, that hold all modes wanted; `None` where there are not enough yet.
-fn enough(thetas: &[Complex], shift: f64, extent: ModeExtent) -> Option<usize> {
-    let all: Vec<Complex> = thetas.iter().map(|theta| root(*theta, shift)).collect();
+fn enough(thetas: &[Complex], near: Near, extent: ModeExtent) -> Option<usize> {
+    let all: Vec<Complex> = thetas.iter().map(|theta| root(*theta, near)).collect();
     let distance = |theta: &Complex| 1.0 / size(*theta);
     let reached = thetas.last().map_or(0.0, distance);
     // Within this distance of zero everything is nearer to the shift than what has been reached.
-    let radius = reached - shift;
+    let radius = reached - near.shift;
     let there = all.iter().filter(|s| size(**s) <= radius);
     match extent {
         ModeExtent::Count(count) => {

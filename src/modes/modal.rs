@@ -60,19 +60,47 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
         0 => Vec::new(),
         _ => complete(&mut pencil, goal)?,
     };
+    let mut pairs = pairs;
+    pairs.retain(|(_, vector)| pencil.allows(vector));
     let shapes = Shapes::new(&pencil);
     let list = shapes.natural(&pencil, &pairs);
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let kind = ModeKind::Natural;
-    let doubts = match (list.len(), extent) {
-        (0, ModeExtent::UpTo(frequency)) => vec![format!("no mode lies below `up_to` = {frequency}")],
+    let mut doubts = left_out(at);
+    match (list.len(), extent) {
+        (0, ModeExtent::UpTo(frequency)) => doubts.push(format!("no mode lies below `up_to` = {frequency}")),
         (found, ModeExtent::Count(count)) if found < count => {
-            vec![format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")]
+            doubts.push(fewer(found, count));
         }
-        _ => Vec::new(),
-    };
+        _ => {}
+    }
     Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts })
+}
+
+/// The doubt of a scene that has fewer modes than are asked for.
+pub(super) fn fewer(found: usize, count: usize) -> String {
+    format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
+}
+
+/// What modes without damping leave out, in words.
+fn left_out(at: &Linearized) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if !at.system.loads_have_potential(at.system.plane) {
+        doubts.push(
+            "loads that follow, and moments about axes fixed in space, have no potential: modes are those of the symmetric part of \
+             their stiffness; `damped = true` takes all of it, and finds flutter"
+                .to_owned(),
+        );
+    }
+    let spins = |node: usize| at.model.nodes[node].omega.norm() > 0.0;
+    if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
+        doubts.push(format!(
+            "`{}` spins, and its gyroscopic moments are left out: `damped = true` takes them in",
+            at.model.nodes[body.node].label
+        ));
+    }
+    doubts
 }
 
 /// An estimate of the lowest ω² that is not zero.

@@ -10,6 +10,9 @@ use crate::state::{Configuration, Node};
 use crate::system::assembly::Assembly;
 use crate::system::{Forces, Loading, TangentWeights};
 
+/// Gaps of a motion relative to its size from which it is one that joints forbid; those of others are rounding.
+const FORBIDDEN: f64 = 1e-6;
+
 /// The weights K + rate·C + acceleration·M.
 pub fn weights(rate: f64, acceleration: f64) -> TangentWeights {
     TangentWeights { stiffness: true, rate, acceleration, turning: None, moduli: Moduli::Elastic }
@@ -205,6 +208,17 @@ impl<'a> Pencil<'a> {
         self.solves += 1;
         multipliers.add(&rhs[*unknowns..]);
         rhs[..*unknowns].to_vec()
+    }
+
+    /// True where joints allow a motion. Their equations are regularised, so that what they forbid still has a frequency, one that means
+    /// nothing.
+    pub fn allows(&mut self, x: &[f64]) -> bool {
+        let Pencil { at, nodes, forces, .. } = self;
+        let motions = at.motions(nodes, x);
+        let gaps = &mut forces.multipliers.gaps;
+        at.system.gaps_of_motion(nodes, &motions, gaps);
+        let largest = motions.iter().map(|motion| motion.amax()).fold(0.0, f64::max);
+        gaps.iter().all(|gap| gap.abs() <= FORBIDDEN * largest)
     }
 
     /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both.

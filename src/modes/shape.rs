@@ -64,6 +64,24 @@ impl Shapes {
         Shapes { rigid: [x.0, y.0, z.0, rx.0, ry.0, rz.0], masses, length }
     }
 
+    /// The ω² that rounding gives to rigid motions, which have none.
+    pub fn rounding(&self, pencil: &Pencil) -> f64 {
+        let nodes = &pencil.nodes;
+        let center = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
+        let rigid = |k: usize| {
+            let e = Vec3::ith(k % 3, 1.0);
+            let motion = |node: &Node| match k > 2 {
+                true => stack(&e.cross(&(node.x - center)), &e),
+                false => stack(&e, &Vec3::zeros()),
+            };
+            nodes.iter().map(motion).collect()
+        };
+        let shapes: Vec<Vec<Vec6>> = (0..6).map(rigid).collect();
+        let energies = energies(&pencil.at, nodes, &shapes);
+        let all = energies.iter().zip(self.masses).filter(|(_, mass)| *mass > 0.0);
+        all.map(|(energies, mass)| ROUNDING * energies.without_signs / mass).fold(0.0, f64::max)
+    }
+
     /// The modes of eigenvalues λ = ω² with vectors of modal mass 1.
     pub fn natural(&self, pencil: &Pencil, pairs: &[(f64, Vec<f64>)]) -> Vec<EigenMode> {
         let shapes: Vec<Vec<Vec6>> = pairs.iter().map(|(_, x)| pencil.at.motions(&pencil.nodes, x)).collect();

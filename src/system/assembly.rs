@@ -442,7 +442,7 @@ impl Assembly {
             how.add((K, joints::WIDTH), &destinations[j], projected, values);
         };
         let multipliers = &mut forces.multipliers;
-        joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights.stiffness, values, add);
+        joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights, values, add);
     }
 
     /// Forms the matrices of nodes: inertia, nodal damping, follower loads, arms.

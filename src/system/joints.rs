@@ -11,6 +11,7 @@ use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::multipliers::{Multipliers, REGULARIZATION};
 use super::scale::Scale;
+use super::tangent_weights::TangentWeights;
 use crate::constraints::joint::{ConstraintEquation, Joint, MOST_EQUATIONS};
 use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6, angular, linear};
@@ -222,6 +223,10 @@ fn set_penalties(
     }
 }
 
+/// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
+/// cancel it to zero, and no simple ratio of masses makes this factor 1.
+const INDEFINITE: f64 = 2.618_033_988_749_895;
+
 /// Adds the derivative of the force of a constraint equation to the matrix of its joint.
 fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, K: &mut [f64]) {
     row.stiffness(a, b, lambda, |i, j, block| {
@@ -251,18 +256,21 @@ pub(super) fn stiffnesses(
 }
 
 /// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
-/// `projections` are those of the nodes onto independent nodes; with `stiffness` the matrix holds the derivative of the
+/// `projections` are those of the nodes onto independent nodes; with `weights.stiffness` the matrix holds the derivative of the
 /// joint's forces.
 pub(super) fn tangents(
     system: &System,
     nodes: &[Node],
     (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
     multipliers: &mut Multipliers,
-    stiffness: bool,
+    weights: TangentWeights,
     values: &mut [f64],
     mut add: impl FnMut(usize, &mut [f64], &mut [f64]),
 ) {
     set_penalties(system, nodes, (diagonals, projections), multipliers, values);
+    if weights.acceleration < 0.0 {
+        multipliers.penalties.iter_mut().for_each(|s| *s *= INDEFINITE);
+    }
     let mut K = [0.0; WIDTH * WIDTH];
     let mut first = 0;
     for (j, joint) in system.joints.iter().enumerate() {
@@ -270,7 +278,7 @@ pub(super) fn tangents(
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.equations.iter().enumerate() {
             let (s, lambda) = (multipliers.penalties[first + k], multipliers.values[first + k]);
-            if stiffness {
+            if weights.stiffness {
                 add_stiffness(row, [a, b], lambda, &mut K);
             }
             let [Ga, Gb] = row.gradient(a, b);

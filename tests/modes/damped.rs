@@ -119,3 +119,21 @@ fn becks_column() {
     // 20.05 to four digits; elements and the axial shortening of 7e-6 leave 1e-4.
     assert!(growth(20.0) < 1e-6 && growth(20.1) > 1e-3);
 }
+
+/// A beam that nothing holds: six motions without stiffness, whose double roots rounding splits, and the others as without damping.
+#[test]
+fn free_beam() {
+    let text = |analysis: &str| {
+        head(analysis, 0.03, 0.02)
+            + "[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"b\"]\nelements = 16\n\
+               material = \"steel\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\nmass = \"consistent\"\n"
+    };
+    let (plain, damped) = (modes(&text("modes = 10")), modes(&text("modes = 10\ndamped = true")));
+    let omega =
+        |modes: &rdsolve::modes::Modes| -> Vec<f64> { modes.list.iter().map(EigenMode::angular_frequency).collect() };
+    let (plain, of_damped) = (omega(&plain), omega(&damped));
+    assert!(damped.list[..6].iter().all(|mode| mode.root == [0.0; 2]), "{of_damped:?}");
+    // The residual tolerance of 1e-11 times the square of the ratio of the frequencies, and rounding of 1e-9.
+    assert!(off(&of_damped[6..], &plain[6..]) < 1e-7, "{plain:?} {of_damped:?}");
+    assert_eq!((damped.unstable, damped.list.len()), (0, 10));
+}

@@ -5,6 +5,7 @@ mod closed_forms;
 mod damped;
 mod exact;
 mod files;
+mod joints;
 mod motion;
 
 use crate::support::read_deck;
