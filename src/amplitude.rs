@@ -115,6 +115,26 @@ impl Amplitude {
         all.into_iter().filter(|j| j.time.is_finite() && (j.after - j.before).abs() > 1e-12).collect()
     }
 
+    /// The same function at times that are later by this much.
+    #[must_use]
+    pub fn later(self, by: f64) -> Amplitude {
+        match self {
+            Amplitude::Table(table) => {
+                let points = table.points.into_iter().map(|[time, value]| [time + by, value]).collect();
+                Amplitude::Table(StraightLines::new(points))
+            }
+            Amplitude::Sine { angular_frequency, phase, start, end } => {
+                Amplitude::Sine { angular_frequency, phase, start: start + by, end: end + by }
+            }
+            Amplitude::SineSquared { angular_frequency, start, end } => {
+                Amplitude::SineSquared { angular_frequency, start: start + by, end: end + by }
+            }
+            Amplitude::Ramp { start, end } => Amplitude::Ramp { start: start + by, end: end + by },
+            Amplitude::Step { start, end } => Amplitude::Step { start: start + by, end: end + by },
+            Amplitude::Constant => Amplitude::Constant,
+        }
+    }
+
     /// Times at which the value or its slope may jump.
     pub fn kinks(&self) -> Vec<f64> {
         let all = match *self {

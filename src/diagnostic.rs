@@ -150,7 +150,7 @@ fn in_place(text: &str) -> Cow<'_, str> {
 }
 
 /// One thing to say about a deck.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
     /// The weight of what is said.
     pub severity: Severity,

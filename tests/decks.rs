@@ -21,7 +21,10 @@ fn every_deck_meets_its_values() {
             }
         }
         let model = support::read(name, &[]);
-        let done = support::run(&model, &mut |_| Vec::new());
+        let done = match model.analysis.stage {
+            Some(_) => support::run_deck(name, &mut |_| Vec::new()),
+            None => support::run(&model, &mut |_| Vec::new()),
+        };
         let c = done.counts;
         println!(
             "{name:40} {:3} values, {:7} steps, {:4.1} iterations a step, {:6} factorizations, {:3} cuts, {:8.4} s",

@@ -45,6 +45,7 @@ mod schemes;
 mod shells;
 mod small_motions;
 mod stability;
+mod stages;
 mod statics;
 mod study;
 mod sudden_loads;

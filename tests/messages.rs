@@ -828,3 +828,46 @@ fn modes() {
     let expect = "[[expect]]\nmode = 1\nquantity = \"frequency\"\nvalue = 1.0\ntolerance = 0.1\n[materials.steel]";
     assert_snapshot!("modes_expected_of_motion", portal(&[("[materials.steel]", expect)]));
 }
+
+#[test]
+fn stages() {
+    let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n";
+    let stage = |name: &str, kind: &str, more: &str| {
+        format!("[[stages]]\nname = \"{name}\"\nkind = \"{kind}\"\nduration = 1.0\ntime_step = 0.1\n{more}\n")
+    };
+    let with = |stages: &str, more: &str| {
+        said(&edited(&[(analysis, stages)]).replace("[sets]", &format!("{more}\n[sets]")), &[])
+    };
+    let two = stage("weight", "static", "") + &stage("impact", "dynamic", "");
+    assert_eq!(with(&two, ""), "");
+    let kinds =
+        stage("a", "modal", "") + &stage("a", "dynamic", "") + "[[stages]]\nkind = \"static\"\nduration = 0.0\n";
+    assert_snapshot!("stages_wrong", with(&kinds, ""));
+    let integrator = "integrator = { scheme = \"newmark\" }";
+    let dynamic_keys = stage("weight", "static", integrator).replace("time_step = 0.1", "time_step = \"auto\"");
+    assert_snapshot!("stages_dynamic_keys", with(&dynamic_keys, ""));
+    assert_snapshot!("stages_and_analysis", with(&format!("{analysis}{two}"), ""));
+    let named = "[[loads]]\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]\nstages = [\"wieght\", \"impact\"]\n\
+                 [[supports]]\nat = \"knee_left\"\nfix = [\"uy\"]\nstages = []\n\
+                 [[initial]]\nat = \"knee_left\"\nvelocity = [1.0, 0.0, 0.0]\nstages = \"weight\"\n\
+                 [[expect]]\nat = \"knee_left\"\nquantity = \"ux\"\nstage = \"impact\"\ntime = 1.0\nvalue = 1.0\ntolerance = 0.1\n";
+    assert_snapshot!("stages_unknown", with(&two, named));
+    assert_snapshot!(
+        "stages_none",
+        portal_and("[[loads]]\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]\nstages = \"weight\"")
+    );
+    let stops = [
+        "stop = { at = \"knee_left\", quantity = \"ux\", value = 0.1, work = 1.0 }",
+        "stop = { load = \"ram\", work = 1.0 }",
+        "stop = { load = \"push\" }",
+        "stop = { load = \"push\", force = 0.0 }",
+        "stop = {}",
+        "stop = { time = 1.5 }",
+    ];
+    let stopping: String = stops.iter().enumerate().map(|(k, stop)| stage(&format!("s{k}"), "static", stop)).collect();
+    let push = "[[loads]]\nname = \"push\"\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]";
+    assert_snapshot!("stages_stops", with(&stopping, push));
+    // What is wrong in one stage only is said with its name.
+    let hinge = "[[joints]]\nname = \"hinge\"\nkind = \"spherical\"\nfrom = { node = \"knee_right\" }\nto = { body = \"block\", }\nstages = \"impact\"\naxis = [1.0, 0.0, 0.0]";
+    assert_snapshot!("stages_in_one", with(&two, hinge));
+}

@@ -341,7 +341,7 @@ fn shells_are_drawn_with_what_they_feel() {
 
 fn expect(at: ExpectAt, quantity: &str, when: When, value: f64, tolerance: Tolerance) -> Expect {
     let (quantity, source) = (quantity.to_string(), "by hand".to_string());
-    Expect { at, quantity, when, value, tolerance, source, label: "it".into() }
+    Expect { index: 0, at, quantity, when, value, tolerance, source, label: "it".into() }
 }
 
 #[test]

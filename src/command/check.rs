@@ -1,12 +1,16 @@
 //! `rdsolve check deck.toml`: read, validate, print the plan; run nothing.
 
 use super::arguments::DeckArgs;
-use super::console::{print, show};
+use super::console::{complain, print, show};
 use super::exit::Exit;
 use super::load::{load, plan, too_large};
 use super::signals::EndAtOnce;
-use crate::output::listed;
+use super::watchers::stage_begins;
+use crate::model::Model;
+use crate::output::{listed, settle_cadence};
+use crate::plan::Plan;
 use crate::plan::explain::explain_costs;
+use crate::system::System;
 
 /// Prints the plan of a deck, with what it costs, on standard output; diagnostics go to standard error.
 ///
@@ -21,5 +25,28 @@ pub fn check(args: &DeckArgs) -> Result<(), Exit> {
     let (solver, _) = plan.build(&system).map_err(too_large)?;
     let mut text = explain_costs(&plan, &loaded.model, &system, &solver);
     text.computed.push(("output", listed(&loaded.model, &plan)));
-    print(&format!("{}: no errors\n{text}", loaded.source.path))
+    let path = &loaded.source.path;
+    if loaded.model.analysis.stage.is_none() {
+        return print(&format!("{path}: no errors\n{text}"));
+    }
+    let mut all = format!("{path}: no errors\n{}\n{text}", stage_begins(&loaded.model));
+    for model in &mut loaded.later {
+        let (system, plan) = planned(model)?;
+        let (solver, _) = plan.build(&system).map_err(too_large)?;
+        let mut text = explain_costs(&plan, model, &system, &solver);
+        text.computed.push(("output", listed(model, &plan)));
+        all += &format!("{}\n{text}", stage_begins(model));
+    }
+    print(&all)
+}
+
+/// The system and the plan of a later stage, as far as they are known before the state that it begins with.
+fn planned(model: &mut Model) -> Result<(System, Plan), Exit> {
+    let system = System::new(model).map_err(|error| {
+        complain(&error);
+        Exit::Internal
+    })?;
+    let plan = Plan::new(model, &system, 1);
+    settle_cadence(model, &plan);
+    Ok((system, plan))
 }

@@ -8,6 +8,7 @@ use crate::model::{self, Model};
 use crate::output::settle_cadence;
 use crate::plan::explain::redundant_constraints;
 use crate::plan::{Plan, unreachable_targets};
+use crate::solve::share_plane;
 use crate::system::System;
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -17,8 +18,10 @@ use std::path::{Path, PathBuf};
 /// A deck that can be run.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The scene that the deck describes.
+    /// The scene that the deck describes, in its first stage where it has stages.
     pub model: Model,
+    /// The scene in the other stages.
+    pub later: Vec<Model>,
     /// The warnings and notes about the deck, in the order in which they are shown.
     pub warnings: Vec<Diagnostic>,
     /// The texts that the places of diagnostics refer to.
@@ -30,6 +33,11 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// The models of all stages, or the only one.
+    pub fn models(&self) -> Vec<&Model> {
+        std::iter::once(&self.model).chain(&self.later).collect()
+    }
+
     /// The files that the deck is read from: the deck itself, its mesh, its records, and the reference of its study.
     pub fn files(&self) -> Vec<PathBuf> {
         let deck = PathBuf::from(&self.source.path);
@@ -59,12 +67,14 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
 /// # Errors
 /// All that is wrong, with the texts that its places refer to.
 pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
-    match model::read(&source) {
-        (Some(model), warnings) => {
+    let (models, said) = model::read_stages(&source, &[]);
+    let mut models = models.into_iter();
+    match models.next() {
+        Some(model) => {
             let hash = hash(&source, sets, &model);
-            Ok(Loaded { model, warnings, source, sets: sets.to_vec(), hash })
+            Ok(Loaded { model, later: models.collect(), warnings: said, source, sets: sets.to_vec(), hash })
         }
-        (None, problems) => Err((problems, source)),
+        None => Err((said, source)),
     }
 }
 
@@ -151,16 +161,42 @@ pub enum Unfit {
 /// # Errors
 /// The reason why the scene cannot be computed as the deck asks.
 pub fn prepare(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Unfit> {
-    let system = System::new(&loaded.model).map_err(Unfit::System)?;
-    let plan = Plan::new(&loaded.model, &system, threads);
-    let mut problems = unreachable_targets(&plan, &loaded.model);
-    problems.extend(plan.massless(&loaded.model, &system));
-    problems.extend(plan.partial_rotations(&loaded.model));
+    if !loaded.later.is_empty() {
+        share_plane(std::iter::once(&mut loaded.model).chain(&mut loaded.later)).map_err(Unfit::System)?;
+    }
+    let (system, plan, mut warnings) = prepare_model(&mut loaded.model, threads)?;
+    for model in &mut loaded.later {
+        let in_stage = |said: Diagnostic| {
+            let stage = model_stage(model);
+            said.hint(format!("in stage `{stage}`"))
+        };
+        let (_, _, said) = match prepare_model(&mut model.clone(), threads) {
+            Err(Unfit::Deck(problems)) => return Err(Unfit::Deck(problems.into_iter().map(in_stage).collect())),
+            prepared => prepared?,
+        };
+        let new = said.into_iter().filter(|said| !warnings.contains(said)).collect::<Vec<_>>();
+        warnings.extend(new.into_iter().map(in_stage));
+    }
+    Ok((system, plan, warnings))
+}
+
+/// The name of the stage of a model; empty for a deck without stages.
+pub fn model_stage(model: &Model) -> &str {
+    model.analysis.stage.as_ref().map_or("", |stage| &stage.name)
+}
+
+/// The same of one model.
+fn prepare_model(model: &mut Model, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Unfit> {
+    let system = System::new(model).map_err(Unfit::System)?;
+    let plan = Plan::new(model, &system, threads);
+    let mut problems = unreachable_targets(&plan, model);
+    problems.extend(plan.massless(model, &system));
+    problems.extend(plan.partial_rotations(model));
     if !problems.is_empty() {
         return Err(Unfit::Deck(problems));
     }
-    settle_cadence(&mut loaded.model, &plan);
-    let warnings = plan_warnings(&plan, &loaded.model, &system);
+    settle_cadence(model, &plan);
+    let warnings = plan_warnings(&plan, model, &system);
     Ok((system, plan, warnings))
 }
 

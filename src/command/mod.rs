@@ -16,6 +16,7 @@ mod run;
 mod schema;
 mod shell_completions;
 mod signals;
+mod stages;
 mod study;
 mod summary;
 mod sweep;

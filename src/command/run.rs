@@ -13,9 +13,10 @@ use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
-use super::verdict::{End, end, energy_line, energy_warning, error_bars_in_words, line, work_warning};
+use super::stages::{StageRunner, StagesTold};
+use super::verdict::{End, end, error_bars_in_words, line};
 use super::version::VERSION;
-use super::watchers::Watchers;
+use super::watchers::{Watchers, stage_begins};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::{Model, Part, StepLength};
 use crate::output::error_bars::ErrorBars;
@@ -27,7 +28,7 @@ use crate::output::result_json::{
 use crate::output::{claim, listed, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
-use crate::solve::{Outcome, Run, StepError};
+use crate::solve::{Counts, Outcome, Run, StepError};
 use crate::study::LIFELINE;
 use crate::system::System;
 
@@ -134,7 +135,13 @@ pub enum CaseFault {
 fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Vec<String> {
     let mut text = explain(plan, &loaded.model, system);
     text.computed.push(("output", listed(&loaded.model, plan)));
-    text.to_string().lines().map(str::to_owned).collect()
+    let stages = loaded.model.analysis.stage.iter().flat_map(|_| stages_in_words(loaded));
+    stages.chain(text.to_string().lines().map(str::to_owned)).collect()
+}
+
+/// The stages of a deck, a line for each; of a deck without stages that of the whole run.
+fn stages_in_words(loaded: &Loaded) -> Vec<String> {
+    loaded.models().into_iter().map(stage_begins).collect()
 }
 
 /// The number of threads without `--threads`: all cores, but no more than that option takes.
@@ -181,36 +188,38 @@ impl Job<'_> {
     /// Runs the scene and writes its files; an error is one of input/output.
     fn compute(&self, run: &mut Run) -> io::Result<(End, RunResult, Option<String>)> {
         let model = &self.loaded.model;
-        let _lock = claim(self.folder, self.overwrite, model, &self.loaded.files())?;
+        let _lock = claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;
         let mut log = Log::open(self.folder, false)?;
         let origin = self.origin();
         log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
         self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
-        let tells_errors = by_error(model) || self.mesh_error;
+        // Bars are those of one run from t = 0 on.
+        let tells_errors = (by_error(model) || self.mesh_error) && model.analysis.stage.is_none();
         let mut watchers = Watchers::new(log, self.folder, model, [self.quiet, tells_errors])?;
         let looping = Instant::now();
-        let (outcome, state) = run.run(&mut watchers);
+        let mut told = StagesTold::default();
+        let outcome = self.stages().run(run, &mut watchers, &mut told)?;
         let whole = looping.elapsed();
         watchers.progress.finish();
         watchers.files.finish()?;
         watchers.log.sum_up()?;
         let mesh = self.mesh_error_of(&outcome, run, &mut watchers);
 
-        run.remarks().iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
-        let of_run = self.warnings_of(run, watchers.files.empty_fields(), mesh.as_ref());
+        told.remarks.iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
+        let doubts = std::mem::take(&mut told.warnings);
+        let of_run = self.warnings_of(doubts, watchers.files.empty_fields(), mesh.as_ref());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
-        let energy = energy_line(run.balance(), model);
+        let energy = (!told.energy.is_empty()).then(|| told.energy.join("\n"));
         energy.iter().try_for_each(|line| watchers.log.say(line))?;
         let expectations = watchers.expectations.verdicts();
         let errors = ReportedErrors {
-            step_error: run.step_error().map(step_error),
+            step_error: told.step_error.map(step_error),
             mesh: mesh.and_then(Result::ok),
             error_bars: watchers.bars.map(ErrorBars::into_bars).unwrap_or_default(),
         };
         error_bars_in_words(&errors.error_bars).iter().try_for_each(|line| watchers.log.say(line))?;
-        let end_time = state.map(|state| state.time);
-        let end = end(model, run, outcome, end_time, &expectations)?;
+        let end = end(outcome, told.short.take(), &expectations)?;
         watchers.log.say(&match (end.status, end.reason.as_str()) {
             (Status::Done, "") => "done".to_owned(),
             (Status::Done, reason) => format!("done: {reason}"),
@@ -224,11 +233,11 @@ impl Job<'_> {
             origin,
             plan: self.plan.clone(),
             sizes: self.sizes,
-            counts: counts(run),
-            timings: self.timings_of(run, whole),
+            counts: counts(told.counts),
+            timings: self.timings_of(told.observing, whole),
             errors,
-            joint_violation: run.joint_violation(),
-            rotation_drift: (run.rotation_drift() > 0.0).then(|| run.rotation_drift()),
+            joint_violation: told.joint_violation,
+            rotation_drift: (told.rotation_drift > 0.0).then_some(told.rotation_drift),
             peak_memory_bytes: peak_memory_bytes(),
             warnings,
             expectations,
@@ -237,11 +246,16 @@ impl Job<'_> {
         Ok((end, result, energy))
     }
 
+    /// What runs the stages of the deck.
+    fn stages(&self) -> StageRunner<'_> {
+        StageRunner { loaded: self.loaded, threads: self.threads, stop: self.stop }
+    }
+
     /// The time that all took, of which the steps and their output took the `whole`.
-    fn timings_of(&self, run: &Run, whole: Duration) -> Timings {
+    fn timings_of(&self, observing: Duration, whole: Duration) -> Timings {
         Timings {
-            loop_s: whole.saturating_sub(run.observing()).as_secs_f64(),
-            write_s: run.observing().as_secs_f64(),
+            loop_s: whole.saturating_sub(observing).as_secs_f64(),
+            write_s: observing.as_secs_f64(),
             total_s: self.began.elapsed().as_secs_f64(),
             ..self.timings
         }
@@ -254,6 +268,9 @@ impl Job<'_> {
         run: &Run,
         watchers: &mut Watchers,
     ) -> Option<Result<ReportedMesh, String>> {
+        if self.mesh_error && self.loaded.model.analysis.stage.is_some() {
+            return Some(Err("the error of the mesh is not known: it is not told of a deck with stages".to_owned()));
+        }
         let Watchers { expectations, bars: Some(bars), .. } = watchers else { return None };
         if !self.mesh_error || !matches!(outcome, Outcome::Done) {
             return None;
@@ -271,19 +288,16 @@ impl Job<'_> {
     /// The warnings about the results of a run and about its files, after showing them.
     fn warnings_of(
         &self,
-        run: &Run,
+        doubts: Vec<String>,
         of_files: Vec<String>,
         mesh: Option<&Result<ReportedMesh, String>>,
     ) -> Vec<String> {
-        let doubts = run.warnings().iter().map(ToString::to_string);
-        let of_balance = energy_warning(run.balance(), &self.loaded.model);
         let of_mesh = mesh.and_then(|told| match told {
             Ok(told) if told.unchanged.is_empty() => None,
             Ok(told) => Some(format!("the error of the mesh is that of a part only: {}", of_file(&told.unchanged))),
             Err(why) => Some(why.clone()),
         });
-        let of_run = doubts.chain(of_balance).chain(work_warning(run)).chain(of_files).chain(of_mesh);
-        let of_run: Vec<String> = of_run.collect();
+        let of_run: Vec<String> = doubts.into_iter().chain(of_files).chain(of_mesh).collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }
@@ -345,8 +359,7 @@ fn step_error(error: StepError) -> ReportedStepError {
 }
 
 /// The counts of the solver that the result reports.
-fn counts(run: &Run) -> ReportedCounts {
-    let counts = run.counts();
+fn counts(counts: Counts) -> ReportedCounts {
     ReportedCounts {
         steps: counts.steps,
         iterations: counts.iterations,

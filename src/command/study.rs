@@ -159,7 +159,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         complain("a study runs its deck many times: give it a file, not standard input");
         return Err(Exit::Usage);
     }
-    let mut loaded = with_steps(load(&args.deck, &sets, names.clone())?)?;
+    let mut loaded = with_steps(load_one(&args.deck, &sets, names.clone())?)?;
     if let Some(wanted) = args.recommend {
         // The last of the overrides stand for options: what completes them goes before.
         let defaults = recommend::defaults(&loaded.model, wanted);
@@ -337,4 +337,17 @@ impl StudyArgs {
         }
         Ok(keys)
     }
+}
+
+/// Reads a deck like [`load`], which must not have stages.
+///
+/// # Errors
+/// As for [`load`], and [`Exit::DeckInvalid`] for a deck with stages; the reason has been shown.
+fn load_one(deck: &Path, sets: &[String], names: Vec<String>) -> Result<Loaded, Exit> {
+    let loaded = load(deck, sets, names)?;
+    if loaded.model.analysis.stage.is_some() {
+        complain("a study does not go over the stages of a deck: make a deck of the one that it is about");
+        return Err(Exit::DeckInvalid);
+    }
+    Ok(loaded)
 }

@@ -31,14 +31,8 @@ impl End {
     }
 }
 
-/// Judges the end of a run. An error is one of input/output.
-pub fn end(
-    model: &Model,
-    run: &Run,
-    outcome: Outcome,
-    end_time: Option<f64>,
-    expectations: &[Verdict],
-) -> io::Result<End> {
+/// Judges the end of a run, which may be `short` of where a path was to stop. An error is one of input/output.
+pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) -> io::Result<End> {
     let (status, reason, valid_until) = match outcome {
         Outcome::Io(error) => return Err(error),
         Outcome::Failed { time, failure } => {
@@ -55,13 +49,12 @@ pub fn end(
             }
         },
     };
-    let short = end_time.and_then(|time| short_of_stop(model, run, time));
     let reasons: Vec<String> = [Some(reason), short].into_iter().flatten().filter(|text| !text.is_empty()).collect();
     Ok(End { status, reason: reasons.join("; "), valid_until })
 }
 
 /// Says of a path that it ended before its `stop`; `None` for any other end.
-fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
+pub fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     let (StepLength::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
         (&model.analysis.step_length, run.short_of_stop())
     else {

@@ -1,6 +1,8 @@
 //! All who watch a run: the log, the files, the expectations, the errors and the terminal.
 
-use crate::model::Model;
+use super::load::model_stage;
+use crate::model::{AnalysisKind, Model};
+use crate::names::instant;
 use crate::output::Files;
 use crate::output::error_bars::ErrorBars;
 use crate::output::expect::Expectations;
@@ -40,6 +42,31 @@ impl Watchers {
     }
 }
 
+impl Watchers {
+    /// Goes on with the next stage, whose model this is.
+    ///
+    /// # Errors
+    /// A file cannot be made or written.
+    pub fn next_stage(&mut self, model: &Model) -> io::Result<()> {
+        self.log.sum_up()?;
+        self.log.say(&stage_begins(model))?;
+        self.expectations.next_stage(model);
+        self.files.next_stage(model)
+    }
+}
+
+/// A line on the stage of a model.
+pub fn stage_begins(model: &Model) -> String {
+    let analysis = &model.analysis;
+    let kind = if analysis.kind == AnalysisKind::Static { "static" } else { "dynamic" };
+    format!(
+        "stage `{}`, {kind}, from t = {} to {}",
+        model_stage(model),
+        instant(analysis.begin),
+        instant(analysis.end_time)
+    )
+}
+
 impl Observer for Watchers {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.expectations.on_step(frame)?;
@@ -56,9 +83,14 @@ impl Observer for Watchers {
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {
         self.log.sum_up()?;
-        self.log.say(
-            "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps",
-        )?;
+        self.log.say(&match model.analysis.begin {
+            0.0 => "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps"
+                .to_owned(),
+            begin => format!(
+                "the steps leave more error than error_tolerance: the stage begins again at t = {}, with shorter steps",
+                instant(begin)
+            ),
+        })?;
         self.expectations.restart(model)?;
         self.bars.iter_mut().try_for_each(|bars| bars.restart(model))?;
         self.files.restart(model)

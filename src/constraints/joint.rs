@@ -54,6 +54,33 @@ pub enum ConstraintEquation {
 }
 
 impl ConstraintEquation {
+    /// The same equation between the nodes a and b as they are now, whose gap is zero there: axes lie as those of the first node do or, for
+    /// a support, as they did at t = 0. Ends that are apart, as they are where they do not meet, are held together by an arm that turns with the
+    /// second.
+    pub fn held_here(&self, [a, b]: [&Node; 2], supports: bool, meets: bool) -> ConstraintEquation {
+        let d = a.relative_position(b);
+        let as_seen = |node: &Node, axis: &Vec3| node.R().tr_mul(axis);
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } if supports || meets => {
+                ConstraintEquation::GlobalAxis { axis: *axis, at: d[*axis] }
+            }
+            ConstraintEquation::GlobalAxis { axis, .. } => {
+                ConstraintEquation::BodyAxis { e: as_seen(b, &Vec3::ith(*axis, 1.0)), at: d[*axis] }
+            }
+            ConstraintEquation::BodyAxis { e, .. } => {
+                let now = a.R() * e;
+                ConstraintEquation::BodyAxis { e: as_seen(b, &now), at: d.dot(&now) }
+            }
+            ConstraintEquation::Perpendicular { p, s } if supports => {
+                ConstraintEquation::Perpendicular { p: as_seen(a, &(b.R() * p)), s: *s }
+            }
+            ConstraintEquation::Perpendicular { p, s } => {
+                ConstraintEquation::Perpendicular { p: *p, s: as_seen(b, &(a.R() * s)) }
+            }
+            ConstraintEquation::Distance { .. } => ConstraintEquation::Distance { length: d.norm() },
+        }
+    }
+
     /// The violation c with its derivatives ċ and c̈.
     pub fn gap(&self, a: &Node, b: &Node) -> [f64; 3] {
         let (d, v, w) = (a.relative_position(b), a.v - b.v, a.a - b.a);

@@ -33,6 +33,8 @@ pub struct Amplitude {
     /// What holds after the last time. Default: its value, with a warning where that is not zero and the run goes on.
     /// (table)
     pub after: Maybe<Beyond>,
+    /// Name of the stage from whose beginning its times count. Default: they are times of the run.
+    pub stage: Maybe<String>,
     /// Cycles per unit of time, above 0. (sine, sine-squared)
     pub frequency: Maybe<f64>,
     /// Radians per unit of time, above 0, instead of `frequency`. (sine, sine-squared)

@@ -26,6 +26,8 @@ pub struct Contact {
     /// cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells.
     #[schemars(required)]
     pub with: Maybe<Names>,
+    /// Names of the stages in which it is there. Default: all.
+    pub stages: Maybe<Names>,
     /// Contact radius: the distance from a point at which it touches, 0 or more. Default: half the thickness of
     /// shells, half the smaller side of a beam's section, the radius of a sphere; else 0.
     pub radius: Maybe<f64>,

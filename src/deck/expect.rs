@@ -26,6 +26,8 @@ pub struct Expect {
     pub when: Maybe<Table<DisplacementTarget>>,
     /// An extreme over the whole run, instead of `time`.
     pub peak: Maybe<Peak>,
+    /// Name of a stage: the value is that at its end, or with `peak` an extreme in it.
+    pub stage: Maybe<String>,
     /// The expected value. Left out with a bound.
     pub value: Maybe<f64>,
     /// Lower bound, instead of `value` and its tolerance; over the whole run where neither `time` nor `peak` says when.

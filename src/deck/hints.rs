@@ -179,7 +179,7 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
         "beams take no loads per length: give forces at points along them; gravity acts by itself",
         None,
     ),
-    (&["stages", "stage", "phases"], "integrator", "a deck is one analysis: there are no stages", None),
+    (&["phases", "phase", "load_cases"], "integrator", "that is [[stages]] here", Some("stages")),
     (
         &["rigid_links", "rigid_link", "diaphragm", "diaphragms", "rigid_diaphragm", "rigid_elements"],
         "integrator",

@@ -26,6 +26,8 @@ pub struct Initial {
     pub normal_velocity: Maybe<f64>,
     /// True where this takes the place of what earlier tables, and bodies in their own, give the same nodes. Default: false.
     pub replaces: Maybe<bool>,
+    /// Name of the dynamic stage that begins with it. Default: the first.
+    pub stages: Maybe<Names>,
     /// Factors on the velocities that vary from node to node; several multiply.
     pub profile: Maybe<Vec<At<Table<Profile>>>>,
 }

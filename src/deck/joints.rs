@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::links::End;
 use super::words::kinds::Kinds;
-use super::words::{Maybe, Table};
+use super::words::{Maybe, Names, Table};
 use crate::constraints::joints::kind::MakeJoint;
 use crate::constraints::joints::{JOINTS, JointKind};
 
@@ -23,6 +23,8 @@ pub struct Joint {
     /// with "distance").
     #[schemars(required)]
     pub to: Maybe<Table<End>>,
+    /// Names of the stages in which it is there; it joins its ends as it then finds them. Default: all.
+    pub stages: Maybe<Names>,
 }
 
 impl Kinds for Joint {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::part_table::PartTable;
-use super::words::{Maybe, Numbers, Table, Vector};
+use super::words::{Maybe, Names, Numbers, Table, Vector};
 use crate::diagnostic::At;
 
 /// A spring and damper between two ends, along the line between them, along a direction, or a bushing.
@@ -43,6 +43,8 @@ pub struct Link {
     pub bushing: Maybe<Numbers<6>>,
     /// Six damping values of the bushing, force per velocity and moment per angular velocity. Default: 0.
     pub bushing_damping: Maybe<Numbers<6>>,
+    /// Names of the stages in which it is there. Default: all.
+    pub stages: Maybe<Names>,
     /// Axes of the bushing, global at t = 0: its x, and a vector in its x-y plane. Default: global axes.
     pub axes: Maybe<Vec<Vector>>,
 }

@@ -26,7 +26,11 @@ pub struct Load {
     pub pressure: Maybe<f64>,
     /// A force or moment turns with its node, a pressure follows the surface. Default: false.
     pub follower: Maybe<bool>,
+    /// Name, by which a stage that stops finds the load. Default: none.
+    pub name: Maybe<String>,
+    /// Names of the stages in which it acts. Default: all.
+    pub stages: Maybe<Names>,
     /// Name of an amplitude that multiplies the load. Default: constant in a dynamic analysis, growing linearly
-    /// to the end time in a static one.
+    /// to the end time in a static one. With stages it grows over the static stage in which it first acts, and stays.
     pub amplitude: Maybe<String>,
 }

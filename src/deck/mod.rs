@@ -27,6 +27,7 @@ pub mod read;
 pub mod sections;
 pub mod set;
 pub mod shells;
+pub mod stages;
 pub mod study;
 pub mod supports;
 mod value;
@@ -49,9 +50,11 @@ pub struct Deck {
     pub title: Maybe<String>,
     /// System of units: it labels output and turns on warnings about implausible values. Nothing is converted.
     pub units: Maybe<output::Units>,
-    /// What is computed, over what time, in which steps.
-    #[schemars(required)]
+    /// What is computed, over what time, in which steps. A deck with `[[stages]]` has these instead; here it may say what holds for all.
     pub analysis: Maybe<Table<analysis::Analysis>>,
+    /// What is computed one after the other.
+    #[serde(default)]
+    pub stages: Vec<At<Table<stages::Stage>>>,
     /// The time integration scheme.
     pub integrator: Maybe<OneOf<analysis::Integrator>>,
     /// How the nonlinear equations of each step are solved.

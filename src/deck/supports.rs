@@ -14,6 +14,10 @@ pub struct Support {
     pub at: Maybe<Names>,
     /// Degrees of freedom that are restrained at zero: "all", "translations", "rotations" or a list such as ["ux", "ry"].
     pub fix: Maybe<Directions>,
+    /// Name, by which a stage that stops finds the support. Default: none.
+    pub name: Maybe<String>,
+    /// Names of the stages in which it is there; it holds what it then finds where it is. Default: all.
+    pub stages: Maybe<Names>,
     /// Degrees of freedom that are prescribed as functions of time.
     pub motion: Maybe<Table<Motions>>,
 }
@@ -40,8 +44,8 @@ pub struct Motions {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Name of an amplitude.
-    #[schemars(required)]
+    /// Name of an amplitude. It may be left out of a support that first acts in a static stage: the motion then grows over that stage, and
+    /// stays.
     pub amplitude: Maybe<String>,
     /// Factor on the amplitude. Default: 1.
     pub scale: Maybe<f64>,

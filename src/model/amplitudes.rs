@@ -1,5 +1,6 @@
 //! `[amplitudes.x]`: functions of time.
 
+use super::course::CurrentStage;
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::values::span;
@@ -11,11 +12,24 @@ use crate::diagnostic::At;
 
 /// Reads `[amplitudes]`, with the records that have been read for them. Each gives one, also those with errors, since others refer to them
 /// by their index.
-pub(super) fn amplitudes<'d>(deck: &'d Deck, records: &[Option<Record>], report: &mut Report<'d>) -> Vec<Amplitude> {
+pub(super) fn amplitudes<'d>(
+    deck: &'d Deck,
+    stage: Option<CurrentStage<'d>>,
+    records: &[Option<Record>],
+    report: &mut Report<'d>,
+) -> Vec<Amplitude> {
     let record = |index: usize| records.get(index).and_then(Option::as_ref);
     let all = deck.amplitudes.0.iter().enumerate();
-    let read = all.map(|(index, (name, amplitude))| read_amplitude(&name.value, amplitude, record(index), report));
-    read.map(|amplitude| amplitude.unwrap_or(Amplitude::Constant)).collect()
+    let read = all.map(|(index, (name, amplitude))| {
+        let read = read_amplitude(&name.value, amplitude, record(index), report).unwrap_or(Amplitude::Constant);
+        match stage.map(|stage| stage.clock(&amplitude.stage)) {
+            Some(clock) if clock > 0.0 => read.later(clock),
+            _ => read,
+        }
+    });
+    let read: Vec<Amplitude> = read.collect();
+    // Those of loads without one come behind them.
+    read.into_iter().chain(stage.iter().flat_map(CurrentStage::own_amplitudes)).collect()
 }
 
 fn read_amplitude<'d>(

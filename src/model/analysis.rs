@@ -1,5 +1,6 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
+use super::course::CurrentStage;
 use super::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use super::data::{ERROR_TOLERANCE, FIRST_STEP};
 use super::modes::{ModesGiven, modes};
@@ -33,9 +34,16 @@ pub(super) struct Procedure {
 }
 
 /// Reads `[analysis]`, `[integrator]` and `[iteration]`, which do not refer to other tables.
-pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure {
+pub(super) fn analysis<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, report: &mut Report<'d>) -> Procedure {
     let analysis = match &deck.analysis {
-        Some(analysis) => times(&analysis.value, &analysis.span, report),
+        Some(analysis) => {
+            let what = stage.map_or_else(|| "`[analysis]`".to_owned(), |stage| format!("stage `{}`", stage.name()));
+            let read = times(&analysis.value, Owner::new(what, &analysis.span), report);
+            match stage.map(|stage| stage.times()) {
+                Some([begin, end_time]) => Analysis { begin, end_time, ..read },
+                None => read,
+            }
+        }
         None => {
             if !report.is_spoiled(&ROOT, "analysis") {
                 let example = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-3";
@@ -43,7 +51,9 @@ pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure
             }
             Analysis {
                 kind: AnalysisKind::Dynamic,
+                begin: 0.0,
                 end_time: 0.0,
+                stage: None,
                 step_length: StepLength::Fixed { step: 0.0 },
                 least_step: 0.0,
                 plane: true,
@@ -58,8 +68,7 @@ pub(super) fn analysis<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Procedure
     Procedure { analysis, scheme, iteration: iteration(deck.iteration.as_ref(), report) }
 }
 
-fn times<'d>(analysis: &'d words::Analysis, span: &'d Span, report: &mut Report<'d>) -> Analysis {
-    let owner = Owner::new("`[analysis]`", span);
+fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Report<'d>) -> Analysis {
     let word = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
     let kind = match modes(analysis, word, report) {
         ModesGiven::Asked(analysis) => return analysis,
@@ -103,7 +112,9 @@ fn times<'d>(analysis: &'d words::Analysis, span: &'d Span, report: &mut Report<
     };
     Analysis {
         kind,
+        begin: 0.0,
         end_time,
+        stage: None,
         step_length,
         least_step: least_step.unwrap_or(least),
         plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto),

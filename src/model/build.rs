@@ -15,9 +15,10 @@ use super::choose_scheme::choose_scheme;
 use super::contact_points::connect_touching_points;
 use super::contacts::contacts;
 use super::control::{control, iterate_along};
+use super::course::{self, Course, CurrentStage};
 use super::data::{
-    Analysis, AnalysisKind, ArcLength, Constraints, Iteration, Joint, MeshFile, Model, Origin, Part, Rigid, Solution,
-    StepLength,
+    Analysis, AnalysisKind, ArcLength, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part, Rigid,
+    Solution, StepLength,
 };
 use super::environment::{damping, environment};
 use super::expects::expects;
@@ -46,6 +47,7 @@ use super::sections::Sections;
 use super::shell_edges::set_bulges;
 use super::shells::shells;
 use super::slivers::check_slivers;
+use super::stops;
 use super::study::study;
 use super::supports::supports;
 use super::ties::Ties;
@@ -53,39 +55,117 @@ use super::units::check_units;
 use super::unjoined::check_unjoined;
 use super::unused::drop_unused;
 use super::values::vec3;
+use crate::amplitude::Amplitude;
 use crate::deck::Deck;
+use crate::deck::read::ROOT;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::integrators::{Scheme, Stepping};
 
-/// Reads a deck and builds its model; everything there is to say about it, in the order of the deck.
+/// Reads a deck and builds its model; everything there is to say about it, in the order of the deck. Of a deck with stages it is the model of
+/// the first.
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
+    let (models, problems) = read_stages(source, &[]);
+    (models.into_iter().next(), problems)
+}
+
+/// Reads a deck and builds the model of each of its stages, or the one of a deck without; everything there is to say about it, in the order
+/// of the deck. The first stages have ended at the times `reached`; the others end when they are planned to.
+pub fn read_stages(source: &Source, reached: &[f64]) -> (Vec<Model>, Vec<Diagnostic>) {
     let (deck, mut problems) = crate::deck::read(source);
     let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
     let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
     let (records, of_records) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_records(deck, folder));
     said.extend(of_records);
-    let (model, more) = deck.as_ref().map_or((None, Vec::new()), |deck| build(deck, input.as_ref(), &records));
-    let model = model.filter(|_| !said.iter().any(Diagnostic::is_error));
+    let (mut models, more) = match &deck {
+        Some(deck) if !deck.stages.is_empty() => build_stages(deck, reached, input.as_ref(), &records),
+        Some(deck) => {
+            let (model, said) = build(deck, input.as_ref(), &records);
+            (model.into_iter().collect(), said)
+        }
+        None => (Vec::new(), Vec::new()),
+    };
     problems.extend(said);
-    let model = model.filter(|_| !problems.iter().any(Diagnostic::is_error));
+    if problems.iter().any(Diagnostic::is_error) {
+        models.clear();
+    }
     problems.extend(more);
     problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
-    (model, problems)
+    (models, problems)
+}
+
+/// The models of all stages of a deck, none if anything is wrong with any of them.
+fn build_stages(
+    deck: &Deck,
+    reached: &[f64],
+    input: Option<&Input>,
+    records: &[Option<Record>],
+) -> (Vec<Model>, Vec<Diagnostic>) {
+    let mut report = Report::new(deck);
+    let course = Course::new(deck, reached, &mut report);
+    let (mut models, mut said) = (Vec::new(), Vec::new());
+    for stage in CurrentStage::all(&course) {
+        let (own, expected) = stage.deck();
+        let mut report = Report::new(&own);
+        let mut built = model(&own, Some(stage), (input, records), &mut report);
+        for expect in &mut built.expects {
+            expect.index = expected.get(expect.index).copied().unwrap_or_default();
+        }
+        models.push(built);
+        said.push((stage.name().to_owned(), merge_diagnostics(report.into_problems())));
+    }
+    if let Some(Model { loading, .. }) = models.first() {
+        check_amplitude_ends(deck, &loading.amplitudes, course.end(), &mut report);
+    }
+    let mut problems = report.into_problems();
+    problems.extend(course::merge(said));
+    if problems.iter().any(Diagnostic::is_error) {
+        models.clear();
+    }
+    share_contact_laws(&mut models);
+    (models, problems)
+}
+
+/// Gives a contact the same stiffness in all stages, the largest that was chosen for any of them: what lies on it must not sink in or spring up
+/// between two of them.
+fn share_contact_laws(models: &mut [Model]) {
+    let chosen = models.iter().flat_map(|model| model.each::<Contact>()).filter(|contact| contact.chosen.is_some());
+    let mut laws: Vec<Contact> = Vec::new();
+    for contact in chosen {
+        let stiffness = |contact: &Contact| contact.law.as_ref().map_or(0.0, |law| law.stiffness);
+        match laws.iter_mut().find(|known| known.name == contact.name) {
+            Some(known) if stiffness(known) >= stiffness(contact) => {}
+            Some(known) => known.clone_from(contact),
+            None => laws.push(contact.clone()),
+        }
+    }
+    for contact in models.iter_mut().flat_map(|model| model.each_mut::<Contact>()) {
+        if let Some(known) = laws.iter().find(|known| known.name == contact.name) {
+            (contact.law, contact.chosen) = (known.law, known.chosen.clone());
+        }
+    }
 }
 
 /// The model the deck describes, with the mesh and the records it names, and everything there is to say about it. `None` if any of that is an
 /// error.
 pub fn build(deck: &Deck, input: Option<&Input>, records: &[Option<Record>]) -> (Option<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
-    let model = model(deck, input, records, &mut report);
+    if !report.is_spoiled(&ROOT, "stages") {
+        course::check_names(deck, &mut report);
+    }
+    let model = model(deck, None, (input, records), &mut report);
     let sound = !report.has_errors();
     (sound.then_some(model), merge_diagnostics(report.into_problems()))
 }
 
-fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>], report: &mut Report<'d>) -> Model {
-    let Procedure { analysis, scheme, iteration } = analysis(deck, report);
-    let amplitudes = amplitudes(deck, records, report);
-    let Ground { mut scene, mut nodes, groups, rigid } = ground(deck, input, analysis, report);
+fn model<'d>(
+    deck: &'d Deck,
+    stage: Option<CurrentStage<'d>>,
+    (input, records): (Option<&'d Input>, &[Option<Record>]),
+    report: &mut Report<'d>,
+) -> Model {
+    let Procedure { analysis, scheme, iteration } = analysis(deck, stage, report);
+    let amplitudes = amplitudes(deck, stage, records, report);
+    let Ground { mut scene, mut nodes, groups, rigid } = ground(deck, (stage, analysis), input, report);
 
     // These tables connect nodes.
     let masses = masses(&scene, &mut nodes, report);
@@ -96,27 +176,24 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>
     let mut topology = Topology::new(nodes, report);
 
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
-    let fields = environment(deck, report);
-    joints.extend(supports(&scene, &amplitudes, &mut topology, report));
+    let fields = environment(deck, stage, report);
+    let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
     set_bulges(&mut scene.parts.list, &topology);
     let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
-    let loads = loads(&scene, &topology, report);
+    let loads = loads(&scene, &topology, &mut actors, report);
     let damping = damping(&scene, &topology, report);
     initial(&scene, &amplitudes, &mut topology, report);
 
     // These tables say what is computed and written.
+    scene.analysis.stage = stops::stage(&scene, actors, report);
     let arc_length = control(&scene, &amplitudes, &topology, report);
     let expects = expects(&scene, &topology, arc_length.is_some(), report);
     let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
     let study = study(&scene, &scheme, &topology.list, report);
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
     if !report.has_errors() {
-        if scene.analysis.modes.is_none() {
-            check_amplitude_ends(deck, &amplitudes, scene.analysis.end_time, report);
-        }
         let linked = links.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
-        check_unjoined(&scene, &topology, Ties::new(&topology, &joints, linked), report);
-        check_proportions(&scene, &topology, report);
+        check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     }
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();
@@ -143,6 +220,16 @@ fn model<'d>(deck: &'d Deck, input: Option<&'d Input>, records: &[Option<Record>
     model
 }
 
+/// Looks for what is odd about a scene without errors.
+fn check_sound(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, ties: Ties, report: &mut Report) {
+    // Of several stages the times are those of all.
+    if scene.stage.is_none() && scene.analysis.modes.is_none() {
+        check_amplitude_ends(scene.deck, amplitudes, scene.analysis.end_time, report);
+    }
+    check_unjoined(scene, topology, ties, report);
+    check_proportions(scene, topology, report);
+}
+
 /// The scene that all other tables refer to: nodes with names, bodies, and the deformable parts between them.
 struct Ground<'d> {
     scene: Scene<'d>,
@@ -151,7 +238,12 @@ struct Ground<'d> {
     rigid: Vec<Rigid>,
 }
 
-fn ground<'d>(deck: &'d Deck, input: Option<&'d Input>, analysis: Analysis, report: &mut Report<'d>) -> Ground<'d> {
+fn ground<'d>(
+    deck: &'d Deck,
+    (stage, analysis): (Option<CurrentStage<'d>>, Analysis),
+    input: Option<&'d Input>,
+    report: &mut Report<'d>,
+) -> Ground<'d> {
     let mut nodes = Nodes::default();
     points(deck, &mut nodes);
     let bodies = bodies(deck, &mut nodes, report);
@@ -174,7 +266,7 @@ fn ground<'d>(deck: &'d Deck, input: Option<&'d Input>, analysis: Analysis, repo
     let PartContext { groups, mut parts, sections, .. } = context;
     parts.stiffnesses = sections.stiffnesses;
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
-    Ground { scene: Scene { deck, analysis, names, bodies, parts }, nodes, groups, rigid }
+    Ground { scene: Scene { deck, stage, analysis, names, bodies, parts }, nodes, groups, rigid }
 }
 
 /// Makes a node for each of `[points]`; they are the first nodes of all.
@@ -197,7 +289,7 @@ fn check(
     check_content(deck, report);
     // A part left out by an error may have been the only one to use it.
     if deck.spoiled.is_empty() && !report.has_errors() {
-        check_use(deck, topology, report);
+        check_use(scene.stage.map_or(deck, |stage| stage.course.whole), topology, report);
         check_joints(deck, joints, topology, report);
     }
     let mesh = groups.finish(deck, &scene.names, report);

@@ -25,7 +25,16 @@ pub(super) fn check_content(deck: &Deck, report: &mut Report) {
 /// Warns of points, materials, sections and amplitudes that nothing uses.
 pub(super) fn check_use(deck: &Deck, topology: &Topology, report: &mut Report) {
     let masters: HashSet<usize> = topology.dependents.iter().map(|dependent| dependent.master).collect();
-    for (node, (name, _)) in deck.points.0.iter().enumerate() {
+    // What is there in some stages only may be what connects a point.
+    let ends = deck.links.iter().flat_map(|link| [&link.from, &link.to]).flatten();
+    let ends = ends.chain(deck.joints.iter().flat_map(|joint| [&joint.from, &joint.to]).flatten());
+    let elsewhere: HashSet<&str> = match deck.stages.is_empty() {
+        true => HashSet::new(),
+        false => ends.filter_map(|end| end.node.as_ref()).map(|name| name.as_str()).collect(),
+    };
+    for (node, (name, _)) in
+        deck.points.0.iter().enumerate().filter(|(_, (name, _))| !elsewhere.contains(name.as_str()))
+    {
         let connected = (0..6).any(|dof| topology.is_connected(node, dof)) || topology.attachment(node).is_some();
         if !connected && !masters.contains(&node) {
             let message = format!("nothing is connected to point `{}`", name.value);

@@ -36,7 +36,7 @@ fn is_soft(model: &Model) -> bool {
         }
     }
     let square = fastest.into_iter().fold(0.0, f64::max);
-    square.sqrt() * model.analysis.end_time < PHASE
+    square.sqrt() * model.analysis.duration() < PHASE
 }
 
 /// True where every node is a body, fixed on one, or held: others may have no mass.

@@ -57,7 +57,7 @@ impl Meets<'_, '_> {
         }
         let rests_on_time = choices.is_empty();
         if rests_on_time {
-            let pace = self.extent() / self.scene.analysis.end_time;
+            let pace = self.extent() / self.scene.analysis.duration();
             let reason = format!(
                 "nothing moves at t = 0; at {}, the scene in the run, {} deep",
                 short(pace),

@@ -1,5 +1,6 @@
 //! `[environment]` and `[damping]`: what acts on all of a scene.
 
+use super::course::CurrentStage;
 use super::data::{BaseAcceleration, Damping, Loading, NodalDamping};
 use super::loads::Loads;
 use super::nodes::Topology;
@@ -28,7 +29,11 @@ impl AccelerationFields {
 }
 
 /// Reads `[environment]`.
-pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> AccelerationFields {
+pub(super) fn environment<'d>(
+    deck: &'d Deck,
+    stage: Option<CurrentStage<'d>>,
+    report: &mut Report<'d>,
+) -> AccelerationFields {
     let Some(environment) = &deck.environment else { return AccelerationFields::default() };
     let mut accelerations = Vec::new();
     for base in &environment.base_acceleration {
@@ -42,7 +47,8 @@ pub(super) fn environment<'d>(deck: &'d Deck, report: &mut Report<'d>) -> Accele
             accelerations.push(BaseAcceleration { direction: direction * scale, amplitude });
         }
     }
-    let gravity_amplitude = environment.gravity_amplitude.as_ref().and_then(|name| {
+    let own = stage.map(|stage| stage.own_amplitude(&None));
+    let gravity_amplitude = environment.gravity_amplitude.as_ref().map_or(own, |name| {
         if environment.gravity.is_none() {
             return report.error(&name.span, "`gravity_amplitude` needs `gravity`");
         }

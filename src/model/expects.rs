@@ -9,6 +9,7 @@ use super::scene::Scene;
 use super::values::span;
 use crate::deck::expect as words;
 use crate::deck::parts::PartIndex;
+use crate::deck::words::Table;
 use crate::diagnostic::{At, Diagnostic};
 use crate::names::nearest;
 use crate::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION};
@@ -37,8 +38,12 @@ pub(super) fn expects<'d>(
             .report
             .push(Diagnostic::note("this is not looked at in an analysis of modes").at(&entry.span).hint(hint));
     }
-    let tables_of = scene.deck.expect.iter().filter(|entry| !modes || entry.mode.is_some());
-    tables_of.filter_map(|table| tables.expect(&Owner::new("`[[expect]]`", &table.span), table)).collect()
+    let tables_of = scene.deck.expect.iter().enumerate().filter(|(_, entry)| !modes || entry.mode.is_some());
+    let read = |(index, table): (usize, &'d At<Table<words::Expect>>)| {
+        let expect = tables.expect(&Owner::new("`[[expect]]`", &table.span), table)?;
+        Some(Expect { index, ..expect })
+    };
+    tables_of.filter_map(read).collect()
 }
 
 impl<'d> Expects<'_, 'd> {
@@ -68,18 +73,24 @@ impl<'d> Expects<'_, 'd> {
                 let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
                 format!("where {direction} of {node} is {}{pass}", at.value)
             }
+            When::End => format!("at the end of stage `{}`", expect.stage.as_ref().map_or("", |stage| stage.as_str())),
             When::Max => "at its maximum".to_owned(),
             When::Min => "at its minimum".to_owned(),
             When::Abs => "at its greatest absolute value".to_owned(),
         };
+        let stage = expect.stage.as_ref().map_or(String::new(), |stage| match when {
+            When::End => String::new(),
+            _ => format!(" in stage `{}`", stage.value),
+        });
         Some(Expect {
+            index: 0,
             at,
             quantity: quantity.to_owned(),
             when,
             value,
             tolerance,
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
-            label: format!("{quantity} of {} {moment}", name?.value),
+            label: format!("{quantity} of {} {moment}{stage}", name?.value),
         })
     }
 
@@ -110,6 +121,7 @@ impl<'d> Expects<'_, 'd> {
         let column = quantity.and_then(|quantity| self.column(&quantities::MODE, quantity, &name));
         let ((value, tolerance), quantity) = (self.judged(owner, expect)?, column?);
         Some(Expect {
+            index: 0,
             at: ExpectAt::Mode(number.value as usize - 1),
             quantity: quantity.to_owned(),
             when: When::Abs,
@@ -226,10 +238,19 @@ impl<'d> Expects<'_, 'd> {
             }
             return displacement_target("`when`", when, self.scene, self.topology, self.report).map(When::Target);
         }
+        if let (Some(stage), Some(time)) = (&expect.stage, &expect.time) {
+            let hint = "without `time` and `peak` the value is that at the end of the stage";
+            let message = format!("an expected value has `time` or `stage`, and this one is at t = {}", time.value);
+            return self.report.error_with(&stage.span, message, hint);
+        }
+        let end = self.scene.stage.map_or(self.scene.analysis.end_time, |stage| stage.course.end());
         match (&expect.time, &expect.peak) {
+            (None, None) if expect.stage.is_some() && expect.at_least.is_none() && expect.at_most.is_none() => {
+                Some(When::End)
+            }
             (Some(_), Some(peak)) => self.report.error(&peak.span, "an expected value has `time` or `peak`, not both"),
-            (Some(time), None) if !(time.value >= 0.0 && time.value <= self.scene.analysis.end_time) => {
-                let message = format!("the run goes from 0 to {}", self.scene.analysis.end_time);
+            (Some(time), None) if !(time.value >= 0.0 && time.value <= end) => {
+                let message = format!("the run goes from 0 to {end}");
                 self.report.error_with(&time.span, "`time` lies outside the run", message)
             }
             (Some(time), None) => Some(When::Time(time.value)),

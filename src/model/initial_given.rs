@@ -79,9 +79,10 @@ impl<'d> GivenVelocities<'d> {
     pub fn give(&mut self, node: usize, quantity: InitialQuantity, value: Vec3, nodes: &mut Nodes) {
         let giver = self.givers.len() - 1;
         let before = self.values.insert((node, quantity), (value, giver));
+        let given = &mut nodes.list[node];
         match quantity {
-            InitialQuantity::Velocity => nodes.list[node].v = value,
-            InitialQuantity::AngularVelocity => nodes.list[node].omega = value,
+            InitialQuantity::Velocity => (given.v, given.given[0]) = (value, true),
+            InitialQuantity::AngularVelocity => (given.omega, given.given[1]) = (value, true),
         }
         let Some((old, earlier)) = before.filter(|_| !self.givers[giver].replaces) else { return };
         // A node that moves with another one takes that one's velocity in the end.

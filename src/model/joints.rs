@@ -33,18 +33,20 @@ pub(super) fn joints<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repo
         });
         let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
         let ends = [ends.0, ends.1];
-        if let Some(equations) = joint_equations(&owner, kind, ends, &axes, nodes, report) {
+        // What comes later finds its ends where they then are.
+        let later = scene.stage.is_some_and(|stage| stage.comes_later(&joint.stages));
+        if let Some(equations) = joint_equations(&owner, kind, (ends, later), &axes, nodes, report) {
             joints.push(Joint { name, ends, equations, supports: false });
         }
     }
     joints
 }
 
-/// The constraint equations between two ends, of which messages speak as `owner`.
+/// The constraint equations between two ends, of which messages speak as `owner`; with `later` they need not meet at t = 0.
 fn joint_equations<'d>(
     owner: &Owner<'d>,
     kind: &JointKind,
-    ends: [usize; 2],
+    (ends, later): ([usize; 2], bool),
     axes: &Mat3,
     nodes: &Nodes,
     report: &mut Report<'d>,
@@ -58,7 +60,7 @@ fn joint_equations<'d>(
         let message = format!("the ends of {} lie at the same place, so there is no distance", owner.what);
         return report.error_with(owner.span, message, "a \"spherical\" joint holds two points together");
     }
-    if kind.make.ends_meet && is_rounded(owner, ends.map(|end| nodes.x(end)), nodes, report)? {
+    if kind.make.ends_meet && !later && is_rounded(owner, ends.map(|end| nodes.x(end)), nodes, report)? {
         let message = format!("the ends of {} are {} apart, as rounded coordinates are", owner.what, short(d.norm()));
         let hint = "they are joined as they are; a body's `point` in `to` may be left out";
         report.push(Diagnostic::note(message).at(owner.span).hint(hint));

@@ -1,10 +1,11 @@
 //! `[[loads]]`: forces and moments at nodes.
 
-use super::data::{Load, Pressure};
+use super::data::{Actors, Load, Pressure};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spread_loads::spread_load;
+use super::stops::NamedActors;
 use super::values::{directions, flag, span, vec3_or_zero};
 use crate::deck::loads as words;
 use crate::deck::words::Table;
@@ -19,10 +20,16 @@ pub(super) struct Loads {
     pub pressures: Vec<Pressure>,
 }
 
-/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes.
-pub(super) fn loads<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut Report<'d>) -> Loads {
+/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Those with names are added to `actors`.
+pub(super) fn loads<'d>(
+    scene: &Scene<'d>,
+    topology: &Topology,
+    actors: &mut NamedActors<'d>,
+    report: &mut Report<'d>,
+) -> Loads {
     let mut loads = Loads::default();
     for load in &scene.deck.loads {
+        let first = [loads.nodal.len(), loads.pressures.len()];
         let amplitude = amplitude(scene, load, report);
         if load.force_per_length.is_some() || load.force_per_area.is_some() || load.pressure.is_some() {
             let (nodal, pressure) = spread_load(scene, load, amplitude, topology, report);
@@ -30,6 +37,10 @@ pub(super) fn loads<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut Rep
             loads.pressures.extend(pressure);
         } else {
             loads.nodal.extend(nodal_load(scene, load, amplitude, topology, report));
+        }
+        if let Some(name) = &load.name {
+            let (nodal, pressures) = (first[0]..loads.nodal.len(), first[1]..loads.pressures.len());
+            actors.push((name, Actors { nodal, pressures, motions: Vec::new() }));
         }
     }
     loads
@@ -75,6 +86,6 @@ fn nodal_load<'d>(
 
 /// The index of the amplitude of a load.
 fn amplitude<'d>(scene: &Scene<'d>, load: &'d words::Load, report: &mut Report<'d>) -> Option<usize> {
-    let name = load.amplitude.as_ref()?;
+    let Some(name) = &load.amplitude else { return scene.stage.map(|stage| stage.own_amplitude(&load.stages)) };
     report.find("amplitude", &scene.deck.amplitudes, name).map(|(index, _)| index)
 }

@@ -20,6 +20,7 @@ mod contact_stiffness;
 mod contact_surface;
 mod contacts;
 mod control;
+mod course;
 mod data;
 mod displacement_targets;
 
@@ -61,6 +62,7 @@ mod sight;
 mod slivers;
 mod spot;
 mod spread_loads;
+mod stops;
 pub mod study;
 mod supports;
 mod surface_map;
@@ -71,7 +73,7 @@ mod unused;
 mod usage;
 mod values;
 
-pub use build::{build, read};
+pub use build::{build, read, read_stages};
 pub use data::*;
 pub use mesh_file::Input;
 pub use records::{Record, load_records};

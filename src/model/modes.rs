@@ -75,7 +75,16 @@ pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report)
     let modes = Some(ModesAsked { kind, extent: extent(analysis, report), damped: flag(&analysis.damped, false) });
     let (end_time, least_step) = (END, LEAST_STEP);
     let step_length = StepLength::Fixed { step: STEP };
-    ModesGiven::Asked(Analysis { kind: AnalysisKind::Static, end_time, step_length, least_step, plane, modes })
+    ModesGiven::Asked(Analysis {
+        kind: AnalysisKind::Static,
+        begin: 0.0,
+        end_time,
+        stage: None,
+        step_length,
+        least_step,
+        plane,
+        modes,
+    })
 }
 
 fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {

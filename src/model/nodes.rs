@@ -30,7 +30,15 @@ pub(super) type Restraints = BTreeMap<(usize, usize), Restraint>;
 impl Nodes {
     /// A new node at rest.
     pub fn add(&mut self, label: String, named: bool, x: Vec3) -> usize {
-        self.list.push(Node { label, named, x, v: Vec3::zeros(), omega: Vec3::zeros(), place: None });
+        self.list.push(Node {
+            label,
+            named,
+            x,
+            v: Vec3::zeros(),
+            omega: Vec3::zeros(),
+            given: [false; 2],
+            place: None,
+        });
         self.connected.push([false; 6]);
         self.list.len() - 1
     }

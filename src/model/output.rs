@@ -49,7 +49,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         _ if table.nodes.is_none() => named_nodes(scene, nodes),
         _ => listed_nodes(scene, table, report),
     };
-    let end_time = scene.analysis.end_time;
+    let end_time = scene.analysis.duration();
     let cadence = cadence(table, end_time, is_arc_length, report);
     let fields = table.fields.as_ref().map(|fields| {
         report.require(&Owner::new("`fields`", &fields.span), "format", &fields.format);

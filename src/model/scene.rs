@@ -3,6 +3,7 @@
 
 use std::collections::HashSet;
 
+use super::course::CurrentStage;
 use super::data::{Analysis, Body};
 use super::names::Names;
 use super::parts::Parts;
@@ -18,6 +19,8 @@ use crate::diagnostic::At;
 pub(super) struct Scene<'d> {
     /// The deck.
     pub deck: &'d Deck,
+    /// The stage that the deck is that of; `None` for a deck without stages.
+    pub stage: Option<CurrentStage<'d>>,
     /// The analysis, on whose times loads and outputs depend.
     pub analysis: Analysis,
     /// The names of points, bodies, sets and groups.

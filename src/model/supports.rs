@@ -1,11 +1,12 @@
 //! `[[supports]]`: directions whose motion is given.
 
-use super::data::{AnalysisKind, DIRECTIONS, History, Joint, PrescribedMotion};
+use super::data::{Actors, AnalysisKind, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::spot::Spot;
+use super::stops::NamedActors;
 use super::values::chosen;
 use crate::amplitude::Amplitude;
 use crate::deck::supports as words;
@@ -13,17 +14,24 @@ use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
 use std::collections::HashMap;
 
-/// Restrains nodes; returns the joints that hold dependent nodes to their supports.
+/// Restrains nodes, and adds the joints that hold dependent nodes to their supports. Returns the motions by the names of their supports.
 pub(super) fn supports<'d>(
     scene: &Scene<'d>,
     amplitudes: &[Amplitude],
-    topology: &mut Topology,
+    (topology, joints): (&mut Topology, &mut Vec<Joint>),
     report: &mut Report<'d>,
-) -> Vec<Joint> {
-    let mut tables =
-        Supports { scene, amplitudes, topology, support_points: HashMap::new(), joints: Vec::new(), report };
-    scene.deck.supports.iter().for_each(|support| tables.support(support));
-    tables.joints
+) -> NamedActors<'d> {
+    let (support_points, moved) = (HashMap::new(), Vec::new());
+    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, report };
+    let mut named = Vec::new();
+    for support in &scene.deck.supports {
+        tables.support(support);
+        let motions = std::mem::take(&mut tables.moved);
+        if let Some(name) = &support.name {
+            named.push((name, Actors { motions, ..Actors::default() }));
+        }
+    }
+    named
 }
 
 /// A direction that a support gives: with its motion, `None` for rest, and where the deck says so.
@@ -35,7 +43,9 @@ struct Supports<'a, 'd> {
     topology: &'a mut Topology,
     /// The node that is restrained in place of each dependent node that is supported.
     support_points: HashMap<usize, usize>,
-    joints: Vec<Joint>,
+    joints: &'a mut Vec<Joint>,
+    /// Nodes and directions that the support at hand moves.
+    moved: Vec<[usize; 2]>,
     report: &'a mut Report<'d>,
 }
 
@@ -43,7 +53,7 @@ impl<'d> Supports<'_, 'd> {
     fn support(&mut self, support: &'d At<Table<words::Support>>) {
         let owner = Owner::new("`[[supports]]`", &support.span);
         let spots = self.scene.spots(&owner, "at", &support.at, Reach::Nodes, self.report);
-        let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(motions));
+        let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(support, motions));
         let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
         let unread = self.report.is_spoiled(owner.span, "fix") || self.report.is_spoiled(owner.span, "motion");
         if fixed == [false; 6] && support.motion.is_none() && !unread {
@@ -88,7 +98,9 @@ impl<'d> Supports<'_, 'd> {
     }
 
     /// The motions of a support.
-    fn motions(&mut self, motions: &'d At<Table<words::Motions>>) -> Vec<Given<'d>> {
+    fn motions(&mut self, support: &'d words::Support, motions: &'d At<Table<words::Motions>>) -> Vec<Given<'d>> {
+        let own = self.scene.stage.filter(|stage| stage.begins_static(&support.stages));
+        let own = own.map(|stage| stage.own_amplitude(&support.stages));
         let given = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
         if given.iter().all(|motion| motion.is_none()) && !self.report.is_any_spoiled(&motions.span) {
             let hint = "such as { ux = { amplitude = \"quake\" } }";
@@ -98,8 +110,14 @@ impl<'d> Supports<'_, 'd> {
         for (dof, motion) in given.into_iter().enumerate() {
             let Some(motion) = motion else { continue };
             let owner = Owner::new(format!("the motion in {}", DIRECTIONS[dof]), &motion.span);
-            let name = self.report.require(&owner, "amplitude", &motion.amplitude);
-            let amplitude = name.and_then(|name| self.report.find("amplitude", &self.scene.deck.amplitudes, name));
+            let amplitude = match (&motion.amplitude, own) {
+                (None, Some(own)) if !self.report.is_spoiled(owner.span, "amplitude") => Some(own),
+                (given, _) => {
+                    let name = self.report.require(&owner, "amplitude", given);
+                    let found = name.and_then(|name| self.report.find("amplitude", &self.scene.deck.amplitudes, name));
+                    found.map(|(index, _)| index)
+                }
+            };
             let history: History = chosen(&motion.history);
             if let Some(at) = &motion.history
                 && self.scene.analysis.kind == AnalysisKind::Static
@@ -108,7 +126,7 @@ impl<'d> Supports<'_, 'd> {
                 self.report.error::<()>(&at.span, "a static analysis takes `history = \"displacement\"` only");
             }
             let scale = motion.scale.as_ref().map_or(1.0, |scale| scale.value);
-            let Some((amplitude, _)) = amplitude else { continue };
+            let Some(amplitude) = amplitude else { continue };
             read.push((dof, Some(PrescribedMotion { amplitude, scale, history }), &motion.span));
         }
         read
@@ -125,6 +143,7 @@ impl<'d> Supports<'_, 'd> {
             }
             Some(_) => false,
             None => {
+                self.moved.extend(motion.as_ref().map(|_| [node, dof]));
                 self.topology.restrain(node, dof, motion);
                 true
             }
@@ -141,6 +160,7 @@ impl<'d> Supports<'_, 'd> {
         for (dof, motion, place) in given {
             if let Some(motion) = motion
                 && self.scene.analysis.kind == AnalysisKind::Dynamic
+                && self.scene.analysis.begin == 0.0
                 && motion.history == History::Displacement
                 && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0
             {

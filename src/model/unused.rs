@@ -1,6 +1,6 @@
 //! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
 
-use super::data::{ArcLength, ExpectAt, Model, StepLength, When};
+use super::data::{ArcLength, ExpectAt, Model, StepLength, Stop, StopQuantity, When};
 use crate::elements::pressure::Face;
 
 /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
@@ -29,6 +29,14 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
         }
         if let When::Target(target) = &mut expect.when {
             of(&mut target.node);
+        }
+    }
+    if let Some(Stop { quantity, .. }) = model.analysis.stage.as_mut().and_then(|stage| stage.stop.as_mut()) {
+        match quantity {
+            StopQuantity::Displacement([node, _]) => of(node),
+            StopQuantity::Work(actors) | StopQuantity::Force(actors) => {
+                actors.motions.iter_mut().for_each(|[node, _]| of(node));
+            }
         }
     }
     if let StepLength::ArcLength(ArcLength { stop: Some(target), .. }) = &mut model.analysis.step_length {

@@ -77,9 +77,13 @@ pub struct Expectations {
 
 struct Watch {
     expect: Expect,
+    /// True where the stage under way has what is expected.
+    is_here: bool,
     /// The answers that the quantity is among and its index there; `None` where there is no quantity of that name.
     quantity: Option<(&'static Answers, usize)>,
     sample: Option<Sample>,
+    /// The same at the beginning of the stage under way.
+    of_stages_before: Option<Sample>,
     history: ComparedHistory,
     /// Both of the run before, ...
     before: (Option<Sample>, ComparedHistory),
@@ -109,17 +113,23 @@ impl Sample {
 impl Expectations {
     /// Expectations of a deck before the first step.
     pub fn new(model: &Model) -> Expectations {
-        let watch = |expect: &Expect| Watch {
-            quantity: find(expect.at, &expect.quantity),
-            expect: expect.clone(),
-            sample: None,
-            history: ComparedHistory::default(),
-            before: Default::default(),
-            unseen: ComparedHistory::default(),
-            step_error: None,
-            mesh_error: None,
-        };
-        Expectations { watches: model.expects.iter().map(watch).collect(), end_time: model.analysis.end_time }
+        Expectations { watches: model.expects.iter().map(Watch::new).collect(), end_time: model.analysis.end_time }
+    }
+
+    /// Goes on with the next stage, whose model this is.
+    pub fn next_stage(&mut self, model: &Model) {
+        self.end_time = model.analysis.end_time;
+        for watch in &mut self.watches {
+            (watch.is_here, watch.of_stages_before) = (false, watch.sample);
+            watch.history.clear();
+        }
+        for expect in &model.expects {
+            match self.watches.iter_mut().find(|watch| watch.expect.index == expect.index) {
+                Some(watch) => (watch.expect, watch.is_here) = (expect.clone(), true),
+                None => self.watches.push(Watch::new(expect)),
+            }
+        }
+        self.watches.sort_by_key(|watch| watch.expect.index);
     }
 
     /// The times at which a run with another mesh has to be seen.
@@ -155,6 +165,9 @@ impl Observer for Expectations {
             if matches!(watch.expect.when, When::Target(_)) && !frame.passed.contains(&index) {
                 continue;
             }
+            if !watch.is_here || watch.expect.when == When::End && !frame.last {
+                continue;
+            }
             let elsewhere = matches!(watch.expect.when, When::Time(t) if (time - t).abs() > 1e-9 * self.end_time);
             if elsewhere && !frame.compared {
                 continue;
@@ -170,6 +183,7 @@ impl Observer for Expectations {
             let better = |old: Sample| match watch.expect.when {
                 When::Time(t) => (time - t).abs() < (old.time - t).abs(),
                 When::Target(_) => false,
+                When::End => true,
                 When::Max => value > old.value,
                 When::Min => value < old.value,
                 When::Abs => value.abs() > old.value.abs(),
@@ -191,6 +205,7 @@ impl Observer for Expectations {
     fn restart(&mut self, _: &Model) -> io::Result<()> {
         for watch in &mut self.watches {
             watch.before = (watch.sample.take(), std::mem::take(&mut watch.history));
+            watch.sample = watch.of_stages_before;
             watch.unseen.clear();
         }
         Ok(())
@@ -228,6 +243,22 @@ impl Observer for Expectations {
 }
 
 impl Watch {
+    /// Nothing taken yet.
+    fn new(expect: &Expect) -> Watch {
+        Watch {
+            quantity: find(expect.at, &expect.quantity),
+            expect: expect.clone(),
+            is_here: true,
+            sample: None,
+            of_stages_before: None,
+            history: ComparedHistory::default(),
+            before: Default::default(),
+            unseen: ComparedHistory::default(),
+            step_error: None,
+            mesh_error: None,
+        }
+    }
+
     /// Keeps the value of an unseen run at this time.
     fn read(&mut self, value: Option<f64>, time: f64, end_time: f64) {
         if let Some(value) = value {
@@ -276,6 +307,7 @@ impl Watch {
                 Some(format!("there is no such mode, or it has no `{quantity}`"))
             }
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
+            (_, None, When::End) => Some("the run never came to the end of the stage".to_string()),
             (_, None, When::Target(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
             (_, Some(sample), _) if bound.is_some() => {

@@ -194,8 +194,10 @@ pub struct Fields {
     count: usize,
     /// The number of cells before those of shells; `None` where there are no shells.
     before: Option<usize>,
-    /// The lines of fields.pvd so far.
+    /// The lines of fields.pvd so far, ...
     listed: String,
+    /// ... and their bytes before the stage under way.
+    before_stage: usize,
     /// The text of a grid; its memory serves again at the next step.
     text: String,
     /// The bytes of an array before they are encoded; their memory serves again as well.
@@ -233,10 +235,21 @@ impl Fields {
                 let others = model.parts.iter().take_while(|part| !part.kind().is_surface());
                 others.map(Part::elements).sum()
             }),
+            before_stage: listed.len(),
             listed,
             text: String::new(),
             bytes,
         })
+    }
+
+    /// Goes on with the next stage, whose model this is.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn next_stage(&mut self, model: &Model) -> io::Result<()> {
+        let listed = std::mem::take(&mut self.listed);
+        *self = Fields { before_stage: listed.len(), listed, ..Fields::open(&self.dir, model, None)? };
+        Ok(())
     }
 
     /// Writes a grid where one is to be drawn.
@@ -252,12 +265,13 @@ impl Fields {
     /// # Errors
     /// One of them cannot be removed.
     pub fn withdraw(&mut self) -> io::Result<()> {
-        let names = self.listed.lines().filter_map(|line| line.split_once("file=\"")?.1.split('"').next());
+        let names =
+            self.listed[self.before_stage..].lines().filter_map(|line| line.split_once("file=\"")?.1.split('"').next());
         for name in names {
             let path = self.dir.join(name);
             fs::remove_file(&path).map_err(|e| at(&path, e))?;
         }
-        self.listed.clear();
+        self.listed.truncate(self.before_stage);
         Ok(())
     }
 

@@ -23,7 +23,19 @@ const PATIENCE: Duration = Duration::from_millis(200);
 struct OpenTable {
     kind: &'static TableKind,
     file: TableFile,
-    write: WriteRows,
+    /// `None` where the stage under way has nothing to put in.
+    write: Option<WriteRows>,
+}
+
+impl OpenTable {
+    fn open(dir: &Path, kind: &'static TableKind, model: &Model, keep_to: Option<usize>) -> io::Result<OpenTable> {
+        let stage = model.analysis.stage.as_ref();
+        let mut file = TableFile::open(dir, kind.file, &kind.header(stage.is_some()), keep_to)?;
+        if let Some(stage) = stage {
+            file.begin_stage(&stage.name)?;
+        }
+        Ok(OpenTable { kind, file, write: Some((kind.rows)(model)) })
+    }
 }
 
 /// Writes what the deck asks for. [`Files::finish`] ends the run however it went.
@@ -38,14 +50,32 @@ impl Files {
     /// Creates the folder and its files; with `keep_to`, goes on with those of a run interrupted after that step.
     pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Files> {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
-        let open = |kind: &'static TableKind| {
-            let file = TableFile::open(dir, kind.file, &kind.header(), keep_to)?;
-            Ok(OpenTable { kind, file, write: (kind.rows)(model) })
-        };
         let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
-        let tables = wanted.map(open).collect::<io::Result<_>>()?;
+        let tables = wanted.map(|kind| OpenTable::open(dir, kind, model, keep_to)).collect::<io::Result<_>>()?;
         let fields = model.output.fields.map(|_| Fields::open(dir, model, keep_to)).transpose()?;
         Ok(Files { dir: dir.to_owned(), tables, fields, flushed: Instant::now() })
+    }
+
+    /// Goes on with the next stage, whose model this is.
+    ///
+    /// # Errors
+    /// A file cannot be made, or is no longer what this run has written.
+    pub fn next_stage(&mut self, model: &Model) -> io::Result<()> {
+        self.finish()?;
+        let stage = model.analysis.stage.as_ref().map_or("", |stage| &stage.name);
+        for table in &mut self.tables {
+            table.file.begin_stage(stage)?;
+            table.write = (table.kind.wanted)(model).then(|| (table.kind.rows)(model));
+        }
+        for &kind in TABLES.iter().filter(|kind| (kind.wanted)(model)) {
+            if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
+                self.tables.push(OpenTable::open(&self.dir, kind, model, None)?);
+            }
+        }
+        if let Some(fields) = &mut self.fields {
+            fields.next_stage(model)?;
+        }
+        Ok(())
     }
 
     /// Hands over the rows still waiting: at the end of a run, and before a checkpoint.
@@ -82,6 +112,7 @@ pub fn names(model: &Model) -> Vec<&'static str> {
 impl Observer for Files {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         for OpenTable { kind, file, write } in &mut self.tables {
+            let Some(write) = write else { continue };
             if frame.due || kind.every_step {
                 write(file, frame)?;
             }
@@ -96,7 +127,7 @@ impl Observer for Files {
 
     fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
         for OpenTable { kind, file, write } in &mut self.tables {
-            if kind.needs.has(Wanted::MODES) {
+            if let Some(write) = write.as_ref().filter(|_| kind.needs.has(Wanted::MODES)) {
                 write(file, frame)?;
             }
         }
@@ -109,6 +140,9 @@ impl Observer for Files {
     fn restart(&mut self, model: &Model) -> io::Result<()> {
         if let Some(fields) = &mut self.fields {
             fields.withdraw()?;
+        }
+        if model.analysis.begin > 0.0 {
+            return self.tables.iter_mut().try_for_each(|table| table.file.withdraw_stage());
         }
         *self = Files::open(&self.dir, model, None)?;
         Ok(())
@@ -143,7 +177,7 @@ pub fn wanted(model: &Model) -> Wanted {
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
         When::Max | When::Min | When::Abs => needs(expect.at).at_every_step(),
-        When::Time(_) | When::Target(_) => needs(expect.at),
+        When::Time(_) | When::Target(_) | When::End => needs(expect.at),
     });
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Another run writes there; without `overwrite`, the folder holds files; a file that no run has written, or that this run reads,
 /// is in the way. Then nothing has been removed.
-pub fn claim(dir: &Path, overwrite: bool, model: &Model, read: &[PathBuf]) -> io::Result<FolderLock> {
+pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -> io::Result<FolderLock> {
     fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
     let lock = FolderLock::take(dir)?;
     let files = entries(dir)?;
@@ -26,10 +26,11 @@ pub fn claim(dir: &Path, overwrite: bool, model: &Model, read: &[PathBuf]) -> io
         return Err(at(dir, io::Error::new(io::ErrorKind::AlreadyExists, "the folder holds files already")));
     }
     let older = ours(dir, &files)?;
-    let mut written = names(model);
+    let mut written: Vec<&str> = models.iter().copied().flat_map(names).collect();
+    let draws = models.iter().any(|model| model.output.fields.is_some());
     written.extend([log::NAME, result_json::NAME]);
     let in_the_way = |name: &&String| {
-        let is_next = written.contains(&name.as_str()) || (model.output.fields.is_some() && fields::is_grid(name));
+        let is_next = written.contains(&name.as_str()) || (draws && fields::is_grid(name));
         is_next && !older.contains(*name)
     };
     if let Some(name) = files.iter().find(in_the_way) {

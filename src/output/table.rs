@@ -7,6 +7,9 @@ use crate::quantities::{Column, STEP, TIME};
 use crate::solve::{Frame, Wanted};
 use std::io;
 
+/// The name of the column behind `step` and `time` that tables of a deck with stages have.
+pub const STAGE: &str = "stage";
+
 /// A function that writes the rows of one frame. It is made once a run, so that it may hold what a scene fixes for good.
 pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
 
@@ -73,8 +76,12 @@ impl TableKind {
         [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
     }
 
-    /// The header row, without a line break.
-    pub fn header(&self) -> String {
-        self.columns().map(|column| column.name).collect::<Vec<_>>().join(",")
+    /// The header row, without a line break; with `stages`, each row says in which it is.
+    pub fn header(&self, stages: bool) -> String {
+        let mut names: Vec<&str> = self.columns().map(|column| column.name).collect();
+        if stages {
+            names.insert(2, STAGE);
+        }
+        names.join(",")
     }
 }

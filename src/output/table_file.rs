@@ -27,6 +27,10 @@ pub struct TableFile {
     digits: ryu::Buffer,
     /// The time of the row that is being written.
     time: f64,
+    /// The stage that rows name; empty in a deck without stages.
+    stage: String,
+    /// The number of bytes before the rows of the stage under way.
+    before_stage: u64,
     empty: Option<EmptyFields>,
 }
 
@@ -59,6 +63,8 @@ impl TableFile {
             rows: Vec::with_capacity(2 * ENOUGH),
             digits: ryu::Buffer::new(),
             time: 0.0,
+            stage: String::new(),
+            before_stage: 0,
             empty: None,
         };
         if keep_to.is_none() {
@@ -66,6 +72,27 @@ impl TableFile {
             table.flush()?;
         }
         Ok(table)
+    }
+
+    /// Lets all rows to come name this stage.
+    ///
+    /// # Errors
+    /// As for [`TableFile::flush`].
+    pub fn begin_stage(&mut self, name: &str) -> io::Result<()> {
+        self.flush()?;
+        (self.stage, self.before_stage) = (name.to_owned(), self.written);
+        Ok(())
+    }
+
+    /// Takes away the rows of the stage under way.
+    ///
+    /// # Errors
+    /// The file cannot be cut.
+    pub fn withdraw_stage(&mut self) -> io::Result<()> {
+        self.rows.clear();
+        self.written = self.before_stage;
+        let cut = self.file.set_len(self.written).and_then(|()| self.file.seek(io::SeekFrom::End(0)));
+        cut.map(|_| ()).map_err(|e| at(&self.path, e))
     }
 
     /// The fields that stayed empty so far, if any did.
@@ -126,7 +153,13 @@ impl WriteRow for TableFile {
     fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow {
         let _ = write!(self.rows, "{step}"); // a Vec takes every byte
         self.time = time;
-        self.number(time)
+        self.number(time);
+        if !self.stage.is_empty() {
+            let stage = std::mem::take(&mut self.stage);
+            self.text(&stage);
+            self.stage = stage;
+        }
+        self
     }
 
     fn count(&mut self, value: usize) -> &mut dyn WriteRow {

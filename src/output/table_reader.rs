@@ -2,6 +2,7 @@
 //! was killed: it is left out, which the reader of the table is told.
 
 use super::disk::at;
+use super::table::STAGE;
 use super::tables;
 use std::borrow::Cow;
 use std::fs::File;
@@ -56,7 +57,9 @@ impl TableReader {
     fn find_keys(&mut self) -> io::Result<Vec<bool>> {
         let file = self.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         if let Some(table) = tables::of_file(file) {
-            let is_key = |column: &String| table.columns().any(|known| known.is_key() && known.answers_to(column));
+            let is_key = |column: &String| {
+                column == STAGE || table.columns().any(|known| known.is_key() && known.answers_to(column))
+            };
             return Ok(self.header.iter().map(is_key).collect());
         }
         let ahead = self.reader.fill_buf().map_err(|e| at(&self.path, e))?;

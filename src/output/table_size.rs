@@ -38,7 +38,7 @@ pub fn settle_cadence(model: &mut Model, plan: &Plan) {
     if model.output.cadence_is_open {
         let once: usize = sizes(model, plan).iter().map(|(_, size)| size).sum();
         let times = (MOST / once.max(1) as f64).max(FEWEST);
-        model.output.cadence = Cadence::at_most(times, model.analysis.end_time, &model.analysis.step_length);
+        model.output.cadence = Cadence::at_most(times, model.analysis.duration(), &model.analysis.step_length);
     }
 }
 
@@ -92,7 +92,7 @@ fn amount(bytes: f64) -> String {
 
 /// The number of times of a cadence; `None` where the deck does not tell.
 fn times(model: &Model, cadence: Cadence) -> Option<f64> {
-    let end = model.analysis.end_time;
+    let end = model.analysis.duration();
     match (cadence, &model.analysis.step_length) {
         (_, StepLength::ArcLength(_)) => None,
         (Cadence::Interval(apart) | Cadence::Apart(apart), _) => Some(end / apart + 1.0),

@@ -7,6 +7,7 @@ use super::outcome::Outcome;
 use super::recorder::{AcceptedStep, Recorder};
 use super::report::StepReport;
 use super::sample::{Sample, Samples};
+use super::stop_watch::StopWatch;
 use super::workspace::Workspace;
 use crate::state::State;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,6 +26,8 @@ pub struct March<'r, 'a> {
     pub observer: &'r mut dyn Observer,
     /// The times inside steps that are still to come.
     pub samples: Samples<'r>,
+    /// What ends the stage before its time.
+    pub stop_watch: Option<&'r mut StopWatch>,
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
 }
@@ -39,6 +42,14 @@ impl March<'_, '_> {
             true => Err(Outcome::Stopped { time: self.state.time }),
             false => Ok(()),
         }
+    }
+
+    /// Takes account of an accepted step; true where it has come to the value at which the stage stops.
+    pub fn passes_stop(&mut self) -> bool {
+        let Some(watch) = self.stop_watch.as_deref_mut() else { return false };
+        let left = watch.left(self.cx, self.state);
+        watch.accept(self.cx, self.state, left <= 0.0);
+        left <= 0.0
     }
 
     /// Shows an accepted step to the observer.

@@ -5,6 +5,7 @@ use super::derived::{Derived, Request, Wanted};
 use super::energy_growth::{EnergyGrowth, checks_energy_growth};
 use super::failure::Failure;
 use super::frame::{Effort, Frame, Observer};
+use super::handover::Handover;
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
 use super::sample::Sample;
@@ -12,7 +13,7 @@ use super::workspace::Workspace;
 use crate::model::{Cadence, Model};
 use crate::modes::Modes;
 use crate::state::State;
-use crate::system::energy::Energy;
+use crate::system::energy::{Balance, Energy};
 use std::time::{Duration, Instant};
 
 /// The account of a run. It is allocated once.
@@ -20,6 +21,8 @@ pub struct Recorder {
     wanted: Wanted,
     /// The effort so far.
     pub counts: Counts,
+    /// The effort of the stages before.
+    before: Counts,
     /// True for a trial run, of which no tables are written.
     pub is_trial: bool,
     /// Largest number of steps; a run that takes more is given up.
@@ -87,6 +90,7 @@ impl Recorder {
         Recorder {
             wanted,
             counts: Counts::default(),
+            before: Counts::default(),
             is_trial: false,
             most_steps: usize::MAX,
             observing: Duration::ZERO,
@@ -100,15 +104,46 @@ impl Recorder {
         }
     }
 
-    /// Sums the energy at the start of the run.
-    pub fn begin(&mut self, cx: &Context, state: &State) {
-        if !cx.is_dynamic() || self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model) {
-            let energy = Energy::of(cx.system, state, None, cx.plan.threads);
-            if !cx.is_dynamic() {
-                self.growth.balance.update(&energy);
+    /// Sums the energy at the start of the run, or of a stage. What comes or goes between stages is not counted as missed.
+    pub fn begin(&mut self, cx: &Context, state: &State, handover: Option<&Handover>) {
+        let sums = !cx.is_dynamic() || self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model);
+        let sum = |initial: Option<f64>| Energy::of(cx.system, state, initial, cx.plan.threads);
+        let mut energy = sums.then(|| sum(None));
+        self.initial_energy = energy.map(|energy| energy.mechanical);
+        if let Some(Handover { counts, missed, .. }) = handover {
+            (self.counts, self.before) = (*counts, *counts);
+            self.growth.balance = Balance::after(*missed + state.work.verlet_energy_offset, state.work.external);
+            if sums {
+                self.initial_energy = Some(missed - sum(Some(0.0)).numerical);
+                energy = Some(sum(self.initial_energy));
             }
-            self.initial_energy = Some(energy.mechanical);
         }
+        if let Some(energy) = energy.filter(|_| !cx.is_dynamic()) {
+            self.growth.balance.update(&energy);
+        }
+    }
+
+    /// Mechanical energy from which the balance is drawn; `None` where no energy is summed.
+    pub fn initial_energy(&self) -> Option<f64> {
+        self.initial_energy
+    }
+
+    /// The effort without that of the stages before.
+    pub fn own(&self) -> Counts {
+        let Counts { steps, iterations, factorizations, solves, cuts } = self.before;
+        Counts {
+            steps: self.counts.steps - steps,
+            iterations: self.counts.iterations - iterations,
+            factorizations: self.counts.factorizations - factorizations,
+            solves: self.counts.solves - solves,
+            cuts: self.counts.cuts - cuts,
+        }
+    }
+
+    /// Adds the work of the solver in this stage to that of the stages before.
+    pub fn count_work(&mut self, ws: &Workspace) {
+        self.counts.factorizations = self.before.factorizations + ws.factorizations;
+        self.counts.solves = self.before.solves + ws.solves;
     }
 
     /// Counts a step, computes the wanted quantities and shows it.
@@ -127,7 +162,7 @@ impl Recorder {
             self.counts.steps += 1;
             self.counts.iterations += step.report.iterations;
         }
-        if self.counts.steps > self.most_steps {
+        if self.counts.steps - self.before.steps > self.most_steps {
             return Err(Outcome::Failed { time: state.time, failure: Failure::ErrorTooLarge { dt: step.dt } });
         }
         let (due, drawn) = self.is_due(cx.model, step, state.time);
@@ -232,7 +267,10 @@ impl Recorder {
         }
         let due = self.tables.is_due(output.cadence, at, step.due);
         let is_first = self.counts.steps == 0;
-        let drawn = output.fields.is_some_and(|cadence| self.fields.is_due(cadence, at, is_first || step.last));
+        // The beginning of a stage looks like the end of the one before.
+        let begins_stage = self.before.steps > 0 && self.counts.steps == self.before.steps;
+        let cadence = output.fields.filter(|_| !begins_stage);
+        let drawn = cadence.is_some_and(|cadence| self.fields.is_due(cadence, at, is_first || step.last));
         (due, drawn)
     }
 

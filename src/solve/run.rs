@@ -5,12 +5,15 @@ use super::control::{Controller, Schedule, comparison_times};
 use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::{Observer, OtherRun};
+use super::handover::{EndedStage, Handover, hand_over};
 use super::march::March;
 use super::modes;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::sample::Samples;
 use super::start::start;
+use super::start_of_stage::start_stage;
+use super::stop_watch::StopWatch;
 use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace, Unseen};
 use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
@@ -38,6 +41,10 @@ pub struct Run<'a> {
     recorder: Recorder,
     wanted: Wanted,
     step_error: Option<StepError>,
+    /// What the stage begins with; `None` for a run from t = 0.
+    handover: Option<Handover>,
+    /// What ends the stage before its time.
+    stop_watch: Option<StopWatch>,
     stop: &'a AtomicBool,
 }
 
@@ -61,7 +68,13 @@ impl<'a> Run<'a> {
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);
-        Ok(Run { context, workspace, controller, recorder, wanted, step_error: None, stop })
+        let stop_watch = StopWatch::new(&context);
+        Ok(Run { context, workspace, controller, recorder, wanted, step_error: None, handover: None, stop_watch, stop })
+    }
+
+    /// Lets the run begin with what the stage before has left, instead of at t = 0.
+    pub fn go_on_from(&mut self, handover: Handover) {
+        self.handover = Some(handover);
     }
 
     /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
@@ -76,20 +89,24 @@ impl<'a> Run<'a> {
 
     /// One run as scheduled.
     fn once(&mut self, observer: &mut dyn Observer, schedule: &Schedule) -> (Outcome, Option<State>) {
-        let Run { context: cx, workspace: ws, controller, recorder, stop, .. } = self;
-        let mut state = match start(cx, ws) {
-            Ok(state) => state,
-            Err(failure) => return (Outcome::Failed { time: 0.0, failure }, None),
+        let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, .. } = self;
+        let began = match handover {
+            Some(handover) => start_stage(cx, ws, handover),
+            None => start(cx, ws),
         };
-        recorder.begin(cx, &state);
-        let mut march =
-            March { cx, ws, state: &mut state, recorder, observer, samples: Samples::new(&schedule.samples), stop };
+        let mut state = match began {
+            Ok(state) => state,
+            Err(failure) => return (Outcome::Failed { time: cx.model.analysis.begin, failure }, None),
+        };
+        recorder.begin(cx, &state, handover.as_ref());
+        let samples = Samples::new(&schedule.samples);
+        let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_trial);
+        let mut march = March { cx, ws, state: &mut state, recorder, observer, samples, stop_watch, stop };
         let mut outcome = modes::lead(controller, &mut march, schedule);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }
-        recorder.counts.factorizations = ws.factorizations;
-        recorder.counts.solves = ws.solves;
+        recorder.count_work(ws);
         (outcome.err().unwrap_or(Outcome::Done), Some(state))
     }
 
@@ -98,7 +115,7 @@ impl<'a> Run<'a> {
         let model = self.context.model;
         let power = model.solution.scheme.order() + 1;
         let inside = self.controller.looks_inside();
-        let times = || comparison_times(model.analysis.end_time);
+        let times = || comparison_times(&model.analysis);
         let mut schedule = Schedule::new(model, times(), inside);
         let mut error = StepError::new(asked);
         let mut before: Option<Kept> = None;
@@ -133,7 +150,7 @@ impl<'a> Run<'a> {
                 self.step_error = Some(error);
                 return (outcome, state);
             };
-            let most_steps = MOST_LONGER * self.recorder.counts.steps;
+            let most_steps = MOST_LONGER * self.recorder.own().steps;
             // Steps that no tolerance limits shrink as well, or the run would be the same again.
             let compared = if inside { observer.times_to_compare() } else { Vec::new() };
             schedule = Schedule::new(model, times().chain(compared), inside).cut(pieces.now);
@@ -192,7 +209,7 @@ impl<'a> Run<'a> {
         observer: &mut dyn Observer,
     ) -> std::io::Result<()> {
         let model = self.context.model;
-        error.add(self.recorder.counts);
+        error.add(self.recorder.own());
         error.before = (error.tolerance, error.longest);
         (error.tolerance, error.longest) = (tolerance, longest);
         self.recorder = Recorder::new(model, self.wanted);
@@ -219,14 +236,14 @@ impl<'a> Run<'a> {
         let warnings = std::mem::take(&mut self.workspace.warnings);
         let seen = (self.workspace.rotation_drift, self.workspace.joint_violation);
         self.follow(error.tolerance * LOOSER, Some(2.0 * longest));
-        self.recorder.most_steps = 2 * recorder.counts.steps + FEW;
+        self.recorder.most_steps = 2 * recorder.own().steps + FEW;
         let compared = if inside { observer.times_to_compare() } else { Vec::new() };
-        let schedule = Schedule::of_trial(model, comparison_times(model.analysis.end_time).chain(compared), inside);
+        let schedule = Schedule::of_trial(model, comparison_times(&model.analysis).chain(compared), inside);
         observer.begin_trial();
         let mut unseen = Unseen(observer);
         let mut trace = Trace::new(&mut unseen, power);
         let (outcome, _) = self.once(&mut trace, &schedule);
-        error.add(self.recorder.counts);
+        error.add(self.recorder.own());
         (self.recorder, self.workspace.warnings) = (recorder, warnings);
         (self.workspace.rotation_drift, self.workspace.joint_violation) = seen;
         match outcome {
@@ -262,6 +279,21 @@ impl<'a> Run<'a> {
     /// The effort of the run, once it has ended.
     pub fn counts(&self) -> Counts {
         self.recorder.counts
+    }
+
+    /// Prepares the model of the next stage for the state at the end of this one, and builds its system.
+    ///
+    /// # Errors
+    /// As for [`System::new`], and where a part does not remember what it did.
+    pub fn hand_over(&self, state: &State, model: &mut Model) -> Result<(System, Handover), String> {
+        let (counts, initial_energy) = (self.counts(), self.recorder.initial_energy());
+        let load_steps = &self.workspace.load_steps;
+        hand_over(&EndedStage { cx: &self.context, state, counts, initial_energy, load_steps }, model)
+    }
+
+    /// Whether the value at which the stage was to stop has been reached; `None` where there is none.
+    pub fn has_stopped(&self) -> Option<bool> {
+        self.stop_watch.as_ref().map(StopWatch::is_reached)
     }
 
     /// Time spent in the observer.

@@ -131,7 +131,7 @@ pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: 
 
 /// Replaces velocities by those that the joints allow, the nearest in kinetic energy; the mass matrix is factorized
 /// already. Returns the largest change relative to the largest velocity.
-fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f64 {
+pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f64 {
     let (mut change, mut largest) = (0.0f64, 0.0f64);
     // Redundant equations leave a fraction of the gaps to the next correction: three leave nothing.
     for _ in 0..3 {
@@ -207,7 +207,7 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
 
 /// Adds M⁻¹ f to the accelerations, with the mass matrix factorized. Degrees of freedom without mass have no equation
 /// for their acceleration, which stays.
-fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massless: &[usize]) {
+pub fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massless: &[usize]) {
     for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
         *r = ws.forces.on_nodes[node][dof];
     }
@@ -253,7 +253,7 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
-fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<Vec<usize>, Failure> {
+pub fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<Vec<usize>, Failure> {
     // A mass this many times larger leaves an acceleration below rounding.
     const FIXED: f64 = 1e20;
     // A direction without mass may lie oblique to the axes: that of a thin rod, or of an arm with a point mass at its

@@ -44,6 +44,13 @@ impl<'a> TimeStepper<'a> {
         }
     }
 
+    /// Forgets the iterates of the step that was taken last, which is taken back.
+    pub fn forget_iterates(&mut self) {
+        if let TimeStepper::Implicit(stepper) = self {
+            stepper.newton.forget_iterates();
+        }
+    }
+
     /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors

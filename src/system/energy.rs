@@ -127,6 +127,8 @@ pub struct Balance {
     pub available: f64,
     /// Energy dissipated by plastic flow.
     pub plastic: f64,
+    /// What stages before have missed, and the work done in them.
+    before: [f64; 2],
     start: Option<f64>,
     external: f64,
     released: f64,
@@ -151,9 +153,15 @@ impl Range {
 }
 
 impl Balance {
+    /// A balance of a stage before which so much has been missed, and so much work done.
+    pub fn after(missed: f64, external: f64) -> Balance {
+        Balance { before: [missed, external], ..Balance::default() }
+    }
+
     /// Takes account of the external work of a step. Energies are summed at some steps only, and by then the work may
     /// have been given back.
     pub fn update_work(&mut self, external: f64) {
+        let external = external - self.before[1];
         self.external = self.external.max(external.abs());
         self.peak = self.peak.max(external.abs());
     }
@@ -192,12 +200,14 @@ impl Balance {
         self.released = self.released.max(-stored);
         self.available = start + self.external + self.released;
         self.plastic = energy.plastic;
-        let dissipated = energy.numerical_dissipation();
+        let dissipated = energy.numerical_dissipation() - self.before[0];
         (self.dissipated, self.lost) = (self.dissipated.max(dissipated), dissipated);
         // A mode beyond the stability limit may conserve the energy of central differences and still grow: then the
         // kinetic energy shows it.
         self.generated = self.generated.max(-dissipated).max(energy.kinetic - self.available);
-        for (range, value) in self.exchanged.iter_mut().zip([energy.kinetic + dissipated, stored, energy.external]) {
+        for (range, value) in
+            self.exchanged.iter_mut().zip([energy.kinetic + dissipated, stored, energy.external - self.before[1]])
+        {
             range.update(value);
         }
         // The sum may vanish by chance while its terms do not.

@@ -16,6 +16,7 @@ use crate::materials::Dissipation;
 use crate::math::{Vec3, Vec6, angular, linear, rotation};
 use crate::model::{self, Model};
 use crate::state::{Configuration, Node};
+use std::ops::Range;
 
 /// Everything that acts on the nodes: elements, masses, constraints, loads and damping. It is constant over a run.
 pub struct System {
@@ -253,18 +254,51 @@ impl System {
             let weight = |mass: &ConsistentMass| mass.pairs().map(|(a, _, m)| m * field.dot(&moved(a))).sum::<f64>();
             work += self.consistent.iter().map(weight).sum::<f64>();
         }
-        for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
+        self.add_load_work((0..self.loads.len(), 0..self.pressures.len()), from, to, &mut work);
+        work
+    }
+
+    /// Adds the work of some of the loads on nodes and of the pressures between two configurations, as [`System::external_work`] has it.
+    pub fn add_load_work(
+        &self,
+        (nodal, pressures): (Range<usize>, Range<usize>),
+        from: (&[Node], &Loading),
+        to: (&[Node], &Loading),
+        work: &mut f64,
+    ) {
+        for i in nodal {
+            let (load, f0, f1) = (&self.loads[i], from.1.factors[i], to.1.factors[i]);
             let (a, b) = (&from.0[load.node], &to.0[load.node]);
-            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
-            work += 0.5 * (f_a + f_b).dot(&b.relative_position(a));
+            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, f0, a), load_on(load, f1, b));
+            *work += 0.5 * (f_a + f_b).dot(&b.relative_position(a));
             if load.moment != Vec3::zeros() {
-                work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.rotation * a.rotation.conjugate())));
+                *work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.rotation * a.rotation.conjugate())));
             }
         }
-        for (load, (p0, p1)) in self.pressures.iter().zip(from.1.pressures.iter().zip(&to.1.pressures)) {
-            work += load.faces.iter().map(|face| face.work([*p0, *p1], from.0, to.0)).sum::<f64>();
+        for i in pressures {
+            let ends = [from.1.pressures[i], to.1.pressures[i]];
+            *work += self.pressures[i].faces.iter().map(|face| face.work(ends, from.0, to.0)).sum::<f64>();
         }
-        work
+    }
+
+    /// The sum of the forces of some of the loads on nodes and of the pressures; `forces` is memory.
+    pub fn load_force(
+        &self,
+        (nodal, pressures): (Range<usize>, Range<usize>),
+        nodes: &[Node],
+        loading: &Loading,
+        forces: &mut Vec<Force>,
+    ) -> Vec3 {
+        let of_load = |i: usize| load_on(&self.loads[i], loading.factors[i], &nodes[self.loads[i].node]).0;
+        let sum: Vec3 = nodal.map(of_load).sum();
+        forces.clear();
+        forces.resize(if pressures.is_empty() { 0 } else { nodes.len() }, [0.0; 6]);
+        for i in pressures {
+            for face in &self.pressures[i].faces {
+                face.add_forces(loading.pressures[i], nodes, forces);
+            }
+        }
+        forces.iter().fold(sum, |sum, f| sum + Vec3::new(f[0], f[1], f[2]))
     }
 
     /// What loads and weight do in a load step between two configurations: their work by the mean of their values at its ends, the sum

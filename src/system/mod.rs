@@ -4,6 +4,7 @@
 pub mod assembly;
 mod block_scatter;
 mod build;
+mod carry;
 pub mod constraint_schur;
 mod contacts;
 pub mod dependents;
@@ -27,6 +28,7 @@ mod tangent_weights;
 mod thread_partition;
 mod turning_body;
 
+pub use carry::carry_history;
 pub use contacts::ContactState;
 pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};

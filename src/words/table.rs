@@ -6,13 +6,26 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
 use std::marker::PhantomData;
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 
 /// A table, and nothing else: serde would also fill a struct from a list, by position.
 #[derive(Debug, Clone)]
 pub struct Table<T>(T);
 
 schema_of_inner! { Table }
+
+impl<T> Table<T> {
+    /// A table that the deck does not write as such.
+    pub fn new(table: T) -> Table<T> {
+        Table(table)
+    }
+}
+
+impl<T> DerefMut for Table<T> {
+    fn deref_mut(&mut self) -> &mut T {
+        &mut self.0
+    }
+}
 
 impl<T> Deref for Table<T> {
     type Target = T;

@@ -58,6 +58,7 @@ fn steps(m: &Model) -> (Steps, State, Counts, Outcome) {
 /// Expectations at given times, so that steps land there.
 fn told(times: &[f64]) -> Vec<Expect> {
     let at = |&time: &f64| Expect {
+        index: 0,
         at: ExpectAt::Energy,
         quantity: "plastic".into(),
         when: When::Time(time),

@@ -42,7 +42,9 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         title: String::new(),
         analysis: Analysis {
             kind,
+            begin: 0.0,
             end_time,
+            stage: None,
             step_length: StepLength::Fixed { step: time_step },
             least_step: time_step * 1e-3,
             plane: false,
@@ -89,7 +91,15 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
 
 pub fn node(m: &mut Model, x: Vec3) -> usize {
     let label = format!("n{}", m.nodes.len());
-    m.nodes.push(Node { label, named: true, x, v: Vec3::zeros(), omega: Vec3::zeros(), place: None });
+    m.nodes.push(Node {
+        label,
+        named: true,
+        x,
+        v: Vec3::zeros(),
+        omega: Vec3::zeros(),
+        given: [false; 2],
+        place: None,
+    });
     m.nodes.len() - 1
 }
 

@@ -25,6 +25,7 @@ pub fn model() -> Model {
             x: Vec3::new(f64::from(i), 0.1 * f64::from(i * i), 0.0),
             v: Vec3::zeros(),
             omega: Vec3::zeros(),
+            given: [false; 2],
             place: None,
         })
         .collect();
@@ -53,7 +54,9 @@ pub fn model() -> Model {
         title: "one of each".into(),
         analysis: Analysis {
             kind: AnalysisKind::Dynamic,
+            begin: 0.0,
             end_time: 1.0,
+            stage: None,
             step_length: StepLength::Fixed { step: 0.1 },
             least_step: 1e-6,
             plane: false,

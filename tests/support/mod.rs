@@ -10,7 +10,7 @@ use rdsolve::model::{self, Model};
 use rdsolve::output::expect::{Expectations, Verdict};
 use rdsolve::output::{Files, wanted};
 use rdsolve::plan::Plan;
-use rdsolve::solve::{Counts, Frame, Observer, Outcome, Run, StepError};
+use rdsolve::solve::{Counts, Frame, Handover, Observer, Outcome, Run, StepError, share_plane};
 use rdsolve::state::Node;
 use rdsolve::system::System;
 use std::collections::HashMap;
@@ -86,6 +86,67 @@ pub fn read(name: &str, sets: &[String]) -> Model {
     let (model, problems) = model::read(&source);
     model
         .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
+}
+
+/// The models of all stages of a deck below `decks/`; the first have ended at the times `reached`.
+pub fn read_stages(source: &Source, reached: &[f64]) -> Vec<Model> {
+    let (mut models, problems) = model::read_stages(source, reached);
+    let said = || problems.iter().map(|p| p.draw(source, false)).collect::<Vec<_>>().join("\n");
+    assert!(!models.is_empty(), "{}", said());
+    share_plane(models.iter_mut()).expect("systems");
+    models
+}
+
+/// Runs a deck below `decks/`, with all its stages.
+pub fn run_deck(name: &str, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
+    run_source(&source(name, &[]), probe)
+}
+
+/// Runs a deck with all its stages, asking `probe` at every output time.
+pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
+    let mut models = read_stages(source, &[]);
+    if models.len() == 1 {
+        return run(&models[0], probe);
+    }
+    let stop = AtomicBool::new(false);
+    let mut watchers = Watchers { probe, rows: Vec::new(), expectations: Expectations::new(&models[0]) };
+    let (mut ends, mut seconds, mut unknowns) = (Vec::new(), 0.0, 0);
+    let mut handed: Option<(System, Handover)> = None;
+    loop {
+        let stage = ends.len();
+        let model = models[stage].clone();
+        let (system, handover) = match handed.take() {
+            Some((system, handover)) => (system, Some(handover)),
+            None => (System::new(&model).expect("a system"), None),
+        };
+        let plan = Plan::new(&model, &system, 1);
+        if stage > 0 {
+            watchers.expectations.next_stage(&model);
+        }
+        let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
+        handover.into_iter().for_each(|handover| run.go_on_from(handover));
+        let began = std::time::Instant::now();
+        let (outcome, state) = run.run(&mut watchers);
+        seconds += (began.elapsed() - run.observing()).as_secs_f64();
+        unknowns = plan.dofs.unknowns().max(unknowns);
+        if stage + 1 == models.len() || !matches!(outcome, Outcome::Done) {
+            return Done {
+                outcome,
+                seconds,
+                counts: run.counts(),
+                step_error: run.step_error(),
+                unknowns,
+                verdicts: watchers.expectations.verdicts(),
+                rows: watchers.rows,
+            };
+        }
+        let state = state.expect("a state at the end");
+        ends.push(state.time);
+        if models[stage + 1].analysis.begin != state.time {
+            models = read_stages(source, &ends);
+        }
+        handed = Some(run.hand_over(&state, &mut models[stage + 1]).expect("a system"));
+    }
 }
 
 /// A run that came to its end or not.

@@ -1,6 +1,7 @@
 //! The analysis and the solution procedure.
 
 use super::modes::ModesAsked;
+use super::stage::RunStage;
 use super::step_length::{FIRST_STEP, StepLength};
 use crate::deck::analysis::{Gyroscopic, Method, Update};
 use crate::integrators::Scheme;
@@ -11,8 +12,12 @@ use std::sync::Arc;
 pub struct Analysis {
     /// Static or dynamic.
     pub kind: AnalysisKind,
-    /// Time at the end; the run begins at 0.
+    /// Time at the beginning: 0, or where the stage before ends.
+    pub begin: f64,
+    /// Time at the end, of the run or of the stage.
     pub end_time: f64,
+    /// The stage; `None` for a deck without stages.
+    pub stage: Option<RunStage>,
     /// The way steps get their lengths.
     pub step_length: StepLength,
     /// Least length of a step after cutbacks.
@@ -39,12 +44,22 @@ impl Analysis {
         self.kind == AnalysisKind::Dynamic || self.modes.is_some()
     }
 
+    /// True where the motion of the stage before goes on in this one as it was.
+    pub fn goes_on(&self) -> bool {
+        self.stage.as_ref().is_some_and(|stage| stage.goes_on)
+    }
+
+    /// How long it lasts.
+    pub fn duration(&self) -> f64 {
+        self.end_time - self.begin
+    }
+
     /// The length of step on which samples and studies are based: that of fixed steps, or about that of the first.
     pub fn nominal_step(&self) -> f64 {
         match &self.step_length {
             StepLength::Fixed { step } => *step,
             StepLength::ErrorControlled { first, .. } => *first,
-            StepLength::StabilityLimited { .. } => FIRST_STEP * self.end_time,
+            StepLength::StabilityLimited { .. } => FIRST_STEP * self.duration(),
             StepLength::ArcLength(arc) => arc.first,
         }
     }

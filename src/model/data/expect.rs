@@ -6,6 +6,8 @@ use crate::deck::parts::PartIndex;
 /// An expected value, checked at the end of the run.
 #[derive(Debug, Clone)]
 pub struct Expect {
+    /// Its index among those of the deck.
+    pub index: usize,
     /// The object.
     pub at: ExpectAt,
     /// Name of the quantity.
@@ -50,6 +52,8 @@ pub enum When {
     Time(f64),
     /// When a displacement passes its target, along a path.
     Target(DisplacementTarget),
+    /// At the end of the stage that the deck names.
+    End,
     /// The greatest value of the run, with its sign.
     Max,
     /// The least value of the run, with its sign.

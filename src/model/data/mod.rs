@@ -17,6 +17,7 @@ mod output;
 mod part;
 mod part_answers;
 mod shell;
+mod stage;
 mod step_length;
 mod study;
 
@@ -41,5 +42,6 @@ pub use output::{Cadence, Output};
 pub use part::{Part, PartType, quantities_of};
 pub use part_answers::{Drawing, LinearSpring, NodeWeights};
 pub use shell::{Shell, ShellElement};
+pub use stage::{Actors, RunStage, Stop, StopQuantity};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, FIRST_STEP, StepLength};
 pub use study::{Choice, Confirm, Quantity, Study};

@@ -21,6 +21,8 @@ pub struct Node {
     pub v: Vec3,
     /// Initial angular velocity, global components.
     pub omega: Vec3,
+    /// True where the deck gives the velocity, and the angular velocity.
+    pub given: [bool; 2],
     /// Place in the deck that names it, or the part that it belongs to: first byte, and the one after the last.
     pub place: Option<[usize; 2]>,
 }

@@ -2,6 +2,7 @@
 //! some of them, evenly.
 
 use super::data::numbers;
+use crate::output::table::STAGE;
 use crate::output::table_reader::{TableReader, fields, number, text};
 use crate::output::tables;
 use crate::quantities::Column;
@@ -44,7 +45,8 @@ impl Places {
     fn of(rows: &TableReader) -> Places {
         let is = |place: &usize, wanted: bool| rows.is_key(*place) == wanted;
         let when = [rows.column("step"), rows.column("time")];
-        let all = 0..rows.header.len();
+        // Curves go on from stage to stage.
+        let all = (0..rows.header.len()).filter(|&place| rows.header[place] != STAGE);
         let keys = all.clone().filter(|place| is(place, true)).collect();
         Places { when, keys, values: all.filter(|place| is(place, false) && Some(*place) != when[1]).collect() }
     }

@@ -6,7 +6,7 @@ use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, ModeKind, Mo
 /// Adds lines about the analysis.
 pub fn explain(text: &mut Explanation, model: &Model) {
     let analysis = &model.analysis;
-    let steps = (analysis.end_time / analysis.nominal_step() - 1e-9).ceil().max(1.0);
+    let steps = (analysis.duration() / analysis.nominal_step() - 1e-9).ceil().max(1.0);
     let end = analysis.end_time;
     match (analysis.kind, &analysis.step_length) {
         (AnalysisKind::Static, _) if analysis.modes.is_some() => {

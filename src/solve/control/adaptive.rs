@@ -74,6 +74,9 @@ impl<C: StepController> CoverInterval for C {
             let pieces = (left / length * (1.0 - 1e-9)).ceil().max(1.0);
             let target = if pieces == 1.0 { interval.to } else { march.state.time + left / pieces };
             let dt = target - march.state.time;
+            if let Some(watch) = march.stop_watch.as_deref_mut() {
+                watch.note(march.ws, march.state);
+            }
             let mut taken = self.step(march.cx, march.ws, march.state, target, length);
             if let Ok(Some(_)) = &taken
                 && let Err(failure) = show_inside(self, march, dt)?
@@ -85,8 +88,12 @@ impl<C: StepController> CoverInterval for C {
                 Ok(Some(report)) => {
                     let at_end = march.state.time >= interval.to;
                     let (due, compared) = (at_end && interval.due, at_end && interval.compared);
-                    let last = at_end && march.is_end(interval.to);
+                    let stops = march.passes_stop();
+                    let (due, last) = (due || stops, stops || at_end && march.is_end(interval.to));
                     march.notify(&AcceptedStep { dt, report: &report, cuts, due, compared, last, passed: &[] })?;
+                    if stops {
+                        return Err(Outcome::Done);
+                    }
                     cuts = 0;
                 }
                 Ok(None) => {}

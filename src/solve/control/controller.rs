@@ -104,7 +104,12 @@ fn through_intervals(
 ) -> Result<(), Outcome> {
     controller.restart(march.cx, march.ws, march.state);
     march.notify_start()?;
-    initial_transient::pass_over(march.cx, march.ws, march.state);
+    if !march.cx.model.analysis.goes_on() {
+        initial_transient::pass_over(march.cx, march.ws, march.state);
+    }
+    if let Some(watch) = march.stop_watch.as_deref_mut() {
+        watch.begin(march.cx, march.ws, march.state);
+    }
     for interval in intervals {
         controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {

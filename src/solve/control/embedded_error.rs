@@ -52,7 +52,7 @@ impl EmbeddedErrorController {
     /// # Errors
     /// [`Failure::ErrorTooLarge`] where this one was too long.
     fn judge(&mut self, cx: &Context, ws: &Workspace, dt: f64) -> Result<Size, Failure> {
-        let end_time = cx.model.analysis.end_time;
+        let end_time = cx.model.analysis.duration();
         let mut motion = self.motion;
         let (mut speed, mut spin) = (0.0f64, 0.0f64);
         for &node in &cx.independent_nodes {

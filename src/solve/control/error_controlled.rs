@@ -108,9 +108,9 @@ impl<'a> ErrorController<'a> {
             constant: mean * error_constant(scheme),
             order: scheme.order() as i32,
             length: first,
-            longest: cx.model.analysis.end_time / FEWEST,
+            longest: cx.model.analysis.duration() / FEWEST,
             first,
-            most: cx.model.analysis.end_time / FEWEST,
+            most: cx.model.analysis.duration() / FEWEST,
             lasting_intensity: None,
             intensity: None,
             motion: Size::default(),
@@ -174,7 +174,7 @@ impl<'a> ErrorController<'a> {
     fn look_ahead(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         state.copy_from(&self.start);
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
-        let mut run = cx.model.analysis.end_time;
+        let mut run = cx.model.analysis.duration();
         for part in TRIALS {
             let dt = part * run;
             let scheme = AlphaFamily::trapezoidal(RotationUpdate::Exponential).coefficients(dt);
@@ -204,7 +204,7 @@ impl<'a> ErrorController<'a> {
         }
         // Unresolved motion leaves the first filter with about its amplitude.
         let [raw, amplitude, mut error] = passed;
-        let allowed = self.tolerance * dt / cx.model.analysis.end_time;
+        let allowed = self.tolerance * dt / cx.model.analysis.duration();
         if amplitude < SLIGHT * self.tolerance && error > allowed && error < RESOLVED * raw {
             again.copy_from_slice(errors);
             filter(cx, ws, state, newton, again);
@@ -301,7 +301,7 @@ impl StepController for ErrorController<'_> {
             self.look_ahead(cx, ws, state);
             return Ok(None);
         }
-        if self.judge(dt, state.time, cx.model.analysis.end_time, &estimate) {
+        if self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {
             return Ok(Some(report));
         }
         self.take_back(state);

@@ -29,7 +29,7 @@ impl ErrorMeasure {
             ahead: Size::default(),
             begun: None,
             extent,
-            end_time: model.analysis.end_time,
+            end_time: model.analysis.duration(),
             bodies: model.bodies.iter().map(|body| body.node).collect(),
         }
     }

@@ -69,8 +69,15 @@ impl<'a> FixedController<'a> {
             march.check_stop()?;
             let target = step.target();
             let dt = target - march.state.time;
+            if let Some(watch) = march.stop_watch.as_deref_mut() {
+                watch.note(march.ws, march.state);
+            }
             match self.stepper.step(march.cx, march.ws, march.state, target) {
                 Ok(report) => {
+                    if let Some((report, dt)) = self.end_at_stop(march, (target - dt, target), report) {
+                        let end = AcceptedStep { due: true, last: true, ..step.accepted(&report, dt) };
+                        return march.notify(&end).and(Err(Outcome::Done));
+                    }
                     step.count();
                     step.notify(march, &report, dt, [due, compared])?;
                     self.check_substeps(march, &step, dt)?;
@@ -89,6 +96,54 @@ impl<'a> FixedController<'a> {
             false => SubdividedSteps::default(),
         };
         Ok(())
+    }
+
+    /// Takes a step that passes the value at which the stage stops once more, to where it comes to it. Returns its report and its length; `None`
+    /// where the stage goes on.
+    fn end_at_stop(
+        &mut self,
+        march: &mut March,
+        (from, to): (f64, f64),
+        report: StepReport,
+    ) -> Option<(StepReport, f64)> {
+        /// Steps that are tried at most: by then the interval is at rounding.
+        const TRIED: usize = 60;
+        let March { cx, ws, state, stop_watch, .. } = march;
+        let watch = stop_watch.as_deref_mut()?;
+        let mut last = (report, watch.left(cx, state));
+        if last.1 > 0.0 && !watch.is_met(last.1) {
+            watch.accept(cx, state, false);
+            return None;
+        }
+        // The Illinois form of the regula falsi.
+        let (mut low, mut high) = ((from, watch.left_before(cx)), (to, last.1));
+        for _ in 0..TRIED {
+            let time = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            if watch.is_met(last.1) || !(time > low.0 && time < high.0) {
+                break;
+            }
+            watch.go_back(ws, state);
+            self.stepper.forget_iterates();
+            match self.stepper.step(cx, ws, state, time) {
+                Ok(report) => last = (report, watch.left(cx, state)),
+                // Then it ends a little beyond.
+                Err(_) => {
+                    if let Ok(report) = self.stepper.step(cx, ws, state, high.0) {
+                        last = (report, high.1);
+                    }
+                    break;
+                }
+            }
+            if last.1 > 0.0 {
+                low = (time, last.1);
+                high.1 *= 0.5;
+            } else {
+                high = (time, last.1);
+                low.1 *= 0.5;
+            }
+        }
+        watch.accept(cx, state, true);
+        Some((last.0, state.time - from))
     }
 
     /// # Errors
@@ -116,7 +171,10 @@ impl CoverInterval for FixedController<'_> {
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         let is_static = !march.cx.is_dynamic();
         for k in 1..=interval.steps {
-            if is_static && std::mem::take(&mut self.sudden) {
+            // What comes or goes with a stage is brought on over all of it.
+            let begin = march.cx.model.analysis.begin;
+            let begins = begin > 0.0 && march.state.time <= begin;
+            if is_static && std::mem::take(&mut self.sudden) && !begins {
                 march.ws.load_steps.sudden = Some(SuddenLoads::over(march.cx, march.state.time, interval.time(k)));
             }
             self.advance(march, interval, k)?;
@@ -166,9 +224,14 @@ impl Substeps {
     ) -> Result<(), Outcome> {
         let ends = self.at == WHOLE_STEP;
         let (due, compared, last) = (ends && due, ends && compared, ends && march.is_end(self.to));
-        march.notify(&AcceptedStep { dt, report, cuts: self.cuts, due, compared, last, passed: &[] })?;
+        march.notify(&AcceptedStep { due, compared, last, ..self.accepted(report, dt) })?;
         self.cuts = 0;
         Ok(())
+    }
+
+    /// The substep that was taken, as the recorder receives it.
+    fn accepted<'s>(&self, report: &'s StepReport, dt: f64) -> AcceptedStep<'s> {
+        AcceptedStep { dt, report, cuts: self.cuts, due: false, compared: false, last: false, passed: &[] }
     }
 
     /// Doubles the substep where two were taken and a longer one fits.

@@ -1,6 +1,6 @@
 //! The output times and events that steps must end at, and the intervals between them.
 
-use crate::model::{Cadence, Model, When};
+use crate::model::{Analysis, Cadence, Model, When};
 use crate::solve::context::Context;
 use crate::solve::march::March;
 use crate::solve::outcome::Outcome;
@@ -100,17 +100,18 @@ impl Schedule {
 /// Number of times at which runs of one scene are compared.
 pub const COMPARISONS: usize = 16;
 
-/// The k-th time of comparison in a run of this length, k = 1..=[`COMPARISONS`]: spread evenly, but equidistant with no vibration, which
+/// The k-th time of comparison in a run between these times, k = 1..=[`COMPARISONS`]: spread evenly, but equidistant with no vibration, which
 /// might pass through its extremes at all of them, where an error of phase does not show.
-pub fn comparison_time(k: usize, end_time: f64) -> f64 {
+pub fn comparison_time(k: usize, [begin, end]: [f64; 2]) -> f64 {
     /// The part of the golden section of which multiples are spread most evenly between whole numbers.
     const GOLDEN: f64 = 0.618_033_988_749_895;
-    end_time * ((k as f64 - 0.6 * (k as f64 * GOLDEN).fract()) / COMPARISONS as f64)
+    begin + (end - begin) * ((k as f64 - 0.6 * (k as f64 * GOLDEN).fract()) / COMPARISONS as f64)
 }
 
 /// All times of comparison.
-pub fn comparison_times(end_time: f64) -> impl Iterator<Item = f64> {
-    (1..=COMPARISONS).map(move |k| comparison_time(k, end_time))
+pub fn comparison_times(analysis: &Analysis) -> impl Iterator<Item = f64> + use<> {
+    let ends = [analysis.begin, analysis.end_time];
+    (1..=COMPARISONS).map(move |k| comparison_time(k, ends))
 }
 
 fn at(to: f64, due: bool, ends: bool) -> Event {
@@ -127,8 +128,10 @@ fn add_output_times(model: &Model, out: &mut Vec<Event>, ends: bool) {
     let end = model.analysis.end_time;
     out.push(at(end, true, true));
     if let Cadence::Interval(interval) = model.output.cadence {
-        let count = (end / interval + 1e-9).floor() as usize;
-        out.extend((1..=count).map(|k| at(multiple(k, interval), true, ends)));
+        let multiples = |time: f64| (time / interval + 1e-9).floor() as usize;
+        out.extend(
+            (multiples(model.analysis.begin) + 1..=multiples(end)).map(|k| at(multiple(k, interval), true, ends)),
+        );
     }
     for expect in &model.expects {
         if let When::Time(t) = expect.when {
@@ -167,9 +170,9 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
 
 /// Puts events in order, each once, parts those inside steps from the ends of intervals, and counts steps between these.
 fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
-    let (end, dt) = (model.analysis.end_time, model.analysis.nominal_step());
+    let (begin, end, dt) = (model.analysis.begin, model.analysis.end_time, model.analysis.nominal_step());
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * end;
-    events.retain(|event| event.ending.to > 1e-9 * end && event.ending.to <= end * (1.0 + 1e-9));
+    events.retain(|event| event.ending.to > begin + 1e-9 * end && event.ending.to <= end * (1.0 + 1e-9));
     events.sort_by(|a, b| a.ending.to.total_cmp(&b.ending.to));
     events.dedup_by(|next, kept| {
         let one = same(next.ending.to, kept.ending.to);
@@ -188,7 +191,7 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
         |&Event { ending: Interval { to: time, due, compared, .. }, .. }: &Event| Sample { time, due, compared };
     let samples = events.iter().filter(|event| !event.ends).map(sample).collect();
     let mut intervals: Vec<Interval> = events.iter().filter(|event| event.ends).map(|event| event.ending).collect();
-    let mut from = 0.0;
+    let mut from = begin;
     for interval in &mut intervals {
         // A rounding error beyond a whole number of steps needs no extra step.
         let steps = (interval.to - from) / dt - 1e-9 * (interval.to / dt).max(1.0);

@@ -171,7 +171,7 @@ impl CriticalStep {
                 self.measure_here(cx, ws, accelerations, state, first)?;
             }
         }
-        let most = cx.model.analysis.end_time / FEWEST;
+        let most = cx.model.analysis.duration() / FEWEST;
         let turning = self.turning_step(cx.model, state);
         Ok((fraction * self.longest.unwrap_or(left)).min(most).min(turning))
     }

@@ -96,7 +96,7 @@ impl Progress {
     /// Moves the end of the step. A correction δt of the time leaves an error of the loads of order δt², whatever the
     /// motion.
     fn move_time(&mut self, cx: &Context, to: f64) {
-        self.time_error = ((to - self.report.to) / cx.model.analysis.end_time).powi(2);
+        self.time_error = ((to - self.report.to) / cx.model.analysis.duration()).powi(2);
         self.report.to = to;
     }
 }

@@ -89,8 +89,8 @@ impl Kept {
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
             self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
         }
-        let end = model.analysis.end_time;
-        if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, end) - 1e-9 * end {
+        let ends = [model.analysis.begin, model.analysis.end_time];
+        if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, ends) - 1e-9 * ends[1] {
             return;
         }
         let compared = state.nodes.iter().zip(&model.nodes).step_by(stride);

@@ -96,6 +96,19 @@ pub fn turns_too_far(links: &[LinkElement], start: &[Node], end: &[Node], dt: f6
     links.iter().position(turns)
 }
 
+/// True for a group that elements of several parts share.
+pub fn is_shared(group: &Group) -> bool {
+    group.kind == PartKind::Link
+}
+
+/// The names of the links that count turns, each with the place of its history variable. `links` and `groups` are those of the whole system.
+pub fn turning_links(model: &Model, links: &[LinkElement], groups: &[Group]) -> Vec<(String, usize)> {
+    let slots = groups.iter().filter(|group| is_shared(group)).flat_map(|group| group.history.clone());
+    let counts = |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.spring.counts_turns());
+    let turning = model.each::<Link>().zip(links).filter(|(_, link)| counts(link));
+    turning.map(|(link, _)| link.name.clone()).zip(slots).collect()
+}
+
 /// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
 pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration, out: &mut Vec<LinkState>) {
     out.clear();

@@ -1,0 +1,146 @@
+//! One stage after the other: each begins with the state that the one before has reached.
+
+use std::io;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use super::load::{Loaded, model_stage};
+use super::verdict::{energy_line, energy_warning, short_of_stop, work_warning};
+use super::watchers::{Watchers, stage_begins};
+use crate::model::{self, Model};
+use crate::names::instant;
+use crate::output::{settle_cadence, wanted};
+use crate::plan::Plan;
+use crate::solve::{Counts, Handover, Outcome, Run, StepError};
+use crate::state::State;
+use crate::system::System;
+
+/// What the stages of a run, or its only one, have left to be told at the end.
+#[derive(Default)]
+pub struct StagesTold {
+    /// Doubts about the results.
+    pub warnings: Vec<String>,
+    /// What was not judged.
+    pub remarks: Vec<String>,
+    /// What time integration took from the energy, in a line for each stage.
+    pub energy: Vec<String>,
+    /// The effort of all.
+    pub counts: Counts,
+    /// Time spent on output.
+    pub observing: Duration,
+    /// Largest departure from orthogonality of a truncated rotation update.
+    pub rotation_drift: f64,
+    /// Largest gap of a joint; `None` without joints.
+    pub joint_violation: Option<f64>,
+    /// The error of automatic steps, in the last stage that has them.
+    pub step_error: Option<StepError>,
+    /// Says of a path that it ended before its `stop`.
+    pub short: Option<String>,
+}
+
+impl StagesTold {
+    /// Takes account of a stage that has ended.
+    fn take(&mut self, run: &Run, model: &Model, end_time: Option<f64>) {
+        let stage = match model_stage(model) {
+            "" => String::new(),
+            name => format!("stage `{name}`: "),
+        };
+        let doubts = run.warnings().iter().map(ToString::to_string);
+        let of_run = doubts.chain(energy_warning(run.balance(), model)).chain(work_warning(run));
+        self.warnings.extend(of_run.chain(stop_missed(run, model)).map(|text| format!("{stage}{text}")));
+        self.remarks.extend(run.remarks().iter().map(|remark| format!("{stage}{remark}")));
+        self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
+        self.counts = run.counts();
+        self.observing += run.observing();
+        self.rotation_drift = self.rotation_drift.max(run.rotation_drift());
+        self.joint_violation = self.joint_violation.into_iter().chain(run.joint_violation()).reduce(f64::max);
+        self.step_error = run.step_error().or(self.step_error);
+        self.short = end_time.and_then(|time| short_of_stop(model, run, time));
+    }
+}
+
+/// Says of a stage that its time was over before it came to its `stop`.
+fn stop_missed(run: &Run, model: &Model) -> Option<String> {
+    let stop = model.analysis.stage.as_ref()?.stop.as_ref()?;
+    let missed = run.has_stopped() == Some(false);
+    missed.then(|| format!("{} did not come to {} before the stage was over", stop.label, stop.value))
+}
+
+/// The next stage, ready to be planned.
+struct NextStage {
+    model: Model,
+    system: System,
+    handover: Handover,
+}
+
+/// What runs the stages of a deck.
+pub struct StageRunner<'a> {
+    /// The deck.
+    pub loaded: &'a Loaded,
+    /// Number of threads.
+    pub threads: usize,
+    /// The flag that ends a run.
+    pub stop: &'a AtomicBool,
+}
+
+impl StageRunner<'_> {
+    /// Runs the first stage, or the only one, and then the others as long as each comes to its end.
+    ///
+    /// # Errors
+    /// Results cannot be written, or there is no memory for the solver of a stage.
+    pub fn run(&self, first: &mut Run, watchers: &mut Watchers, told: &mut StagesTold) -> io::Result<Outcome> {
+        let Loaded { model, .. } = self.loaded;
+        let mut ends = Vec::new();
+        if model.analysis.stage.is_some() {
+            watchers.log.say(&stage_begins(model))?;
+        }
+        let (mut outcome, state) = first.run(watchers);
+        told.take(first, model, state.as_ref().map(|state| state.time));
+        let mut next = self.next_stage(first, &outcome, state, &mut ends)?;
+        while let Some(NextStage { mut model, system, handover }) = next.take() {
+            let plan = Plan::new(&model, &system, self.threads);
+            settle_cadence(&mut model, &plan);
+            watchers.next_stage(&model)?;
+            let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
+            let mut run = made.map_err(|error| io::Error::other(error.to_string()))?;
+            run.go_on_from(handover);
+            let ended = run.run(watchers);
+            outcome = ended.0;
+            told.take(&run, &model, ended.1.as_ref().map(|state| state.time));
+            next = self.next_stage(&run, &outcome, ended.1, &mut ends)?;
+        }
+        Ok(outcome)
+    }
+
+    /// Hands the state over to the next stage; `None` where there is none, or the run ends here. `ends` are the times at which stages have
+    /// ended.
+    fn next_stage(
+        &self,
+        run: &Run,
+        outcome: &Outcome,
+        state: Option<State>,
+        ends: &mut Vec<f64>,
+    ) -> io::Result<Option<NextStage>> {
+        let (Outcome::Done, Some(state)) = (outcome, state) else { return Ok(None) };
+        let Some(planned) = self.loaded.later.get(ends.len()) else { return Ok(None) };
+        ends.push(state.time);
+        let mut model = match planned.analysis.begin == state.time {
+            true => planned.clone(),
+            // The stage has stopped before its time: all others come earlier.
+            false => self.planned_anew(ends)?,
+        };
+        model.analysis.plane &= self.loaded.model.analysis.plane;
+        let (system, handover) = run.hand_over(&state, &mut model).map_err(io::Error::other)?;
+        Ok(Some(NextStage { model, system, handover }))
+    }
+
+    /// The model of the next stage after those that have ended at these times.
+    fn planned_anew(&self, ends: &[f64]) -> io::Result<Model> {
+        let (models, said) = model::read_stages(&self.loaded.source, ends);
+        models.into_iter().nth(ends.len()).ok_or_else(|| {
+            let why = said.iter().find(|problem| problem.is_error()).map_or("", |problem| problem.message.as_str());
+            let at = ends.last().copied().map(instant).unwrap_or_default();
+            io::Error::other(format!("no stage can begin at t = {at}: {why}"))
+        })
+    }
+}

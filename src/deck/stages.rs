@@ -1,0 +1,92 @@
+//! `[[stages]]`: what is computed one after the other, each stage from the state that the one before has reached.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::analysis::{Integrator, Iteration};
+use super::words::kinds::OneOf;
+use super::words::{Maybe, NumberOrAuto, Table};
+
+/// A stage of a run. Its state is that which the stage before has reached: positions, rotations, plastic strains, contacts and
+/// friction, multipliers of joints; into a dynamic stage velocities too. Time runs on.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Name, for `stages` of other tables, for results and messages.
+    #[schemars(required)]
+    pub name: Maybe<String>,
+    /// What is computed.
+    #[schemars(required)]
+    pub kind: Maybe<StageKind>,
+    /// How long the stage lasts, above 0, unless it stops before.
+    #[schemars(required)]
+    pub duration: Maybe<f64>,
+    /// Length of its time steps, or load steps, above 0; in a dynamic stage also "auto".
+    #[schemars(required)]
+    pub time_step: Maybe<NumberOrAuto>,
+    /// With time_step = "auto": as in `[analysis]`, over the stage. Default: that of `[analysis]`, or 1e-3.
+    pub error_tolerance: Maybe<f64>,
+    /// Shortest step, above 0. Default: that of `[analysis]`, or time_step / 2^20; with an automatic step duration / 10^9.
+    pub least_step: Maybe<f64>,
+    /// The stage ends where this is reached, unless `duration` is over before.
+    pub stop: Maybe<Table<Stop>>,
+    /// The time integration scheme of this stage. Default: that of `[integrator]`.
+    pub integrator: Maybe<OneOf<Integrator>>,
+    /// The iteration of this stage. Default: that of `[iteration]`.
+    pub iteration: Maybe<Table<Iteration>>,
+}
+
+/// The kind of a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StageKind {
+    /// Load stepping without inertia. A load without an amplitude grows over the static stage in which it first acts, and stays.
+    Static,
+    /// Motion in time. A load without an amplitude that first acts here acts at once.
+    Dynamic,
+    /// Vibrations about the state that has been reached.
+    #[schemars(skip)]
+    Modal,
+    /// Loads at which the state that has been reached loses its stability.
+    #[schemars(skip)]
+    Buckling,
+}
+
+/// Where a stage ends before its time: `{ at = "crown", quantity = "uz", value = -0.1 }`, `{ load = "ram", work = 4375.0 }`,
+/// `{ load = "ram", force = 2e5 }` or `{ time = 2.5 }`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stop {
+    /// Name of a point or body.
+    pub at: Maybe<String>,
+    /// Its displacement or rotation, counted from t = 0.
+    pub quantity: Maybe<StopQuantity>,
+    /// The value that it passes, from either side.
+    pub value: Maybe<f64>,
+    /// Name of a load, or of a support with a motion.
+    pub load: Maybe<String>,
+    /// Work that it has done since the stage began.
+    pub work: Maybe<f64>,
+    /// Magnitude of the force that it exerts, above 0: the sum over its points.
+    pub force: Maybe<f64>,
+    /// Time of the run.
+    pub time: Maybe<f64>,
+}
+
+/// A displacement by its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StopQuantity {
+    /// Displacement along global x.
+    Ux,
+    /// Displacement along global y.
+    Uy,
+    /// Displacement along global z.
+    Uz,
+    /// Component of the rotation vector along global x.
+    Rx,
+    /// Component of the rotation vector along global y.
+    Ry,
+    /// Component of the rotation vector along global z.
+    Rz,
+}

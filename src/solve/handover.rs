@@ -1,0 +1,279 @@
+//! From one stage to the next: the state that the one has reached, in the scene of the other.
+//!
+//! Positions, rotations, history and multipliers are carried over by the names of nodes, parts and joints. What holds or joins the scene anew
+//! takes it as it is. What is out of balance at the beginning of a static stage, because supports, joints, links, contacts or loads have come
+//! or gone or because inertia no longer acts, is taken up by forces that go back to zero over the stage, so that nothing jumps.
+
+use super::context::Context;
+use super::load_steps::LoadSteps;
+use super::outcome::Counts;
+use crate::amplitude::{Amplitude, StraightLines};
+use crate::constraints::rigid_link::RigidLink;
+use crate::math::{Vec3, Vec6};
+use crate::model::{AnalysisKind, Load, Model};
+use crate::state::{Increment, Node, State};
+use crate::system::energy::Energy;
+use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// Forces below this part of the largest are those that an equilibrium leaves.
+const LEFT: f64 = 1e-6;
+/// Points that are nearer than this part of the size of their coordinates are at one place.
+const MEETING: f64 = 1e-9;
+
+/// What a stage begins with.
+#[derive(Clone)]
+pub struct Handover {
+    /// The state, in the order of the new scene.
+    pub(super) state: State,
+    /// The ranges of history variables of parts that were not there before.
+    pub(super) fresh: Vec<Range<usize>>,
+    /// The effort of all stages before.
+    pub(super) counts: Counts,
+    /// What the balance of energy has missed so far.
+    pub(super) missed: f64,
+    /// What load steps leave to those after them; `None` unless both stages are static.
+    pub(super) load_steps: Option<LoadSteps>,
+}
+
+/// A stage that has ended.
+pub(super) struct EndedStage<'e, 'a> {
+    /// The constants of its run.
+    pub cx: &'e Context<'a>,
+    /// The state at its end.
+    pub state: &'e State,
+    /// The effort of it and all before.
+    pub counts: Counts,
+    /// Mechanical energy from which its balance is drawn.
+    pub initial_energy: Option<f64>,
+    /// What its load steps have left.
+    pub load_steps: &'e LoadSteps,
+}
+
+/// Prepares the model of the next stage for the state at the end of the one before, and builds its system.
+///
+/// # Errors
+/// As for [`System::new`], and where a part does not remember what it did.
+pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(System, Handover), String> {
+    let &EndedStage { cx, state, .. } = before;
+    let from = NodeMap::new(cx.model, model);
+    carry_velocities(&from, state, model);
+    // Out-of-plane motion that has begun goes on, whether or not anything excites it now.
+    model.analysis.plane &= cx.system.plane.is_some();
+    let mut system = System::new(model)?;
+    if system.plane != cx.system.plane && model.analysis.plane {
+        model.analysis.plane = false;
+        system = System::new(model)?;
+    }
+    let nodes = from.place(state, model, &system.rigid_links);
+    if rejoin(cx.model, &nodes, model) {
+        system = System::new(model)?;
+    }
+    let (mut next, fresh) = from.state((cx, state), nodes, (model, &system))?;
+    let is_static = model.analysis.kind == AnalysisKind::Static;
+    if is_static {
+        rest(&mut next);
+        if hold_back(model, &system, &next) {
+            system = System::new(model)?;
+        }
+    }
+    let handover = Handover {
+        state: next,
+        fresh,
+        counts: before.counts,
+        missed: before.initial_energy.map_or(0.0, |initial| {
+            let energy = Energy::of(cx.system, state, Some(initial), cx.plan.threads);
+            energy.numerical
+        }),
+        load_steps: (is_static && !cx.is_dynamic()).then(|| before.load_steps.clone()),
+    };
+    Ok((system, handover))
+}
+
+/// Lets no stage be plane unless all are: what has yielded in a plane motion remembers nothing of what lies out of it.
+///
+/// # Errors
+/// As for [`System::new`].
+pub fn share_plane<'m>(stages: impl Iterator<Item = &'m mut Model>) -> Result<(), String> {
+    let mut stages: Vec<&mut Model> = stages.collect();
+    let planes = stages.iter().map(|model| System::new(model).map(|system| system.plane));
+    let planes: Vec<Option<usize>> = planes.collect::<Result<_, _>>()?;
+    if planes.windows(2).any(|pair| pair[0] != pair[1]) {
+        stages.iter_mut().for_each(|model| model.analysis.plane = false);
+    }
+    Ok(())
+}
+
+/// Where the nodes of a scene were in the one before.
+struct NodeMap {
+    /// The node of the scene before, for each of the new one.
+    old: Vec<Option<usize>>,
+    /// The node whose place a support has, for each support point that is new.
+    on: Vec<Option<usize>>,
+}
+
+impl NodeMap {
+    /// Nodes are known by their labels. The point of a support has that of the node that it holds, and comes after it.
+    fn new(before: &Model, now: &Model) -> NodeMap {
+        let mut known: HashMap<&str, Vec<usize>> = HashMap::new();
+        before.nodes.iter().enumerate().for_each(|(i, node)| known.entry(&node.label).or_default().push(i));
+        let mut seen: HashMap<&str, Vec<usize>> = HashMap::new();
+        let (mut old, mut on) = (Vec::new(), Vec::new());
+        for (i, node) in now.nodes.iter().enumerate() {
+            let same = seen.entry(&node.label).or_default();
+            let found = known.get(node.label.as_str()).and_then(|nodes| nodes.get(same.len())).copied();
+            on.push(same.first().copied().filter(|_| found.is_none()));
+            old.push(found);
+            same.push(i);
+        }
+        NodeMap { old, on }
+    }
+
+    /// The nodes where they are: those that are new with what carries them, or where the deck has them.
+    fn place(&self, state: &State, model: &Model, links: &[RigidLink]) -> Vec<Node> {
+        let at = |(i, old): (usize, &Option<usize>)| match old {
+            Some(old) => state.nodes[*old],
+            None => Node::at_rest(model.nodes[i].x),
+        };
+        let mut nodes: Vec<Node> = self.old.iter().enumerate().map(at).collect();
+        let mut increments = vec![Increment::ZERO; nodes.len()];
+        for link in links.iter().filter(|link| link.rigid && self.old[link.node].is_none()) {
+            let start = nodes[link.node];
+            link.move_with_master(&mut nodes, &mut increments, &start);
+        }
+        for (i, on) in self.on.iter().enumerate() {
+            if let Some(on) = *on {
+                (nodes[i].x, nodes[i].low) = (nodes[on].x, nodes[on].low);
+            }
+        }
+        nodes
+    }
+
+    /// The state in the new scene, and the history variables that are new.
+    fn state(
+        &self,
+        (cx, state): (&Context, &State),
+        nodes: Vec<Node>,
+        (model, system): (&Model, &System),
+    ) -> Result<(State, Vec<Range<usize>>), String> {
+        let mapped = |of: &[Vec6]| -> Vec<Vec6> {
+            let value = |old: &Option<usize>| old.and_then(|old| of.get(old)).copied().unwrap_or_else(Vec6::zeros);
+            self.old.iter().map(value).collect()
+        };
+        let restraints = cx.model.constraints.restraints.iter().zip(&state.reactions);
+        let reactions: HashMap<(usize, usize), f64> = restraints.map(|(of, r)| ((of.node, of.dof), *r)).collect();
+        let reaction = |of: &crate::model::Restraint| {
+            self.old[of.node].and_then(|old| reactions.get(&(old, of.dof))).copied().unwrap_or(0.0)
+        };
+        let mut history = vec![0.0; system.history];
+        let fresh = carry_history((cx.model, cx.system), &state.history, (model, system), &mut history)?;
+        let next = State {
+            time: state.time,
+            nodes,
+            history,
+            jerk: mapped(&state.jerk),
+            reactions: model.constraints.restraints.iter().map(reaction).collect(),
+            multipliers: multipliers((cx.model, cx.system, &state.multipliers), (model, system)),
+            algorithmic_accelerations: match state.algorithmic_accelerations.is_empty() {
+                true => Vec::new(),
+                false => mapped(&state.algorithmic_accelerations),
+            },
+            work: state.work,
+        };
+        Ok((next, fresh))
+    }
+}
+
+/// The multipliers of joints that both scenes have; zero for others.
+fn multipliers((old_model, old, values): (&Model, &System, &[f64]), (model, system): (&Model, &System)) -> Vec<f64> {
+    let mut first = 0;
+    let mut known: HashMap<&str, &[f64]> = HashMap::new();
+    for (named, joint) in old_model.constraints.joints.iter().zip(&old.joints) {
+        known.insert(&named.name, &values[first..first + joint.equations.len()]);
+        first += joint.equations.len();
+    }
+    let mut all = Vec::with_capacity(system.multipliers());
+    for (named, joint) in model.constraints.joints.iter().zip(&system.joints) {
+        let rows = joint.equations.len();
+        match known.get(named.name.as_str()).filter(|values| values.len() == rows) {
+            Some(values) => all.extend_from_slice(values),
+            None => all.resize(all.len() + rows, 0.0),
+        }
+    }
+    all
+}
+
+/// Writes the velocities of the state into the model, unless the deck gives others: by them the plan finds what moves.
+fn carry_velocities(from: &NodeMap, state: &State, model: &mut Model) {
+    if model.analysis.kind != AnalysisKind::Dynamic {
+        return;
+    }
+    for (node, old) in model.nodes.iter_mut().zip(&from.old) {
+        let Some(old) = old.map(|old| &state.nodes[old]) else { continue };
+        if !node.given[0] {
+            node.v = old.v;
+        }
+        if !node.given[1] {
+            node.omega = old.omega;
+        }
+    }
+}
+
+/// Lets joints that were there before hold what they held, and those that are new the nodes as they are; true where any differs from
+/// that of the deck.
+fn rejoin(before: &Model, nodes: &[Node], model: &mut Model) -> bool {
+    let mut changed = false;
+    for joint in &mut model.constraints.joints {
+        let [a, b] = joint.ends.map(|end| &nodes[end]);
+        let meets = a.relative_position(b).amax() <= MEETING * (a.x.amax() + b.x.amax());
+        let held = match before.constraints.joints.iter().find(|known| known.name == joint.name) {
+            Some(known) => known.equations.clone(),
+            None => joint.equations.iter().map(|row| row.held_here([a, b], joint.supports, meets)).collect(),
+        };
+        changed |= held != joint.equations;
+        joint.equations = held;
+    }
+    changed
+}
+
+/// Takes away all motion.
+fn rest(state: &mut State) {
+    let zero = Vec3::zeros();
+    for node in &mut state.nodes {
+        (node.v, node.omega, node.a, node.alpha) = (zero, zero, zero, zero);
+    }
+    state.jerk.fill(Vec6::zeros());
+    state.algorithmic_accelerations.clear();
+    (state.work.damping_power, state.work.accelerations, state.work.step) = (0.0, 0.0, 0.0);
+}
+
+/// Adds the loads that hold back what is out of balance and go to zero over the stage; true where there are any.
+fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
+    let mut forces = Forces::new(system, state.nodes.len());
+    let mut loading = Loading::default();
+    forces.multipliers.values.copy_from_slice(&state.multipliers);
+    Excitation::new(model).loading(state.time, Side::After, &mut loading);
+    let scale = system.residual(&state.configuration(), &loading, &mut forces);
+    for restraint in &model.constraints.restraints {
+        forces.on_nodes[restraint.node][restraint.dof] = 0.0;
+    }
+    let amplitude = model.loading.amplitudes.len();
+    let before = model.loading.nodal.len();
+    let held = forces.on_nodes.iter().enumerate().filter(|(_, of)| is_felt(of, scale));
+    model.loading.nodal.extend(held.map(|(node, of)| Load {
+        node,
+        force: -Vec3::new(of[0], of[1], of[2]),
+        moment: -Vec3::new(of[3], of[4], of[5]),
+        follower: false,
+        amplitude: Some(amplitude),
+    }));
+    let ends = [[state.time, 1.0], [model.analysis.end_time, 0.0]];
+    model.loading.amplitudes.push(Amplitude::Table(StraightLines::new(ends.to_vec())));
+    model.loading.nodal.len() > before
+}
+
+fn is_felt(of: &[f64; 6], scale: Scale) -> bool {
+    let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment
+}

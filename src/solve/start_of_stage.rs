@@ -1,0 +1,89 @@
+//! The state at the beginning of a stage: what the stage before has left, and accelerations and reactions of what acts now.
+
+use super::context::Context;
+use super::failure::Failure;
+use super::handover::Handover;
+use super::joints;
+use super::start::{add_accelerations, factor_mass, project_velocities, update_rates_of_dependent_nodes};
+use super::workspace::Workspace;
+use crate::math::stack;
+use crate::state::State;
+use crate::system::Side;
+
+/// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed.
+///
+/// # Errors
+/// As for [`super::start::start`].
+pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Result<State, Failure> {
+    let mut state = handover.state.clone();
+    cx.excitation.loading(state.time, Side::After, &mut ws.loads.instant);
+    cx.excitation.prescribed(state.time, &mut ws.prescribed.start);
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    if let Some(load_steps) = &handover.load_steps {
+        ws.load_steps = load_steps.clone();
+    }
+    state.algorithmic_accelerations.truncate(if cx.algorithmic_acceleration.is_some() { usize::MAX } else { 0 });
+    if cx.algorithmic_acceleration.is_some() && state.algorithmic_accelerations.is_empty() {
+        state.algorithmic_accelerations = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
+    }
+    if !cx.model.analysis.goes_on() {
+        balance(cx, ws, handover, &mut state)?;
+    }
+    ws.trial.clone_from(&state.nodes);
+    Ok(state)
+}
+
+/// Lets supports hold and move, then finds accelerations and reactions.
+fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut State) -> Result<(), Failure> {
+    give_rates(cx, ws, state);
+    update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
+    take_up_history(cx, ws, handover, state);
+    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+    if cx.is_dynamic() {
+        let massless = factor_mass(cx, ws, &state.configuration())?;
+        if !cx.system.joints.is_empty() {
+            ws.trial.clone_from(&state.nodes);
+            joints::check(cx, ws)?;
+            project_velocities(cx, ws, &mut state.nodes);
+            ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+            cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+        }
+        add_accelerations(cx, ws, state, &massless);
+        ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+        cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+        state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
+    }
+    for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
+        *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
+    }
+    Ok(())
+}
+
+/// Gives the velocities of the deck, those of supports, and none to what is held; accelerations follow.
+fn give_rates(cx: &Context, ws: &Workspace, state: &mut State) {
+    for (node, spec) in state.nodes.iter_mut().zip(&cx.model.nodes) {
+        (node.a, node.alpha) = Default::default();
+        if cx.is_dynamic() && spec.given[0] {
+            node.v = spec.v;
+        }
+        if cx.is_dynamic() && spec.given[1] {
+            node.omega = spec.omega;
+        }
+    }
+    for (restraint, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.start) {
+        let node = &mut state.nodes[restraint.node];
+        let (v, a) = if restraint.dof < 3 { (&mut node.v, &mut node.a) } else { (&mut node.omega, &mut node.alpha) };
+        (v[restraint.dof % 3], a[restraint.dof % 3]) = (given.v, given.a);
+    }
+}
+
+/// Lets what is new, such as points that are in contact, remember the beginning of the stage; all else remembers what it does.
+fn take_up_history(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut State) {
+    if handover.fresh.is_empty() {
+        return;
+    }
+    cx.system.update_history(&state.configuration(), 1.0, &mut ws.history, cx.plan.threads);
+    for range in &handover.fresh {
+        state.history[range.clone()].copy_from_slice(&ws.history[range.clone()]);
+    }
+}

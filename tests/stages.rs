@@ -1,0 +1,390 @@
+//! Decks of several stages: what is carried over, what comes and goes between them, what ends them.
+
+use crate::support;
+use rdsolve::diagnostic::Source;
+use rdsolve::solve::{Frame, Outcome};
+
+/// A cantilever of two metres along x, clamped at its foot.
+const CANTILEVER: &str = r#"
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+
+[sections.square]
+shape = "rectangle"
+width = 0.05
+height = 0.05
+
+[points]
+foot = [0.0, 0.0, 0.0]
+tip = [2.0, 0.0, 0.0]
+
+[[beams]]
+name = "arm"
+path = ["foot", "tip"]
+elements = 4
+material = "steel"
+section = "square"
+orientation = [0.0, 1.0, 0.0]
+
+[[supports]]
+at = "foot"
+fix = "all"
+"#;
+
+/// The table of a stage.
+fn stage(name: &str, kind: &str, duration: f64, time_step: f64, more: &str) -> String {
+    format!(
+        "[[stages]]\nname = \"{name}\"\nkind = \"{kind}\"\nduration = {duration:?}\ntime_step = {time_step:?}\n{more}\n"
+    )
+}
+
+/// What a probe tells of all rows of a run that comes to its end.
+fn rows(text: &str, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Vec<Vec<f64>> {
+    let done = support::run_source(&Source::new("stages.toml", text, &[]), probe);
+    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+    done.rows
+}
+
+/// The displacement of a node, after the time.
+fn displacement(label: &'static str) -> impl FnMut(&Frame) -> Vec<f64> {
+    move |frame| {
+        let node = frame.model.nodes.iter().position(|node| node.label == label).expect("a node");
+        let u = frame.state.nodes[node].moved(&frame.model.nodes[node].x);
+        vec![frame.state.time, u.x, u.y, u.z]
+    }
+}
+
+/// Positions, rotations and velocities of all nodes, by label, after the time.
+fn motion(frame: &Frame) -> Vec<f64> {
+    let nodes = frame.model.nodes.iter().zip(&frame.state.nodes);
+    let each = nodes.flat_map(|(_, node)| {
+        let turned = node.rotation.coords;
+        [node.x.as_slice(), turned.as_slice(), node.v.as_slice(), node.omega.as_slice()].concat()
+    });
+    std::iter::once(frame.state.time).chain(each).collect()
+}
+
+/// The largest difference of two rows relative to the largest number.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let largest = a.iter().chain(b).fold(0.0f64, |most, value| most.max(value.abs()));
+    a.iter().zip(b).map(|(a, b)| (a - b).abs() / largest).fold(0.0, f64::max)
+}
+
+#[test]
+fn two_load_stages_are_one_ramp() {
+    let one = "[analysis]\nkind = \"static\"\nend_time = 2.0\ntime_step = 0.2\n".to_owned()
+        + CANTILEVER
+        + "[[loads]]\nat = \"tip\"\nforce = [0.0, 0.0, -4e4]\n";
+    let two = stage("first", "static", 1.0, 0.2, "")
+        + &stage("second", "static", 1.0, 0.2, "")
+        + CANTILEVER
+        + "[[loads]]\nat = \"tip\"\nforce = [0.0, 0.0, -2e4]\n"
+        + "[[loads]]\nat = \"tip\"\nforce = [0.0, 0.0, -2e4]\nstages = \"second\"\n";
+    let [one, two] = [one, two].map(|text| rows(&text, &mut displacement("tip")));
+    // The second begins with a row of its own.
+    assert_eq!((one.len(), two.len()), (11, 12));
+    assert_eq!(two[5], two[6], "nothing jumps");
+    // Both are in equilibrium to 1e-8 of the forces at every step.
+    assert!(apart(&one[10], &two[11]) < 1e-9, "{:?} {:?}", one[10], two[11]);
+}
+
+#[test]
+fn what_goes_is_taken_off_over_a_static_stage() {
+    // A support pushes the tip down by a tenth of its length, goes, and leaves an elastic beam that springs back; then a load acts for one stage.
+    let text = stage("push", "static", 1.0, 0.25, "")
+        + &stage("free", "static", 1.0, 0.25, "")
+        + &stage("loaded", "static", 1.0, 0.25, "")
+        + &stage("hold", "static", 1.0, 0.25, "")
+        + CANTILEVER
+        + "[[supports]]\nat = \"tip\"\nmotion = { uz = { scale = -0.2 } }\nstages = [\"push\"]\n"
+        + "[[supports]]\nat = \"tip\"\nfix = [\"uz\"]\nstages = [\"hold\"]\n"
+        + "[[loads]]\nat = \"tip\"\nforce = [0.0, 0.0, -1e3]\nstages = [\"loaded\"]\n";
+    let rows = rows(&text, &mut displacement("tip"));
+    assert_eq!(rows.len(), 4 * 5);
+    for first in [5, 10, 15] {
+        assert_eq!(rows[first - 1], rows[first], "nothing jumps where a stage begins");
+    }
+    let uz = |row: usize| rows[row][3];
+    assert!((uz(4) + 0.2).abs() < 1e-12);
+    // Halfway the half of the force is gone: the beam bends nearly linearly.
+    assert!((uz(7) + 0.1).abs() < 0.002, "{}", uz(7));
+    assert!(uz(9).abs() < 1e-8, "{}", uz(9));
+    assert!(uz(14) < -0.01, "{}", uz(14));
+    // The support holds the tip where it is while the load goes.
+    for row in 15..20 {
+        assert!((uz(row) - uz(14)).abs() < 1e-12, "{row}");
+    }
+}
+
+#[test]
+fn a_frame_that_bears_its_weight_rests_until_it_is_shaken() {
+    let text = stage("weight", "static", 1.0, 0.5, "")
+        + &stage("quake", "dynamic", 1.0, 5e-3, "")
+        + CANTILEVER
+        + r#"
+[[masses]]
+at = "tip"
+mass = 10.0
+
+[environment]
+gravity = [0.0, 0.0, -9.81]
+
+[[environment.base_acceleration]]
+direction = [0.0, 1.0, 0.0]
+amplitude = "quake"
+
+[amplitudes.quake]
+kind = "sine"
+frequency = 3.0
+start = 0.5
+stage = "quake"
+
+[integrator]
+scheme = "generalized-alpha"
+
+[output]
+reactions = true
+"#;
+    let mut probe = |frame: &Frame| {
+        let node = frame.model.nodes.iter().position(|node| node.label == "tip").expect("a tip");
+        let u = frame.state.nodes[node].moved(&frame.model.nodes[node].x);
+        // ux, uy, uz of the foot come first.
+        vec![frame.state.time, u.z, u.y, frame.reactions[2], f64::from(frame.model.analysis.begin > 0.0)]
+    };
+    let rows = rows(&text, &mut probe);
+    let weight = 9.81 * (10.0 + 7850.0 * 0.05 * 0.05 * 2.0);
+    let begins = rows.iter().position(|row| row[4] == 1.0).expect("a dynamic stage");
+    assert_eq!(begins, 3);
+    // Reactions are the sum of what acts, to the equilibrium of load steps.
+    assert!((rows[begins][3] / weight - 1.0).abs() < 1e-10, "{} {weight}", rows[begins][3]);
+    let sag = rows[begins - 1][1];
+    let resting = rows[begins..].iter().take_while(|row| row[0] < 1.5 - 1e-9);
+    let bounce = resting.map(|row| (row[1] / sag - 1.0).abs()).fold(0.0, f64::max);
+    assert!(bounce < 1e-8, "{bounce:e}");
+    let shaken = rows.iter().map(|row| row[2].abs()).fold(0.0, f64::max);
+    assert!(shaken > 1e-4, "it is shaken: {shaken}");
+}
+
+/// A pendulum, on a hinge at the tip of a yielding cantilever, and a ball that hits the ground with friction; `analysis` comes before them.
+/// Runge-Kutta schemes do not take what yields: there the hinge is on the ground.
+fn busy_scene(analysis: &str, scheme: &str) -> String {
+    let (on, arm) = match scheme {
+        "runge-kutta" => ("ground = [1.0, 0.0, 0.0]", ""),
+        _ => ("node = \"tip\"", YIELDING_ARM),
+    };
+    format!(
+        r#"{analysis}
+[integrator]
+scheme = "{scheme}"
+{arm}
+[[bodies]]
+name = "pendulum"
+center = [1.0, 0.0, -0.3]
+mass = 5.0
+inertia = [0.05, 0.05, 0.02]
+velocity = [1.0, 0.3, 0.0]
+
+[[bodies]]
+name = "ball"
+center = [0.0, 2.0, 0.1123]
+shape = {{ kind = "sphere", radius = 0.1 }}
+mass = 1.0
+velocity = [1.0, 0.0, -1.0]
+
+[[joints]]
+name = "hinge"
+kind = "spherical"
+from = {{ {on} }}
+to = {{ body = "pendulum", point = [1.0, 0.0, 0.0] }}
+
+[[contacts]]
+name = "floor"
+surface = {{ shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+with = "ball"
+stiffness = 1e4
+friction = 0.3
+
+[environment]
+gravity = [0.0, 0.0, -9.81]
+"#
+    )
+}
+
+/// It is soft, so that no step is cut: whether one is hangs on rounding.
+const YIELDING_ARM: &str = r#"
+[materials.steel]
+model = "elastic-plastic"
+youngs_modulus = 2e9
+poisson_ratio = 0.3
+density = 7850.0
+yield_stress = 1e6
+
+[sections.bar]
+shape = "rectangle"
+width = 0.02
+height = 0.02
+
+[points]
+foot = [0.0, 0.0, 0.0]
+tip = [1.0, 0.0, 0.0]
+
+[[beams]]
+name = "arm"
+path = ["foot", "tip"]
+elements = 2
+material = "steel"
+section = "bar"
+orientation = [0.0, 1.0, 0.0]
+
+[[supports]]
+at = "foot"
+fix = "all"
+"#;
+
+#[test]
+fn a_stage_that_begins_in_the_middle_of_a_motion_changes_nothing() {
+    let schemes = [
+        "newmark",
+        "wilson-theta",
+        "hht-alpha",
+        "generalized-alpha",
+        "bathe",
+        "esdirk3",
+        "central-difference",
+        "runge-kutta",
+    ];
+    for scheme in schemes {
+        let explicit = matches!(scheme, "central-difference" | "runge-kutta");
+        let (end, step) = if explicit { (0.02, 2e-5) } else { (0.04, 5e-4) };
+        let one = format!("[analysis]\nkind = \"dynamic\"\nend_time = {end:?}\ntime_step = {step:?}\n");
+        // The ball touches the ground from 0.0123 to 0.043: the second ends while it does.
+        let parts = [0.15 * end, 0.5 * end, 0.35 * end];
+        let names = ["a", "b", "c"];
+        let three: String =
+            names.iter().zip(parts).map(|(name, part)| stage(name, "dynamic", part, step, "")).collect();
+        let [one, three] = [one, three].map(|analysis| {
+            let rows = rows(&busy_scene(&analysis, scheme), &mut motion);
+            rows.last().cloned().expect("rows")
+        });
+        // Iterations end at 1e-8 of the forces, and what matrix they go by depends on where the run began.
+        // Explicit steps differ by the rounding of their lengths, which a thousand steps of yielding make larger.
+        let most = if explicit { 1e-9 } else { 2e-8 };
+        let difference = apart(&one, &three);
+        assert!(difference < most, "{scheme}: {difference:e}");
+    }
+}
+
+#[test]
+fn a_joint_holds_its_ends_as_it_finds_them() {
+    // Two bodies pass each other, turning; then they are one.
+    let text = stage("apart", "dynamic", 0.5, 1e-3, "")
+        + &stage("joined", "dynamic", 0.5, 1e-3, "")
+        + r#"
+[[bodies]]
+name = "left"
+center = [0.0, 0.0, 0.0]
+mass = 2.0
+inertia = [0.1, 0.2, 0.3]
+velocity = [1.0, 0.0, 0.0]
+angular_velocity = [0.0, 1.0, 2.0]
+
+[[bodies]]
+name = "right"
+center = [1.0, 0.5, 0.0]
+mass = 1.0
+inertia = [0.2, 0.1, 0.1]
+velocity = [-1.0, 0.0, 0.5]
+angular_velocity = [1.0, 0.0, 0.0]
+
+[[joints]]
+name = "clutch"
+kind = "fixed"
+from = { body = "left" }
+to = { body = "right" }
+stages = ["joined"]
+
+[integrator]
+scheme = "generalized-alpha"
+"#;
+    let mut probe = |frame: &Frame| {
+        let [left, right] = [0, 1].map(|body| &frame.state.nodes[frame.model.bodies[body].node]);
+        let arm = left.R().transpose() * right.relative_position(left);
+        let turn = left.rotation.conjugate() * right.rotation;
+        let momentum = 2.0 * left.v + right.v;
+        [&[frame.state.time][..], arm.as_slice(), turn.coords.as_slice(), momentum.as_slice()].concat()
+    };
+    let rows = rows(&text, &mut probe);
+    let joined: Vec<&Vec<f64>> = rows.iter().filter(|row| row[0] >= 0.5 - 1e-9).skip(1).collect();
+    for row in &joined {
+        // Gaps are closed to rounding at every step.
+        assert!(apart(&row[1..8], &joined[0][1..8]) < 1e-10, "{row:?}");
+        assert!(apart(&row[8..], &[1.0, 0.0, 0.5]) < 1e-10, "momentum {:?}", &row[8..]);
+    }
+    assert!(joined.len() > 400);
+}
+
+#[test]
+fn what_ends_a_stage() {
+    let load = "[[loads]]\nname = \"weight\"\nat = \"tip\"\nforce = [0.0, 0.0, -2e4]\n";
+    let push = "[[supports]]\nname = \"push\"\nat = \"tip\"\nmotion = { uz = { scale = -0.5 } }\n";
+    let run = |stop: &str, acts: &str| {
+        let text = stage("only", "static", 2.0, 0.2, &format!("stop = {stop}")) + CANTILEVER + acts;
+        let mut probe = |frame: &Frame| {
+            let node = frame.model.nodes.iter().position(|node| node.label == "tip").expect("a tip");
+            let u = frame.state.nodes[node].moved(&frame.model.nodes[node].x);
+            let pushed = frame.reactions.last().copied().unwrap_or_default();
+            vec![frame.state.time, u.z, frame.state.work.external, pushed, f64::from(frame.last)]
+        };
+        let text = text + "[output]\nreactions = true\n";
+        let rows = rows(&text, &mut probe);
+        let last = rows.last().cloned().expect("rows");
+        assert_eq!(last[4], 1.0, "the last row is that of the end");
+        last
+    };
+    let by_displacement = run("{ at = \"tip\", quantity = \"uz\", value = -0.25 }", load);
+    assert!((by_displacement[1] + 0.25).abs() < 1e-8 && by_displacement[0] < 2.0);
+    let by_work = run("{ load = \"weight\", work = 500.0 }", load);
+    assert!((by_work[2] / 500.0 - 1.0).abs() < 1e-7, "{}", by_work[2]);
+    let by_force = run("{ load = \"weight\", force = 5e3 }", load);
+    // The load grows in proportion to the time.
+    assert!((by_force[0] - 0.5).abs() < 1e-8, "{}", by_force[0]);
+    let by_reaction = run("{ load = \"push\", force = 5e3 }", push);
+    assert!((by_reaction[3] + 5e3).abs() < 1e-3, "{}", by_reaction[3]);
+    let by_work_of_support = run("{ load = \"push\", work = 500.0 }", push);
+    assert!((by_work_of_support[2] / 500.0 - 1.0).abs() < 1e-7, "{}", by_work_of_support[2]);
+    let by_time = run("{ time = 0.7 }", load);
+    assert!((by_time[0] - 0.7).abs() < 1e-12);
+    let too_far = run("{ at = \"tip\", quantity = \"uz\", value = -1.9 }", load);
+    assert_eq!(too_far[0], 2.0, "the stage ends with its time");
+}
+
+#[test]
+fn what_follows_a_stop_comes_earlier() {
+    let text = stage("push", "static", 1.0, 0.1, "stop = { load = \"push\", force = 5e3 }")
+        + &stage("swing", "dynamic", 0.1, 1e-3, "")
+        + CANTILEVER
+        + "[[supports]]\nname = \"push\"\nat = \"tip\"\nmotion = { uz = { scale = -0.5 } }\nstages = [\"push\"]\n"
+        + "[[loads]]\nat = \"tip\"\nforce = [1e3, 0.0, 0.0]\n";
+    let mut probe = |frame: &Frame| {
+        let factor =
+            frame.model.loading.nodal[0].amplitude.map(|i| frame.model.loading.amplitudes[i].value(frame.state.time));
+        let node = frame.model.nodes.iter().position(|node| node.label == "tip").expect("a tip");
+        let (u, v) = (frame.state.nodes[node].moved(&frame.model.nodes[node].x), frame.state.nodes[node].v);
+        vec![frame.state.time, factor.unwrap_or_default(), u.z, v.z, frame.model.analysis.begin]
+    };
+    let rows = rows(&text, &mut probe);
+    let begin = rows.last().expect("rows")[4];
+    assert!(begin > 0.0 && begin < 0.5, "{begin}");
+    let first = rows.iter().position(|row| row[4] > 0.0).expect("a second stage");
+    assert_eq!(rows[first][2], rows[first - 1][2]);
+    assert_eq!(rows[first][3], 0.0, "no velocity comes out of a static stage");
+    // The load that was growing stays at what it had reached.
+    assert!(rows[first..].iter().all(|row| (row[1] - begin).abs() < 1e-12));
+    assert!((rows.last().expect("rows")[0] - begin - 0.1).abs() < 1e-12);
+    let highest = rows[first..].iter().map(|row| row[2]).fold(f64::NEG_INFINITY, f64::max);
+    assert!(highest > 0.0, "let go, it swings through: {highest}");
+}
