@@ -388,3 +388,73 @@ fn what_follows_a_stop_comes_earlier() {
     let highest = rows[first..].iter().map(|row| row[2]).fold(f64::NEG_INFINITY, f64::max);
     assert!(highest > 0.0, "let go, it swings through: {highest}");
 }
+
+/// The messages of the errors of a deck.
+fn errors(text: &str) -> Vec<String> {
+    let (_, said) = rdsolve::model::read_stages(&Source::new("stages.toml", text, &[]), &[]);
+    said.into_iter().filter(|problem| problem.is_error()).map(|problem| problem.message).collect()
+}
+
+#[test]
+fn a_support_holds_other_directions_than_the_one_before() {
+    let text = stage("a", "dynamic", 0.1, 1e-2, "")
+        + &stage("b", "dynamic", 0.1, 1e-2, "")
+        + r#"
+[points]
+p = [0.0, 0.0, 0.0]
+
+[[bodies]]
+name = "block"
+center = [0.0, 0.0, 0.0]
+mass = 2.0
+inertia = [0.1, 0.1, 0.1]
+velocity = [0.0, 2.0, 0.0]
+
+[[attachments]]
+body = "block"
+nodes = ["p"]
+
+[[supports]]
+at = "p"
+fix = ["ux"]
+stages = "a"
+
+[[supports]]
+at = "p"
+fix = ["uy"]
+stages = "b"
+
+[[loads]]
+at = "block"
+force = [2.0, 0.0, 0.0]
+
+[integrator]
+scheme = "newmark"
+"#;
+    let rows = rows(&text, &mut displacement("block"));
+    let [middle, last] = [&rows[10], rows.last().expect("rows")];
+    // Uniform motion, then uniform acceleration, which the trapezoidal rule follows to rounding.
+    assert!((middle[1]).abs() < 1e-12 && (middle[2] - 0.2).abs() < 1e-12, "{middle:?}");
+    assert!((last[1] - 0.5 * 0.1 * 0.1).abs() < 1e-12 && (last[2] - 0.2).abs() < 1e-12, "{last:?}");
+}
+
+#[test]
+fn names_are_those_of_one_table_in_all_stages() {
+    let pin = |stage: &str, axis: &str| {
+        format!(
+            "[[joints]]\nname = \"pin\"\nkind = \"revolute\"\nfrom = {{ node = \"tip\" }}\nto = {{ ground = [2.0, 0.0, 0.0] }}\n\
+             axis = {axis}\nstages = \"{stage}\"\n"
+        )
+    };
+    let two = stage("a", "static", 1.0, 0.5, "") + &stage("b", "static", 1.0, 0.5, "") + CANTILEVER;
+    let said = errors(&(two.clone() + &pin("a", "[0.0, 1.0, 0.0]") + &pin("b", "[0.0, 0.0, 1.0]")));
+    assert_eq!(said, ["the name `pin` is taken"]);
+    let spring = |stage: &str, place: &str| {
+        format!(
+            "[[links]]\nname = \"spring\"\nfrom = {{ node = \"tip\" }}\nto = {{ ground = {place} }}\nstiffness = 1e3\nstages = \"{stage}\"\n"
+        )
+    };
+    let said = errors(&(two.clone() + &spring("a", "[2.0, 0.0, 1.0]") + &spring("b", "[2.0, 1.0, 0.0]")));
+    assert_eq!(said, ["the name `spring` is taken"]);
+    assert!(errors(&(two + &spring("b", "[2.0, 1.0, 0.0]"))).is_empty());
+}

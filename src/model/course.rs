@@ -9,7 +9,7 @@ use crate::deck::analysis::{self as words, Analysis};
 use crate::deck::stages::{Stage, StageKind};
 use crate::deck::words::{Maybe, Names, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// The stages of a deck, one after the other.
 pub(super) struct Course<'d> {
@@ -51,6 +51,7 @@ impl<'d> Course<'d> {
         course.check_rest(report);
         course.check_initial(report);
         check_names(deck, report);
+        course.check_tables(report);
         course
     }
 
@@ -138,6 +139,29 @@ impl<'d> Course<'d> {
             if table.stages.is_none() && first_dynamic.is_none() {
                 report.warn(&table.span, "this has no effect", "no stage is dynamic");
             }
+        }
+    }
+
+    /// Reports tables of one name in stages apart: what a stage finds of the one before is known by its name. Two in one stage are
+    /// reported with the names of that stage.
+    fn check_tables(&self, report: &mut Report<'d>) {
+        let deck = self.whole;
+        let joints = deck.joints.iter().map(|table| (&table.name, &table.stages));
+        let links = deck.links.iter().map(|table| (&table.name, &table.stages));
+        let contacts = deck.contacts.iter().map(|table| (&table.name, &table.stages));
+        let mut known: HashMap<&str, Vec<&Maybe<Names>>> = HashMap::new();
+        for (name, stages) in joints.chain(links).chain(contacts) {
+            let Some(name) = name else { continue };
+            let others = known.entry(name.as_str()).or_default();
+            let meets = |other: &&Maybe<Names>| {
+                (0..self.stages.len()).any(|index| self.holds(index, other) && self.holds(index, stages))
+            };
+            if !others.is_empty() && !others.iter().any(meets) {
+                let message = format!("the name `{}` is taken", name.value);
+                let hint = "a table of other stages has it, and what is carried over is known by its name";
+                report.error_with::<()>(&name.span, message, hint);
+            }
+            others.push(stages);
         }
     }
 

@@ -36,7 +36,7 @@ pub(super) fn joints<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repo
         // What comes later finds its ends where they then are.
         let later = scene.stage.is_some_and(|stage| stage.comes_later(&joint.stages));
         if let Some(equations) = joint_equations(&owner, kind, (ends, later), &axes, nodes, report) {
-            joints.push(Joint { name, ends, equations, supports: false });
+            joints.push(Joint::new(name, ends, equations, false));
         }
     }
     joints

@@ -176,12 +176,7 @@ impl<'d> Supports<'_, 'd> {
         }
         if new != [false; 6] {
             let name = format!("{} on its support", self.topology.label(spot.node));
-            self.joints.push(Joint {
-                name,
-                ends: [spot.node, support_point],
-                equations: equations(new),
-                supports: true,
-            });
+            self.joints.push(Joint::new(name, [spot.node, support_point], equations(new), true));
         }
     }
 }

@@ -8,9 +8,10 @@ use super::context::Context;
 use super::load_steps::LoadSteps;
 use super::outcome::Counts;
 use crate::amplitude::{Amplitude, StraightLines};
+use crate::constraints::joint::ConstraintEquation;
 use crate::constraints::rigid_link::RigidLink;
 use crate::math::{Vec3, Vec6};
-use crate::model::{AnalysisKind, Load, Model};
+use crate::model::{AnalysisKind, Joint, Load, Model};
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
 use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
@@ -67,7 +68,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         system = System::new(model)?;
     }
     let nodes = from.place(state, model, &system.rigid_links);
-    if rejoin(cx.model, &nodes, model) {
+    if rejoin(&from, cx.model, &nodes, model) {
         system = System::new(model)?;
     }
     let (mut next, fresh) = from.state((cx, state), nodes, (model, &system))?;
@@ -111,6 +112,8 @@ struct NodeMap {
     old: Vec<Option<usize>>,
     /// The node whose place a support has, for each support point that is new.
     on: Vec<Option<usize>>,
+    /// The joint of the scene before with the same name between the same nodes, for each of the new one.
+    joints: Vec<Option<usize>>,
 }
 
 impl NodeMap {
@@ -127,7 +130,13 @@ impl NodeMap {
             old.push(found);
             same.push(i);
         }
-        NodeMap { old, on }
+        let joints = before.constraints.joints.iter().enumerate();
+        let known: HashMap<(&str, [usize; 2]), usize> =
+            joints.map(|(i, of)| ((of.name.as_str(), of.ends), i)).collect();
+        let same =
+            |joint: &Joint| known.get(&(joint.name.as_str(), [old[joint.ends[0]]?, old[joint.ends[1]]?])).copied();
+        let joints = now.constraints.joints.iter().map(same).collect();
+        NodeMap { old, on, joints }
     }
 
     /// The nodes where they are: those that are new with what carries them, or where the deck has them.
@@ -174,7 +183,7 @@ impl NodeMap {
             history,
             jerk: mapped(&state.jerk),
             reactions: model.constraints.restraints.iter().map(reaction).collect(),
-            multipliers: multipliers((cx.model, cx.system, &state.multipliers), (model, system)),
+            multipliers: self.multipliers((cx.system, &state.multipliers), system),
             algorithmic_accelerations: match state.algorithmic_accelerations.is_empty() {
                 true => Vec::new(),
                 false => mapped(&state.algorithmic_accelerations),
@@ -183,25 +192,25 @@ impl NodeMap {
         };
         Ok((next, fresh))
     }
-}
 
-/// The multipliers of joints that both scenes have; zero for others.
-fn multipliers((old_model, old, values): (&Model, &System, &[f64]), (model, system): (&Model, &System)) -> Vec<f64> {
-    let mut first = 0;
-    let mut known: HashMap<&str, &[f64]> = HashMap::new();
-    for (named, joint) in old_model.constraints.joints.iter().zip(&old.joints) {
-        known.insert(&named.name, &values[first..first + joint.equations.len()]);
-        first += joint.equations.len();
-    }
-    let mut all = Vec::with_capacity(system.multipliers());
-    for (named, joint) in model.constraints.joints.iter().zip(&system.joints) {
-        let rows = joint.equations.len();
-        match known.get(named.name.as_str()).filter(|values| values.len() == rows) {
-            Some(values) => all.extend_from_slice(values),
-            None => all.resize(all.len() + rows, 0.0),
+    /// The multipliers of the equations that both scenes have; zero for others.
+    fn multipliers(&self, (old, values): (&System, &[f64]), system: &System) -> Vec<f64> {
+        let number = |first: &mut usize, joint: &crate::constraints::joint::Joint| {
+            let begin = *first;
+            *first += joint.equations.len();
+            Some(begin)
+        };
+        let firsts: Vec<usize> = old.joints.iter().scan(0, number).collect();
+        let mut all = Vec::with_capacity(system.multipliers());
+        for (joint, known) in system.joints.iter().zip(&self.joints) {
+            all.extend(joint.equations.iter().map(|row| {
+                let place =
+                    |known: usize| Some(firsts[known] + old.joints[known].equations.iter().position(|old| old == row)?);
+                known.and_then(place).map_or(0.0, |place| values[place])
+            }));
         }
+        all
     }
-    all
 }
 
 /// Writes the velocities of the state into the model, unless the deck gives others: by them the plan finds what moves.
@@ -220,17 +229,21 @@ fn carry_velocities(from: &NodeMap, state: &State, model: &mut Model) {
     }
 }
 
-/// Lets joints that were there before hold what they held, and those that are new the nodes as they are; true where any differs from
-/// that of the deck.
-fn rejoin(before: &Model, nodes: &[Node], model: &mut Model) -> bool {
+/// Lets equations that were there before hold what they held, and those that are new the nodes as they are; true where any differs from
+/// that of the deck. A support may fix other directions than before.
+fn rejoin(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) -> bool {
     let mut changed = false;
-    for joint in &mut model.constraints.joints {
+    for (joint, known) in model.constraints.joints.iter_mut().zip(&from.joints) {
         let [a, b] = joint.ends.map(|end| &nodes[end]);
         let meets = a.relative_position(b).amax() <= MEETING * (a.x.amax() + b.x.amax());
-        let held = match before.constraints.joints.iter().find(|known| known.name == joint.name) {
-            Some(known) => known.equations.clone(),
-            None => joint.equations.iter().map(|row| row.held_here([a, b], joint.supports, meets)).collect(),
+        let known = known.map(|known| &before.constraints.joints[known]);
+        let kept = |row: &ConstraintEquation| {
+            let of = known?;
+            let rows = of.of_deck.iter().zip(&of.equations);
+            rows.filter(|(deck, _)| *deck == row).map(|(_, held)| *held).next()
         };
+        let hold = |row: &ConstraintEquation| kept(row).unwrap_or_else(|| row.held_here([a, b], joint.supports, meets));
+        let held: Vec<ConstraintEquation> = joint.of_deck.iter().map(hold).collect();
         changed |= held != joint.equations;
         joint.equations = held;
     }

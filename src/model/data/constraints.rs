@@ -36,8 +36,17 @@ pub struct Joint {
     pub ends: [usize; 2],
     /// The constraint equations.
     pub equations: Vec<ConstraintEquation>,
+    /// The same as the deck has them at t = 0: a stage that begins with others holds what it finds.
+    pub of_deck: Vec<ConstraintEquation>,
     /// True where it holds a dependent node to its support; the support's reactions are then the joint's forces.
     pub supports: bool,
+}
+
+impl Joint {
+    /// A joint as the deck has it.
+    pub fn new(name: String, ends: [usize; 2], equations: Vec<ConstraintEquation>, supports: bool) -> Joint {
+        Joint { name, ends, of_deck: equations.clone(), equations, supports }
+    }
 }
 
 /// A restrained degree of freedom: it is at rest, or its motion is prescribed.
