@@ -391,7 +391,7 @@ fn what_follows_a_stop_comes_earlier() {
 
 /// The messages of the errors of a deck.
 fn errors(text: &str) -> Vec<String> {
-    let (_, said) = rdsolve::model::read_stages(&Source::new("stages.toml", text, &[]), &[]);
+    let (_, said) = rdsolve::model::read_stages(&Source::new("stages.toml", text, &[]));
     said.into_iter().filter(|problem| problem.is_error()).map(|problem| problem.message).collect()
 }
 
@@ -457,4 +457,32 @@ fn names_are_those_of_one_table_in_all_stages() {
     let said = errors(&(two.clone() + &spring("a", "[2.0, 0.0, 1.0]") + &spring("b", "[2.0, 1.0, 0.0]")));
     assert_eq!(said, ["the name `spring` is taken"]);
     assert!(errors(&(two + &spring("b", "[2.0, 1.0, 0.0]"))).is_empty());
+}
+
+#[test]
+fn a_stop_makes_no_error_of_what_was_none() {
+    let load = "[[loads]]\nname = \"weight\"\nat = \"tip\"\nforce = [0.0, 0.0, -2e4]\n";
+    let late = "[[expect]]\nat = \"tip\"\nquantity = \"uz\"\ntime = 1.05\nvalue = 0.0\nabsolute_tolerance = 1e3\n";
+    // It stops within its first step, at a time that no step divides.
+    let text = stage("push", "static", 1.0, 0.5, "stop = { load = \"weight\", force = 777.7 }")
+        + &stage("hold", "static", 0.1, 0.1, "")
+        + CANTILEVER
+        + load
+        + late;
+    let done = support::run_source(&Source::new("stages.toml", &text, &[]), &mut displacement("tip"));
+    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+    let end = done.rows.last().expect("rows")[0];
+    assert!((end - (777.7 / 2e4 + 0.1)).abs() < 1e-6, "{end}");
+    assert_eq!(done.verdicts.len(), 1);
+    assert!(!done.verdicts[0].passed, "the run has never come to that time");
+}
+
+#[test]
+fn durations_are_those_of_the_deck() {
+    // 0.7 + 0.1 - 0.7 is below 0.1 by rounding.
+    let text = stage("a", "static", 0.7, 0.1, "") + &stage("b", "static", 0.1, 0.1, "") + CANTILEVER;
+    assert!(errors(&text).is_empty());
+    let text = stage("a", "static", 1.0, 0.1, "") + &stage("b", "static", 1e-10, 1e-10, "") + CANTILEVER;
+    let said = errors(&text);
+    assert!(said.len() == 1 && said[0].contains("too short"), "{said:?}");
 }

@@ -67,7 +67,7 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
 /// # Errors
 /// All that is wrong, with the texts that its places refer to.
 pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
-    let (models, said) = model::read_stages(&source, &[]);
+    let (models, said) = model::read_stages(&source);
     let mut models = models.into_iter();
     match models.next() {
         Some(model) => {

@@ -127,18 +127,16 @@ impl StageRunner<'_> {
         let mut model = match planned.analysis.begin == state.time {
             true => planned.clone(),
             // The stage has stopped before its time: all others come earlier.
-            false => self.planned_anew(ends)?,
+            false => self.planned_anew(ends, planned)?,
         };
         model.analysis.plane &= self.loaded.model.analysis.plane;
         let (system, handover) = run.hand_over(&state, &mut model).map_err(io::Error::other)?;
         Ok(Some(NextStage { model, system, handover }))
     }
 
-    /// The model of the next stage after those that have ended at these times.
-    fn planned_anew(&self, ends: &[f64]) -> io::Result<Model> {
-        let (models, said) = model::read_stages(&self.loaded.source, ends);
-        models.into_iter().nth(ends.len()).ok_or_else(|| {
-            let why = said.iter().find(|problem| problem.is_error()).map_or("", |problem| problem.message.as_str());
+    /// The model of the next stage, which was planned otherwise, after those that have ended at these times.
+    fn planned_anew(&self, ends: &[f64], planned: &Model) -> io::Result<Model> {
+        model::replan(&self.loaded.source, ends, planned).map_err(|why| {
             let at = ends.last().copied().map(instant).unwrap_or_default();
             io::Error::other(format!("no stage can begin at t = {at}: {why}"))
         })

@@ -64,13 +64,39 @@ use crate::integrators::{Scheme, Stepping};
 /// Reads a deck and builds its model; everything there is to say about it, in the order of the deck. Of a deck with stages it is the model of
 /// the first.
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
-    let (models, problems) = read_stages(source, &[]);
+    let (models, problems) = read_stages(source);
     (models.into_iter().next(), problems)
 }
 
 /// Reads a deck and builds the model of each of its stages, or the one of a deck without; everything there is to say about it, in the order
-/// of the deck. The first stages have ended at the times `reached`; the others end when they are planned to.
-pub fn read_stages(source: &Source, reached: &[f64]) -> (Vec<Model>, Vec<Diagnostic>) {
+/// of the deck.
+pub fn read_stages(source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
+    read_from(source, &[])
+}
+
+/// Builds the model of the next stage anew, after stages that have ended at the times `reached`, of which not all were planned. What does
+/// not depend on times is that of the model that was `planned`.
+///
+/// # Errors
+/// The deck, or a file that it names, is no longer what it was.
+pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model, String> {
+    let (models, said) = read_from(source, reached);
+    let mut model = models.into_iter().next().ok_or_else(|| {
+        said.into_iter()
+            .find(Diagnostic::is_error)
+            .map_or_else(|| "there is none".to_owned(), |problem| problem.message)
+    })?;
+    model.analysis.plane = planned.analysis.plane;
+    for contact in model.each_mut::<Contact>() {
+        if let Some(known) = planned.each::<Contact>().find(|known| known.name == contact.name) {
+            (contact.law, contact.chosen) = (known.law, known.chosen.clone());
+        }
+    }
+    Ok(model)
+}
+
+/// The models of all stages, or of the next one after some that have ended at the times `reached`.
+fn read_from(source: &Source, reached: &[f64]) -> (Vec<Model>, Vec<Diagnostic>) {
     let (deck, mut problems) = crate::deck::read(source);
     let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
     let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
@@ -93,7 +119,7 @@ pub fn read_stages(source: &Source, reached: &[f64]) -> (Vec<Model>, Vec<Diagnos
     (models, problems)
 }
 
-/// The models of all stages of a deck, none if anything is wrong with any of them.
+/// The models of all stages of a deck, or of the next one after those that have ended; none if anything is wrong with any of them.
 fn build_stages(
     deck: &Deck,
     reached: &[f64],
@@ -103,7 +129,8 @@ fn build_stages(
     let mut report = Report::new(deck);
     let course = Course::new(deck, reached, &mut report);
     let (mut models, mut said) = (Vec::new(), Vec::new());
-    for stage in CurrentStage::all(&course) {
+    let count = if reached.is_empty() { deck.stages.len() } else { 1 };
+    for stage in CurrentStage::all(&course).skip(reached.len()).take(count) {
         let (own, expected) = stage.deck();
         let mut report = Report::new(&own);
         let mut built = model(&own, Some(stage), (input, records), &mut report);

@@ -9,14 +9,21 @@ use crate::deck::analysis::{self as words, Analysis};
 use crate::deck::stages::{Stage, StageKind};
 use crate::deck::words::{Maybe, Names, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
+use crate::names::short;
 use std::collections::{HashMap, HashSet};
 
 /// The stages of a deck, one after the other.
 pub(super) struct Course<'d> {
     /// The deck with all that is there in any stage.
     pub whole: &'d Deck,
+    /// True after stages of which one has ended before its time: what the deck expects later is missed then, but no error.
+    pub is_shortened: bool,
     stages: Vec<PlannedStage<'d>>,
 }
+
+/// A stage of less than this part of the time at its end is lost in the rounding of times: events that are no farther than 1e-9 of it apart
+/// are one, and a stage needs sixteen at which runs are compared.
+const SHORTEST: f64 = 1e-7;
 
 /// A stage with its times, which are those of the run.
 struct PlannedStage<'d> {
@@ -41,7 +48,7 @@ pub(super) struct CurrentStage<'d> {
 impl<'d> Course<'d> {
     /// Reads `[[stages]]` and checks what names them; the first stages have ended at the times `reached`.
     pub fn new(deck: &'d Deck, reached: &[f64], report: &mut Report<'d>) -> Course<'d> {
-        let mut course = Course { whole: deck, stages: Vec::new() };
+        let mut course = Course { whole: deck, is_shortened: !reached.is_empty(), stages: Vec::new() };
         let mut begin = 0.0;
         for (index, table) in deck.stages.iter().enumerate() {
             let stage = course.stage(table, begin, reached.get(index).copied(), report);
@@ -82,13 +89,19 @@ impl<'d> Course<'d> {
             report.reject_unused("a static stage", &[("integrator", span(&table.integrator))]);
         }
         let duration = report.require_positive(&owner, "duration", &table.duration).unwrap_or(1.0);
+        let end = reached.unwrap_or_else(|| self.end_of(table, begin, duration, report));
+        if reached.is_none() && end - begin <= SHORTEST * end {
+            let message = format!("the stage goes from {begin} to {end}, too short a time to be told from none");
+            let hint = format!("it must be longer than {} of the time at its end", short(SHORTEST));
+            report.error_with::<()>(&table.span, message, hint);
+        }
         PlannedStage {
             table,
             name: name.map_or_else(|| format!("stages.{}", self.stages.len()), |name| name.value.clone()),
             kind: if is_static { AnalysisKind::Static } else { AnalysisKind::Dynamic },
             begin,
             duration,
-            end: reached.unwrap_or_else(|| self.end_of(table, begin, duration, report)),
+            end,
         }
     }
 
@@ -336,9 +349,10 @@ impl<'d> CurrentStage<'d> {
         all.filter(|(_, expect)| here(expect)).map(|(index, _)| index).collect()
     }
 
-    /// The stage as `[analysis]` of its deck; its time counts from the beginning of the stage.
+    /// The stage as `[analysis]` of its deck; its time counts from the beginning of the stage, and is that which the deck gives: steps that
+    /// fit into it still do after rounding, and after a stop.
     fn analysis(&self) -> Analysis {
-        let PlannedStage { table, kind, begin, end, .. } = &self.course.stages[self.index];
+        let PlannedStage { table, kind, duration, .. } = &self.course.stages[self.index];
         let all = self.course.whole.analysis.as_ref();
         let place = |own: Option<&Span>| own.unwrap_or(&table.span).clone();
         let automatic = table.time_step.as_ref().is_some_and(|at| at.value == crate::deck::words::NumberOrAuto::Auto);
@@ -350,7 +364,7 @@ impl<'d> CurrentStage<'d> {
         Analysis {
             kind: Some(At { value: word, span: place(span(&table.kind)) }),
             control: None,
-            end_time: Some(At { value: end - begin, span: place(span(&table.duration)) }),
+            end_time: Some(At { value: *duration, span: place(span(&table.duration)) }),
             time_step: table.time_step.clone(),
             error_tolerance: table.error_tolerance.clone().or(general),
             least_step: table.least_step.clone().or_else(|| all.and_then(|all| all.least_step.clone())),

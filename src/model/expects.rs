@@ -243,7 +243,11 @@ impl<'d> Expects<'_, 'd> {
             let message = format!("an expected value has `time` or `stage`, and this one is at t = {}", time.value);
             return self.report.error_with(&stage.span, message, hint);
         }
-        let end = self.scene.stage.map_or(self.scene.analysis.end_time, |stage| stage.course.end());
+        let end = match self.scene.stage {
+            Some(stage) if stage.course.is_shortened => f64::INFINITY,
+            Some(stage) => stage.course.end(),
+            None => self.scene.analysis.end_time,
+        };
         match (&expect.time, &expect.peak) {
             (None, None) if expect.stage.is_some() && expect.at_least.is_none() && expect.at_most.is_none() => {
                 Some(When::End)

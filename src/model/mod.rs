@@ -73,7 +73,7 @@ mod unused;
 mod usage;
 mod values;
 
-pub use build::{build, read, read_stages};
+pub use build::{build, read, read_stages, replan};
 pub use data::*;
 pub use mesh_file::Input;
 pub use records::{Record, load_records};

@@ -88,9 +88,9 @@ pub fn read(name: &str, sets: &[String]) -> Model {
         .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
 }
 
-/// The models of all stages of a deck below `decks/`; the first have ended at the times `reached`.
-pub fn read_stages(source: &Source, reached: &[f64]) -> Vec<Model> {
-    let (mut models, problems) = model::read_stages(source, reached);
+/// The models of all stages of a deck.
+pub fn read_stages(source: &Source) -> Vec<Model> {
+    let (mut models, problems) = model::read_stages(source);
     let said = || problems.iter().map(|p| p.draw(source, false)).collect::<Vec<_>>().join("\n");
     assert!(!models.is_empty(), "{}", said());
     share_plane(models.iter_mut()).expect("systems");
@@ -104,7 +104,7 @@ pub fn run_deck(name: &str, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
 
 /// Runs a deck with all its stages, asking `probe` at every output time.
 pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
-    let mut models = read_stages(source, &[]);
+    let mut models = read_stages(source);
     if models.len() == 1 {
         return run(&models[0], probe);
     }
@@ -143,7 +143,7 @@ pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) ->
         let state = state.expect("a state at the end");
         ends.push(state.time);
         if models[stage + 1].analysis.begin != state.time {
-            models = read_stages(source, &ends);
+            models[stage + 1] = model::replan(source, &ends, &models[stage + 1]).expect("a stage");
         }
         handed = Some(run.hand_over(&state, &mut models[stage + 1]).expect("a system"));
     }
