@@ -486,3 +486,22 @@ fn durations_are_those_of_the_deck() {
     let said = errors(&text);
     assert!(said.len() == 1 && said[0].contains("too short"), "{said:?}");
 }
+
+#[test]
+fn a_sweep_reads_tables_with_stages() {
+    use rdsolve::sweep::collect::collect;
+    use rdsolve::sweep::file::{Collected, CollectedWhen};
+    let folder = tempfile::tempdir().unwrap();
+    let energy = "step,time,stage,kinetic\n0,0.0,push,0.0\n1,1.0,push,3.0\n1,1.0,free,5.0\n2,2.0,free,4.0\n";
+    let bodies = "step,time,stage,body,z\n0,0.0,push,block,1.0\n1,1.0,push,block,2.0\n2,2.0,free,block,-7.0\n";
+    std::fs::write(folder.path().join("energy.csv"), energy).unwrap();
+    std::fs::write(folder.path().join("bodies.csv"), bodies).unwrap();
+    let read = |at: &str, quantity: &str, when| {
+        let wanted = Collected { name: "x".to_owned(), at: at.to_owned(), quantity: quantity.to_owned(), when };
+        collect(folder.path(), &wanted).unwrap()
+    };
+    assert_eq!(read("energy", "kinetic", CollectedWhen::Max), Some(5.0));
+    assert_eq!(read("block", "z", CollectedWhen::End), Some(-7.0));
+    assert_eq!(read("block", "z", CollectedWhen::Time(1.0)), Some(2.0));
+    assert_eq!(read("push", "z", CollectedWhen::End), None);
+}

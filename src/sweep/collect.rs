@@ -2,6 +2,7 @@
 
 use super::file::{Collected, CollectedWhen};
 use crate::output::TABLES;
+use crate::output::table::STAGE;
 use crate::output::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::path::Path;
@@ -30,7 +31,9 @@ pub fn collect(folder: &Path, wanted: &Collected) -> io::Result<Option<f64>> {
 fn of_table(path: &Path, wanted: &Collected) -> io::Result<Option<f64>> {
     let mut rows = TableReader::open(path)?;
     let (Some(time), Some(place)) = (rows.column("time"), rows.column(&wanted.quantity)) else { return Ok(None) };
-    let keys: Vec<usize> = (0..rows.header.len()).filter(|&key| rows.is_key(key)).collect();
+    // The stage of a row says when it is, as its time does, not what it is about.
+    let says_what = |&key: &usize| rows.is_key(key) && rows.header[key] != STAGE;
+    let keys: Vec<usize> = (0..rows.header.len()).filter(says_what).collect();
     let mut best: Option<f64> = None;
     while let Some(row) = rows.next()? {
         let row: Vec<&[u8]> = fields(row).collect();
