@@ -505,3 +505,33 @@ fn a_sweep_reads_tables_with_stages() {
     assert_eq!(read("block", "z", CollectedWhen::Time(1.0)), Some(2.0));
     assert_eq!(read("push", "z", CollectedWhen::End), None);
 }
+
+/// A body on a spring along z, free in that direction alone.
+fn on_spring(name: &str, stiffness: f64) -> String {
+    format!(
+        "[[bodies]]\nname = \"{name}\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+         [[links]]\nname = \"{name}_spring\"\nfrom = {{ ground = [0.0, 0.0, 1.0] }}\nto = {{ body = \"{name}\" }}\n\
+         stiffness = {stiffness:?}\ndirection = [0.0, 0.0, -1.0]\n\
+         [[supports]]\nat = \"{name}\"\nfix = [\"ux\", \"uy\", \"rx\", \"ry\", \"rz\"]\n"
+    )
+}
+
+/// A force along z on a body.
+fn force(on: &str, value: f64, more: &str) -> String {
+    format!("[[loads]]\nat = \"{on}\"\nforce = [0.0, 0.0, {value:?}]\n{more}\n")
+}
+
+#[test]
+fn small_forces_beside_large_ones_go_over_the_stage_too() {
+    let text = stage("a", "static", 1.0, 0.25, "")
+        + &stage("b", "static", 1.0, 0.25, "")
+        + &on_spring("heavy", 1e6)
+        + &on_spring("light", 1.0)
+        + &force("heavy", 1e4, "")
+        + &force("light", 5e-3, "stages = \"a\"");
+    let rows = rows(&text, &mut displacement("light"));
+    // Load steps are in equilibrium to 1e-8 of the largest force, so that the light one lies within 1e-4 of its place; all is linear, so nearer.
+    for (row, part) in [(4, 1.0), (5, 1.0), (6, 0.75), (7, 0.5), (8, 0.25), (9, 0.0)] {
+        assert!((rows[row][3] - 5e-3 * part).abs() < 1e-4, "{row}: {}", rows[row][3]);
+    }
+}

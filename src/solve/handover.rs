@@ -14,12 +14,10 @@ use crate::math::{Vec3, Vec6};
 use crate::model::{AnalysisKind, Joint, Load, Model};
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
-use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
+use crate::system::{Excitation, Forces, Loading, Side, System, carry_history};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Forces below this part of the largest are those that an equilibrium leaves.
-const LEFT: f64 = 1e-6;
 /// Points that are nearer than this part of the size of their coordinates are at one place.
 const MEETING: f64 = 1e-9;
 
@@ -261,19 +259,27 @@ fn rest(state: &mut State) {
     (state.work.damping_power, state.work.accelerations, state.work.step) = (0.0, 0.0, 0.0);
 }
 
-/// Adds the loads that hold back what is out of balance and go to zero over the stage; true where there are any.
+/// Adds the loads that hold back what is out of balance and go to zero over the stage; true where there are any. All that is not zero is
+/// held, however small beside other forces: a soft part may be moved by it.
 fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
     let mut forces = Forces::new(system, state.nodes.len());
     let mut loading = Loading::default();
     forces.multipliers.values.copy_from_slice(&state.multipliers);
     Excitation::new(model).loading(state.time, Side::After, &mut loading);
-    let scale = system.residual(&state.configuration(), &loading, &mut forces);
+    system.residual(&state.configuration(), &loading, &mut forces);
     for restraint in &model.constraints.restraints {
         forces.on_nodes[restraint.node][restraint.dof] = 0.0;
     }
+    if let Some(normal) = system.plane {
+        // What rounding leaves out of the plane does not lead out of it.
+        let keep = |of: &mut [f64; 6]| {
+            (0..3).for_each(|i| of[if i == normal { i } else { 3 + i }] = 0.0);
+        };
+        forces.on_nodes.iter_mut().for_each(keep);
+    }
     let amplitude = model.loading.amplitudes.len();
     let before = model.loading.nodal.len();
-    let held = forces.on_nodes.iter().enumerate().filter(|(_, of)| is_felt(of, scale));
+    let held = forces.on_nodes.iter().enumerate().filter(|(_, of)| **of != [0.0; 6]);
     model.loading.nodal.extend(held.map(|(node, of)| Load {
         node,
         force: -Vec3::new(of[0], of[1], of[2]),
@@ -284,9 +290,4 @@ fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
     let ends = [[state.time, 1.0], [model.analysis.end_time, 0.0]];
     model.loading.amplitudes.push(Amplitude::Table(StraightLines::new(ends.to_vec())));
     model.loading.nodal.len() > before
-}
-
-fn is_felt(of: &[f64; 6], scale: Scale) -> bool {
-    let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment
 }
