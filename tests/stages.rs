@@ -535,3 +535,31 @@ fn small_forces_beside_large_ones_go_over_the_stage_too() {
         assert!((rows[row][3] - 5e-3 * part).abs() < 1e-4, "{row}: {}", rows[row][3]);
     }
 }
+
+#[test]
+fn initial_motion_of_a_later_stage_is_that_of_places_as_they_then_are() {
+    let text = stage("a", "dynamic", 1.0, 0.1, "")
+        + &stage("b", "dynamic", 0.1, 0.1, "")
+        + r#"
+[[bodies]]
+name = "block"
+center = [0.0, 0.0, 0.0]
+mass = 2.0
+inertia = [0.1, 0.1, 0.1]
+velocity = [1.0, 0.0, 0.0]
+
+[[initial]]
+at = "block"
+angular_velocity = [0.0, 0.0, 3.0]
+about = [0.0, 0.0, 0.0]
+stages = "b"
+"#;
+    let mut probe = |frame: &Frame| {
+        let node = &frame.state.nodes[frame.model.bodies[0].node];
+        [node.x.as_slice(), node.v.as_slice(), node.omega.as_slice()].concat()
+    };
+    let rows = rows(&text, &mut probe);
+    let begin = &rows[11];
+    // It has come to x = 1, to rounding, and turns about the origin from there.
+    assert!(apart(begin, &[1.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]) < 1e-12, "{begin:?}");
+}

@@ -1,6 +1,6 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
-use super::data::DependentNode;
+use super::data::{DependentNode, GivenVelocity, InitialMotion, PlaceFactor};
 use super::initial_given::{GivenVelocities, Giver, InitialQuantity};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
@@ -13,26 +13,7 @@ use crate::deck::words::Table;
 use crate::diagnostic::At;
 use crate::math::Vec3;
 use std::collections::HashSet;
-
-/// A factor on a velocity that depends on the place.
-struct Factor {
-    amplitude: Amplitude,
-    center: Vec3,
-    /// The unit vector along which places are measured. With an axis it lies across that, and angles are measured from it.
-    direction: Vec3,
-    axis: Option<Vec3>,
-}
-
-impl Factor {
-    fn at(&self, x: &Vec3) -> f64 {
-        let arm = x - self.center;
-        let along = arm.dot(&self.direction);
-        self.amplitude.value(match self.axis {
-            None => along,
-            Some(axis) => arm.dot(&axis.cross(&self.direction)).atan2(along),
-        })
-    }
-}
+use std::sync::Arc;
 
 /// Gives nodes their initial velocities.
 pub(super) fn initial<'d>(
@@ -70,7 +51,9 @@ impl<'d> Motions<'_, 'd> {
                 let Some(value) = value else { continue };
                 let what = format!("the table of body `{}`", made.name);
                 self.given.begin(Giver { what, span: &value.span, replaces: false });
-                self.given.give(made.node, quantity, vec3(value), self.topology);
+                let motion = InitialMotion { v: vec3(value), omega: vec3(value), ..InitialMotion::default() };
+                let by = GivenVelocity { motion: Arc::new(motion), normal: Vec3::zeros() };
+                self.given.give(made.node, quantity, by, self.topology);
                 if let Some(name) = &body.name {
                     let spot = Spot { node: made.node, name: Label::Name(name), span: &value.span, direct: true };
                     self.given.report_dropped(&[spot], &[quantity], self.amplitudes, self.topology, self.report);
@@ -124,24 +107,21 @@ impl<'d> Motions<'_, 'd> {
     fn give(&mut self, initial: &'d At<Table<Initial>>, nodes: Vec<usize>, spots: &[Spot<'d>]) {
         let normal = initial.normal_velocity.as_ref();
         let profile = initial.profile.as_ref().map_or(&[][..], |profile| &profile.value);
-        let factors: Vec<Factor> = profile.iter().filter_map(|entry| self.factor(entry)).collect();
+        let factors: Vec<PlaceFactor> = profile.iter().filter_map(|entry| self.factor(entry)).collect();
         let normals = normal.map(|_| self.normals(spots));
-        let (v, omega) = (vec3_or_zero(&initial.velocity), vec3_or_zero(&initial.angular_velocity));
+        let motion = Arc::new(InitialMotion {
+            v: vec3_or_zero(&initial.velocity),
+            omega: vec3_or_zero(&initial.angular_velocity),
+            about: initial.about.as_ref().map(|about| vec3(about)),
+            along_normal: normal.map(|normal| normal.value),
+            factors,
+        });
         let quantities = given(initial);
         for node in nodes {
-            let x = self.topology.x(node);
-            let v = match (&initial.about, &normals) {
-                (Some(about), _) => v + omega.cross(&(x - vec3(about))),
-                (None, Some(normals)) => normal.map_or(0.0, |normal| normal.value) * normals[node],
-                (None, None) => v,
-            };
-            let factor: f64 = factors.iter().map(|factor| factor.at(&x)).product();
+            let normal = normals.as_ref().map_or(Vec3::zeros(), |normals| normals[node]);
             for &quantity in &quantities {
-                let value = match quantity {
-                    InitialQuantity::Velocity => v,
-                    InitialQuantity::AngularVelocity => omega,
-                };
-                self.given.give(node, quantity, factor * value, self.topology);
+                let by = GivenVelocity { motion: motion.clone(), normal };
+                self.given.give(node, quantity, by, self.topology);
             }
         }
     }
@@ -166,7 +146,7 @@ impl<'d> Motions<'_, 'd> {
         }
     }
 
-    fn factor(&mut self, profile: &'d At<Table<Profile>>) -> Option<Factor> {
+    fn factor(&mut self, profile: &'d At<Table<Profile>>) -> Option<PlaceFactor> {
         let owner = Owner::new("an entry of `profile`", &profile.span);
         let amplitude = self
             .report
@@ -186,7 +166,7 @@ impl<'d> Motions<'_, 'd> {
             unit = Some(across.normalize());
         }
         let amplitude = self.amplitudes[amplitude?.0].clone();
-        Some(Factor { amplitude, center: vec3_or_zero(&profile.center), direction: unit?, axis })
+        Some(PlaceFactor { amplitude, center: vec3_or_zero(&profile.center), direction: unit?, axis })
     }
 
     /// The unit normal of shells at each node, zero where there is no shell, which is an error at a node of the list.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::data::{DIRECTIONS, History, Restraint};
+use super::data::{DIRECTIONS, GivenVelocity, History, Restraint};
 use super::nodes::Nodes;
 use super::report::Report;
 use super::spot::Spot;
@@ -75,15 +75,19 @@ impl<'d> GivenVelocities<'d> {
         self.givers.push(giver);
     }
 
-    /// Gives a node a velocity by the table begun last, global components.
-    pub fn give(&mut self, node: usize, quantity: InitialQuantity, value: Vec3, nodes: &mut Nodes) {
+    /// Gives a node a velocity by the table begun last.
+    pub fn give(&mut self, node: usize, quantity: InitialQuantity, by: GivenVelocity, nodes: &mut Nodes) {
         let giver = self.givers.len() - 1;
-        let before = self.values.insert((node, quantity), (value, giver));
-        let given = &mut nodes.list[node];
+        let of = &mut nodes.list[node];
+        let value = match quantity {
+            InitialQuantity::Velocity => by.velocity(&of.x, &by.normal),
+            InitialQuantity::AngularVelocity => by.angular_velocity(&of.x),
+        };
         match quantity {
-            InitialQuantity::Velocity => (given.v, given.given[0]) = (value, true),
-            InitialQuantity::AngularVelocity => (given.omega, given.given[1]) = (value, true),
+            InitialQuantity::Velocity => (of.v, of.given[0]) = (value, Some(by)),
+            InitialQuantity::AngularVelocity => (of.omega, of.given[1]) = (value, Some(by)),
         }
+        let before = self.values.insert((node, quantity), (value, giver));
         let Some((old, earlier)) = before.filter(|_| !self.givers[giver].replaces) else { return };
         // A node that moves with another one takes that one's velocity in the end.
         if (value - old).amax() <= SAME * value.amax().max(old.amax()) || follows(node, quantity, nodes) {

@@ -36,7 +36,7 @@ impl Nodes {
             x,
             v: Vec3::zeros(),
             omega: Vec3::zeros(),
-            given: [false; 2],
+            given: [None, None],
             place: None,
         });
         self.connected.push([false; 6]);

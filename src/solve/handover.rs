@@ -211,18 +211,21 @@ impl NodeMap {
     }
 }
 
-/// Writes the velocities of the state into the model, unless the deck gives others: by them the plan finds what moves.
+/// Writes the velocities of the state into the model, and those that the deck gives where nodes now are: by them the plan finds what moves.
 fn carry_velocities(from: &NodeMap, state: &State, model: &mut Model) {
     if model.analysis.kind != AnalysisKind::Dynamic {
         return;
     }
     for (node, old) in model.nodes.iter_mut().zip(&from.old) {
-        let Some(old) = old.map(|old| &state.nodes[old]) else { continue };
-        if !node.given[0] {
-            node.v = old.v;
-        }
-        if !node.given[1] {
-            node.omega = old.omega;
+        let Some(now) = old.map(|old| &state.nodes[old]) else { continue };
+        node.v = node.given[0].as_ref().map_or(now.v, |given| given.velocity(&now.x, &(now.R() * given.normal)));
+        node.omega = node.given[1].as_ref().map_or(now.omega, |given| given.angular_velocity(&now.x));
+    }
+    for restraint in model.constraints.restraints.iter().filter(|restraint| restraint.motion.is_none()) {
+        let node = &mut model.nodes[restraint.node];
+        let given = &node.given[restraint.dof / 3];
+        if given.is_some() {
+            (if restraint.dof < 3 { &mut node.v } else { &mut node.omega })[restraint.dof % 3] = 0.0;
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::system::TangentWeights;
 
 /// The largest change of initial velocities, relative to the largest velocity, that joints may require without a word: a deck gives
 /// its numbers with some digits only.
-const DIGITS: f64 = 1e-5;
+pub const DIGITS: f64 = 1e-5;
 
 /// Finds the state at t = 0; warns where initial velocities do not agree with the joints.
 ///
@@ -170,7 +170,7 @@ fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool
 }
 
 /// Translations and rotations are judged together: where one of them is zero, rounding of the other is no change.
-fn speed(cx: &Context, v: &Vec3, omega: &Vec3) -> f64 {
+pub fn speed(cx: &Context, v: &Vec3, omega: &Vec3) -> f64 {
     v.amax().max(omega.amax() * cx.length)
 }
 

@@ -4,10 +4,13 @@ use super::context::Context;
 use super::failure::Failure;
 use super::handover::Handover;
 use super::joints;
-use super::start::{add_accelerations, factor_mass, project_velocities, update_rates_of_dependent_nodes};
+use super::start::{
+    DIGITS, add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes,
+};
+use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::math::stack;
-use crate::state::State;
+use crate::state::{Node, State};
 use crate::system::Side;
 
 /// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed.
@@ -44,7 +47,10 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
         if !cx.system.joints.is_empty() {
             ws.trial.clone_from(&state.nodes);
             joints::check(cx, ws)?;
-            project_velocities(cx, ws, &mut state.nodes);
+            let change = project_velocities(cx, ws, &mut state.nodes);
+            if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
+                ws.warnings.add(Warning::InitialVelocities { change });
+            }
             ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
             cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         }
@@ -59,14 +65,24 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
     Ok(())
 }
 
+/// True where joints have changed velocities that the deck gives in this stage, from `trial` to `nodes`. That they end motion which the
+/// stage before has left doubts nothing.
+fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool {
+    let largest = nodes.iter().map(|node| speed(cx, &node.v, &node.omega)).fold(0.0, f64::max);
+    let given = cx.model.nodes.iter().zip(ws.trial.iter().zip(nodes));
+    let given = given.filter(|(spec, _)| spec.given.iter().any(Option::is_some));
+    let change = |before: &Node, after: &Node| speed(cx, &(after.v - before.v), &(after.omega - before.omega));
+    given.map(|(_, (before, after))| change(before, after)).any(|change| change > DIGITS * largest)
+}
+
 /// Gives the velocities of the deck, those of supports, and none to what is held; accelerations follow.
 fn give_rates(cx: &Context, ws: &Workspace, state: &mut State) {
     for (node, spec) in state.nodes.iter_mut().zip(&cx.model.nodes) {
         (node.a, node.alpha) = Default::default();
-        if cx.is_dynamic() && spec.given[0] {
+        if cx.is_dynamic() && spec.given[0].is_some() {
             node.v = spec.v;
         }
-        if cx.is_dynamic() && spec.given[1] {
+        if cx.is_dynamic() && spec.given[1].is_some() {
             node.omega = spec.omega;
         }
     }

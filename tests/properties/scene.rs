@@ -97,7 +97,7 @@ pub fn node(m: &mut Model, x: Vec3) -> usize {
         x,
         v: Vec3::zeros(),
         omega: Vec3::zeros(),
-        given: [false; 2],
+        given: [None, None],
         place: None,
     });
     m.nodes.len() - 1

@@ -25,7 +25,7 @@ pub fn model() -> Model {
             x: Vec3::new(f64::from(i), 0.1 * f64::from(i * i), 0.0),
             v: Vec3::zeros(),
             omega: Vec3::zeros(),
-            given: [false; 2],
+            given: [None, None],
             place: None,
         })
         .collect();

@@ -7,6 +7,7 @@ mod constraints;
 mod contact;
 mod displacement_target;
 mod expect;
+mod initial_motion;
 mod integrals;
 mod link;
 mod loading;
@@ -32,6 +33,7 @@ pub use constraints::{Constraints, DependentNode, Joint, PrescribedMotion, Restr
 pub use contact::Contact;
 pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, Tolerance, When};
+pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
 pub use link::{Link, LinkKind};
 pub use loading::{BaseAcceleration, Damping, Load, Loading, NodalDamping, Pressure};

@@ -1,5 +1,6 @@
 //! Nodes, and their masses: rigid bodies and point masses.
 
+use super::GivenVelocity;
 use crate::math::{Mat3, Vec3};
 use crate::solids::SolidShape;
 use std::sync::Arc;
@@ -21,8 +22,8 @@ pub struct Node {
     pub v: Vec3,
     /// Initial angular velocity, global components.
     pub omega: Vec3,
-    /// True where the deck gives the velocity, and the angular velocity.
-    pub given: [bool; 2],
+    /// What the deck gives: the velocity, and the angular velocity.
+    pub given: [Option<GivenVelocity>; 2],
     /// Place in the deck that names it, or the part that it belongs to: first byte, and the one after the last.
     pub place: Option<[usize; 2]>,
 }
