@@ -563,3 +563,46 @@ stages = "b"
     // It has come to x = 1, to rounding, and turns about the origin from there.
     assert!(apart(begin, &[1.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]) < 1e-12, "{begin:?}");
 }
+
+#[test]
+fn a_stop_is_passed_by_motion_alone() {
+    // Of the same rotation the vector is +π or −π: that it changes from one to the other is no motion.
+    let spin = |value: f64| {
+        stage(
+            "spin",
+            "dynamic",
+            10.0,
+            0.01,
+            &format!("stop = {{ at = \"top\", quantity = \"rz\", value = {value:?} }}"),
+        ) + "[[bodies]]\nname = \"top\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\nangular_velocity = [0.0, 0.0, 1.0]\n"
+    };
+    let end = |text: &str| rows(text, &mut |frame: &Frame| vec![frame.state.time]).last().expect("rows")[0];
+    // The spin is uniform, and the stop is met to 1e-8 of its value.
+    assert!((end(&spin(-1.0)) - (2.0 * std::f64::consts::PI - 1.0)).abs() < 1e-6);
+    assert!(errors(&spin(3.2))[0].contains("does not come to 3.2"));
+    // A body leaves its place, at which it is to stop, with a frequency of one half, and is back after half a period.
+    let back = stage("swing", "dynamic", 3.0, 0.01, "stop = { at = \"bob\", quantity = \"uz\", value = 0.0 }")
+        + &on_spring("bob", std::f64::consts::PI.powi(2))
+        + "[[initial]]\nat = \"bob\"\nvelocity = [0.0, 0.0, 1.0]\n[integrator]\nscheme = \"newmark\"\n";
+    // The period of the trapezoidal rule is longer by (ωh)²/12 = 8e-5.
+    assert!((end(&back) - 1.0).abs() < 2e-4, "{}", end(&back));
+}
+
+#[test]
+fn a_stop_by_a_load_sees_what_of_it_acts() {
+    // The load acts with its full force by its amplitude, and is brought on over the stage: half of it acts halfway.
+    let text = |stop: &str| {
+        stage("rest", "static", 1.0, 0.5, "")
+            + &stage("pull", "static", 1.0, 0.25, stop)
+            + &on_spring("bob", 1.0)
+            + &force("bob", 1.0, "name = \"pull\"\namplitude = \"whole\"\nstages = \"pull\"")
+            + "[amplitudes.whole]\nkind = \"table\"\npoints = [[0.0, 1.0], [5.0, 1.0]]\n"
+    };
+    let end = |stop: &str| rows(&text(stop), &mut displacement("bob")).last().cloned().expect("rows");
+    let by_force = end("stop = { load = \"pull\", force = 0.5 }");
+    // Stops are met to 1e-8, forces are in equilibrium to that.
+    assert!((by_force[0] - 1.5).abs() < 1e-7 && (by_force[3] - 0.5).abs() < 1e-7, "{by_force:?}");
+    // The work on a spring is that of the mean force, k u²/2.
+    let by_work = end("stop = { load = \"pull\", work = 0.125 }");
+    assert!((by_work[0] - 1.5).abs() < 1e-7 && (by_work[3] - 0.5).abs() < 1e-7, "{by_work:?}");
+}

@@ -8,7 +8,7 @@ use super::load::{Loaded, model_stage};
 use super::verdict::{energy_line, energy_warning, short_of_stop, work_warning};
 use super::watchers::{Watchers, stage_begins};
 use crate::model::{self, Model};
-use crate::names::instant;
+use crate::names::{instant, to_digits};
 use crate::output::{settle_cadence, wanted};
 use crate::plan::Plan;
 use crate::solve::{Counts, Handover, Outcome, Run, StepError};
@@ -47,7 +47,12 @@ impl StagesTold {
         };
         let doubts = run.warnings().iter().map(ToString::to_string);
         let of_run = doubts.chain(energy_warning(run.balance(), model)).chain(work_warning(run));
-        self.warnings.extend(of_run.chain(stop_missed(run, model)).map(|text| format!("{stage}{text}")));
+        self.warnings.extend(
+            of_run
+                .chain(stop_missed(run, model))
+                .chain(left_held(run, model, end_time))
+                .map(|text| format!("{stage}{text}")),
+        );
         self.remarks.extend(run.remarks().iter().map(|remark| format!("{stage}{remark}")));
         self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
         self.counts = run.counts();
@@ -64,6 +69,19 @@ fn stop_missed(run: &Run, model: &Model) -> Option<String> {
     let stop = model.analysis.stage.as_ref()?.stop.as_ref()?;
     let missed = run.has_stopped() == Some(false);
     missed.then(|| format!("{} did not come to {} before the stage was over", stop.label, stop.value))
+}
+
+/// Says of a static stage that stopped before its time what it was still taking off.
+fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> {
+    let holds_back = model.analysis.stage.as_ref()?.holds_back;
+    let left = (model.analysis.end_time - end_time?) / model.analysis.duration();
+    (holds_back && run.has_stopped() == Some(true)).then(|| {
+        let part = to_digits(100.0 * left, 2);
+        format!(
+            "it stopped while forces that were out of balance at its beginning were still going: {part} % of them are left. A static stage \
+             after it takes these off, a dynamic one lets them go at once"
+        )
+    })
 }
 
 /// The next stage, ready to be planned.

@@ -272,6 +272,11 @@ impl<'d> CurrentStage<'d> {
         self.course.first(stages) > 0
     }
 
+    /// True where a table with these `stages` is not there in the stage before.
+    pub fn is_new(&self, stages: &Maybe<Names>) -> bool {
+        self.index.checked_sub(1).is_none_or(|before| !self.course.holds(before, stages))
+    }
+
     /// True where a support with these `stages` first acts in a static stage.
     pub fn begins_static(&self, stages: &Maybe<Names>) -> bool {
         self.course.stages[self.course.first(stages)].kind == AnalysisKind::Static

@@ -40,7 +40,8 @@ pub(super) fn loads<'d>(
         }
         if let Some(name) = &load.name {
             let (nodal, pressures) = (first[0]..loads.nodal.len(), first[1]..loads.pressures.len());
-            actors.push((name, Actors { nodal, pressures, motions: Vec::new() }));
+            let are_new = scene.stage.is_some_and(|stage| stage.is_new(&load.stages));
+            actors.push((name, Actors { nodal, pressures, motions: Vec::new(), are_new }));
         }
     }
     loads

@@ -9,6 +9,8 @@ use super::values::span;
 use crate::deck::stages as words;
 use crate::deck::words::Table;
 use crate::diagnostic::At;
+use crate::names::short;
+use std::f64::consts::PI;
 
 /// The loads and motions that a deck names.
 pub(super) type NamedActors<'d> = Vec<(&'d At<String>, Actors)>;
@@ -19,7 +21,7 @@ pub(super) fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut
     let actors = joined(actors, report);
     let stop = current.table().stop.as_ref().and_then(|table| stop(&current, table, scene, &actors, report));
     let (name, count) = (current.name().to_owned(), current.count());
-    Some(RunStage { name, index: current.index, count, goes_on: current.goes_on(), stop })
+    Some(RunStage { name, index: current.index, count, goes_on: current.goes_on(), holds_back: false, stop })
 }
 
 /// One entry for each name; a load and a support must not share one.
@@ -74,7 +76,11 @@ fn stop<'d>(
         }
         None => return scene.names.unknown("point or body", name, || scene.names.known(|_| true), report),
     };
-    let (dof, value) = (quantity?.value as usize, value?.value);
+    let (dof, at, value) = (quantity?.value as usize, &value?.span, value?.value);
+    if dof >= 3 && value.abs() >= PI {
+        let message = format!("{} of {} does not come to {}", DIRECTIONS[dof], name.value, short(value));
+        return report.error_with(at, message, "it is a component of the rotation vector, which is shorter than π");
+    }
     let label = format!("{} of {}", DIRECTIONS[dof], name.value);
     Some(Stop { quantity: StopQuantity::Displacement([node, dof]), value, label })
 }

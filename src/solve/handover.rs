@@ -14,7 +14,7 @@ use crate::math::{Vec3, Vec6};
 use crate::model::{AnalysisKind, Joint, Load, Model};
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
-use crate::system::{Excitation, Forces, Loading, Side, System, carry_history};
+use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -269,7 +269,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
     let mut loading = Loading::default();
     forces.multipliers.values.copy_from_slice(&state.multipliers);
     Excitation::new(model).loading(state.time, Side::After, &mut loading);
-    system.residual(&state.configuration(), &loading, &mut forces);
+    let scale = system.residual(&state.configuration(), &loading, &mut forces);
     for restraint in &model.constraints.restraints {
         forces.on_nodes[restraint.node][restraint.dof] = 0.0;
     }
@@ -279,6 +279,9 @@ fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
             (0..3).for_each(|i| of[if i == normal { i } else { 3 + i }] = 0.0);
         };
         forces.on_nodes.iter_mut().for_each(keep);
+    }
+    if let Some(stage) = &mut model.analysis.stage {
+        stage.holds_back = forces.on_nodes.iter().any(|of| is_felt(of, scale));
     }
     let amplitude = model.loading.amplitudes.len();
     let before = model.loading.nodal.len();
@@ -293,4 +296,12 @@ fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
     let ends = [[state.time, 1.0], [model.analysis.end_time, 0.0]];
     model.loading.amplitudes.push(Amplitude::Table(StraightLines::new(ends.to_vec())));
     model.loading.nodal.len() > before
+}
+
+/// True for forces above those that an equilibrium leaves.
+fn is_felt(of: &[f64; 6], scale: Scale) -> bool {
+    /// Part of the largest force.
+    const LEFT: f64 = 1e-6;
+    let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment
 }

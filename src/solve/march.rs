@@ -47,9 +47,11 @@ impl March<'_, '_> {
     /// Takes account of an accepted step; true where it has come to the value at which the stage stops.
     pub fn passes_stop(&mut self) -> bool {
         let Some(watch) = self.stop_watch.as_deref_mut() else { return false };
-        let left = watch.left(self.cx, self.state);
-        watch.accept(self.cx, self.state, left <= 0.0);
-        left <= 0.0
+        let stops = watch.passed(self.cx, self.state).is_some();
+        if stops {
+            watch.accept(self.cx, self.state, true);
+        }
+        stops
     }
 
     /// Shows an accepted step to the observer.

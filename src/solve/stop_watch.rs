@@ -17,7 +17,7 @@ pub struct StopWatch {
     stop: Stop,
     /// The restraints whose motion does work, by index in the model's list.
     moved: Vec<usize>,
-    /// Of the value less the quantity at the beginning: its sign, and the larger of both.
+    /// Of the value less the quantity: its sign, 0 until the quantity has left a value at which it begins, and the larger of both.
     side: f64,
     size: f64,
     /// Work up to the beginning of the step at hand.
@@ -35,6 +35,32 @@ struct Buffers {
     loads: [Loading; 2],
     motions: [Vec<Prescribed>; 2],
     forces: Vec<Force>,
+    /// What is held back of the loads at the beginning of the stage; empty where nothing is.
+    held: Loading,
+}
+
+impl Buffers {
+    /// Finds what a static stage that follows another one holds back of loads that come with it, or that jump where it begins.
+    fn hold_back(&mut self, cx: &Context, actors: &Actors) {
+        let begin = cx.model.analysis.begin;
+        if cx.is_dynamic() || begin == 0.0 {
+            return;
+        }
+        let [before, held] = [&mut self.loads[0], &mut self.held];
+        cx.excitation.loading(begin, Side::Before, before);
+        cx.excitation.loading(begin, Side::After, held);
+        if !actors.are_new {
+            held.factors.iter_mut().zip(&before.factors).for_each(|(held, before)| *held -= before);
+            held.pressures.iter_mut().zip(&before.pressures).for_each(|(held, before)| *held -= before);
+        }
+    }
+}
+
+/// Takes what is held back off the loads at a time: as dead loads that goes to zero over the stage.
+fn take_held(cx: &Context, held: &Loading, time: f64, loads: &mut Loading) {
+    let left = (cx.model.analysis.end_time - time) / cx.model.analysis.duration();
+    loads.factors.iter_mut().zip(&held.factors).for_each(|(load, held)| *load -= left * held);
+    loads.pressures.iter_mut().zip(&held.pressures).for_each(|(load, held)| *load -= left * held);
 }
 
 impl StopWatch {
@@ -71,9 +97,37 @@ impl StopWatch {
         (self.work, self.reached) = (0.0, false);
         self.before = state.clone();
         self.load_steps = ws.load_steps.clone();
-        let left = self.stop.value - self.quantity(cx, state);
-        self.side = if left < 0.0 { -1.0 } else { 1.0 };
-        self.size = left.abs().max(self.stop.value.abs());
+        if let StopQuantity::Work(actors) | StopQuantity::Force(actors) = &self.stop.quantity {
+            self.buffers.hold_back(cx, actors);
+        }
+        let rest = self.stop.value - self.quantity(cx, state);
+        self.size = self.stop.value.abs();
+        self.take_side(rest);
+    }
+
+    /// Finds from which side the value is come to; a quantity that is at it is on none.
+    fn take_side(&mut self, rest: f64) {
+        self.size = self.size.max(rest.abs());
+        self.side = if self.is_met(rest) { 0.0 } else { rest.signum() };
+    }
+
+    /// Takes account of a step that has been taken and does not come to the value; `None` then, and what is left where it does.
+    pub fn passed(&mut self, cx: &Context, state: &State) -> Option<f64> {
+        let rest = self.stop.value - self.quantity(cx, state);
+        if self.side == 0.0 || self.leaves_branch(state) {
+            self.take_side(rest);
+        } else if self.side * rest <= 0.0 || self.is_met(rest) {
+            return Some(self.side * rest);
+        }
+        self.accept(cx, state, false);
+        None
+    }
+
+    /// True where a rotation vector has gone over to that of the same rotation the other way round, by which no value is passed.
+    fn leaves_branch(&self, state: &State) -> bool {
+        let StopQuantity::Displacement([node, 3..6]) = self.stop.quantity else { return false };
+        let [before, now] = [&self.before, state].map(|of| rotation::log(&of.nodes[node].rotation));
+        (now - before).norm() > std::f64::consts::PI
     }
 
     /// Keeps the state at the beginning of a step.
@@ -126,11 +180,12 @@ impl StopWatch {
                 if *dof < 3 { now.moved(start)[*dof] } else { rotation::log(&now.rotation)[*dof - 3] }
             }
             StopQuantity::Work(actors) => {
-                let Buffers { loads: [l0, l1], motions: [m0, m1], .. } = buffers;
+                let Buffers { loads: [l0, l1], motions: [m0, m1], held, .. } = buffers;
                 for (time, side, loads, motions) in
                     [(before.time, Side::After, &mut *l0, &mut *m0), (state.time, Side::Before, &mut *l1, &mut *m1)]
                 {
                     cx.excitation.loading(time, side, loads);
+                    take_held(cx, held, time, loads);
                     cx.excitation.prescribed(time, motions);
                 }
                 let mut sum = *work;
@@ -141,7 +196,10 @@ impl StopWatch {
             }
             StopQuantity::Force(actors) => {
                 let loads = &mut buffers.loads[1];
-                cx.excitation.loading(state.time, Side::Before, loads);
+                // What stands at the very beginning is not that of the stage before.
+                let side = if state.time > cx.model.analysis.begin { Side::Before } else { Side::After };
+                cx.excitation.loading(state.time, side, loads);
+                take_held(cx, &buffers.held, state.time, loads);
                 let which = (actors.nodal.clone(), actors.pressures.clone());
                 let mut sum = cx.system.load_force(which, &state.nodes, loads, &mut buffers.forces);
                 for &i in moved.iter() {

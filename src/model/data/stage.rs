@@ -13,6 +13,8 @@ pub struct RunStage {
     pub count: usize,
     /// True where the motion of a dynamic stage goes on in this one, with all that holds, joins, touches or loads the scene.
     pub goes_on: bool,
+    /// True where forces that a static stage finds out of balance at its beginning go to zero over it.
+    pub holds_back: bool,
     /// What ends it before its time.
     pub stop: Option<Stop>,
 }
@@ -48,4 +50,6 @@ pub struct Actors {
     pub pressures: Range<usize>,
     /// Node and degree of freedom of restraints whose motion is prescribed.
     pub motions: Vec<[usize; 2]>,
+    /// True for loads that did not act in the stage before.
+    pub are_new: bool,
 }

@@ -110,11 +110,7 @@ impl<'a> FixedController<'a> {
         const TRIED: usize = 60;
         let March { cx, ws, state, stop_watch, .. } = march;
         let watch = stop_watch.as_deref_mut()?;
-        let mut last = (report, watch.left(cx, state));
-        if last.1 > 0.0 && !watch.is_met(last.1) {
-            watch.accept(cx, state, false);
-            return None;
-        }
+        let mut last = (report, watch.passed(cx, state)?);
         // The Illinois form of the regula falsi.
         let (mut low, mut high) = ((from, watch.left_before(cx)), (to, last.1));
         for _ in 0..TRIED {
