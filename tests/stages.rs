@@ -606,3 +606,25 @@ fn a_stop_by_a_load_sees_what_of_it_acts() {
     let by_work = end("stop = { load = \"pull\", work = 0.125 }");
     assert!((by_work[0] - 1.5).abs() < 1e-7 && (by_work[3] - 0.5).abs() < 1e-7, "{by_work:?}");
 }
+
+#[test]
+fn a_load_that_comes_with_a_stage_jumps_as_one_that_jumps_in_a_stage() {
+    for scheme in ["newmark", "wilson-theta", "hht-alpha", "generalized-alpha"] {
+        let spring = on_spring("bob", 1e4) + "[[initial]]\nat = \"bob\"\nvelocity = [0.0, 0.0, 1.0]\n";
+        let integrator = format!("[integrator]\nscheme = \"{scheme}\"\n");
+        let one = stage("all", "dynamic", 0.04, 2e-3, "")
+            + &spring
+            + &force("bob", 100.0, "amplitude = \"late\"")
+            + "[amplitudes.late]\nkind = \"step\"\nstart = 0.02\n"
+            + &integrator;
+        let two = stage("a", "dynamic", 0.02, 2e-3, "")
+            + &stage("b", "dynamic", 0.02, 2e-3, "")
+            + &spring
+            + &force("bob", 100.0, "stages = \"b\"")
+            + &integrator;
+        let [one, two] = [one, two].map(|text| rows(&text, &mut motion).last().cloned().expect("rows"));
+        // Iterations end at 1e-8 of the forces.
+        let difference = apart(&one, &two);
+        assert!(difference < 1e-8, "{scheme}: {difference:e}");
+    }
+}

@@ -290,11 +290,27 @@ impl<'d> CurrentStage<'d> {
 
     /// True where the stage before is dynamic like this one, and nothing else holds, joins, touches or loads the scene than in that one.
     pub fn goes_on(&self) -> bool {
+        self.is_like_before(|index| self.course.held(index))
+    }
+
+    /// True where it is so but for the loads.
+    pub fn loads_alone_change(&self) -> bool {
+        // They stand last among all that a stage may have.
+        let others = self.course.whole.loads.len();
+        let without_loads = |index| {
+            let mut held = self.course.held(index);
+            held.truncate(held.len() - others);
+            held
+        };
+        !self.goes_on() && self.is_like_before(without_loads)
+    }
+
+    fn is_like_before(&self, held: impl Fn(usize) -> Vec<bool>) -> bool {
         let Some(before) = self.index.checked_sub(1) else { return false };
         let dynamic = |index: usize| self.course.stages[index].kind == AnalysisKind::Dynamic;
         dynamic(before)
             && dynamic(self.index)
-            && self.course.held(before) == self.course.held(self.index)
+            && held(before) == held(self.index)
             && !self.course.whole.initial.iter().any(|table| table.stages.is_some() && self.holds(&table.stages))
     }
 

@@ -21,7 +21,15 @@ pub(super) fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut
     let actors = joined(actors, report);
     let stop = current.table().stop.as_ref().and_then(|table| stop(&current, table, scene, &actors, report));
     let (name, count) = (current.name().to_owned(), current.count());
-    Some(RunStage { name, index: current.index, count, goes_on: current.goes_on(), holds_back: false, stop })
+    Some(RunStage {
+        name,
+        index: current.index,
+        count,
+        goes_on: current.goes_on(),
+        loads_alone_change: current.loads_alone_change(),
+        holds_back: false,
+        stop,
+    })
 }
 
 /// One entry for each name; a load and a support must not share one.

@@ -10,6 +10,7 @@ use super::outcome::Counts;
 use crate::amplitude::{Amplitude, StraightLines};
 use crate::constraints::joint::ConstraintEquation;
 use crate::constraints::rigid_link::RigidLink;
+use crate::elements::Force;
 use crate::math::{Vec3, Vec6};
 use crate::model::{AnalysisKind, Joint, Load, Model};
 use crate::state::{Increment, Node, State};
@@ -32,6 +33,9 @@ pub struct Handover {
     pub(super) counts: Counts,
     /// What the balance of energy has missed so far.
     pub(super) missed: f64,
+    /// The forces that the end of the stage before leaves out of balance on each node, where nothing but loads differs in a motion that
+    /// goes on; schemes that fulfil the equation of motion elsewhere than at the ends of steps leave some.
+    pub(super) out_of_balance: Option<Vec<Force>>,
     /// What load steps leave to those after them; `None` unless both stages are static.
     pub(super) load_steps: Option<LoadSteps>,
 }
@@ -78,6 +82,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         }
     }
     let handover = Handover {
+        out_of_balance: model.analysis.loads_alone_change().then(|| from.out_of_balance(cx, state)).flatten(),
         state: next,
         fresh,
         counts: before.counts,
@@ -189,6 +194,15 @@ impl NodeMap {
             work: state.work,
         };
         Ok((next, fresh))
+    }
+
+    /// The forces out of balance on the nodes; `None` where the new scene has other nodes.
+    fn out_of_balance(&self, cx: &Context, state: &State) -> Option<Vec<Force>> {
+        let (mut forces, mut loading) = (Forces::new(cx.system, state.nodes.len()), Loading::default());
+        forces.multipliers.values.copy_from_slice(&state.multipliers);
+        cx.excitation.loading(state.time, Side::Before, &mut loading);
+        cx.system.residual(&state.configuration(), &loading, &mut forces);
+        self.old.iter().map(|old| old.map(|old| forces.on_nodes[old])).collect()
     }
 
     /// The multipliers of the equations that both scenes have; zero for others.

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::joints;
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::elements::Moduli;
+use crate::elements::{Force, Moduli};
 use crate::math::{Vec3, Vec6, rotation, stack};
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
@@ -184,14 +184,22 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
         return Ok(());
     }
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-    let mut force = |side: Side| {
-        cx.excitation.loading(state.time, side, &mut ws.loads.instant);
-        cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-        ws.forces.on_nodes.clone()
-    };
-    let (before, after) = (force(Side::Before), force(Side::After));
-    for (after, (f, before)) in ws.forces.on_nodes.iter_mut().zip(after.iter().zip(&before)) {
-        *after = std::array::from_fn(|i| f[i] - before[i]);
+    cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
+    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+    let before = ws.forces.on_nodes.clone();
+    jump_from(cx, ws, state, &before)
+}
+
+/// As [`jump`], from the forces out of balance on all nodes `before` it.
+///
+/// # Errors
+/// [`Failure::Singular`] where a mass matrix cannot be inverted.
+pub fn jump_from(cx: &Context, ws: &mut Workspace, state: &mut State, before: &[Force]) -> Result<(), Failure> {
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    cx.excitation.loading(state.time, Side::After, &mut ws.loads.instant);
+    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+    for (after, before) in ws.forces.on_nodes.iter_mut().zip(before) {
+        after.iter_mut().zip(before).for_each(|(after, before)| *after -= before);
     }
     let massless = factor_mass(cx, ws, &state.configuration())?;
     add_accelerations(cx, ws, state, &massless);

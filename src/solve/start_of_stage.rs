@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::handover::Handover;
 use super::joints;
 use super::start::{
-    DIGITS, add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes,
+    DIGITS, add_accelerations, factor_mass, jump_from, project_velocities, speed, update_rates_of_dependent_nodes,
 };
 use super::warning::Warning;
 use super::workspace::Workspace;
@@ -29,7 +29,9 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
     if cx.algorithmic_acceleration.is_some() && state.algorithmic_accelerations.is_empty() {
         state.algorithmic_accelerations = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
     }
-    if !cx.model.analysis.goes_on() {
+    if let Some(before) = &handover.out_of_balance {
+        jump_from(cx, ws, &mut state, before)?;
+    } else if !cx.model.analysis.goes_on() {
         balance(cx, ws, handover, &mut state)?;
     }
     ws.trial.clone_from(&state.nodes);

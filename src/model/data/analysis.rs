@@ -49,6 +49,11 @@ impl Analysis {
         self.stage.as_ref().is_some_and(|stage| stage.goes_on)
     }
 
+    /// True where it does but for loads that come, go or jump.
+    pub fn loads_alone_change(&self) -> bool {
+        self.stage.as_ref().is_some_and(|stage| stage.loads_alone_change)
+    }
+
     /// How long it lasts.
     pub fn duration(&self) -> f64 {
         self.end_time - self.begin

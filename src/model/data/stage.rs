@@ -13,6 +13,8 @@ pub struct RunStage {
     pub count: usize,
     /// True where the motion of a dynamic stage goes on in this one, with all that holds, joins, touches or loads the scene.
     pub goes_on: bool,
+    /// True where it does but for loads that come or go.
+    pub loads_alone_change: bool,
     /// True where forces that a static stage finds out of balance at its beginning go to zero over it.
     pub holds_back: bool,
     /// What ends it before its time.
