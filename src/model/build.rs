@@ -44,7 +44,7 @@ use super::report::Report;
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
 use super::sections::Sections;
-use super::shell_edges::set_bulges;
+use super::shell_edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::slivers::check_slivers;
 use super::stops;
@@ -71,7 +71,7 @@ pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
 /// Reads a deck and builds the model of each of its stages, or the one of a deck without; everything there is to say about it, in the order
 /// of the deck.
 pub fn read_stages(source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
-    read_from(source, &[])
+    read_from(source, (&[], None))
 }
 
 /// Builds the model of the next stage anew, after stages that have ended at the times `reached`, of which not all were planned. What does
@@ -80,7 +80,7 @@ pub fn read_stages(source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
 /// # Errors
 /// The deck, or a file that it names, is no longer what it was.
 pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model, String> {
-    let (models, said) = read_from(source, reached);
+    let (models, said) = read_from(source, (reached, Some(planned)));
     let mut model = models.into_iter().next().ok_or_else(|| {
         said.into_iter()
             .find(Diagnostic::is_error)
@@ -95,15 +95,15 @@ pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model
     Ok(model)
 }
 
-/// The models of all stages, or of the next one after some that have ended at the times `reached`.
-fn read_from(source: &Source, reached: &[f64]) -> (Vec<Model>, Vec<Diagnostic>) {
+/// The models of all stages, or of the next one, planned otherwise, after some that have ended at these times.
+fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, Vec<Diagnostic>) {
     let (deck, mut problems) = crate::deck::read(source);
     let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
     let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
     let (records, of_records) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_records(deck, folder));
     said.extend(of_records);
     let (mut models, more) = match &deck {
-        Some(deck) if !deck.stages.is_empty() => build_stages(deck, reached, input.as_ref(), &records),
+        Some(deck) if !deck.stages.is_empty() => build_stages(deck, stages, input.as_ref(), &records),
         Some(deck) => {
             let (model, said) = build(deck, input.as_ref(), &records);
             (model.into_iter().collect(), said)
@@ -119,26 +119,25 @@ fn read_from(source: &Source, reached: &[f64]) -> (Vec<Model>, Vec<Diagnostic>) 
     (models, problems)
 }
 
-/// The models of all stages of a deck, or of the next one after those that have ended; none if anything is wrong with any of them.
+/// The models of all stages of a deck, or of the next one, `planned` otherwise, after those that have ended; none if anything is wrong
+/// with any of them.
 fn build_stages(
     deck: &Deck,
-    reached: &[f64],
+    (reached, planned): (&[f64], Option<&Model>),
     input: Option<&Input>,
     records: &[Option<Record>],
 ) -> (Vec<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
-    let course = Course::new(deck, reached, &mut report);
-    let (mut models, mut said) = (Vec::new(), Vec::new());
-    let count = if reached.is_empty() { deck.stages.len() } else { 1 };
-    for stage in CurrentStage::all(&course).skip(reached.len()).take(count) {
-        let (own, expected) = stage.deck();
-        let mut report = Report::new(&own);
-        let mut built = model(&own, Some(stage), (input, records), &mut report);
-        for expect in &mut built.expects {
-            expect.index = expected.get(expect.index).copied().unwrap_or_default();
-        }
-        models.push(built);
-        said.push((stage.name().to_owned(), merge_diagnostics(report.into_problems())));
+    let mut course = Course::new(deck, reached, &mut report);
+    if let Some(planned) = planned {
+        course.bulges = bulges(planned);
+    }
+    let (mut models, mut said) = each_stage(&course, reached.len(), input, records);
+    if planned.is_none()
+        && let Some(least) = least_bulges(&models)
+    {
+        course.bulges = least;
+        (models, said) = each_stage(&course, 0, input, records);
     }
     if let Some(Model { loading, .. }) = models.first() {
         check_amplitude_ends(deck, &loading.amplitudes, course.end(), &mut report);
@@ -150,6 +149,26 @@ fn build_stages(
     }
     share_contact_laws(&mut models);
     (models, problems)
+}
+
+/// The models of all stages, or of the next one after the first few that have ended, and what there is to say about each.
+fn each_stage(
+    course: &Course,
+    ended: usize,
+    input: Option<&Input>,
+    records: &[Option<Record>],
+) -> (Vec<Model>, Vec<(String, Vec<Diagnostic>)>) {
+    let count = if ended == 0 { usize::MAX } else { 1 };
+    let built = CurrentStage::all(course).skip(ended).take(count).map(|stage| {
+        let (own, expected) = stage.deck();
+        let mut report = Report::new(&own);
+        let mut built = model(&own, Some(stage), (input, records), &mut report);
+        for expect in &mut built.expects {
+            expect.index = expected.get(expect.index).copied().unwrap_or_default();
+        }
+        (built, (stage.name().to_owned(), merge_diagnostics(report.into_problems())))
+    });
+    built.unzip()
 }
 
 /// Gives a contact the same stiffness in all stages, the largest that was chosen for any of them: what lies on it must not sink in or spring up
@@ -205,7 +224,7 @@ fn model<'d>(
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
     let fields = environment(deck, stage, report);
     let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
-    set_bulges(&mut scene.parts.list, &topology);
+    set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.course.bulges));
     let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
     let loads = loads(&scene, &topology, &mut actors, report);
     let damping = damping(&scene, &topology, report);
@@ -218,10 +237,8 @@ fn model<'d>(
     let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
     let study = study(&scene, &scheme, &topology.list, report);
     let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
-    if !report.has_errors() {
-        let linked = links.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
-        check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
-    }
+    let linked = links.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
+    check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();
     let (analysis, iteration) = lead_on(deck, scene.analysis, iteration, arc_length);
@@ -249,6 +266,9 @@ fn model<'d>(
 
 /// Looks for what is odd about a scene without errors.
 fn check_sound(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, ties: Ties, report: &mut Report) {
+    if report.has_errors() {
+        return;
+    }
     // Of several stages the times are those of all.
     if scene.stage.is_none() && scene.analysis.modes.is_none() {
         check_amplitude_ends(scene.deck, amplitudes, scene.analysis.end_time, report);

@@ -2,6 +2,7 @@
 
 use super::data::AnalysisKind;
 use super::report::{Owner, Report};
+use super::shell_edges::Bulges;
 use super::values::span;
 use crate::amplitude::{Amplitude, StraightLines};
 use crate::deck::Deck;
@@ -18,6 +19,8 @@ pub(super) struct Course<'d> {
     pub whole: &'d Deck,
     /// True after stages of which one has ended before its time: what the deck expects later is missed then, but no error.
     pub is_shortened: bool,
+    /// The most that each edge of each shell may bulge; empty where only the stage itself holds edges straight.
+    pub bulges: Vec<Bulges>,
     stages: Vec<PlannedStage<'d>>,
 }
 
@@ -48,7 +51,8 @@ pub(super) struct CurrentStage<'d> {
 impl<'d> Course<'d> {
     /// Reads `[[stages]]` and checks what names them; the first stages have ended at the times `reached`.
     pub fn new(deck: &'d Deck, reached: &[f64], report: &mut Report<'d>) -> Course<'d> {
-        let mut course = Course { whole: deck, is_shortened: !reached.is_empty(), stages: Vec::new() };
+        let mut course =
+            Course { whole: deck, is_shortened: !reached.is_empty(), bulges: Vec::new(), stages: Vec::new() };
         let mut begin = 0.0;
         for (index, table) in deck.stages.iter().enumerate() {
             let stage = course.stage(table, begin, reached.get(index).copied(), report);

@@ -1,6 +1,6 @@
 //! The part of the bulge of each edge of a shell that the stress in its elements works on.
 
-use super::data::{Part, PartType, Shell, ShellElement};
+use super::data::{Model, Part, PartType, Shell, ShellElement};
 use super::nodes::Topology;
 use crate::elements::shell::{Interpolation, Quadrilateral, Triangle};
 use crate::math::Vec3;
@@ -14,11 +14,15 @@ const FREE: f64 = 1e-6;
 /// and still be taken as flat.
 const FLAT: f64 = 0.05;
 
+/// [`ShellElement::bulge`] of each element of a shell.
+pub(super) type Bulges = Vec<[f64; 4]>;
+
 /// Sets [`ShellElement::bulge`]: nothing where both ends are held across the edge, by supports or by the same node, since what holds
 /// an edge at its ends holds it between them too, and nothing where the surface is curved along it, since drilling by bending
 /// alone would lock thin shells; otherwise the same part for all elements of the edge, so that a stress that passes through drives no
-/// rotation.
-pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology) {
+/// rotation. Never more than the `most` of a shell, where these are given: an edge that any stage of a run holds straight is straight in
+/// all of them, or the stress in its elements would jump.
+pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology, most: &[Bulges]) {
     let (mut curved, mut of_quadrilaterals) = (HashSet::new(), HashSet::new());
     let mixed = parts.iter().filter_map(Shell::of).any(|shell| shell.corners == 3);
     for shell in parts.iter().filter_map(Shell::of) {
@@ -31,9 +35,10 @@ pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology) {
             curved.extend(edges.filter(|(a, _)| !flat(*a)).map(|(_, edge)| edge));
         }
     }
-    for shell in parts.iter_mut().filter_map(Shell::of_mut) {
+    for (index, shell) in parts.iter_mut().filter_map(Shell::of_mut).enumerate() {
         let corners = shell.corners;
-        for element in &mut shell.elements {
+        for (number, element) in shell.elements.iter_mut().enumerate() {
+            let most = most.get(index).map_or(&[f64::INFINITY; 4], |shell| &shell[number]);
             for a in 0..corners {
                 let edge = element.edge(a, corners);
                 let straight = curved.contains(&edge) || is_straight(topology, element, [a, (a + 1) % corners]);
@@ -43,10 +48,30 @@ pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology) {
                     Quadrilateral::BULGE
                 } else {
                     Triangle::BULGE
-                };
+                }
+                .min(most[a]);
             }
         }
     }
+}
+
+/// The bulges of all shells of a model.
+pub(super) fn bulges(model: &Model) -> Vec<Bulges> {
+    model.each::<Shell>().map(|shell| shell.elements.iter().map(|element| element.bulge).collect()).collect()
+}
+
+/// The least bulge of each edge of all shells in any of the models of a scene; `None` where they are the same in all.
+pub(super) fn least_bulges(models: &[Model]) -> Option<Vec<Bulges>> {
+    let mut all = models.iter().map(bulges);
+    let first = all.next()?;
+    let mut least = first.clone();
+    let mut differ = false;
+    for other in all {
+        differ |= other != first;
+        let edges = least.iter_mut().zip(&other).flat_map(|(least, other)| least.iter_mut().zip(other));
+        edges.for_each(|(least, other)| (0..4).for_each(|a| least[a] = least[a].min(other[a])));
+    }
+    differ.then_some(least)
 }
 
 /// True for an edge along which the surface of an element is flat.
