@@ -843,6 +843,19 @@ fn stages() {
     let kinds =
         stage("a", "modal", "") + &stage("a", "dynamic", "") + "[[stages]]\nkind = \"static\"\nduration = 0.0\n";
     assert_snapshot!("stages_wrong", with(&kinds, ""));
+    let modes =
+        |name: &str, kind: &str, more: &str| format!("[[stages]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
+    assert_snapshot!("stages_of_modes_alone", with(&modes("a", "modal", ""), ""));
+    let of_modes = two.clone()
+        + &modes("low", "modal", "modes = 2\nup_to = 3.0\nduration = 1.0\ntime_step = 0.1")
+        + &modes("more", "buckling", "damped = true")
+        + &modes("all", "buckling", "");
+    let of_stages = "[[loads]]\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]\nstages = \"low\"\n\
+                     [[loads]]\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]\nstages = \"more\"\namplitude = \"up\"\n\
+                     [amplitudes.up]\nkind = \"ramp\"\nend = 1.0\n\
+                     [[expect]]\nmode = 1\nquantity = \"frequency\"\nvalue = 1.0\ntolerance = 0.1\n\
+                     [[expect]]\nmode = 1\nquantity = \"frequency\"\nstage = \"weight\"\nvalue = 1.0\ntolerance = 0.1\n";
+    assert_snapshot!("stages_of_modes", with(&of_modes, of_stages));
     let integrator = "integrator = { scheme = \"newmark\" }";
     let dynamic_keys = stage("weight", "static", integrator).replace("time_step = 0.1", "time_step = \"auto\"");
     assert_snapshot!("stages_dynamic_keys", with(&dynamic_keys, ""));

@@ -673,3 +673,47 @@ force = [0.0, 1e5, 0.0]
     // Both are in equilibrium to 1e-8 of the forces; the stress of a bulge of the held edge is some hundredths of them.
     assert!(apart(&rows[3][1..], &rows[5][1..]) < 1e-7, "{:?} {:?}", rows[3], rows[5]);
 }
+
+#[test]
+fn modes_about_a_state_change_nothing_of_it() {
+    let body = r#"
+[[masses]]
+at = "tip"
+mass = 10.0
+
+[[loads]]
+at = "tip"
+force = [0.0, 0.0, -2e3]
+"#;
+    let load = stage("load", "static", 1.0, 0.5, "");
+    let modes = "[[stages]]\nname = \"modes\"\nkind = \"modal\"\nmodes = 3\n";
+    let release = stage("release", "dynamic", 0.05, 2e-3, "");
+    let go_on = stage("go on", "dynamic", 0.05, 2e-3, "");
+    let without = [&load, &release, &go_on].map(String::as_str).concat() + CANTILEVER + body;
+    let with =
+        [modes, &load, &modes.replace("modes\"", "of load\""), &release, &modes.replace("modes\"", "moving\""), &go_on];
+    let with = with.concat() + CANTILEVER + body + "[damping]\nmass_factor = 0.0\n";
+    let [without, with] = [without, with].map(|text| rows(&text, &mut motion));
+    assert_eq!(without, with[with.len() - without.len()..]);
+}
+
+#[test]
+fn buckling_by_more_of_a_load_is_that_by_all_of_it() {
+    // The factor of what comes is what is left of the whole: the column shortens by 4e-5 of its length, and no more is between them.
+    let column = |stages: &str, loads: &str| {
+        let column = CANTILEVER.replace("tip = [2.0, 0.0, 0.0]", "tip = [0.0, 0.0, 2.0]");
+        format!("{stages}{column}{loads}[[expect]]\nmode = 1\nquantity = \"factor\"\nvalue = 1.0\ntolerance = 1e9\n")
+    };
+    let load = |force: f64, stages: &str| format!("[[loads]]\nat = \"tip\"\nforce = [0.0, 0.0, {force:?}]\n{stages}\n");
+    let whole = column("[analysis]\nkind = \"buckling\"\nmodes = 1\n", &load(-1e3, ""));
+    let stages =
+        stage("load", "static", 1.0, 0.5, "") + "[[stages]]\nname = \"more\"\nkind = \"buckling\"\nmodes = 1\n";
+    let rest = column(&stages, &(load(-3e4, "") + &load(-1e3, "stages = \"more\"")));
+    let [whole, rest] = [whole, rest].map(|text| {
+        let done = support::run_source(&Source::new("stages.toml", &text, &[]), &mut |_| Vec::new());
+        assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+        done.verdicts[0].value.expect("a factor")
+    });
+    assert!(whole > 60.0, "{whole}");
+    assert!((rest + 30.0 - whole).abs() < 2e-4 * whole, "{rest} {whole}");
+}

@@ -46,14 +46,15 @@ impl StagesTold {
             name => format!("stage `{name}`: "),
         };
         let doubts = run.warnings().iter().map(ToString::to_string);
-        let of_run = doubts.chain(energy_warning(run.balance(), model)).chain(work_warning(run));
-        self.warnings.extend(
-            of_run
-                .chain(stop_missed(run, model))
-                .chain(left_held(run, model, end_time))
-                .map(|text| format!("{stage}{text}")),
-        );
+        self.warnings.extend(doubts.map(|text| format!("{stage}{text}")));
         self.remarks.extend(run.remarks().iter().map(|remark| format!("{stage}{remark}")));
+        if !stage.is_empty() && model.analysis.modes.is_some() {
+            (self.counts, self.observing) = (run.counts(), self.observing + run.observing());
+            return;
+        }
+        let of_run = energy_warning(run.balance(), model).into_iter().chain(work_warning(run));
+        let of_stage = stop_missed(run, model).into_iter().chain(left_held(run, model, end_time));
+        self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
         self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
         self.counts = run.counts();
         self.observing += run.observing();
@@ -84,11 +85,18 @@ fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> 
     })
 }
 
-/// The next stage, ready to be planned.
+/// The next stage in which time passes, ready to be planned.
 struct NextStage {
     model: Model,
     system: System,
-    handover: Handover,
+    /// What it begins with; `None` at t = 0.
+    handover: Option<Handover>,
+}
+
+/// What comes after a stage.
+enum Next {
+    Stage(Box<NextStage>),
+    End(Outcome),
 }
 
 /// What runs the stages of a deck.
@@ -112,44 +120,70 @@ impl StageRunner<'_> {
         if model.analysis.stage.is_some() {
             watchers.log.say(&stage_begins(model))?;
         }
-        let (mut outcome, state) = first.run(watchers);
-        told.take(first, model, state.as_ref().map(|state| state.time));
-        let mut next = self.next_stage(first, &outcome, state, &mut ends)?;
-        while let Some(NextStage { mut model, system, handover }) = next.take() {
-            let plan = Plan::new(&model, &system, self.threads);
-            settle_cadence(&mut model, &plan);
-            watchers.next_stage(&model)?;
+        let ended = first.run(watchers);
+        told.take(first, model, ended.1.as_ref().map(|state| state.time));
+        let mut next = self.next_stage((model, first), ended, &mut ends, (watchers, told))?;
+        loop {
+            let NextStage { mut model, system, handover } = match next {
+                Next::Stage(stage) => *stage,
+                Next::End(outcome) => return Ok(outcome),
+            };
+            let plan = self.begin(&mut model, &system, watchers)?;
             let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
             let mut run = made.map_err(|error| io::Error::other(error.to_string()))?;
             run.go_on_from(handover);
             let ended = run.run(watchers);
-            outcome = ended.0;
             told.take(&run, &model, ended.1.as_ref().map(|state| state.time));
-            next = self.next_stage(&run, &outcome, ended.1, &mut ends)?;
+            next = self.next_stage((&model, &run), ended, &mut ends, (watchers, told))?;
         }
-        Ok(outcome)
     }
 
-    /// Hands the state over to the next stage; `None` where there is none, or the run ends here. `ends` are the times at which stages have
-    /// ended.
+    /// Plans a stage and lets the watchers know.
+    fn begin(&self, model: &mut Model, system: &System, watchers: &mut Watchers) -> io::Result<Plan> {
+        let plan = Plan::new(model, system, self.threads);
+        settle_cadence(model, &plan);
+        watchers.next_stage(model)?;
+        Ok(plan)
+    }
+
+    /// Hands the state over to the next stage in which time passes, after the modes about it where stages between ask for them. `ends` are
+    /// the times at which stages have ended.
     fn next_stage(
         &self,
-        run: &Run,
-        outcome: &Outcome,
-        state: Option<State>,
+        (before, run): (&Model, &Run),
+        (mut outcome, state): (Outcome, Option<State>),
         ends: &mut Vec<f64>,
-    ) -> io::Result<Option<NextStage>> {
-        let (Outcome::Done, Some(state)) = (outcome, state) else { return Ok(None) };
-        let Some(planned) = self.loaded.later.get(ends.len()) else { return Ok(None) };
-        ends.push(state.time);
-        let mut model = match planned.analysis.begin == state.time {
-            true => planned.clone(),
-            // The stage has stopped before its time: all others come earlier.
-            false => self.planned_anew(ends, planned)?,
-        };
-        model.analysis.plane &= self.loaded.model.analysis.plane;
-        let (system, handover) = run.hand_over(&state, &mut model).map_err(io::Error::other)?;
-        Ok(Some(NextStage { model, system, handover }))
+        (watchers, told): (&mut Watchers, &mut StagesTold),
+    ) -> io::Result<Next> {
+        let Some(state) = state else { return Ok(Next::End(outcome)) };
+        while let (Outcome::Done, Some(planned)) = (&outcome, self.loaded.later.get(ends.len())) {
+            ends.push(state.time);
+            let mut model = match planned.analysis.begin == state.time {
+                true => planned.clone(),
+                // The stage has stopped before its time: all others come earlier.
+                false => self.planned_anew(ends, planned)?,
+            };
+            model.analysis.plane &= self.loaded.model.analysis.plane;
+            // Where modes come first, nothing has happened yet.
+            let (system, handover) = match before.analysis.modes {
+                Some(_) => (System::new(&model).map_err(io::Error::other)?, None),
+                None => {
+                    let handed = run.hand_over((&state, told.counts), &mut model).map_err(io::Error::other)?;
+                    (handed.0, Some(handed.1))
+                }
+            };
+            if model.analysis.modes.is_none() {
+                return Ok(Next::Stage(Box::new(NextStage { model, system, handover })));
+            }
+            let plan = self.begin(&mut model, &system, watchers)?;
+            let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
+            let mut modes = made.map_err(|error| io::Error::other(error.to_string()))?;
+            modes.go_on_from(handover);
+            let (ended, at) = modes.run(watchers);
+            told.take(&modes, &model, at.map(|state| state.time));
+            outcome = ended;
+        }
+        Ok(Next::End(outcome))
     }
 
     /// The model of the next stage, which was planned otherwise, after those that have ended at these times.

@@ -1,7 +1,7 @@
 //! All who watch a run: the log, the files, the expectations, the errors and the terminal.
 
 use super::load::model_stage;
-use crate::model::{AnalysisKind, Model};
+use crate::model::{AnalysisKind, ModeKind, Model};
 use crate::names::instant;
 use crate::output::Files;
 use crate::output::error_bars::ErrorBars;
@@ -58,6 +58,10 @@ impl Watchers {
 /// A line on the stage of a model.
 pub fn stage_begins(model: &Model) -> String {
     let analysis = &model.analysis;
+    if let Some(asked) = &analysis.modes {
+        let kind = if asked.kind == ModeKind::Natural { "modal" } else { "buckling" };
+        return format!("stage `{}`, {kind}, at t = {}", model_stage(model), instant(analysis.end_time));
+    }
     let kind = if analysis.kind == AnalysisKind::Static { "static" } else { "dynamic" };
     format!(
         "stage `{}`, {kind}, from t = {} to {}",

@@ -18,11 +18,9 @@ pub struct Stage {
     /// What is computed.
     #[schemars(required)]
     pub kind: Maybe<StageKind>,
-    /// How long the stage lasts, above 0, unless it stops before.
-    #[schemars(required)]
+    /// How long a static or dynamic stage lasts, above 0, unless it stops before.
     pub duration: Maybe<f64>,
     /// Length of its time steps, or load steps, above 0; in a dynamic stage also "auto".
-    #[schemars(required)]
     pub time_step: Maybe<NumberOrAuto>,
     /// With time_step = "auto": as in `[analysis]`, over the stage. Default: that of `[analysis]`, or 1e-3.
     pub error_tolerance: Maybe<f64>,
@@ -30,6 +28,12 @@ pub struct Stage {
     pub least_step: Maybe<f64>,
     /// The stage ends where this is reached, unless `duration` is over before.
     pub stop: Maybe<Table<Stop>>,
+    /// With "modal" and "buckling", as in `[analysis]`: number of modes. Default: 10.
+    pub modes: Maybe<u64>,
+    /// With "modal", instead of `modes`: all modes up to this frequency, above 0.
+    pub up_to: Maybe<f64>,
+    /// With "modal": complex modes, with damping and gyroscopic moments. Default: false.
+    pub damped: Maybe<bool>,
     /// The time integration scheme of this stage. Default: that of `[integrator]`.
     pub integrator: Maybe<OneOf<Integrator>>,
     /// The iteration of this stage. Default: that of `[iteration]`.
@@ -44,11 +48,9 @@ pub enum StageKind {
     Static,
     /// Motion in time. A load without an amplitude that first acts here acts at once.
     Dynamic,
-    /// Vibrations about the state that has been reached.
-    #[schemars(skip)]
+    /// Natural modes about the state that has been reached. No time passes.
     Modal,
-    /// Loads at which the state that has been reached loses its stability.
-    #[schemars(skip)]
+    /// Factors of the loads that first act here, at which the state that has been reached buckles under them. No time passes.
     Buckling,
 }
 

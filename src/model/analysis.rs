@@ -3,7 +3,7 @@
 use super::course::CurrentStage;
 use super::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use super::data::{ERROR_TOLERANCE, FIRST_STEP};
-use super::modes::{ModesGiven, modes};
+use super::modes::modes;
 use super::report::{Owner, Report};
 use super::values::{chosen, span};
 use crate::deck::Deck;
@@ -70,11 +70,10 @@ pub(super) fn analysis<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, repo
 
 fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Report<'d>) -> Analysis {
     let word = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
-    let kind = match modes(analysis, word, report) {
-        ModesGiven::Asked(analysis) => return analysis,
-        ModesGiven::Static => AnalysisKind::Static,
-        ModesGiven::Dynamic => AnalysisKind::Dynamic,
-    };
+    if let Some(analysis) = modes(analysis, word, report) {
+        return analysis;
+    }
+    let kind = if word == words::AnalysisKind::Static { AnalysisKind::Static } else { AnalysisKind::Dynamic };
     let end_time = report.require_positive(&owner, "end_time", &analysis.end_time);
     let (time_step, error_tolerance) = time_step(&owner, analysis, kind, report);
     let least_step = report.positive("least_step", &analysis.least_step);

@@ -378,7 +378,7 @@ fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
     }
-    if model.analysis.modes.is_some() {
+    if model.analysis.modes.is_some() && model.analysis.stage.is_none() {
         hold_at_start(model);
     }
     drop_unused(model);

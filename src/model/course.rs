@@ -7,6 +7,7 @@ use super::values::span;
 use crate::amplitude::{Amplitude, StraightLines};
 use crate::deck::Deck;
 use crate::deck::analysis::{self as words, Analysis};
+use crate::deck::expect::Expect;
 use crate::deck::stages::{Stage, StageKind};
 use crate::deck::words::{Maybe, Names, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
@@ -33,6 +34,8 @@ struct PlannedStage<'d> {
     table: &'d At<Table<Stage>>,
     name: String,
     kind: AnalysisKind,
+    /// True where modes are found, and no time passes.
+    has_modes: bool,
     begin: f64,
     duration: f64,
     /// The time at which it has ended, or will if nothing stops it.
@@ -61,6 +64,7 @@ impl<'d> Course<'d> {
         }
         course.check_rest(report);
         course.check_initial(report);
+        course.check_modes(report);
         check_names(deck, report);
         course.check_tables(report);
         course
@@ -84,17 +88,28 @@ impl<'d> Course<'d> {
         }
         let kind = report.require(&owner, "kind", &table.kind);
         let is_static = kind.is_some_and(|kind| kind.value == StageKind::Static);
-        if let Some(kind) = kind.filter(|kind| matches!(kind.value, StageKind::Modal | StageKind::Buckling)) {
-            let word = if kind.value == StageKind::Modal { "modal" } else { "buckling" };
-            let message = format!("stages of the kind \"{word}\" are not supported");
-            report.error_with::<()>(&kind.span, message, "a stage is \"static\" or \"dynamic\"");
+        let of_modes = kind.and_then(|kind| match kind.value {
+            StageKind::Static | StageKind::Dynamic => None,
+            StageKind::Modal => Some("a modal stage"),
+            StageKind::Buckling => Some("a buckling stage"),
+        });
+        let has_modes = of_modes.is_some();
+        if let Some(what) = of_modes.or(is_static.then_some("a static stage")) {
+            report.reject_unused(what, &[("integrator", span(&table.integrator))]);
         }
-        if is_static {
-            report.reject_unused("a static stage", &[("integrator", span(&table.integrator))]);
+        if let Some(what) = of_modes {
+            report.reject_unused(what, &keys_of_time(table));
         }
-        let duration = report.require_positive(&owner, "duration", &table.duration).unwrap_or(1.0);
-        let end = reached.unwrap_or_else(|| self.end_of(table, begin, duration, report));
-        if reached.is_none() && end - begin <= SHORTEST * end {
+        let duration = match of_modes {
+            Some(_) => 0.0,
+            None => report.require_positive(&owner, "duration", &table.duration).unwrap_or(1.0),
+        };
+        let end = match reached {
+            Some(reached) => reached,
+            None if has_modes => begin,
+            None => self.end_of(table, begin, duration, report),
+        };
+        if reached.is_none() && !has_modes && end - begin <= SHORTEST * end {
             let message = format!("the stage goes from {begin} to {end}, too short a time to be told from none");
             let hint = format!("it must be longer than {} of the time at its end", short(SHORTEST));
             report.error_with::<()>(&table.span, message, hint);
@@ -102,7 +117,8 @@ impl<'d> Course<'d> {
         PlannedStage {
             table,
             name: name.map_or_else(|| format!("stages.{}", self.stages.len()), |name| name.value.clone()),
-            kind: if is_static { AnalysisKind::Static } else { AnalysisKind::Dynamic },
+            kind: if is_static || has_modes { AnalysisKind::Static } else { AnalysisKind::Dynamic },
+            has_modes,
             begin,
             duration,
             end,
@@ -142,14 +158,67 @@ impl<'d> Course<'d> {
         report.reject_unused("a deck with `[[stages]]`, which have kinds, durations and steps of their own", &keys);
     }
 
+    /// Reports what there is too much or too little of for stages of modes.
+    fn check_modes(&self, report: &mut Report<'d>) {
+        let of_modes: Vec<usize> = (0..self.stages.len()).filter(|&index| self.stages[index].has_modes).collect();
+        if let (Some(&first), None) = (of_modes.first(), self.in_time().next()) {
+            let message = "no stage is static or dynamic, so nothing leads to a state about which modes are found";
+            let hint = "`kind` of `[analysis]` finds those about the equilibrium under the loads of the deck";
+            report.error_with::<()>(&self.stages[first].table.span, message, hint);
+            return;
+        }
+        for &index in &of_modes {
+            let stage = &self.stages[index];
+            let before = self.before(index);
+            let is_new = |stages: &Maybe<Names>| {
+                stages.is_some()
+                    && self.holds(index, stages)
+                    && !before.is_some_and(|before| self.holds(before, stages))
+            };
+            let new: Vec<_> = self.whole.loads.iter().filter(|load| is_new(&load.stages)).collect();
+            let buckles = stage.table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::Buckling);
+            if buckles && new.is_empty() {
+                let message =
+                    format!("no load first acts in stage `{}`, so none has a factor at which it buckles", stage.name);
+                let hint =
+                    format!("give a load `stages = [\"{}\"]`; those of the stage before stay as they are", stage.name);
+                report.error_with::<()>(&stage.table.span, message, hint);
+            }
+            for load in new {
+                match &load.amplitude {
+                    _ if !buckles => {
+                        let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
+                        let hint =
+                            "they are those about the state that has been reached: name a static stage before it";
+                        report.error_with::<()>(&load.span, message, hint);
+                    }
+                    Some(amplitude) => {
+                        let message = format!("a load of the buckling stage `{}` has no amplitude", stage.name);
+                        report.error_with::<()>(
+                            &amplitude.span,
+                            message,
+                            "it is multiplied by the factor that is sought",
+                        );
+                    }
+                    None => {}
+                }
+            }
+        }
+        for expect in self.whole.expect.iter().filter(|expect| expect.mode.is_some() && expect.stage.is_none()) {
+            if of_modes.len() > 1 {
+                let hint = "several stages have modes";
+                report.error_with::<()>(&expect.span, "an expected value of a mode needs `stage` here", hint);
+            }
+        }
+    }
+
     /// Reports initial motions in stages without motion.
     fn check_initial(&self, report: &mut Report<'d>) {
         let first_dynamic = self.first_dynamic();
         for table in &self.whole.initial {
             for name in table.stages.iter().flat_map(|names| &names.values) {
-                let named = self.position(name).filter(|&index| self.stages[index].kind == AnalysisKind::Static);
-                if named.is_some() {
-                    let message = format!("stage `{}` is static, so nothing moves in it", name.value);
+                if self.position(name).is_some_and(|index| self.stages[index].kind == AnalysisKind::Static) {
+                    let message = format!("nothing moves in stage `{}`", name.value);
                     report.error_with::<()>(&name.span, message, "name a dynamic stage");
                 }
             }
@@ -182,6 +251,14 @@ impl<'d> Course<'d> {
         }
     }
 
+    /// True where an expected value, of a mode or not, can be read in some stage.
+    fn fits(&self, expect: &Expect) -> bool {
+        let of_mode = expect.mode.is_some();
+        self.stages
+            .iter()
+            .any(|stage| stage.has_modes == of_mode && name_of(&expect.stage).is_none_or(|name| name == stage.name))
+    }
+
     /// The end of the last stage.
     pub fn end(&self) -> f64 {
         self.stages.last().map_or(0.0, |stage| stage.end)
@@ -200,9 +277,20 @@ impl<'d> Course<'d> {
         stages.as_ref().is_none_or(|names| names.values.iter().any(|name| name.value == self.stages[index].name))
     }
 
-    /// The first stage in which a table with these `stages` is there.
+    /// The first stage in which time passes and a table with these `stages` is there, or the first of all where it is there.
     fn first(&self, stages: &Maybe<Names>) -> usize {
-        (0..self.stages.len()).find(|&index| self.holds(index, stages)).unwrap_or(0)
+        let there = |index: &usize| self.holds(*index, stages);
+        self.in_time().find(there).or_else(|| (0..self.stages.len()).find(there)).unwrap_or(0)
+    }
+
+    /// The stages in which time passes.
+    fn in_time(&self) -> impl DoubleEndedIterator<Item = usize> {
+        (0..self.stages.len()).filter(|&index| !self.stages[index].has_modes)
+    }
+
+    /// The last stage before this one in which time has passed.
+    fn before(&self, index: usize) -> Option<usize> {
+        self.in_time().rfind(|&before| before < index)
     }
 
     /// Which tables that may be limited to stages are there in one, in the order of the deck.
@@ -224,6 +312,7 @@ impl<'d> Course<'d> {
             let planned = stage.begin + stage.duration;
             match stage.kind {
                 AnalysisKind::Dynamic => Amplitude::Constant,
+                AnalysisKind::Static if stage.has_modes => Amplitude::Constant,
                 AnalysisKind::Static if stage.end >= planned => Amplitude::Ramp { start: stage.begin, end: planned },
                 AnalysisKind::Static => {
                     let reached = (stage.end - stage.begin) / stage.duration;
@@ -271,14 +360,19 @@ impl<'d> CurrentStage<'d> {
         self.course.whole.amplitudes.0.len() + self.course.first(stages)
     }
 
+    /// The index of the amplitude of loads that first act in this stage and have none.
+    pub fn amplitude_of_stage(&self) -> usize {
+        self.course.whole.amplitudes.0.len() + self.index
+    }
+
     /// True where a table with these `stages` is not there at t = 0.
     pub fn comes_later(&self, stages: &Maybe<Names>) -> bool {
-        self.course.first(stages) > 0
+        self.course.before(self.course.first(stages)).is_some()
     }
 
     /// True where a table with these `stages` is not there in the stage before.
     pub fn is_new(&self, stages: &Maybe<Names>) -> bool {
-        self.index.checked_sub(1).is_none_or(|before| !self.course.holds(before, stages))
+        self.course.before(self.index).is_none_or(|before| !self.course.holds(before, stages))
     }
 
     /// True where a support with these `stages` first acts in a static stage.
@@ -310,7 +404,7 @@ impl<'d> CurrentStage<'d> {
     }
 
     fn is_like_before(&self, held: impl Fn(usize) -> Vec<bool>) -> bool {
-        let Some(before) = self.index.checked_sub(1) else { return false };
+        let Some(before) = self.course.before(self.index) else { return false };
         let dynamic = |index: usize| self.course.stages[index].kind == AnalysisKind::Dynamic;
         dynamic(before)
             && dynamic(self.index)
@@ -322,6 +416,17 @@ impl<'d> CurrentStage<'d> {
         self.course.holds(self.index, stages)
     }
 
+    /// True where a load with these `stages` acts: about modes those of the stage before do.
+    fn is_loaded(&self, stages: &Maybe<Names>) -> bool {
+        let before = self.course.before(self.index).filter(|_| self.has_modes());
+        self.holds(stages) || before.is_some_and(|before| self.course.holds(before, stages))
+    }
+
+    /// True where modes are found, and no time passes.
+    pub fn has_modes(&self) -> bool {
+        self.course.stages[self.index].has_modes
+    }
+
     /// The deck as this stage sees it, and which of its expected values are read here, by their index in the deck.
     pub fn deck(&self) -> (Deck, Vec<usize>) {
         let (whole, planned) = (self.course.whole, &self.course.stages[self.index]);
@@ -330,13 +435,18 @@ impl<'d> CurrentStage<'d> {
         deck.joints.retain(|table| self.holds(&table.stages));
         deck.links.retain(|table| self.holds(&table.stages));
         deck.contacts.retain(|table| self.holds(&table.stages));
-        deck.loads.retain(|table| self.holds(&table.stages));
+        deck.loads.retain(|table| self.is_loaded(&table.stages));
         let first_dynamic = self.course.first_dynamic();
+        // Modes before anything has moved are those of a scene that moves as it will.
+        let starts = match planned.has_modes {
+            true => first_dynamic.is_none_or(|first| self.index < first),
+            false => first_dynamic == Some(self.index),
+        };
         deck.initial.retain(|table| match &table.stages {
             Some(_) => self.holds(&table.stages),
-            None => first_dynamic == Some(self.index),
+            None => starts,
         });
-        if first_dynamic.unwrap_or(0) != self.index {
+        if !starts && (first_dynamic.is_some() || self.index > 0) {
             for body in &mut deck.bodies {
                 (body.value.velocity, body.value.angular_velocity) = (None, None);
             }
@@ -352,7 +462,8 @@ impl<'d> CurrentStage<'d> {
             deck.iteration = Some(own.clone());
         }
         if planned.kind == AnalysisKind::Static && first_dynamic.is_some() {
-            (deck.integrator, deck.damping) = (None, None);
+            deck.integrator = None;
+            deck.damping.take_if(|_| !planned.has_modes);
         }
         deck.study = None;
         (deck, here)
@@ -366,8 +477,9 @@ impl<'d> CurrentStage<'d> {
         let links = deck.links.iter().filter(|table| !self.holds(&table.stages)).map(|table| &table.name);
         let contacts = deck.contacts.iter().filter(|table| !self.holds(&table.stages)).map(|table| &table.name);
         let absent: HashSet<&str> = joints.chain(links).chain(contacts).filter_map(name).collect();
-        let here = |expect: &crate::deck::expect::Expect| {
+        let here = |expect: &Expect| {
             name_of(&expect.at).is_none_or(|at| !absent.contains(at))
+                && (expect.mode.is_some() == self.has_modes() || !self.course.fits(expect))
                 && name_of(&expect.stage).is_none_or(|stage| stage == self.name())
         };
         let all = deck.expect.iter().enumerate();
@@ -377,31 +489,46 @@ impl<'d> CurrentStage<'d> {
     /// The stage as `[analysis]` of its deck; its time counts from the beginning of the stage, and is that which the deck gives: steps that
     /// fit into it still do after rounding, and after a stop.
     fn analysis(&self) -> Analysis {
-        let PlannedStage { table, kind, duration, .. } = &self.course.stages[self.index];
+        let PlannedStage { table, kind, has_modes, duration, .. } = &self.course.stages[self.index];
         let all = self.course.whole.analysis.as_ref();
         let place = |own: Option<&Span>| own.unwrap_or(&table.span).clone();
         let automatic = table.time_step.as_ref().is_some_and(|at| at.value == crate::deck::words::NumberOrAuto::Auto);
         let general = all.and_then(|all| all.error_tolerance.clone()).filter(|_| automatic);
-        let word = match kind {
-            AnalysisKind::Static => words::AnalysisKind::Static,
-            AnalysisKind::Dynamic => words::AnalysisKind::Dynamic,
+        let word = match table.kind.as_ref().map(|kind| kind.value) {
+            Some(StageKind::Modal) => words::AnalysisKind::Modal,
+            Some(StageKind::Buckling) => words::AnalysisKind::Buckling,
+            _ if *kind == AnalysisKind::Static => words::AnalysisKind::Static,
+            _ => words::AnalysisKind::Dynamic,
         };
+        let least_step = table.least_step.clone().or_else(|| all.and_then(|all| all.least_step.clone()));
         Analysis {
             kind: Some(At { value: word, span: place(span(&table.kind)) }),
             control: None,
-            end_time: Some(At { value: *duration, span: place(span(&table.duration)) }),
-            time_step: table.time_step.clone(),
-            error_tolerance: table.error_tolerance.clone().or(general),
-            least_step: table.least_step.clone().or_else(|| all.and_then(|all| all.least_step.clone())),
+            end_time: (!has_modes).then(|| At { value: *duration, span: place(span(&table.duration)) }),
+            time_step: table.time_step.clone().filter(|_| !has_modes),
+            error_tolerance: table.error_tolerance.clone().or(general).filter(|_| !has_modes),
+            least_step: least_step.filter(|_| !has_modes),
             stop: None,
             steps: None,
             growth: None,
             plane: all.and_then(|all| all.plane.clone()),
-            modes: None,
-            up_to: None,
-            damped: None,
+            modes: table.modes.clone(),
+            up_to: table.up_to.clone(),
+            damped: table.damped.clone(),
         }
     }
+}
+
+/// The keys of a stage in which time passes.
+fn keys_of_time(table: &Stage) -> [(&'static str, Option<&Span>); 6] {
+    [
+        ("duration", span(&table.duration)),
+        ("time_step", span(&table.time_step)),
+        ("error_tolerance", span(&table.error_tolerance)),
+        ("least_step", span(&table.least_step)),
+        ("stop", span(&table.stop)),
+        ("iteration", span(&table.iteration)),
+    ]
 }
 
 fn name_of(name: &Maybe<String>) -> Option<&str> {

@@ -104,7 +104,7 @@ impl<'d> Expects<'_, 'd> {
         ];
         self.report.reject_unused("a mode", &keys);
         let Some(asked) = &self.scene.analysis.modes else {
-            let hint = "`kind = \"modal\"` or `\"buckling\"` in `[analysis]` finds modes";
+            let hint = "`kind = \"modal\"` or `\"buckling\"` of `[analysis]`, or of a stage, finds modes";
             return self.report.error_with(&number.span, "`mode` needs an analysis of modes", hint);
         };
         if number.value == 0 {
@@ -113,13 +113,14 @@ impl<'d> Expects<'_, 'd> {
         if let ModeExtent::Count(count) = asked.extent
             && number.value > count as u64
         {
-            let hint = format!("`modes` of `[analysis]` is {count}");
+            let hint = format!("`modes` is {count}");
             return self.report.error_with(&number.span, "this mode is not computed", hint);
         }
         let quantity = self.report.require(owner, "quantity", &expect.quantity);
         let name = At { value: format!("mode {}", number.value), span: number.span.clone() };
         let column = quantity.and_then(|quantity| self.column(&quantities::MODE, quantity, &name));
         let ((value, tolerance), quantity) = (self.judged(owner, expect)?, column?);
+        let stage = expect.stage.as_ref().map_or(String::new(), |stage| format!(" in stage `{}`", stage.value));
         Some(Expect {
             index: 0,
             at: ExpectAt::Mode(number.value as usize - 1),
@@ -128,7 +129,7 @@ impl<'d> Expects<'_, 'd> {
             value,
             tolerance,
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
-            label: format!("{quantity} of {}", name.value),
+            label: format!("{quantity} of {}{stage}", name.value),
         })
     }
 

@@ -22,30 +22,17 @@ const STEP: f64 = 0.1;
 /// Shortest load step.
 const LEAST_STEP: f64 = STEP / 1024.0;
 
-/// What a deck asks for.
-pub(super) enum ModesGiven {
-    /// Modes.
-    Asked(Analysis),
-    /// Load steps.
-    Static,
-    /// Motion in time.
-    Dynamic,
-}
-
-/// Reads the keys of modes.
-pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report) -> ModesGiven {
+/// Reads the keys of modes; `None` where the deck does not ask for any.
+pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report) -> Option<Analysis> {
     let of_modal = [("up_to", span(&analysis.up_to)), ("damped", span(&analysis.damped))];
     let kind = match word {
         Word::Modal => ModeKind::Natural,
         Word::Buckling => ModeKind::Buckling,
         Word::Static | Word::Dynamic => {
-            let (what, given) = match word {
-                Word::Static => ("a static analysis", ModesGiven::Static),
-                _ => ("a dynamic analysis", ModesGiven::Dynamic),
-            };
+            let what = if word == Word::Static { "a static analysis" } else { "a dynamic analysis" };
             report.reject_unused(what, &[("modes", span(&analysis.modes))]);
             report.reject_unused(what, &of_modal);
-            return given;
+            return None;
         }
     };
     let what = if kind == ModeKind::Natural { "a modal analysis" } else { "a buckling analysis" };
@@ -75,7 +62,7 @@ pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report)
     let modes = Some(ModesAsked { kind, extent: extent(analysis, report), damped: flag(&analysis.damped, false) });
     let (end_time, least_step) = (END, LEAST_STEP);
     let step_length = StepLength::Fixed { step: STEP };
-    ModesGiven::Asked(Analysis {
+    Some(Analysis {
         kind: AnalysisKind::Static,
         begin: 0.0,
         end_time,
@@ -90,7 +77,7 @@ pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report)
 fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
     if let (Some(_), Some(up_to)) = (&analysis.modes, &analysis.up_to) {
         let hint = "the number of modes follows from the frequency";
-        report.error_with::<()>(&up_to.span, "`[analysis]` has `modes` or `up_to`, not both", hint);
+        report.error_with::<()>(&up_to.span, "`modes` or `up_to` is given, not both", hint);
     }
     if let Some(frequency) = report.positive("up_to", &analysis.up_to) {
         return ModeExtent::UpTo(frequency);

@@ -1,8 +1,8 @@
-//! Linear buckling: the factors λ of the loads at which K + λ K' is singular, K the stiffness of the unloaded state.
+//! Linear buckling: the factors λ of loads at which K + λ K' is singular, K the stiffness of the state without them.
 //!
 //! K' is the rate at which the tangent changes with the loads: the stiffness of stresses K(σ) of the linear response, that of loads that
 //! follow and of the forces of joints. It is taken by differences between stresses at small loads and their opposite, in the geometry
-//! without loads: what the deflection before buckling changes is left out, for the square of a rotation times the stiffness along a
+//! without them: what the deflection before buckling changes is left out, for the square of a rotation times the stiffness along a
 //! slender part counts as much as its product with other rotations, and only both together are small.
 
 use super::fault::ModesFault;
@@ -64,32 +64,31 @@ impl SymmetricOperator for Buckling<'_, '_> {
 /// # Errors
 /// The reason why there are none, or why some are missing.
 pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
-    if at.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()) {
+    let is_stage = at.model.analysis.stage.is_some();
+    if !is_stage && at.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()) {
         return Err(ModesFault::MovedSupport);
     }
     let wanted = match at.model.analysis.modes.as_ref().map(|asked| asked.extent) {
         Some(ModeExtent::Count(count)) => count,
         _ => 1,
     };
-    let nothing = Loading { factors: vec![0.0; at.loading.factors.len()], ..Loading::default() };
-    let nothing = Loading { pressures: vec![0.0; at.loading.pressures.len()], ..nothing };
-    let unloaded = Linearized { loading: &nothing, ..*at };
-    let rests = multipliers_at_rest(&unloaded, (&mut *linear.0, &mut *linear.1)).is_some();
-    let mut pencil = Pencil::new(unloaded, linear);
+    // Of a state that a stage has reached the balance is judged with that of other modes.
+    let rests = is_stage || multipliers_at_rest(at, (&mut *linear.0, &mut *linear.1)).is_some();
+    let mut pencil = Pencil::new(*at, linear);
     let K = pencil.matrix(weights(0.0, 0.0));
     match pencil.factor(0.0) {
         Ok(0) => {}
         Ok(_) => return Err(ModesFault::UnstableUnloaded),
         Err(row) => return Err(pencil.singular(row)),
     }
-    let response = Response::to(at.loading, &mut pencil);
+    let response = Response::to_factored(&mut pencil);
     if response.is_nothing() {
         return Err(ModesFault::NoLoads);
     }
-    let first = response.rate(at.loading, SMALL / response.size(&pencil), &mut pencil);
+    let first = response.rate(SMALL / response.size(&pencil), &mut pencil);
     let lowest = factors(&mut pencil, (&K, &first), 1)?;
     let Some((lowest, _)) = lowest.first() else { return Err(ModesFault::NoBuckling) };
-    let rate = response.rate(at.loading, (STEP * lowest).min(STEP / response.size(&pencil)), &mut pencil);
+    let rate = response.rate((STEP * lowest).min(STEP / response.size(&pencil)), &mut pencil);
     let found = factors(&mut pencil, (&K, &rate), wanted)?;
     if found.is_empty() {
         return Err(ModesFault::NoBuckling);
@@ -187,15 +186,16 @@ struct Response {
 }
 
 impl Response {
-    /// The response to these loads; K is factorised.
-    fn to(loading: &Loading, pencil: &mut Pencil) -> Response {
+    /// The response to the loads that have the factor; K is factorised.
+    fn to_factored(pencil: &mut Pencil) -> Response {
         let forces = |pencil: &mut Pencil, loading: &Loading| -> Vec<f64> {
             let Pencil { at, nodes, forces, .. } = pencil;
             let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
             at.system.residual(&now, loading, forces);
             at.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
         };
-        let (before, mut f) = (forces(pencil, pencil.at.loading), forces(pencil, loading));
+        let (base, with) = (pencil.at.loading, pencil.at.loading.plus(1.0, pencil.at.factored));
+        let (before, mut f) = (forces(pencil, base), forces(pencil, &with));
         f.iter_mut().zip(before).for_each(|(f, before)| *f -= before);
         let multipliers = pencil.respond(&mut f);
         Response { motions: pencil.at.motions(&pencil.nodes, &f), multipliers }
@@ -215,16 +215,13 @@ impl Response {
     }
 
     /// The rate of the tangent with the load factor, by differences at multiples of the factors ±ε.
-    fn rate(&self, loading: &Loading, epsilon: f64, pencil: &mut Pencil) -> Sparse {
+    fn rate(&self, epsilon: f64, pencil: &mut Pencil) -> Sparse {
         let mut at = |steps: f64| {
             let factor = steps * epsilon;
-            let loads = Loading {
-                factors: loading.factors.iter().map(|f| f * factor).collect(),
-                pressures: loading.pressures.iter().map(|p| p * factor).collect(),
-                field: loading.field * factor,
-            };
+            let loads = pencil.at.loading.plus(factor, pencil.at.factored);
             let nodes = self.moved(factor, pencil);
-            let multipliers: Vec<f64> = self.multipliers.iter().map(|value| value * factor).collect();
+            let base = &pencil.at.state.multipliers;
+            let multipliers: Vec<f64> = base.iter().zip(&self.multipliers).map(|(m, rate)| m + rate * factor).collect();
             pencil.stressed_matrix(&nodes, &loads, &multipliers)
         };
         let pairs = [1.0, 2.0, 3.0].map(|steps| [at(steps), at(-steps)]);

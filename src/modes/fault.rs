@@ -81,13 +81,13 @@ impl fmt::Display for ModesFault {
             ModesFault::UnstableUnloaded => {
                 write!(
                     f,
-                    "the scene is unstable without loads (compressed by its own prestress): nothing is left to buckle"
+                    "the scene is unstable without these loads (compressed by what acts already, or its own prestress): nothing is left to \
+                     buckle"
                 )
             }
-            ModesFault::NoLoads => write!(
-                f,
-                "no load acts at t = 0 and deforms anything: a buckling analysis needs loads, whose factors it finds"
-            ),
+            ModesFault::NoLoads => {
+                write!(f, "no load acts that deforms anything: buckling needs loads, whose factors are found")
+            }
             ModesFault::NoBuckling => write!(
                 f,
                 "no factor of these loads is found that lets anything buckle: they only stiffen what they act on; reverse them, and it may"

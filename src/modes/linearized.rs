@@ -21,6 +21,8 @@ pub struct Linearized<'a> {
     pub state: &'a State,
     /// The loads that act in it.
     pub loading: &'a Loading,
+    /// The loads of which buckling seeks the factor; nothing for other modes.
+    pub factored: &'a Loading,
 }
 
 impl Linearized<'_> {

@@ -165,8 +165,9 @@ pub const MODES: &str = "modes.pvd";
 
 /// Whether a file of this name is the grid of a mode.
 fn is_mode(name: &str) -> bool {
-    let number = name.strip_prefix("mode_").and_then(|rest| rest.strip_suffix(".vtu"));
-    number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
+    let numbers = name.strip_prefix("mode_").and_then(|rest| rest.strip_suffix(".vtu"));
+    let is_number = |digits: &str| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    numbers.is_some_and(|numbers| numbers.len() >= 4 && numbers.splitn(2, '_').all(is_number))
 }
 
 /// The files that are written however many grids there are.
@@ -198,6 +199,9 @@ pub struct Fields {
     listed: String,
     /// ... and their bytes before the stage under way.
     before_stage: usize,
+    /// The lines of modes.pvd so far, and their number.
+    listed_modes: String,
+    modes: usize,
     /// The text of a grid; its memory serves again at the next step.
     text: String,
     /// The bytes of an array before they are encoded; their memory serves again as well.
@@ -237,6 +241,8 @@ impl Fields {
             }),
             before_stage: listed.len(),
             listed,
+            listed_modes: String::new(),
+            modes: 0,
             text: String::new(),
             bytes,
         })
@@ -247,8 +253,10 @@ impl Fields {
     /// # Errors
     /// A file cannot be written.
     pub fn next_stage(&mut self, model: &Model) -> io::Result<()> {
-        let listed = std::mem::take(&mut self.listed);
-        *self = Fields { before_stage: listed.len(), listed, ..Fields::open(&self.dir, model, None)? };
+        let [listed, listed_modes] = [&mut self.listed, &mut self.listed_modes].map(std::mem::take);
+        let modes = self.modes;
+        let open = Fields::open(&self.dir, model, None)?;
+        *self = Fields { before_stage: listed.len(), listed, listed_modes, modes, ..open };
         Ok(())
     }
 
@@ -281,7 +289,6 @@ impl Fields {
     /// A file cannot be written.
     pub fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(modes) = frame.modes else { return Ok(()) };
-        let mut listed = String::new();
         for (number, mode) in (1..).zip(&modes.list) {
             let (text, bytes) = (&mut self.text, &mut self.bytes);
             text.clear();
@@ -311,13 +318,17 @@ impl Fields {
             text.push_str("</CellData>\n");
             text.push_str(&self.cells);
             text.push_str(vtu::CLOSE);
-            let name = format!("mode_{number:04}.vtu");
+            let name = match &frame.model.analysis.stage {
+                Some(stage) => format!("mode_{}_{number:04}.vtu", stage.index + 1),
+                None => format!("mode_{number:04}.vtu"),
+            };
             let path = self.dir.join(&name);
             self.list.note(&name)?;
             create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
-            let _ = writeln!(listed, "<DataSet timestep=\"{number}\" part=\"0\" file=\"{name}\"/>");
+            self.modes += 1;
+            let _ = writeln!(self.listed_modes, "<DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>", self.modes);
         }
-        let list = format!("{LIST}{listed}</Collection>\n</VTKFile>\n");
+        let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.listed_modes);
         self.list.note(MODES)?;
         replace(&self.dir.join(MODES), list.as_bytes())
     }

@@ -61,7 +61,7 @@ pub(super) struct EndedStage<'e, 'a> {
 pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(System, Handover), String> {
     let &EndedStage { cx, state, .. } = before;
     let from = NodeMap::new(cx.model, model);
-    carry_velocities(&from, state, model);
+    carry_velocities(&from, (cx.model, state), model);
     // Out-of-plane motion that has begun goes on, whether or not anything excites it now.
     model.analysis.plane &= cx.system.plane.is_some();
     let mut system = System::new(model)?;
@@ -77,7 +77,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
     let is_static = model.analysis.kind == AnalysisKind::Static;
     if is_static {
         rest(&mut next);
-        if hold_back(model, &system, &next) {
+        if model.analysis.modes.is_none() && hold_back(model, &system, &next) {
             system = System::new(model)?;
         }
     }
@@ -226,8 +226,10 @@ impl NodeMap {
 }
 
 /// Writes the velocities of the state into the model, and those that the deck gives where nodes now are: by them the plan finds what moves.
-fn carry_velocities(from: &NodeMap, state: &State, model: &mut Model) {
-    if model.analysis.kind != AnalysisKind::Dynamic {
+fn carry_velocities(from: &NodeMap, (before, state): (&Model, &State), model: &mut Model) {
+    let [goes_on, moved] = [&*model, before].map(|model| model.analysis.kind == AnalysisKind::Dynamic);
+    // About modes bodies spin as they have done, or, before any motion, as the deck says.
+    if !(goes_on || moved && model.analysis.modes.is_some()) {
         return;
     }
     for (node, old) in model.nodes.iter_mut().zip(&from.old) {

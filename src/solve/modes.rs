@@ -1,5 +1,6 @@
 //! Modes about the state at the end of a run; where that is the state at its start, no load steps lead to it.
 
+use super::context::Context;
 use super::control::{Controller, Schedule};
 use super::failure::Failure;
 use super::march::March;
@@ -7,9 +8,14 @@ use super::outcome::Outcome;
 use super::recorder::AcceptedStep;
 use super::report::StepReport;
 use super::warning::Warning;
+use super::workspace::Workspace;
 use crate::model::ModeKind;
 use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest};
-use crate::system::Side;
+use crate::state::State;
+use crate::system::{Loading, Side};
+
+/// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
+const BALANCED: f64 = 1e-3;
 
 /// Leads a run to its end, and shows the modes about the state there where the model asks for them.
 ///
@@ -17,31 +23,55 @@ use crate::system::Side;
 /// The outcome that ends it early.
 pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
     let Some(asked) = &march.cx.model.analysis.modes else { return controller.run(march, schedule) };
-    // Loads of buckling are factors of modes, and bring nothing on before.
-    if asked.kind == ModeKind::Buckling || rests(march) {
-        let report = &StepReport::begin(0.0);
-        march.notify(&AcceptedStep {
-            dt: 0.0,
-            report,
-            cuts: 0,
-            due: true,
-            compared: false,
-            last: true,
-            passed: &[],
-        })?;
-    } else {
-        controller.run(march, schedule)?;
+    // A stage of modes takes the state as it is; loads of buckling are factors of modes, and bring nothing on before.
+    if march.cx.model.analysis.stage.is_none() {
+        if asked.kind == ModeKind::Buckling || rests(march) {
+            let report = &StepReport::begin(0.0);
+            march.notify(&AcceptedStep {
+                dt: 0.0,
+                report,
+                cuts: 0,
+                due: true,
+                compared: false,
+                last: true,
+                passed: &[],
+            })?;
+        } else {
+            controller.run(march, schedule)?;
+        }
     }
     march.check_stop()?;
     show(march)
+}
+
+/// The loads in the state, and those of which buckling seeks the factor: all that act, or in a stage those that first act there.
+fn loads(cx: &Context) -> [Loading; 2] {
+    let (model, mut base) = (cx.model, Loading::default());
+    cx.excitation.loading(model.analysis.end_time, Side::Before, &mut base);
+    let nothing = base.plus(-1.0, &base);
+    if !model.analysis.modes.as_ref().is_some_and(|asked| asked.kind == ModeKind::Buckling) {
+        return [base, nothing];
+    }
+    let Some(stage) = &model.analysis.stage else { return [nothing, base] };
+    let mut factored = base.clone();
+    factored.field = nothing.field;
+    let nodal = model.loading.nodal.iter().map(|load| load.amplitude);
+    let pressures = model.loading.pressures.iter().map(|load| load.amplitude);
+    let each = base.factors.iter_mut().zip(&mut factored.factors).zip(nodal);
+    for ((base, factored), amplitude) in
+        each.chain(base.pressures.iter_mut().zip(&mut factored.pressures).zip(pressures))
+    {
+        *(if amplitude == stage.factored { base } else { factored }) = 0.0;
+    }
+    [base, factored]
 }
 
 /// True where supports and joints carry all loads, and nothing moves; the state then is that at the end of the run.
 fn rests(march: &mut March) -> bool {
     let March { cx, ws, state, .. } = march;
     let end = cx.model.analysis.end_time;
-    cx.excitation.loading(end, Side::Before, &mut ws.loads.instant);
-    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading: &ws.loads.instant };
+    let [loading, factored] = &loads(cx);
+    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored };
     let moved = cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some());
     let linear = (&mut ws.matrix.solver, &mut ws.matrix.assembly);
     let Some(multipliers) = (if moved { None } else { multipliers_at_rest(&at, linear) }) else { return false };
@@ -50,19 +80,38 @@ fn rests(march: &mut March) -> bool {
     true
 }
 
+/// The largest force out of balance relative to the largest force, in a state that a stage has reached; `None` in a deck without stages.
+fn unbalanced(cx: &Context, ws: &mut Workspace, state: &State, loading: &Loading) -> Option<f64> {
+    cx.model.analysis.stage.as_ref()?;
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    let scale = cx.system.residual(&state.configuration(), loading, &mut ws.forces);
+    let part = |&(node, dof): &(usize, usize)| {
+        let (left, of) = (ws.forces.on_nodes[node][dof].abs(), if dof < 3 { scale.force } else { scale.moment });
+        if left == 0.0 { 0.0 } else { left / of }
+    };
+    Some(cx.plan.dofs.nodal_dofs().iter().map(part).fold(0.0, f64::max))
+}
+
 /// Finds the modes about the state and shows them.
 fn show(march: &mut March) -> Result<(), Outcome> {
     let March { cx, ws, state, .. } = march;
-    cx.excitation.loading(cx.model.analysis.end_time, Side::Before, &mut ws.loads.instant);
+    let [loading, factored] = &loads(cx);
+    let left = unbalanced(cx, ws, state, loading);
     if cx.model.analysis.modes.as_ref().is_some_and(|asked| asked.damped) {
         // Bodies spin about the equilibrium as they do at t = 0.
         for (node, given) in state.nodes.iter_mut().zip(&cx.model.nodes) {
             node.omega = given.omega;
         }
     }
-    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading: &ws.loads.instant };
+    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored };
     let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly));
-    let modes = found.map_err(|fault: ModesFault| march.failed(Failure::Modes(fault)))?;
+    let mut modes = found.map_err(|fault: ModesFault| march.failed(Failure::Modes(fault)))?;
+    modes.doubts.extend(left.filter(|left| *left > BALANCED).map(|left| {
+        format!(
+            "the state is not in equilibrium under what acts and holds here: {left:.1e} of the forces is out of balance, and what it will \
+             become is not what these modes are about"
+        )
+    }));
     if !modes.doubts.is_empty() {
         march.ws.warnings.add(Warning::Modes(modes.doubts.join("; ")));
     }

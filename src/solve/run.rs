@@ -72,9 +72,9 @@ impl<'a> Run<'a> {
         Ok(Run { context, workspace, controller, recorder, wanted, step_error: None, handover: None, stop_watch, stop })
     }
 
-    /// Lets the run begin with what the stage before has left, instead of at t = 0.
-    pub fn go_on_from(&mut self, handover: Handover) {
-        self.handover = Some(handover);
+    /// Lets the run begin with what the stage before has left; with `None` it begins at t = 0.
+    pub fn go_on_from(&mut self, handover: Option<Handover>) {
+        self.handover = handover;
     }
 
     /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
@@ -281,12 +281,17 @@ impl<'a> Run<'a> {
         self.recorder.counts
     }
 
-    /// Prepares the model of the next stage for the state at the end of this one, and builds its system.
+    /// Prepares the model of the next stage for the state at the end of this one, and builds its system; the counts are those of all
+    /// stages before.
     ///
     /// # Errors
     /// As for [`System::new`], and where a part does not remember what it did.
-    pub fn hand_over(&self, state: &State, model: &mut Model) -> Result<(System, Handover), String> {
-        let (counts, initial_energy) = (self.counts(), self.recorder.initial_energy());
+    pub fn hand_over(
+        &self,
+        (state, counts): (&State, Counts),
+        model: &mut Model,
+    ) -> Result<(System, Handover), String> {
+        let initial_energy = self.recorder.initial_energy();
         let load_steps = &self.workspace.load_steps;
         hand_over(&EndedStage { cx: &self.context, state, counts, initial_energy, load_steps }, model)
     }

@@ -15,6 +15,18 @@ pub struct Loading {
     pub field: Vec3,
 }
 
+impl Loading {
+    /// These loads and a multiple of others.
+    pub fn plus(&self, factor: f64, others: &Loading) -> Loading {
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + factor * b).collect();
+        Loading {
+            factors: sum(&self.factors, &others.factors),
+            pressures: sum(&self.pressures, &others.pressures),
+            field: self.field + factor * others.field,
+        }
+    }
+}
+
 /// Force and moment of a load on its node, global components; those of a follower load rotate with the node.
 #[inline]
 pub(super) fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Vec3) {

@@ -124,28 +124,37 @@ pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) ->
             watchers.expectations.next_stage(&model);
         }
         let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
-        handover.into_iter().for_each(|handover| run.go_on_from(handover));
+        handover.into_iter().for_each(|handover| run.go_on_from(Some(handover)));
         let began = std::time::Instant::now();
         let (outcome, state) = run.run(&mut watchers);
         seconds += (began.elapsed() - run.observing()).as_secs_f64();
         unknowns = plan.dofs.unknowns().max(unknowns);
-        if stage + 1 == models.len() || !matches!(outcome, Outcome::Done) {
-            return Done {
-                outcome,
-                seconds,
-                counts: run.counts(),
-                step_error: run.step_error(),
-                unknowns,
-                verdicts: watchers.expectations.verdicts(),
-                rows: watchers.rows,
-            };
+        let (counts, step_error) = (run.counts(), run.step_error());
+        let is_done = matches!(outcome, Outcome::Done);
+        let mut done = Done { outcome, seconds, counts, step_error, unknowns, verdicts: Vec::new(), rows: Vec::new() };
+        ends.push(state.as_ref().map_or(0.0, |state| state.time));
+        while let (true, Some(state), Some(next)) = (is_done, &state, models.get_mut(ends.len())) {
+            if next.analysis.begin != state.time {
+                *next = model::replan(source, &ends, next).expect("a stage");
+            }
+            let (system, handover) = run.hand_over((state, counts), next).expect("a system");
+            if next.analysis.modes.is_none() {
+                handed = Some((system, handover));
+                break;
+            }
+            // Modes are about the state, and change nothing.
+            watchers.expectations.next_stage(next);
+            let plan = Plan::new(next, &system, 1);
+            let mut modes = Run::new(next, &system, &plan, wanted(next), &stop).unwrap();
+            modes.go_on_from(Some(handover));
+            let (outcome, _) = modes.run(&mut watchers);
+            assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+            ends.push(state.time);
         }
-        let state = state.expect("a state at the end");
-        ends.push(state.time);
-        if models[stage + 1].analysis.begin != state.time {
-            models[stage + 1] = model::replan(source, &ends, &models[stage + 1]).expect("a stage");
+        if !is_done || ends.len() == models.len() {
+            (done.verdicts, done.rows) = (watchers.expectations.verdicts(), watchers.rows);
+            return done;
         }
-        handed = Some(run.hand_over(&state, &mut models[stage + 1]).expect("a system"));
     }
 }
 

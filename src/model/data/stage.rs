@@ -17,6 +17,8 @@ pub struct RunStage {
     pub loads_alone_change: bool,
     /// True where forces that a static stage finds out of balance at its beginning go to zero over it.
     pub holds_back: bool,
+    /// The amplitude of the loads of which a buckling stage seeks the factor; `None` in other stages.
+    pub factored: Option<usize>,
     /// What ends it before its time.
     pub stop: Option<Stop>,
 }

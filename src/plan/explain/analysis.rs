@@ -10,7 +10,7 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     let end = analysis.end_time;
     match (analysis.kind, &analysis.step_length) {
         (AnalysisKind::Static, _) if analysis.modes.is_some() => {
-            analysis.modes.iter().for_each(|asked| text.add("analysis", modes(asked)));
+            analysis.modes.iter().for_each(|asked| text.add("analysis", modes(asked, analysis.stage.is_some())));
         }
         (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
         (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
@@ -32,17 +32,21 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     }
 }
 
-fn modes(asked: &ModesAsked) -> String {
+fn modes(asked: &ModesAsked, is_stage: bool) -> String {
+    let state = if is_stage { "the state that has been reached" } else { "the equilibrium under what acts at t = 0" };
     let which = match asked.extent {
         ModeExtent::Count(1) => "the lowest".to_owned(),
         ModeExtent::Count(count) => format!("the {count} lowest"),
         ModeExtent::UpTo(frequency) => format!("all up to {frequency} per time"),
     };
     match (asked.kind, asked.damped) {
-        (ModeKind::Natural, false) => format!("natural modes, {which}, about the equilibrium under what acts at t = 0"),
-        (ModeKind::Natural, true) => format!(
-            "complex modes, {which}, with damping and gyroscopic moments, about the equilibrium under what acts at t = 0"
-        ),
+        (ModeKind::Natural, false) => format!("natural modes, {which}, about {state}"),
+        (ModeKind::Natural, true) => {
+            format!("complex modes, {which}, with damping and gyroscopic moments, about {state}")
+        }
+        (ModeKind::Buckling, _) if is_stage => {
+            format!("linear buckling about {state}, {which} factors of the loads that first act here")
+        }
         (ModeKind::Buckling, _) => format!("linear buckling, {which} factors of what acts at t = 0"),
     }
 }
