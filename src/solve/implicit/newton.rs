@@ -30,7 +30,7 @@ use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, residual};
 use crate::state::{Configuration, Node, State};
-use crate::system::TangentWeights;
+use crate::system::{Prescribed, TangentWeights};
 
 /// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace.
 pub struct Newton {
@@ -52,6 +52,8 @@ pub struct Newton {
     searched: Option<usize>,
     /// The part that has opened or gone slack last.
     opened: Option<String>,
+    /// The residual a little ahead of a prediction, where it is differentiated.
+    ahead: Vec<f64>,
     /// The nodes without mass in a dynamic analysis.
     massless: MasslessNodes,
     /// The watch over the stability of equilibria in statics.
@@ -68,6 +70,8 @@ struct Progress {
     new_matrix: bool,
     /// Number of iterations after which the step is given up.
     limit: usize,
+    /// True where the increments at hand are the prediction.
+    predicted: bool,
     /// Relative error of the time where it is unknown; loads are curves over it.
     time_error: f64,
 }
@@ -89,6 +93,7 @@ impl Progress {
             convergence: Convergence::new([ending.tolerance, ending.residual], exact, ending.usual()),
             new_matrix: false,
             limit: cx.model.solution.iteration.limit,
+            predicted: true,
             time_error: 0.0,
         }
     }
@@ -135,6 +140,7 @@ impl Newton {
             ending: Ending::new(model.solution.iteration.tolerance),
             searched: None,
             opened: None,
+            ahead: if cx.system.yields() && !cx.is_dynamic() { vec![0.0; cx.plan.dofs.unknowns()] } else { Vec::new() },
             massless: MasslessNodes::new(cx),
             stability: Stability::for_statics(cx, update != Update::Iteration || method == Method::InitialLoad)?,
             grows: true,
@@ -316,7 +322,11 @@ impl Newton {
         }
         let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none(), &self.ending);
         loop {
-            progress.report.residual = evaluate_residual(cx, ws, state, stage, progress.report.to);
+            let to = progress.report.to;
+            progress.report.residual = match std::mem::take(&mut progress.predicted) {
+                true if constraint.is_none() => self.residual_of_prediction(cx, ws, state, stage, to),
+                _ => evaluate_residual(cx, ws, state, stage, to),
+            };
             if !progress.report.residual.is_finite() {
                 if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                     return Err(residual::not_finite(cx, ws));
@@ -347,6 +357,36 @@ impl Newton {
                 }
             }
         }
+    }
+
+    /// The residual of a prediction, relative to the largest forces. Where material yields and supports move in statics, it is linearized in
+    /// their motion: they alone would strain the elements beside them beyond yield, and the matrix of such a state leads nowhere.
+    fn residual_of_prediction(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+    ) -> f64 {
+        /// Part of the motion by which the residual is differentiated; a power of two, so that it is taken back exactly.
+        const PART: f64 = 1.0 / (1 << 20) as f64;
+        let moves = |given: &Prescribed| given.u != 0.0;
+        if cx.is_dynamic() || !cx.system.yields() || !ws.prescribed.instant.iter().any(moves) {
+            return evaluate_residual(cx, ws, state, stage, to);
+        }
+        let scale =
+            |ws: &mut Workspace, factor: f64| ws.prescribed.instant.iter_mut().for_each(|given| given.u *= factor);
+        scale(ws, PART);
+        let size = evaluate_residual(cx, ws, state, stage, to);
+        self.ahead.clone_from(&ws.r);
+        scale(ws, -1.0);
+        evaluate_residual(cx, ws, state, stage, to);
+        scale(ws, -1.0 / PART);
+        for (r, ahead) in ws.r.iter_mut().zip(&self.ahead) {
+            *r = 0.5 * (*r + ahead) + 0.5 / PART * (ahead - *r);
+        }
+        size
     }
 
     /// Shortens the last correction where it went too far; returns whether it did.
@@ -501,7 +541,7 @@ impl Newton {
         motion: Size,
         progress: &mut Progress,
     ) -> Result<Verdict, Failure> {
-        let Progress { report, convergence, new_matrix, limit, time_error } = progress;
+        let Progress { report, convergence, new_matrix, limit, time_error, .. } = progress;
         report.iterations += 1;
         let size = relative(cx, correction, motion);
         if !size.is_finite() {
@@ -563,6 +603,7 @@ impl Newton {
         self.lead.restart();
         self.predict(cx, ws, state, stage);
         progress.convergence.forget();
+        progress.predicted = true;
     }
 
     /// Goes back to the prediction before a step is cut, to go on with a fresh matrix in every iteration; returns false
