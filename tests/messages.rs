@@ -856,6 +856,13 @@ fn stages() {
                      [[expect]]\nmode = 1\nquantity = \"frequency\"\nvalue = 1.0\ntolerance = 0.1\n\
                      [[expect]]\nmode = 1\nquantity = \"frequency\"\nstage = \"weight\"\nvalue = 1.0\ntolerance = 0.1\n";
     assert_snapshot!("stages_of_modes", with(&of_modes, of_stages));
+    let not_there =
+        two.replace("kind = \"dynamic\"", "kind = \"dynamic\"\nstop = { time = 5.0 }") + &modes("low", "modal", "");
+    let expected = "[[supports]]\nat = \"knee_left\"\nmotion = { uy = { scale = 1e-3 } }\nstages = \"low\"\n\
+                    [[expect]]\nat = \"knee_left\"\nquantity = \"ux\"\nstage = \"low\"\nvalue = 1.0\ntolerance = 0.1\n\
+                    [[expect]]\nat = \"pad\"\nquantity = \"force\"\nstage = \"impact\"\nvalue = 1.0\ntolerance = 0.1\n\
+                    [[links]]\nname = \"pad\"\nfrom = \"knee_left\"\nto = { ground = [0.0, 0.0, 0.0] }\nstiffness = 1.0\nstages = \"weight\"\n";
+    assert_snapshot!("stages_not_there", with(&not_there, expected));
     let integrator = "integrator = { scheme = \"newmark\" }";
     let dynamic_keys = stage("weight", "static", integrator).replace("time_step = 0.1", "time_step = \"auto\"");
     assert_snapshot!("stages_dynamic_keys", with(&dynamic_keys, ""));

@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::load::{Loaded, model_stage};
 use super::verdict::{energy_line, energy_warning, short_of_stop, work_warning};
 use super::watchers::{Watchers, stage_begins};
-use crate::model::{self, Model};
+use crate::model::{self, AnalysisKind, Model};
 use crate::names::{instant, to_digits};
 use crate::output::{settle_cadence, wanted};
 use crate::plan::Plan;
@@ -53,7 +53,10 @@ impl StagesTold {
             return;
         }
         let of_run = energy_warning(run.balance(), model).into_iter().chain(work_warning(run));
-        let of_stage = stop_missed(run, model).into_iter().chain(left_held(run, model, end_time));
+        let of_stage = stop_missed(run, model)
+            .into_iter()
+            .chain(left_held(run, model, end_time))
+            .chain(weight_left(run, model, end_time));
         self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
         self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
         self.counts = run.counts();
@@ -81,6 +84,20 @@ fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> 
         format!(
             "it stopped while forces that were out of balance at its beginning were still going: {part} % of them are left. A static stage \
              after it takes these off, a dynamic one lets them go at once"
+        )
+    })
+}
+
+/// Says of a static stage that stopped before its time that gravity had not come in full: nothing brings on the rest.
+fn weight_left(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> {
+    let analysis = &model.analysis;
+    let stage = analysis.stage.as_ref()?;
+    let grows = analysis.kind == AnalysisKind::Static && model.loading.gravity_amplitude == Some(stage.own_amplitude);
+    let part = (end_time? - analysis.begin) / analysis.duration();
+    (grows && part < 1.0 && run.has_stopped() == Some(true) && model.loading.gravity.norm() > 0.0).then(|| {
+        let part = to_digits(100.0 * part, 2);
+        format!(
+            "it stopped while gravity was growing, which stays at {part} % of it: bring it on in a stage of its own, or by `gravity_amplitude`"
         )
     })
 }
@@ -163,7 +180,6 @@ impl StageRunner<'_> {
                 // The stage has stopped before its time: all others come earlier.
                 false => self.planned_anew(ends, planned)?,
             };
-            model.analysis.plane &= self.loaded.model.analysis.plane;
             // Where modes come first, nothing has happened yet.
             let (system, handover) = match before.analysis.modes {
                 Some(_) => (System::new(&model).map_err(io::Error::other)?, None),

@@ -129,6 +129,7 @@ fn build_stages(
 ) -> (Vec<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
     let mut course = Course::new(deck, reached, &mut report);
+    course.check_expected(&mut report);
     if let Some(planned) = planned {
         course.bulges = bulges(planned);
     }

@@ -129,6 +129,10 @@ impl<'d> Course<'d> {
     fn end_of(&self, table: &'d At<Table<Stage>>, begin: f64, duration: f64, report: &mut Report<'d>) -> f64 {
         let end = begin + duration;
         let Some(time) = table.stop.as_ref().and_then(|stop| stop.time.as_ref()) else { return end };
+        if time.value > end && !self.is_shortened {
+            let message = format!("the stage ends at {} before it comes to this", short(end));
+            report.error_with::<()>(&time.span, message, "`time` is that of the run");
+        }
         if time.value <= begin {
             let message = format!("the stage begins at {begin} already");
             report.error_with::<()>(&time.span, message, "`time` is that of the run");
@@ -170,13 +174,24 @@ impl<'d> Course<'d> {
         for &index in &of_modes {
             let stage = &self.stages[index];
             let before = self.before(index);
+            let buckles = buckles(stage.table);
             let is_new = |stages: &Maybe<Names>| {
-                stages.is_some()
+                let all = buckles && before.is_none();
+                (all || stages.is_some())
                     && self.holds(index, stages)
                     && !before.is_some_and(|before| self.holds(before, stages))
             };
             let new: Vec<_> = self.whole.loads.iter().filter(|load| is_new(&load.stages)).collect();
-            let buckles = stage.table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::Buckling);
+            for support in self.whole.supports.iter().filter(|support| is_new(&support.stages)) {
+                if let Some(motion) = &support.motion {
+                    let message = format!("nothing moves in stage `{}`", stage.name);
+                    report.error_with::<()>(
+                        &motion.span,
+                        message,
+                        "let the motion first act in a static or dynamic stage",
+                    );
+                }
+            }
             if buckles && new.is_empty() {
                 let message =
                     format!("no load first acts in stage `{}`, so none has a factor at which it buckles", stage.name);
@@ -251,12 +266,23 @@ impl<'d> Course<'d> {
         }
     }
 
-    /// True where an expected value, of a mode or not, can be read in some stage.
-    fn fits(&self, expect: &Expect) -> bool {
-        let of_mode = expect.mode.is_some();
-        self.stages
-            .iter()
-            .any(|stage| stage.has_modes == of_mode && name_of(&expect.stage).is_none_or(|name| name == stage.name))
+    /// Reports expected values that no stage has.
+    pub fn check_expected(&self, report: &mut Report<'d>) {
+        let known: HashSet<usize> = CurrentStage::all(self).flat_map(|stage| stage.expected()).collect();
+        for (index, expect) in self.whole.expect.iter().enumerate().filter(|(index, _)| !known.contains(index)) {
+            let named = name_of(&expect.stage).and_then(|name| self.position(name));
+            if expect.stage.is_some() && named.is_none() {
+                // That there is no such stage has been said.
+                continue;
+            }
+            let has_modes = named.is_some_and(|named| self.stages[named].has_modes);
+            let (message, hint) = match &expect.mode {
+                Some(_) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
+                None if has_modes => ("no time passes in this stage", "expect a `mode`, or name another stage"),
+                None => ("what this is expected of is not there", "name a stage in which it is"),
+            };
+            report.error_with::<()>(&self.whole.expect[index].span, message, hint);
+        }
     }
 
     /// The end of the last stage.
@@ -357,6 +383,10 @@ impl<'d> CurrentStage<'d> {
 
     /// The index of the amplitude of a load with these `stages` that has none.
     pub fn own_amplitude(&self, stages: &Maybe<Names>) -> usize {
+        // What comes with a buckling stage is what it seeks the factor of, whatever becomes of it later.
+        if buckles(self.table()) && self.is_new(stages) {
+            return self.amplitude_of_stage();
+        }
         self.course.whole.amplitudes.0.len() + self.course.first(stages)
     }
 
@@ -479,7 +509,7 @@ impl<'d> CurrentStage<'d> {
         let absent: HashSet<&str> = joints.chain(links).chain(contacts).filter_map(name).collect();
         let here = |expect: &Expect| {
             name_of(&expect.at).is_none_or(|at| !absent.contains(at))
-                && (expect.mode.is_some() == self.has_modes() || !self.course.fits(expect))
+                && expect.mode.is_some() == self.has_modes()
                 && name_of(&expect.stage).is_none_or(|stage| stage == self.name())
         };
         let all = deck.expect.iter().enumerate();
@@ -517,6 +547,11 @@ impl<'d> CurrentStage<'d> {
             damped: table.damped.clone(),
         }
     }
+}
+
+/// True for a stage that seeks factors of loads.
+fn buckles(table: &Stage) -> bool {
+    table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::Buckling)
 }
 
 /// The keys of a stage in which time passes.

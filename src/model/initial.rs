@@ -152,6 +152,12 @@ impl<'d> Motions<'_, 'd> {
             .report
             .require(&owner, "amplitude", &profile.amplitude)
             .and_then(|name| self.report.find("amplitude", &self.scene.deck.amplitudes, name));
+        if let (Some((index, _)), Some(name)) = (&amplitude, &profile.amplitude)
+            && self.scene.deck.amplitudes.0[*index].1.stage.is_some()
+        {
+            let message = format!("`{}` counts from a stage, and a profile is a function of place", name.value);
+            self.report.error_with::<()>(&name.span, message, "give it an amplitude without `stage`");
+        }
         let direction = self.report.require(&owner, "direction", &profile.direction);
         let mut unit = direction.and_then(|direction| self.report.unit("direction", direction));
         let axis = match &profile.axis {

@@ -1,7 +1,7 @@
 //! `stop` of `[[stages]]`: what ends a stage before its time.
 
 use super::course::CurrentStage;
-use super::data::{Actors, DIRECTIONS, ModeKind, RunStage, Stop, StopQuantity};
+use super::data::{Actors, DIRECTIONS, RunStage, Stop, StopQuantity};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -21,7 +21,6 @@ pub(super) fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut
     let actors = joined(actors, report);
     let stop = current.table().stop.as_ref().and_then(|table| stop(&current, table, scene, &actors, report));
     let (name, count) = (current.name().to_owned(), current.count());
-    let buckles = scene.analysis.modes.as_ref().is_some_and(|asked| asked.kind == ModeKind::Buckling);
     Some(RunStage {
         name,
         index: current.index,
@@ -29,7 +28,7 @@ pub(super) fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut
         goes_on: current.goes_on(),
         loads_alone_change: current.loads_alone_change(),
         holds_back: false,
-        factored: buckles.then(|| current.amplitude_of_stage()),
+        own_amplitude: current.amplitude_of_stage(),
         stop,
     })
 }
@@ -108,6 +107,7 @@ fn by_load<'d>(
     };
     match (&table.work, &table.force) {
         (Some(_), Some(force)) => report.error(&force.span, format!("{} has `work` or `force`, not both", owner.what)),
+        (Some(work), None) if work.value == 0.0 => report.error(&work.span, "`work` must not be 0"),
         (Some(work), None) => {
             let label = format!("the work of {}", name.value);
             Some(Stop { quantity: StopQuantity::Work(found.clone()), value: work.value, label })

@@ -27,7 +27,7 @@ pub(super) fn supports<'d>(
     for support in &scene.deck.supports {
         tables.support(support);
         let motions = std::mem::take(&mut tables.moved);
-        if let Some(name) = &support.name {
+        if let Some(name) = support.name.as_ref().filter(|_| !motions.is_empty()) {
             named.push((name, Actors { motions, ..Actors::default() }));
         }
     }
@@ -121,6 +121,7 @@ impl<'d> Supports<'_, 'd> {
             let history: History = chosen(&motion.history);
             if let Some(at) = &motion.history
                 && self.scene.analysis.kind == AnalysisKind::Static
+                && self.scene.analysis.modes.is_none()
                 && history != History::Displacement
             {
                 self.report.error::<()>(&at.span, "a static analysis takes `history = \"displacement\"` only");

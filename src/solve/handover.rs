@@ -6,6 +6,7 @@
 
 use super::context::Context;
 use super::load_steps::LoadSteps;
+use super::modes::ARM;
 use super::outcome::Counts;
 use crate::amplitude::{Amplitude, StraightLines};
 use crate::constraints::joint::ConstraintEquation;
@@ -77,7 +78,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
     let is_static = model.analysis.kind == AnalysisKind::Static;
     if is_static {
         rest(&mut next);
-        if model.analysis.modes.is_none() && hold_back(model, &system, &next) {
+        if model.analysis.modes.is_none() && hold_back(model, &system, &next, cx.length) {
             system = System::new(model)?;
         }
     }
@@ -101,8 +102,14 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
 /// As for [`System::new`].
 pub fn share_plane<'m>(stages: impl Iterator<Item = &'m mut Model>) -> Result<(), String> {
     let mut stages: Vec<&mut Model> = stages.collect();
-    let planes = stages.iter().map(|model| System::new(model).map(|system| system.plane));
-    let planes: Vec<Option<usize>> = planes.collect::<Result<_, _>>()?;
+    let mut planes: Vec<Option<usize>> = Vec::new();
+    for model in &stages {
+        let system = System::new(model)?;
+        // Modes out of the plane need no history that was not kept, and change nothing of the motion in it.
+        if system.history > 0 || model.analysis.modes.is_none() {
+            planes.push(system.plane);
+        }
+    }
     if planes.windows(2).any(|pair| pair[0] != pair[1]) {
         stages.iter_mut().for_each(|model| model.analysis.plane = false);
     }
@@ -280,7 +287,7 @@ fn rest(state: &mut State) {
 
 /// Adds the loads that hold back what is out of balance and go to zero over the stage; true where there are any. All that is not zero is
 /// held, however small beside other forces: a soft part may be moved by it.
-fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
+fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> bool {
     let mut forces = Forces::new(system, state.nodes.len());
     let mut loading = Loading::default();
     forces.multipliers.values.copy_from_slice(&state.multipliers);
@@ -297,7 +304,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
         forces.on_nodes.iter_mut().for_each(keep);
     }
     if let Some(stage) = &mut model.analysis.stage {
-        stage.holds_back = forces.on_nodes.iter().any(|of| is_felt(of, scale));
+        stage.holds_back = forces.on_nodes.iter().any(|of| is_felt(of, scale, ARM * length));
     }
     let amplitude = model.loading.amplitudes.len();
     let before = model.loading.nodal.len();
@@ -315,9 +322,9 @@ fn hold_back(model: &mut Model, system: &System, state: &State) -> bool {
 }
 
 /// True for forces above those that an equilibrium leaves.
-fn is_felt(of: &[f64; 6], scale: Scale) -> bool {
+fn is_felt(of: &[f64; 6], scale: Scale, arm: f64) -> bool {
     /// Part of the largest force.
     const LEFT: f64 = 1e-6;
     let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment
+    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment.max(arm * scale.force)
 }

@@ -14,6 +14,9 @@ use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest};
 use crate::state::State;
 use crate::system::{Loading, Side};
 
+/// Part of the size of the scene at which forces make moments: where only forces act, moments are rounding of them.
+pub(super) const ARM: f64 = 1e-2;
+
 /// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
 const BALANCED: f64 = 1e-3;
 
@@ -54,14 +57,14 @@ fn loads(cx: &Context) -> [Loading; 2] {
     }
     let Some(stage) = &model.analysis.stage else { return [nothing, base] };
     let mut factored = base.clone();
-    factored.field = nothing.field;
+    let is_factored = |amplitude: Option<usize>| amplitude == Some(stage.own_amplitude);
+    *(if is_factored(model.loading.gravity_amplitude) { &mut base.field } else { &mut factored.field }) = nothing.field;
     let nodal = model.loading.nodal.iter().map(|load| load.amplitude);
     let pressures = model.loading.pressures.iter().map(|load| load.amplitude);
     let each = base.factors.iter_mut().zip(&mut factored.factors).zip(nodal);
-    for ((base, factored), amplitude) in
-        each.chain(base.pressures.iter_mut().zip(&mut factored.pressures).zip(pressures))
-    {
-        *(if amplitude == stage.factored { base } else { factored }) = 0.0;
+    let each = each.chain(base.pressures.iter_mut().zip(&mut factored.pressures).zip(pressures));
+    for ((base, factored), amplitude) in each {
+        *(if is_factored(amplitude) { base } else { factored }) = 0.0;
     }
     [base, factored]
 }
@@ -85,8 +88,9 @@ fn unbalanced(cx: &Context, ws: &mut Workspace, state: &State, loading: &Loading
     cx.model.analysis.stage.as_ref()?;
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     let scale = cx.system.residual(&state.configuration(), loading, &mut ws.forces);
+    let moment = scale.moment.max(ARM * cx.length * scale.force);
     let part = |&(node, dof): &(usize, usize)| {
-        let (left, of) = (ws.forces.on_nodes[node][dof].abs(), if dof < 3 { scale.force } else { scale.moment });
+        let (left, of) = (ws.forces.on_nodes[node][dof].abs(), if dof < 3 { scale.force } else { moment });
         if left == 0.0 { 0.0 } else { left / of }
     };
     Some(cx.plan.dofs.nodal_dofs().iter().map(part).fold(0.0, f64::max))

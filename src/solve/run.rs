@@ -177,7 +177,7 @@ impl<'a> Run<'a> {
         if let Some(before) = before.filter(|before| run.is_told_by(before)) {
             return Ok(Some((OtherRun::Before(run.apart(&before)), before)));
         }
-        let trial = self.trial(error, run.longest(), observer)?;
+        let trial = self.trial(error, (run.longest(), run.end()), observer)?;
         Ok(trial.map(|trial| (OtherRun::Trial(run.apart(&trial)), trial)))
     }
 
@@ -226,7 +226,7 @@ impl<'a> Run<'a> {
     fn trial(
         &mut self,
         error: &mut StepError,
-        longest: f64,
+        (longest, reached): (f64, f64),
         observer: &mut dyn Observer,
     ) -> Result<Option<Kept>, Outcome> {
         let (model, inside) = (self.context.model, self.controller.looks_inside());
@@ -239,6 +239,8 @@ impl<'a> Run<'a> {
         self.recorder.most_steps = 2 * recorder.own().steps + FEW;
         let compared = if inside { observer.times_to_compare() } else { Vec::new() };
         let schedule = Schedule::of_trial(model, comparison_times(&model.analysis).chain(compared), inside);
+        // A stage that has stopped is compared up to there.
+        let schedule = schedule.until(if self.has_stopped() == Some(true) { reached } else { f64::INFINITY });
         observer.begin_trial();
         let mut unseen = Unseen(observer);
         let mut trace = Trace::new(&mut unseen, power);

@@ -36,7 +36,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
         if !cx.system.joints.is_empty() {
             ws.trial.clone_from(&state.nodes);
             joints::check(cx, ws)?;
-            let change = project_velocities(cx, ws, &mut state.nodes);
+            let change = project_velocities(cx, ws, &mut state.nodes, &[]);
             if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
                 ws.warnings.add(Warning::InitialVelocities { change });
             }
@@ -129,17 +129,21 @@ pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: 
     }
 }
 
-/// Replaces velocities by those that the joints allow, the nearest in kinetic energy; the mass matrix is factorized
-/// already. Returns the largest change relative to the largest velocity.
-pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) -> f64 {
+/// Replaces velocities by those that the joints allow, the nearest in kinetic energy, after an `impulse` on the unknowns of nodes, which
+/// is empty where there is none; the mass matrix is factorized already. Returns the largest change relative to the largest velocity.
+pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], impulse: &[f64]) -> f64 {
     let (mut change, mut largest) = (0.0f64, 0.0f64);
     // Redundant equations leave a fraction of the gaps to the next correction: three leave nothing.
-    for _ in 0..3 {
+    for pass in 0..3 {
         cx.system.gaps(nodes, 1, &mut ws.forces.multipliers.gaps);
-        if ws.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
+        let pushes = pass == 0 && !impulse.is_empty();
+        if !pushes && ws.forces.multipliers.gaps.iter().all(|&gap| gap == 0.0) {
             break;
         }
-        ws.r[..cx.nodal_unknowns()].fill(0.0);
+        match pushes {
+            true => ws.r[..cx.nodal_unknowns()].copy_from_slice(impulse),
+            false => ws.r[..cx.nodal_unknowns()].fill(0.0),
+        }
         ws.matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
         ws.solves += 1;
         for (node, rows) in nodes.iter_mut().zip(cx.plan.dofs.each_node()) {

@@ -9,8 +9,8 @@ use super::start::{
 };
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::math::stack;
-use crate::state::{Node, State};
+use crate::math::{Vec3, stack};
+use crate::state::{Configuration, Node, State};
 use crate::system::Side;
 
 /// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed.
@@ -40,16 +40,20 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
 
 /// Lets supports hold and move, then finds accelerations and reactions.
 fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut State) -> Result<(), Failure> {
+    let before = state.nodes.clone();
     give_rates(cx, ws, state);
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
     take_up_history(cx, ws, handover, state);
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     if cx.is_dynamic() {
         let massless = factor_mass(cx, ws, &state.configuration())?;
-        if !cx.system.joints.is_empty() {
+        let impulse = impulse(cx, ws, state, (&before, &massless));
+        if !cx.system.joints.is_empty() || !impulse.is_empty() {
             ws.trial.clone_from(&state.nodes);
-            joints::check(cx, ws)?;
-            let change = project_velocities(cx, ws, &mut state.nodes);
+            if !cx.system.joints.is_empty() {
+                joints::check(cx, ws)?;
+            }
+            let change = project_velocities(cx, ws, &mut state.nodes, &impulse);
             if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
                 ws.warnings.add(Warning::InitialVelocities { change });
             }
@@ -65,6 +69,39 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
         *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
     }
     Ok(())
+}
+
+/// The impulse −M Δv on the unknowns of nodes, Δv what supports give to or take from the velocities `before`: it is what passes by mass that
+/// is off the held directions, or off their axes. Empty where velocities are those before.
+fn impulse(cx: &Context, ws: &mut Workspace, state: &State, (before, massless): (&[Node], &[usize])) -> Vec<f64> {
+    let zero = Vec3::zeros();
+    let at_rest = |node: &Node| Node { v: zero, omega: zero, a: zero, alpha: zero, ..*node };
+    let mut nodes: Vec<Node> = state.nodes.iter().map(at_rest).collect();
+    let mut forces = |nodes: &mut Vec<Node>| -> Vec<f64> {
+        update_rates_of_dependent_nodes(cx, ws, nodes);
+        let now = Configuration { nodes, ..state.configuration() };
+        cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+        cx.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| ws.forces.on_nodes[node][dof]).collect()
+    };
+    let without = forces(&mut nodes);
+    let mut jumps = false;
+    for restraint in &cx.model.constraints.restraints {
+        let (node, now, before) = (&mut nodes[restraint.node], &state.nodes[restraint.node], &before[restraint.node]);
+        let k = restraint.dof % 3;
+        let (a, jump) = match restraint.dof {
+            0..3 => (&mut node.a, now.v[k] - before.v[k]),
+            _ => (&mut node.alpha, now.omega[k] - before.omega[k]),
+        };
+        a[k] = jump;
+        jumps |= jump != 0.0;
+    }
+    if !jumps {
+        return Vec::new();
+    }
+    let mut impulse = forces(&mut nodes);
+    impulse.iter_mut().zip(without).for_each(|(with, without)| *with -= without);
+    massless.iter().for_each(|&row| impulse[row] = 0.0);
+    impulse
 }
 
 /// True where joints have changed velocities that the deck gives in this stage, from `trial` to `nodes`. That they end motion which the

@@ -17,8 +17,8 @@ pub struct RunStage {
     pub loads_alone_change: bool,
     /// True where forces that a static stage finds out of balance at its beginning go to zero over it.
     pub holds_back: bool,
-    /// The amplitude of the loads of which a buckling stage seeks the factor; `None` in other stages.
-    pub factored: Option<usize>,
+    /// The amplitude of loads that first act here and have none of their own; a buckling stage seeks the factor of these.
+    pub own_amplitude: usize,
     /// What ends it before its time.
     pub stop: Option<Stop>,
 }

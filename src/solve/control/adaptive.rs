@@ -89,7 +89,8 @@ impl<C: StepController> CoverInterval for C {
                     let at_end = march.state.time >= interval.to;
                     let (due, compared) = (at_end && interval.due, at_end && interval.compared);
                     let stops = march.passes_stop();
-                    let (due, last) = (due || stops, stops || at_end && march.is_end(interval.to));
+                    let (due, compared) = (due || stops, compared || stops);
+                    let last = stops || at_end && march.is_end(interval.to);
                     march.notify(&AcceptedStep { dt, report: &report, cuts, due, compared, last, passed: &[] })?;
                     if stops {
                         return Err(Outcome::Done);

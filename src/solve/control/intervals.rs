@@ -89,6 +89,16 @@ impl Schedule {
         self
     }
 
+    /// The same up to a time inside.
+    pub fn until(mut self, end: f64) -> Schedule {
+        self.intervals.retain(|interval| interval.from < end);
+        self.samples.retain(|sample| sample.time < end);
+        if let Some(last) = self.intervals.last_mut().filter(|last| last.to > end) {
+            last.to = end;
+        }
+        self
+    }
+
     /// The times of a trial run, of which nothing is written.
     pub fn of_trial(model: &Model, compared: impl Iterator<Item = f64>, inside: bool) -> Schedule {
         let mut events: Vec<Event> = compared.map(|time| comparison(time, !inside)).collect();

@@ -138,6 +138,11 @@ impl Kept {
         own
     }
 
+    /// The time at its end.
+    pub fn end(&self) -> f64 {
+        self.ends.last().copied().unwrap_or_default()
+    }
+
     /// The longest step.
     pub fn longest(&self) -> f64 {
         self.longest
@@ -145,9 +150,13 @@ impl Kept {
 
     /// The difference of two runs, relative to the largest motion of both: the root mean square over the times of the largest over
     /// nodes and bodies, displacements over the largest displacement, rotations of bodies over the largest rotation, their velocities
-    /// over the largest velocity; `extent` is the length of the scene, by which translations and rotations are compared. Infinite where one ended early.
+    /// over the largest velocity; `extent` is the length of the scene, by which translations and rotations are compared. Infinite where a stage
+    /// has stopped before there was enough to compare.
     pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
-        if self.times < COMPARISONS || other.times < COMPARISONS {
+        /// Times at least: one of them may be that at which both happen to agree.
+        const FEWEST: usize = 3;
+        let times = self.times.min(other.times);
+        if times < FEWEST {
             return f64::INFINITY;
         }
         let (displacement, rotation) = self.motion().max(other.motion());
@@ -168,21 +177,21 @@ impl Kept {
             });
             moved.max(relative(turned.fold(0.0, f64::max), rotation)).max(rates.fold(0.0, f64::max))
         };
-        ((0..COMPARISONS).map(|time| at(time).powi(2)).sum::<f64>() / COMPARISONS as f64).sqrt()
+        ((0..times).map(|time| at(time).powi(2)).sum::<f64>() / times as f64).sqrt()
     }
 
     fn displacements_at(&self, time: usize) -> &[Vec3] {
-        let count = self.displacements.len() / COMPARISONS;
+        let count = self.displacements.len() / self.times;
         &self.displacements[time * count..(time + 1) * count]
     }
 
     fn rotations_at(&self, time: usize) -> &[Quaternion<f64>] {
-        let count = self.rotations.len() / COMPARISONS;
+        let count = self.rotations.len() / self.times;
         &self.rotations[time * count..(time + 1) * count]
     }
 
     fn velocities_at(&self, time: usize) -> &[[Vec3; 2]] {
-        let count = self.velocities.len() / COMPARISONS;
+        let count = self.velocities.len() / self.times;
         &self.velocities[time * count..(time + 1) * count]
     }
 
