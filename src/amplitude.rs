@@ -46,6 +46,11 @@ pub enum Amplitude {
     },
     /// 1.
     Constant,
+    /// cos(ω t + phase) at each frequency ω of a frequency response; 0 over time, which has no such frequency.
+    Harmonic {
+        /// The phase, in radians.
+        phase: f64,
+    },
 }
 
 /// Straight lines through points, with their integrals up to each of them.
@@ -97,6 +102,14 @@ pub struct Jump {
 }
 
 impl Amplitude {
+    /// The phase, in radians, of what a frequency response excites; `None` of functions of time.
+    pub fn harmonic_phase(&self) -> Option<f64> {
+        match self {
+            Amplitude::Harmonic { phase } => Some(*phase),
+            _ => None,
+        }
+    }
+
     /// Where the value jumps, in order of time.
     pub fn jumps(&self) -> Vec<Jump> {
         let at = |time: f64, before: f64, after: f64| Jump { time, before, after };
@@ -109,7 +122,7 @@ impl Amplitude {
             }
             Amplitude::Step { start, end } => vec![at(start, 0.0, 1.0), at(end, 1.0, 0.0)],
             Amplitude::Ramp { start, end } if start == end => vec![at(start, 0.0, 1.0)],
-            Amplitude::Ramp { .. } | Amplitude::Constant => Vec::new(),
+            Amplitude::Ramp { .. } | Amplitude::Constant | Amplitude::Harmonic { .. } => Vec::new(),
         };
         // What is left of a sine that ends at a zero is rounding of its argument.
         all.into_iter().filter(|j| j.time.is_finite() && (j.after - j.before).abs() > 1e-12).collect()
@@ -131,7 +144,7 @@ impl Amplitude {
             }
             Amplitude::Ramp { start, end } => Amplitude::Ramp { start: start + by, end: end + by },
             Amplitude::Step { start, end } => Amplitude::Step { start: start + by, end: end + by },
-            Amplitude::Constant => Amplitude::Constant,
+            Amplitude::Constant | Amplitude::Harmonic { .. } => self,
         }
     }
 
@@ -143,7 +156,7 @@ impl Amplitude {
             | Amplitude::SineSquared { start, end, .. }
             | Amplitude::Ramp { start, end }
             | Amplitude::Step { start, end } => vec![start, end],
-            Amplitude::Constant => Vec::new(),
+            Amplitude::Constant | Amplitude::Harmonic { .. } => Vec::new(),
         };
         all.into_iter().filter(|time| time.is_finite()).collect()
     }
@@ -175,7 +188,7 @@ impl Amplitude {
             Amplitude::SineSquared { angular_frequency: w, start, end } => {
                 inside(start, end, &|k| start + 0.5 * k * PI / w.abs(), 0.5 * PI / w.abs())
             }
-            Amplitude::Ramp { .. } | Amplitude::Step { .. } | Amplitude::Constant => None,
+            Amplitude::Ramp { .. } | Amplitude::Step { .. } | Amplitude::Constant | Amplitude::Harmonic { .. } => None,
         }
     }
 
@@ -224,6 +237,7 @@ impl Amplitude {
             Amplitude::Ramp { end, .. } => f64::from(t >= end),
             Amplitude::Step { start, end } => f64::from(start <= t && t < end),
             Amplitude::Constant => 1.0,
+            Amplitude::Harmonic { .. } => 0.0,
         }
     }
 
@@ -295,6 +309,7 @@ impl Amplitude {
             }
             Amplitude::Step { start, end } => over(start, end, t, |u| (u, 0.5 * u * u)),
             Amplitude::Constant => (t, 0.5 * t * t),
+            Amplitude::Harmonic { .. } => (0.0, 0.0),
         }
     }
 }

@@ -16,6 +16,8 @@ pub enum Unit {
     One,
     /// An angle in radians.
     Radian,
+    /// An angle in degrees.
+    Degree,
     /// A time; along a path by arc length, the load factor.
     Time,
     /// A length.
@@ -61,6 +63,7 @@ impl fmt::Display for Unit {
             Unit::Count => "count",
             Unit::One => "1",
             Unit::Radian => "rad",
+            Unit::Degree => "°",
             Unit::Time => "time",
             Unit::Length => "length",
             Unit::Velocity => "length/time",
@@ -361,6 +364,35 @@ pub const MODE: [Column; 20] = {
         ),
     ]
 };
+
+/// The steady motion of a node at a frequency: amplitudes, then phases.
+pub const RESPONSE: [Column; 12] = {
+    const fn amplitude(name: &'static str, meaning: &'static str, unit: Unit) -> Column {
+        Column::scalar(name, meaning, unit).kind(meaning).in_axes(Axes::Global)
+    }
+    const fn phase(name: &'static str) -> Column {
+        let meaning = "phase φ of the same: the motion is amplitude × cos(ωt + φ) where excitations are cos(ωt + phase); from −180 to 180";
+        Column::scalar(name, meaning, Unit::Degree).in_axes(Axes::Global).positive("ahead of the excitation")
+    }
+    const MOVED: &str = "amplitude of the displacement about the state";
+    const TURNED: &str = "amplitude of the small rotation about the state";
+    [
+        amplitude("ux", MOVED, Unit::Length),
+        amplitude("uy", MOVED, Unit::Length),
+        amplitude("uz", MOVED, Unit::Length),
+        amplitude("rx", TURNED, Unit::Radian),
+        amplitude("ry", TURNED, Unit::Radian),
+        amplitude("rz", TURNED, Unit::Radian),
+        phase("ux_phase"),
+        phase("uy_phase"),
+        phase("uz_phase"),
+        phase("rx_phase"),
+        phase("ry_phase"),
+        phase("rz_phase"),
+    ]
+};
+/// The frequency of a response.
+pub const RESPONSE_FREQUENCY: Column = Column::scalar("frequency", "frequency of the excitation", Unit::Frequency);
 
 /// The plastic strain of beams, bars and shells.
 pub const PLASTIC_STRAIN: Column = Column::scalar("plastic_strain", "largest accumulated plastic strain", Unit::One);

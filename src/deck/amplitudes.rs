@@ -39,8 +39,10 @@ pub struct Amplitude {
     pub frequency: Maybe<f64>,
     /// Radians per unit of time, above 0, instead of `frequency`. (sine, sine-squared)
     pub angular_frequency: Maybe<f64>,
-    /// Phase in radians. Default: 0. (sine)
+    /// Phase in radians. Default: 0. (sine, harmonic)
     pub phase: Maybe<f64>,
+    /// Phase in degrees, instead of `phase`. (sine, harmonic)
+    pub phase_degrees: Maybe<f64>,
     /// Time before which the function is zero. Default: 0. (sine, sine-squared, ramp, step)
     pub start: Maybe<f64>,
     /// Time after which the function is zero; a ramp ends there at 1 and stays. Default: never; a ramp needs
@@ -64,6 +66,8 @@ pub enum AmplitudeKind {
     Step,
     /// 1 at all times.
     Constant,
+    /// cos(w t + phase) at each frequency of a frequency response, which alone has any.
+    Harmonic,
 }
 
 /// Beyond the ends of a table.

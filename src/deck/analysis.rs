@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::kinds::Kinds;
-use super::words::{Maybe, NumberOrAuto, Table};
+use super::words::{Frequencies, Maybe, NumberOrAuto, Table};
 use crate::integrators::SCHEMES;
 use crate::integrators::scheme::{MakeScheme, SchemeKind};
 use crate::math::rotation::RotationUpdate;
@@ -40,12 +40,32 @@ pub struct Analysis {
     /// Whether motion out of a global plane is omitted where nothing can cause it. Default: "auto"; "off" for modes, which may lead
     /// anywhere.
     pub plane: Maybe<Plane>,
-    /// With "modal" and "buckling": number of modes, the lowest, 1 or more. Default: 10.
+    /// With "modal" and "buckling": number of modes, the lowest, 1 or more. Default: 10. With "frequency-response" and method = "modal":
+    /// number of those that answer with their inertia. Default: all up to twice the highest frequency.
     pub modes: Maybe<u64>,
-    /// With "modal", instead of `modes`: all modes up to this frequency, above 0.
+    /// With "modal" and "frequency-response", instead of `modes`: all modes up to this frequency, above 0.
     pub up_to: Maybe<f64>,
     /// With "modal": complex modes, with damping and the gyroscopic moments of bodies that spin. Default: false.
     pub damped: Maybe<bool>,
+    /// With "frequency-response": a frequency, a list of them, or { from, to, steps }; cycles per unit of time. Frequencies that
+    /// `[[expect]]` names are added.
+    pub frequencies: Maybe<Frequencies>,
+    /// With "frequency-response": how it is found. Default: "direct".
+    pub method: Maybe<ResponseWord>,
+    /// With "frequency-response" and method = "modal": part of critical damping that every mode has, besides what dampers give it; 0 or
+    /// more. Default: 0.
+    pub damping_ratio: Maybe<f64>,
+}
+
+/// The way in which a frequency response is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ResponseWord {
+    /// The equations themselves are solved at each frequency: dampers, loads that follow and bodies that spin are taken as they are.
+    #[default]
+    Direct,
+    /// By natural modes; all others answer as springs. The cost hardly depends on the number of frequencies.
+    Modal,
 }
 
 /// The quantity that steps advance by.
@@ -101,6 +121,9 @@ pub enum AnalysisKind {
     Modal,
     /// Factors of what acts at t = 0 at which the structure buckles, by linear buckling analysis.
     Buckling,
+    /// Amplitude and phase of the steady motion that loads and supports with amplitudes of kind "harmonic" cause, about the equilibrium
+    /// under what else acts at t = 0.
+    FrequencyResponse,
 }
 
 /// The treatment of motion out of a global plane.

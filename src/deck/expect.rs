@@ -24,7 +24,10 @@ pub struct Expect {
     pub time: Maybe<f64>,
     /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.
     pub when: Maybe<Table<DisplacementTarget>>,
-    /// An extreme over the whole run, instead of `time`.
+    /// Instead of `time`, in a frequency response: the frequency, which is computed besides those of `[analysis]`. The quantity is then a
+    /// column of response.csv.
+    pub frequency: Maybe<f64>,
+    /// An extreme over the whole run, or over all frequencies, instead of `time`.
     pub peak: Maybe<Peak>,
     /// Name of a stage: the value is that at its end, or with `peak` an extreme in it.
     pub stage: Maybe<String>,

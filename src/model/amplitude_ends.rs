@@ -60,7 +60,7 @@ pub(super) fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_ti
                     report.warn(&name.span, message, "let the run last longer, or `start` come earlier");
                 }
             }
-            Amplitude::Constant => {}
+            Amplitude::Constant | Amplitude::Harmonic { .. } => {}
         }
     }
 }

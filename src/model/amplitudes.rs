@@ -46,7 +46,7 @@ fn read_amplitude<'d>(
         [("before", span(&a.before)), ("after", span(&a.after)), ("scale", span(&a.scale)), ("shift", span(&a.shift))];
     let points = [&[("points", span(&a.points)), ("file", span(&a.file))], &of_file[..], &others].concat();
     let waves = [("frequency", span(&a.frequency)), ("angular_frequency", span(&a.angular_frequency))];
-    let phase = [("phase", span(&a.phase))];
+    let phase = [("phase", span(&a.phase)), ("phase_degrees", span(&a.phase_degrees))];
     let window = [("start", span(&a.start)), ("end", span(&a.end))];
     let start = a.start.as_ref().map_or(0.0, |start| start.value);
     let end = a.end.as_ref().map_or(f64::INFINITY, |end| end.value);
@@ -63,7 +63,7 @@ fn read_amplitude<'d>(
         words::AmplitudeKind::Sine => {
             report.reject_unused("a sine", &points);
             let angular_frequency = angular_frequency(&owner, a, report)?;
-            let phase = a.phase.as_ref().map_or(0.0, |phase| phase.value);
+            let phase = self::phase(&owner, a, report);
             Some(Amplitude::Sine { angular_frequency, phase, start, end })
         }
         words::AmplitudeKind::SineSquared => {
@@ -84,6 +84,23 @@ fn read_amplitude<'d>(
             report.reject_unused("a constant", &[&points[..], &waves, &phase, &window].concat());
             Some(Amplitude::Constant)
         }
+        words::AmplitudeKind::Harmonic => {
+            report.reject_unused("a harmonic", &[&points[..], &waves, &window].concat());
+            Some(Amplitude::Harmonic { phase: self::phase(&owner, a, report) })
+        }
+    }
+}
+
+/// The phase in radians.
+fn phase<'d>(owner: &Owner<'d>, a: &'d words::Amplitude, report: &mut Report<'d>) -> f64 {
+    match (&a.phase, &a.phase_degrees) {
+        (Some(_), Some(degrees)) => {
+            let message = format!("{} takes `phase` or `phase_degrees`, not both", owner.what);
+            report.error::<()>(&degrees.span, message);
+            0.0
+        }
+        (Some(radians), None) => radians.value,
+        (None, degrees) => degrees.as_ref().map_or(0.0, |degrees| degrees.value.to_radians()),
     }
 }
 

@@ -70,7 +70,7 @@ pub(super) fn analysis<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, repo
 
 fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Report<'d>) -> Analysis {
     let word = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
-    if let Some(analysis) = modes(analysis, word, report) {
+    if let Some(analysis) = modes(analysis, owner.span, word, report) {
         return analysis;
     }
     let kind = if word == words::AnalysisKind::Static { AnalysisKind::Static } else { AnalysisKind::Dynamic };

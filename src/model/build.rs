@@ -41,6 +41,7 @@ use super::parts::Parts;
 use super::proportions::check_proportions;
 use super::records::{Record, load_records};
 use super::report::Report;
+use super::response::{add_expected, check_harmonic};
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
 use super::sections::Sections;
@@ -342,6 +343,7 @@ fn check(
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);
+    check_harmonic(deck, report);
     if scene.analysis.modes.is_some() {
         check_modal(deck, report);
     } else if kind == AnalysisKind::Static {
@@ -381,6 +383,7 @@ fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
     }
     if model.analysis.modes.is_some() && model.analysis.stage.is_none() {
         hold_at_start(model);
+        add_expected(model);
     }
     drop_unused(model);
     if all_nodes {

@@ -158,6 +158,9 @@ impl<'d> Course<'d> {
             ("modes", span(&analysis.modes)),
             ("up_to", span(&analysis.up_to)),
             ("damped", span(&analysis.damped)),
+            ("frequencies", span(&analysis.frequencies)),
+            ("method", span(&analysis.method)),
+            ("damping_ratio", span(&analysis.damping_ratio)),
         ];
         report.reject_unused("a deck with `[[stages]]`, which have kinds, durations and steps of their own", &keys);
     }
@@ -545,6 +548,9 @@ impl<'d> CurrentStage<'d> {
             modes: table.modes.clone(),
             up_to: table.up_to.clone(),
             damped: table.damped.clone(),
+            frequencies: None,
+            method: None,
+            damping_ratio: None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `[[expect]]`: values that a run must reach.
 
-use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, Part, Tolerance, When, quantities_of};
+use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, Tolerance, When, quantities_of};
 use super::displacement_targets::displacement_target;
 use super::nodes::Topology;
 use super::place::Place;
@@ -31,14 +31,25 @@ pub(super) fn expects<'d>(
     report: &mut Report<'d>,
 ) -> Vec<Expect> {
     let mut tables = Expects { scene, topology, is_arc_length, report };
-    let modes = scene.analysis.modes.is_some();
-    for entry in scene.deck.expect.iter().filter(|entry| modes && entry.mode.is_none()) {
-        let hint = "`mode` in place of `at` expects something of a mode";
-        tables
-            .report
-            .push(Diagnostic::note("this is not looked at in an analysis of modes").at(&entry.span).hint(hint));
+    let asked = scene.analysis.modes.as_ref();
+    let response = asked.is_some_and(|asked| asked.response.is_some());
+    let is_seen = |entry: &words::Expect| {
+        let of_response = response && entry.mode.is_none() && entry.time.is_none() && entry.when.is_none();
+        asked.is_none() || entry.mode.is_some() || entry.frequency.is_some() || of_response
+    };
+    for entry in scene.deck.expect.iter().filter(|entry| !is_seen(entry)) {
+        let (message, hint) = match response {
+            true => (
+                "this is not looked at in a frequency response",
+                "`frequency` in place of `time` expects an amplitude or a phase",
+            ),
+            false => {
+                ("this is not looked at in an analysis of modes", "`mode` in place of `at` expects something of a mode")
+            }
+        };
+        tables.report.push(Diagnostic::note(message).at(&entry.span).hint(hint));
     }
-    let tables_of = scene.deck.expect.iter().enumerate().filter(|(_, entry)| !modes || entry.mode.is_some());
+    let tables_of = scene.deck.expect.iter().enumerate().filter(|(_, entry)| is_seen(entry));
     let read = |(index, table): (usize, &'d At<Table<words::Expect>>)| {
         let expect = tables.expect(&Owner::new("`[[expect]]`", &table.span), table)?;
         Some(Expect { index, ..expect })
@@ -50,6 +61,10 @@ impl<'d> Expects<'_, 'd> {
     fn expect(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<Expect> {
         if let Some(number) = &expect.mode {
             return self.expect_mode(owner, expect, number);
+        }
+        let of_response = self.scene.analysis.modes.as_ref().is_some_and(|asked| asked.response.is_some());
+        if of_response || expect.frequency.is_some() {
+            return self.expect_response(owner, expect, of_response);
         }
         let name = self.report.require(owner, "at", &expect.at);
         let at = name.and_then(|name| self.expect_at(name));
@@ -101,12 +116,21 @@ impl<'d> Expects<'_, 'd> {
             ("time", span(&expect.time)),
             ("when", span(&expect.when)),
             ("peak", span(&expect.peak)),
+            ("frequency", span(&expect.frequency)),
         ];
         self.report.reject_unused("a mode", &keys);
         let Some(asked) = &self.scene.analysis.modes else {
             let hint = "`kind = \"modal\"` or `\"buckling\"` of `[analysis]`, or of a stage, finds modes";
             return self.report.error_with(&number.span, "`mode` needs an analysis of modes", hint);
         };
+        if !asked.lists_modes() {
+            let hint = "`method = \"modal\"` in `[analysis]` finds modes";
+            return self.report.error_with(
+                &number.span,
+                "the direct solution of a frequency response has no modes",
+                hint,
+            );
+        }
         if number.value == 0 {
             return self.report.error(&number.span, "`mode` must be at least 1");
         }
@@ -131,6 +155,71 @@ impl<'d> Expects<'_, 'd> {
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
             label: format!("{quantity} of {}{stage}", name.value),
         })
+    }
+
+    /// An amplitude or a phase of a frequency response.
+    fn expect_response(&mut self, owner: &Owner<'d>, expect: &'d words::Expect, is_response: bool) -> Option<Expect> {
+        if let Some(at) = expect.frequency.as_ref().filter(|_| !is_response) {
+            let hint = "`kind = \"frequency-response\"` in `[analysis]` goes over frequencies";
+            return self.report.error_with(&at.span, "`frequency` needs a frequency response", hint);
+        }
+        self.report
+            .reject_unused("a frequency response", &[("time", span(&expect.time)), ("when", span(&expect.when))]);
+        let over = self.over_frequencies(owner, expect);
+        let name = self.report.require(owner, "at", &expect.at);
+        let node = name.and_then(|name| match self.scene.place_or_node(name) {
+            Some(Place::Point(node)) => Some(node),
+            Some(Place::Body(body)) => Some(self.scene.names.body_node(body)),
+            Some(place) => {
+                let message = format!("`{}` is {}, which has no response of its own", name.value, place.kind());
+                self.report.error_with(&name.span, message, "name a point or a body")
+            }
+            None => {
+                let known = || self.scene.names.known(|place| matches!(place, Place::Point(_) | Place::Body(_)));
+                self.scene.names.unknown("point or body", name, known, self.report)
+            }
+        });
+        let quantity = self.report.require(owner, "quantity", &expect.quantity);
+        let column = quantity.zip(name).and_then(|(quantity, name)| self.column(&quantities::RESPONSE, quantity, name));
+        let ((value, tolerance), over, node, quantity) = (self.judged(owner, expect)?, over?, node?, column?);
+        let moment = match over {
+            OverFrequencies::At(frequency) => format!("at frequency {frequency}"),
+            OverFrequencies::Max => "at its maximum over frequencies".to_owned(),
+            OverFrequencies::Min => "at its minimum over frequencies".to_owned(),
+            OverFrequencies::Abs => "at its greatest absolute value over frequencies".to_owned(),
+        };
+        Some(Expect {
+            index: 0,
+            at: ExpectAt::Response(node, over),
+            quantity: quantity.to_owned(),
+            when: When::Abs,
+            value,
+            tolerance,
+            source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
+            label: format!("{quantity} of {} {moment}", name?.value),
+        })
+    }
+
+    /// The frequency at which a value is expected, or the extreme over all.
+    fn over_frequencies(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<OverFrequencies> {
+        match (&expect.frequency, &expect.peak) {
+            (Some(_), Some(peak)) => {
+                self.report.error(&peak.span, "an expected value has `frequency` or `peak`, not both")
+            }
+            (Some(at), None) if !(at.value >= 0.0 && at.value.is_finite()) => {
+                self.report.error(&at.span, "a frequency must not be negative")
+            }
+            (Some(at), None) => Some(OverFrequencies::At(at.value)),
+            (None, Some(peak)) => Some(match peak.value {
+                words::Peak::Max => OverFrequencies::Max,
+                words::Peak::Min => OverFrequencies::Min,
+                words::Peak::Abs => OverFrequencies::Abs,
+            }),
+            (None, None) if expect.at_least.is_some() => Some(OverFrequencies::Min),
+            (None, None) if expect.at_most.is_some() => Some(OverFrequencies::Max),
+            (None, None) if ["frequency", "peak"].iter().any(|key| self.report.is_spoiled(owner.span, key)) => None,
+            (None, None) => self.report.error(owner.span, format!("{} needs `frequency` or `peak`", owner.what)),
+        }
     }
 
     /// Finds where the value is expected, and which columns there are.

@@ -53,6 +53,7 @@ mod place;
 mod proportions;
 mod records;
 mod report;
+mod response;
 mod rigid;
 mod scene;
 mod sections;

@@ -1,15 +1,16 @@
-//! Modes: `kind = "modal"` and `"buckling"` of `[analysis]`.
+//! Modes: `kind = "modal"`, `"buckling"` and `"frequency-response"` of `[analysis]`.
 //!
 //! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
 //! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
 
 use super::data::{Analysis, AnalysisKind, History, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
 use super::report::Report;
+use super::response::{is_harmonic, keys_of_response, response};
 use super::values::{flag, span};
 use crate::amplitude::Amplitude;
 use crate::deck::Deck;
 use crate::deck::analysis::{self as words, AnalysisKind as Word};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 
 /// Number of modes unless the deck says otherwise.
 const MODES: usize = 10;
@@ -23,19 +24,29 @@ const STEP: f64 = 0.1;
 const LEAST_STEP: f64 = STEP / 1024.0;
 
 /// Reads the keys of modes; `None` where the deck does not ask for any.
-pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report) -> Option<Analysis> {
+pub(super) fn modes<'d>(
+    analysis: &'d words::Analysis,
+    place: &'d Span,
+    word: Word,
+    report: &mut Report<'d>,
+) -> Option<Analysis> {
     let of_modal = [("up_to", span(&analysis.up_to)), ("damped", span(&analysis.damped))];
     let kind = match word {
-        Word::Modal => ModeKind::Natural,
+        Word::Modal | Word::FrequencyResponse => ModeKind::Natural,
         Word::Buckling => ModeKind::Buckling,
         Word::Static | Word::Dynamic => {
             let what = if word == Word::Static { "a static analysis" } else { "a dynamic analysis" };
             report.reject_unused(what, &[("modes", span(&analysis.modes))]);
             report.reject_unused(what, &of_modal);
+            report.reject_unused(what, &keys_of_response(analysis));
             return None;
         }
     };
-    let what = if kind == ModeKind::Natural { "a modal analysis" } else { "a buckling analysis" };
+    let what = match word {
+        Word::Modal => "a modal analysis",
+        Word::Buckling => "a buckling analysis",
+        _ => "a frequency response",
+    };
     let of_paths = [
         ("control", span(&analysis.control)),
         ("stop", span(&analysis.stop)),
@@ -45,6 +56,10 @@ pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report)
     report.reject_unused(what, &of_paths);
     if kind == ModeKind::Buckling {
         report.reject_unused(what, &of_modal);
+    }
+    let is_response = word == Word::FrequencyResponse;
+    if !is_response {
+        report.reject_unused(what, &keys_of_response(analysis));
     }
     for (key, place) in [
         ("end_time", span(&analysis.end_time)),
@@ -59,7 +74,12 @@ pub(super) fn modes(analysis: &words::Analysis, word: Word, report: &mut Report)
         }
     }
     let plane = analysis.plane.as_ref().is_some_and(|plane| plane.value == words::Plane::Auto);
-    let modes = Some(ModesAsked { kind, extent: extent(analysis, report), damped: flag(&analysis.damped, false) });
+    let response = is_response.then(|| response(analysis, place, report));
+    let (response, of_response) = response.map_or((None, None), |(asked, extent)| (Some(asked), extent));
+    let extent = of_response.unwrap_or_else(|| extent(analysis, report));
+    // Bodies that spin excite and are excited with their gyroscopic moments.
+    let damped = is_response || flag(&analysis.damped, false);
+    let modes = Some(ModesAsked { kind, extent, damped, response });
     let (end_time, least_step) = (END, LEAST_STEP);
     let step_length = StepLength::Fixed { step: STEP };
     Some(Analysis {
@@ -101,7 +121,13 @@ pub(super) fn check_modal(deck: &Deck, report: &mut Report) {
 /// Replaces loads and motions by those that act at t = 0, without amplitudes, so that they grow over the static analysis.
 pub(super) fn hold_at_start(model: &mut Model) {
     let loading = &mut model.loading;
-    let at_start = |amplitude: &mut Option<usize>| amplitude.take().map_or(1.0, |i| loading.amplitudes[i].value(0.0));
+    // What excites a response keeps its amplitude, which is zero over time.
+    let excites = model.analysis.modes.as_ref().is_some_and(|asked| asked.response.is_some());
+    let amplitudes = &loading.amplitudes;
+    let at_start = |amplitude: &mut Option<usize>| match *amplitude {
+        Some(_) if excites && is_harmonic(amplitudes, *amplitude) => 1.0,
+        _ => amplitude.take().map_or(1.0, |i| amplitudes[i].value(0.0)),
+    };
     for load in &mut loading.nodal {
         let factor = at_start(&mut load.amplitude);
         load.force *= factor;
@@ -111,11 +137,18 @@ pub(super) fn hold_at_start(model: &mut Model) {
         load.pressure *= at_start(&mut load.amplitude);
     }
     loading.gravity *= at_start(&mut loading.gravity_amplitude);
-    for base in loading.base_accelerations.drain(..) {
-        loading.gravity -= loading.amplitudes[base.amplitude].value(0.0) * base.direction;
-    }
+    loading.base_accelerations.retain(|base| {
+        let keeps = excites && is_harmonic(&loading.amplitudes, Some(base.amplitude));
+        if !keeps {
+            loading.gravity -= loading.amplitudes[base.amplitude].value(0.0) * base.direction;
+        }
+        keeps
+    });
     for restraint in &mut model.constraints.restraints {
         let Some(motion) = &mut restraint.motion else { continue };
+        if excites && is_harmonic(&loading.amplitudes, Some(motion.amplitude)) {
+            continue;
+        }
         let displaced = match motion.history {
             History::Displacement => motion.scale * loading.amplitudes[motion.amplitude].value(0.0),
             // Velocities and accelerations begin undisplaced.

@@ -97,7 +97,16 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     let list = found.iter().map(|(factor, vector)| shapes.buckling(&pencil, *factor, vector)).collect();
     let doubts = doubts(at, rests, (found.len(), wanted));
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
-    Ok(Modes { kind: ModeKind::Buckling, list, masses: shapes.masses, unstable: 0, factorizations, solves, doubts })
+    Ok(Modes {
+        kind: ModeKind::Buckling,
+        list,
+        masses: shapes.masses,
+        unstable: 0,
+        factorizations,
+        solves,
+        doubts,
+        response: None,
+    })
 }
 
 /// What is doubtful about so many factors found of those wanted, in words; the scene may not rest without loads.
@@ -115,7 +124,7 @@ fn doubts(at: &Linearized, rests: bool, (found, wanted): (usize, usize)) -> Vec<
             "{found} factors were found, and no more within reach: the others lie much farther, or only stiffen"
         ));
     }
-    if !at.system.loads_have_potential(at.system.plane) {
+    if !at.loads_have_potential() {
         doubts.push(
             "loads that follow, and moments about axes fixed in space, have no potential: factors are those of the symmetric part \
              of their stiffness, which is what buckles statically where it is not their work that shakes (flutter)"

@@ -95,7 +95,7 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         (square, pencil.shift < 0.0, pencil.factorizations)
     };
     let mut own = None;
-    if gyroscopic.acts() || !at.system.loads_have_potential(at.system.plane) {
+    if gyroscopic.acts() || !at.loads_have_potential() {
         let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
         let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
         own = Some((solver, assembly));
@@ -133,7 +133,7 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
     let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
     let (kind, masses) = (ModeKind::Natural, shapes.masses);
-    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts })
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response: None })
 }
 
 /// The eigenvalues 1/(s − σ) of the roots nearest to the shift, as many as are asked for.

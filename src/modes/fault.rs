@@ -42,6 +42,10 @@ pub enum ModesFault {
     NoLoads,
     /// No positive factor of the loads lets anything buckle.
     NoBuckling,
+    /// Nothing that is harmonic moves anything.
+    NothingExcites,
+    /// A signal has stopped the search.
+    Stopped,
     /// There is no memory.
     TooLarge(TooLarge),
 }
@@ -92,6 +96,10 @@ impl fmt::Display for ModesFault {
                 f,
                 "no factor of these loads is found that lets anything buckle: they only stiffen what they act on; reverse them, and it may"
             ),
+            ModesFault::NothingExcites => {
+                write!(f, "nothing that is harmonic moves anything: loads act on supports alone, or are zero")
+            }
+            ModesFault::Stopped => write!(f, "a signal has stopped the search"),
             ModesFault::TooLarge(error) => error.fmt(f),
         }
     }

@@ -1,5 +1,6 @@
 //! A state about which the motion is linearized.
 
+use super::fault::ModesFault;
 use crate::linear::{Factorization, Solver, TooLarge};
 use crate::math::{Vec3, Vec6};
 use crate::model::{DIRECTIONS, Model};
@@ -7,6 +8,7 @@ use crate::plan::Plan;
 use crate::state::{Node, State};
 use crate::system::assembly::Assembly;
 use crate::system::{Loading, System};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A state, and what the scene is there.
 #[derive(Clone, Copy)]
@@ -23,6 +25,8 @@ pub struct Linearized<'a> {
     pub loading: &'a Loading,
     /// The loads of which buckling seeks the factor; nothing for other modes.
     pub factored: &'a Loading,
+    /// The flag that ends a search when it is raised.
+    pub stop: &'a AtomicBool,
 }
 
 impl Linearized<'_> {
@@ -35,6 +39,24 @@ impl Linearized<'_> {
         let solver = Solver::new(&plan.structure, Factorization::Cholesky, plan.threads)?;
         let assembly = Assembly::new(system, &plan.dofs, &solver, plan.threads);
         Ok((solver, assembly))
+    }
+
+    /// Ends a search where the stop flag is raised.
+    ///
+    /// # Errors
+    /// [`ModesFault::Stopped`].
+    pub fn check_stop(&self) -> Result<(), ModesFault> {
+        if self.stop.load(Ordering::Relaxed) { Err(ModesFault::Stopped) } else { Ok(()) }
+    }
+
+    /// True where the loads that act have a potential, as in [`System::loads_have_potential`].
+    pub fn loads_have_potential(&self) -> bool {
+        let normal = self.system.plane;
+        let about_normal = |m: &Vec3| (0..3).all(|i| m[i] == 0.0 || normal == Some(i));
+        let factors = self.loading.factors.iter().zip(&self.factored.factors);
+        let acts = factors.map(|(loading, factored)| *loading != 0.0 || *factored != 0.0);
+        let mut acting = self.model.loading.nodal.iter().zip(acts).filter(|(_, acts)| *acts);
+        acting.all(|(load, _)| !load.follower && about_normal(&load.moment))
     }
 
     /// The nodes of the state, at rest.

@@ -1,6 +1,6 @@
-//! Small motions about a state: natural modes and buckling loads of the scene linearized there.
+//! Small motions about a state: natural modes, buckling loads and the frequency response of the scene linearized there.
 //!
-//! [`find`] takes a state and the loads that hold it in equilibrium and gives modes; it knows nothing of files or of how the state
+//! [`find`] takes a state and the loads that hold it in equilibrium and gives modes or the response; it knows nothing of files or of how the state
 //! came about. The matrices are those of a step, from the same assembly: K with K(σ), loads that follow, joints and contacts as
 //! they are, M as the program moves masses. Eigenvalues come from a Krylov space of the factorised matrix, and the signs of its
 //! pivots tell how many there are (Sylvester's law of inertia), so that none is missed.
@@ -13,14 +13,17 @@ mod linearized;
 mod modal;
 mod mode;
 mod pencil;
+mod response;
 mod rest;
 mod shape;
 mod shares;
+mod steady;
 
 pub use fault::ModesFault;
 pub use linearized::Linearized;
 pub use mode::{EigenMode, Modes, Share};
 pub use rest::multipliers_at_rest;
+pub use steady::{Response, ResponseRow};
 
 use crate::linear::Solver;
 use crate::model::{ModeKind, ModesAsked};
@@ -40,6 +43,9 @@ pub fn find(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Mod
 }
 
 fn find_with(at: &Linearized, asked: &ModesAsked, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    if let Some(asked) = &asked.response {
+        return response::find_response(at, asked, linear);
+    }
     match asked.kind {
         ModeKind::Natural if asked.damped => damped::damped_modes(at, linear),
         ModeKind::Natural => modal::natural_modes(at, linear),

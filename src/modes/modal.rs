@@ -7,7 +7,7 @@
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
-use super::mode::Modes;
+use super::mode::{EigenMode, Modes};
 use super::pencil::Pencil;
 use super::shape::Shapes;
 use crate::linear::Solver;
@@ -45,23 +45,7 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
         return Err(ModesFault::NoMass);
     }
     let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
-    let goal = match extent {
-        ModeExtent::Count(count) => Goal { wanted: count, below: None },
-        ModeExtent::UpTo(frequency) => {
-            let below = (TAU * frequency).powi(2);
-            let there = count_below(&mut pencil, below)?;
-            if there > MOST {
-                return Err(ModesFault::TooMany { there, most: MOST });
-            }
-            Goal { wanted: there, below: Some(below) }
-        }
-    };
-    let pairs = match goal.wanted {
-        0 => Vec::new(),
-        _ => complete(&mut pencil, goal)?,
-    };
-    let mut pairs = pairs;
-    pairs.retain(|(_, vector)| pencil.allows(vector));
+    let pairs = natural_pairs(&mut pencil, extent)?;
     let shapes = Shapes::new(&pencil);
     let list = shapes.natural(&pencil, &pairs);
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
@@ -75,7 +59,52 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
         }
         _ => {}
     }
-    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts })
+    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts, response: None })
+}
+
+/// The natural frequencies up to one, without zeros; what it takes is counted.
+///
+/// # Errors
+/// As for [`natural_modes`].
+pub(super) fn natural_frequencies(
+    at: &Linearized,
+    up_to: f64,
+    linear: (&mut Solver, &mut Assembly),
+    counts: &mut Modes,
+) -> Result<Vec<f64>, ModesFault> {
+    let mut pencil = Pencil::new(*at, linear);
+    if pencil.mass.is_zero() {
+        return Err(ModesFault::NoMass);
+    }
+    let pairs = natural_pairs(&mut pencil, ModeExtent::UpTo(up_to))?;
+    counts.factorizations += pencil.factorizations;
+    counts.solves += pencil.solves;
+    let shapes = Shapes::new(&pencil);
+    Ok(shapes.natural(&pencil, &pairs).iter().map(EigenMode::frequency).filter(|frequency| *frequency > 0.0).collect())
+}
+
+/// The eigenvalues λ = ω², ascending, with vectors of modal mass 1, of the modes that joints allow.
+///
+/// # Errors
+/// The reason why there are none, or why some are missing.
+pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
+    let goal = match extent {
+        ModeExtent::Count(count) => Goal { wanted: count, below: None },
+        ModeExtent::UpTo(frequency) => {
+            let below = (TAU * frequency).powi(2);
+            let there = count_below(pencil, below)?;
+            if there > MOST {
+                return Err(ModesFault::TooMany { there, most: MOST });
+            }
+            Goal { wanted: there, below: Some(below) }
+        }
+    };
+    let mut pairs = match goal.wanted {
+        0 => Vec::new(),
+        _ => complete(pencil, goal)?,
+    };
+    pairs.retain(|(_, vector)| pencil.allows(vector));
+    Ok(pairs)
 }
 
 /// The doubt of a scene that has fewer modes than are asked for.
@@ -84,9 +113,9 @@ pub(super) fn fewer(found: usize, count: usize) -> String {
 }
 
 /// What modes without damping leave out, in words.
-fn left_out(at: &Linearized) -> Vec<String> {
+pub(super) fn left_out(at: &Linearized) -> Vec<String> {
     let mut doubts = Vec::new();
-    if !at.system.loads_have_potential(at.system.plane) {
+    if !at.loads_have_potential() {
         doubts.push(
             "loads that follow, and moments about axes fixed in space, have no potential: modes are those of the symmetric part of \
              their stiffness; `damped = true` takes all of it, and finds flutter"

@@ -1,5 +1,6 @@
 //! What is known of a mode.
 
+use super::steady::Response;
 use crate::linear::eigen::Complex;
 use crate::math::Vec6;
 use crate::model::ModeKind;
@@ -23,6 +24,8 @@ pub struct Modes {
     pub solves: usize,
     /// Doubts about the modes, in words.
     pub doubts: Vec<String>,
+    /// The response that has been found by them, or directly.
+    pub response: Option<Response>,
 }
 
 /// A mode: the motion is the real part of shape × exp(root t), or the shape of buckling at a load factor.

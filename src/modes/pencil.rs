@@ -6,6 +6,7 @@ use super::linearized::Linearized;
 use crate::elements::Moduli;
 use crate::linear::eigen::SymmetricOperator;
 use crate::linear::{Solver, Sparse};
+use crate::math::Vec6;
 use crate::state::{Configuration, Node};
 use crate::system::assembly::Assembly;
 use crate::system::{Forces, Loading, TangentWeights};
@@ -90,6 +91,34 @@ impl<'a> Pencil<'a> {
         self.solver.matrix(self.unknowns)
     }
 
+    /// The rows and columns of the equations of joints, and what their penalties add to the unknowns of nodes, with penalties as for
+    /// K + s M.
+    pub fn joints_at(&mut self, s: f64) -> Sparse {
+        let all = self.at.plan.dofs.unknowns();
+        if all == self.unknowns {
+            return Sparse::from_entries(all, |_| {});
+        }
+        self.form(weights(0.0, s), true);
+        let with = self.solver.matrix(all);
+        self.form(weights(0.0, s), false);
+        let without = self.solver.matrix(all);
+        Sparse::sum(&[(1.0, &with), (-1.0, &without)])
+    }
+
+    /// Hands what closes the gaps of joints that these motions of all nodes leave, real and imaginary parts, to `visit`: the number of
+    /// the equation and the entries of its right-hand side.
+    pub fn close_gaps(&mut self, motions: &[Vec<Vec6>; 2], mut visit: impl FnMut(usize, [f64; 2])) {
+        let Pencil { at, nodes, forces, .. } = self;
+        let multipliers = &mut forces.multipliers;
+        let parts = [0, 1].map(|part| {
+            at.system.gaps_of_motion(nodes, &motions[part], &mut multipliers.gaps);
+            let mut tail = vec![0.0; multipliers.gaps.len()];
+            multipliers.write_rhs(&mut tail);
+            tail
+        });
+        (0..multipliers.gaps.len()).for_each(|k| visit(k, [parts[0][k], parts[1][k]]));
+    }
+
     /// Factorises K − σ M. Returns the number of eigenvalues below σ.
     ///
     /// # Errors
@@ -170,6 +199,28 @@ impl<'a> Pencil<'a> {
         }
         self.solver.factor().ok()?;
         Some(self.solver.negative_eigenvalues().saturating_sub(self.forces.multipliers.gaps.len()))
+    }
+
+    /// Solves as [`Pencil::solve`] does where some nodes are moved by supports, which joints follow.
+    pub fn follow(&mut self, b: &mut [f64], moved: &[Vec6]) {
+        let Pencil { at, nodes, solver, forces, unknowns, rhs, .. } = self;
+        let (at, multipliers, n) = (*at, &mut forces.multipliers, *unknowns);
+        at.system.gaps_of_motion(nodes, moved, &mut multipliers.gaps);
+        rhs[..n].copy_from_slice(b);
+        b.fill(0.0);
+        for _ in 0..3 {
+            multipliers.write_rhs(&mut rhs[n..]);
+            solver.solve(rhs);
+            b.iter_mut().zip(&*rhs).for_each(|(sum, x)| *sum += x);
+            if multipliers.gaps.is_empty() {
+                break;
+            }
+            let mut motions = at.motions(nodes, b);
+            motions.iter_mut().zip(moved).for_each(|(motion, moved)| *motion += moved);
+            at.system.gaps_of_motion(nodes, &motions, &mut multipliers.gaps);
+            rhs[..n].fill(0.0);
+        }
+        self.solves += 1;
     }
 
     /// Solves as [`Pencil::solve`] does, and returns the multipliers of joints besides.

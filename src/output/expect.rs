@@ -196,7 +196,9 @@ impl Observer for Expectations {
     }
 
     fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
-        let of_mode = |watch: &&mut Watch| watch.is_here && matches!(watch.expect.at, ExpectAt::Mode(_));
+        let of_mode = |watch: &&mut Watch| {
+            watch.is_here && matches!(watch.expect.at, ExpectAt::Mode(_) | ExpectAt::Response(..))
+        };
         for watch in self.watches.iter_mut().filter(of_mode) {
             watch.sample = watch.value(frame).map(|value| Sample { time: frame.state.time, value, other: None });
         }
@@ -282,6 +284,14 @@ impl Watch {
     }
 
     /// Judges the value taken.
+    /// The time of a sample in words; nothing of modes and of responses, which have none.
+    fn moment(&self, sample: Sample) -> String {
+        match self.expect.at {
+            ExpectAt::Mode(_) | ExpectAt::Response(..) => String::new(),
+            _ => format!(" at time {}", sample.time),
+        }
+    }
+
     fn verdict(&self) -> Verdict {
         let Expect { quantity, value: expected, tolerance, when, source, label, .. } = &self.expect;
         let (limit, unit, relative) = match *tolerance {
@@ -307,18 +317,21 @@ impl Watch {
             (_, None, _) if matches!(self.expect.at, ExpectAt::Mode(_)) => {
                 Some(format!("there is no such mode, or it has no `{quantity}`"))
             }
+            (_, None, _) if matches!(self.expect.at, ExpectAt::Response(..)) => {
+                Some(format!("there is no steady motion there, or no `{quantity}`"))
+            }
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
             (_, None, When::End) => Some("the run never came to the end of the stage".to_string()),
             (_, None, When::Target(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
             (_, Some(sample), _) if bound.is_some() => {
                 let bound = bound.unwrap_or_default();
-                Some(format!("{} at time {} is not {bound} {expected}", sample.value, sample.time))
+                Some(format!("{}{} is not {bound} {expected}", sample.value, self.moment(sample)))
             }
             (_, Some(sample), _) => Some(format!(
-                "{} at time {} is not {expected} within {limit}{}",
+                "{}{} is not {expected} within {limit}{}",
                 sample.value,
-                sample.time,
+                self.moment(sample),
                 if relative { " of it" } else { "" }
             )),
         };

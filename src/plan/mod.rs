@@ -109,6 +109,16 @@ impl Plan {
         Ok((solver, assembly))
     }
 
+    /// The plan with degrees of freedom that supports prescribe, given by node and direction, among the unknowns: in its matrices they have
+    /// columns, which are forces of their motion.
+    pub fn with_prescribed(&self, system: &System, prescribed: &[(usize, usize)]) -> Plan {
+        let mut unknown: Vec<[bool; 6]> = self.dofs.each_node().iter().map(NodeRows::unknown).collect();
+        prescribed.iter().for_each(|&(node, dof)| unknown[node][dof] = true);
+        let dofs = DofMap::new(unknown.into_iter(), &system.joints);
+        let (structure, nodes) = (structure(system, &dofs), self.nodes.clone());
+        Plan { dofs, structure, nodes, redundant_constraints: self.redundant_constraints.clone(), ..*self }
+    }
+
     /// Number of these degrees of freedom, over all nodes, with this status.
     fn count(&self, status: DofStatus, dofs: std::ops::Range<usize>) -> usize {
         self.nodes.iter().map(|node| node[dofs.clone()].iter().filter(|&&of| of == status).count()).sum()

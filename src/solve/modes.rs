@@ -9,7 +9,7 @@ use super::recorder::AcceptedStep;
 use super::report::StepReport;
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::model::ModeKind;
+use crate::model::{ModeKind, PrescribedMotion};
 use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest};
 use crate::state::State;
 use crate::system::{Loading, Side};
@@ -71,11 +71,13 @@ fn loads(cx: &Context) -> [Loading; 2] {
 
 /// True where supports and joints carry all loads, and nothing moves; the state then is that at the end of the run.
 fn rests(march: &mut March) -> bool {
-    let March { cx, ws, state, .. } = march;
+    let March { cx, ws, state, stop, .. } = march;
     let end = cx.model.analysis.end_time;
     let [loading, factored] = &loads(cx);
-    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored };
-    let moved = cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some());
+    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored, stop };
+    let amplitudes = &cx.model.loading.amplitudes;
+    let moves = |motion: &PrescribedMotion| amplitudes[motion.amplitude].harmonic_phase().is_none();
+    let moved = cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.as_ref().is_some_and(moves));
     let linear = (&mut ws.matrix.solver, &mut ws.matrix.assembly);
     let Some(multipliers) = (if moved { None } else { multipliers_at_rest(&at, linear) }) else { return false };
     state.multipliers.copy_from_slice(&multipliers);
@@ -98,7 +100,7 @@ fn unbalanced(cx: &Context, ws: &mut Workspace, state: &State, loading: &Loading
 
 /// Finds the modes about the state and shows them.
 fn show(march: &mut March) -> Result<(), Outcome> {
-    let March { cx, ws, state, .. } = march;
+    let March { cx, ws, state, stop, .. } = march;
     let [loading, factored] = &loads(cx);
     let left = unbalanced(cx, ws, state, loading);
     if cx.model.analysis.modes.as_ref().is_some_and(|asked| asked.damped) {
@@ -107,9 +109,12 @@ fn show(march: &mut March) -> Result<(), Outcome> {
             node.omega = given.omega;
         }
     }
-    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored };
+    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored, stop };
     let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly));
-    let mut modes = found.map_err(|fault: ModesFault| march.failed(Failure::Modes(fault)))?;
+    let mut modes = found.map_err(|fault| match fault {
+        ModesFault::Stopped => Outcome::Stopped { time: march.state.time },
+        fault => march.failed(Failure::Modes(fault)),
+    })?;
     modes.doubts.extend(left.filter(|left| *left > BALANCED).map(|left| {
         format!(
             "the state is not in equilibrium under what acts and holds here: {left:.1e} of the forces is out of balance, and what it will \

@@ -211,6 +211,9 @@ fn analysis(model: &Model, deck: &Deck) -> String {
         modes: _,
         up_to: _,
         damped: _,
+        frequencies: _,
+        method: _,
+        damping_ratio: _,
     } = &*at.value;
     if let Some(least) = least_step {
         text += &format!(", least_step = {}", float(least.value));

@@ -3,6 +3,7 @@
 
 mod column_name;
 mod directions;
+mod frequencies;
 pub mod kinds;
 mod ladder;
 mod named;
@@ -13,6 +14,7 @@ mod table;
 
 pub use column_name::ColumnName;
 pub use directions::Directions;
+pub use frequencies::{Frequencies, FrequencyRange, Spacing};
 pub use ladder::{Ladder, PER_DECADE, Rungs, rungs};
 pub use named::Named;
 pub use number_or_auto::NumberOrAuto;

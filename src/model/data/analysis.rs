@@ -1,6 +1,6 @@
 //! The analysis and the solution procedure.
 
-use super::modes::ModesAsked;
+use super::modes::{ModeKind, ModesAsked};
 use super::stage::RunStage;
 use super::step_length::{FIRST_STEP, StepLength};
 use crate::deck::analysis::{Gyroscopic, Method, Update};
@@ -39,9 +39,15 @@ pub enum AnalysisKind {
 }
 
 impl Analysis {
-    /// True where masses matter: in motion in time, and in modes.
+    /// True where masses matter: in motion in time, in natural modes and responses.
     pub fn has_inertia(&self) -> bool {
-        self.kind == AnalysisKind::Dynamic || self.modes.is_some()
+        let of_modes = self.modes.as_ref().is_some_and(|asked| asked.kind == ModeKind::Natural);
+        self.kind == AnalysisKind::Dynamic || of_modes
+    }
+
+    /// True where modes are found, and listed.
+    pub fn lists_modes(&self) -> bool {
+        self.modes.as_ref().is_some_and(ModesAsked::lists_modes)
     }
 
     /// True where the motion of the stage before goes on in this one as it was.

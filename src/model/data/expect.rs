@@ -35,6 +35,8 @@ pub enum ExpectAt {
     Energy,
     /// Columns of modes.csv, of the mode at this place of its list.
     Mode(usize),
+    /// Columns of response.csv, of a node at one frequency or the extreme over all.
+    Response(usize, OverFrequencies),
     /// Columns of the table of links or of contacts, and the magnitude of the force of a contact.
     Part(PartIndex),
     /// Force and moment on the first end of a joint.
@@ -43,6 +45,19 @@ pub enum ExpectAt {
     Shells(usize, usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),
+}
+
+/// The frequency at which a response is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OverFrequencies {
+    /// This one.
+    At(f64),
+    /// That of the greatest value.
+    Max,
+    /// That of the least value.
+    Min,
+    /// That of the greatest absolute value.
+    Abs,
 }
 
 /// The instant at which the value is read.

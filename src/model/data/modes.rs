@@ -1,5 +1,7 @@
 //! The modes that an analysis looks for.
 
+use super::response::{ResponseAsked, ResponseMethod};
+
 /// Modes about the state in which loads hold the scene.
 #[derive(Debug, Clone)]
 pub struct ModesAsked {
@@ -9,6 +11,15 @@ pub struct ModesAsked {
     pub extent: ModeExtent,
     /// True for complex modes, with damping and gyroscopic moments.
     pub damped: bool,
+    /// The frequency response that is computed instead; its modes are natural ones.
+    pub response: Option<ResponseAsked>,
+}
+
+impl ModesAsked {
+    /// True where modes are found, and listed.
+    pub fn lists_modes(&self) -> bool {
+        self.response.as_ref().is_none_or(|response| response.method == ResponseMethod::Modal)
+    }
 }
 
 /// The kinds of modes.

@@ -11,6 +11,7 @@ mod modes;
 mod nodes;
 mod parts;
 mod reactions;
+mod response;
 mod sections;
 mod shell_order;
 mod shells;
@@ -33,6 +34,7 @@ pub static TABLES: &[&TableKind] = &[
     &modes::TABLE,
     &mode_parts::TABLE,
     &mode_shapes::TABLE,
+    &response::TABLE,
     &steps::TABLE,
 ];
 

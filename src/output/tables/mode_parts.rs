@@ -9,7 +9,7 @@ use std::io;
 pub static TABLE: TableKind = TableKind {
     file: "mode_parts.csv",
     about: "One row for each mode and each part that stores energy in it; none for modes without stiffness. Written with \
-            `kind = \"modal\"` and `\"buckling\"`.",
+            `kind = \"modal\"` and `\"buckling\"`, and for the modes of a `\"frequency-response\"`.",
     columns: &[&[
         Column::key("mode", "number of the mode, from 1"),
         Column::key("kind", "`beam`, `bar`, `shell`, `link` or `contact`"),
@@ -17,7 +17,7 @@ pub static TABLE: TableKind = TableKind {
         Column::scalar("strain", "part of the strain energy of the mode", Unit::One)
             .positive("stores energy; negative: its stress takes more stiffness than it has"),
     ]],
-    wanted: |model| model.analysis.modes.is_some() && !model.parts.is_empty(),
+    wanted: |model| model.analysis.lists_modes() && !model.parts.is_empty(),
     needs: Wanted::MODES,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },

@@ -36,7 +36,7 @@ pub static TABLE: TableKind = TableKind {
         component("ry_ahead", AHEAD, Unit::One),
         component("rz_ahead", AHEAD, Unit::One),
     ]],
-    wanted: |model| model.analysis.modes.is_some() && !(model.output.nodes.is_empty() && model.bodies.is_empty()),
+    wanted: |model| model.analysis.lists_modes() && !(model.output.nodes.is_empty() && model.bodies.is_empty()),
     needs: Wanted::MODES,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },

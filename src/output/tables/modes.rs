@@ -10,9 +10,9 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "modes.csv",
-    about: "One row for each mode, the lowest first. Written with `kind = \"modal\"` and `\"buckling\"`.",
+    about: "One row for each mode, the lowest first. Written with `kind = \"modal\"` and `\"buckling\"`, and for the modes of a `\"frequency-response\"`.",
     columns: &[&[Column::key("mode", "number of the mode, from 1")], &MODE],
-    wanted: |model| model.analysis.modes.is_some(),
+    wanted: |model| model.analysis.lists_modes(),
     needs: Wanted::MODES,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },

@@ -1,6 +1,7 @@
 //! The analysis and its integration scheme in words.
 
 use super::explanation::Explanation;
+use super::response;
 use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
 
 /// Adds lines about the analysis.
@@ -10,7 +11,11 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     let end = analysis.end_time;
     match (analysis.kind, &analysis.step_length) {
         (AnalysisKind::Static, _) if analysis.modes.is_some() => {
-            analysis.modes.iter().for_each(|asked| text.add("analysis", modes(asked, analysis.stage.is_some())));
+            let said = |asked: &ModesAsked| match &asked.response {
+                Some(of) => response::explain(of, asked, model),
+                None => modes(asked, analysis.stage.is_some()),
+            };
+            analysis.modes.iter().for_each(|asked| text.add("analysis", said(asked)));
         }
         (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
         (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),

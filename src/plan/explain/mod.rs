@@ -7,6 +7,7 @@ mod contacts;
 mod explanation;
 mod omitted;
 mod redundant;
+mod response;
 mod scene;
 mod shells;
 mod solution;

@@ -56,7 +56,9 @@ fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
     let deformable = kinds().next().is_some();
     let mut out = Vec::new();
     if let Some(asked) = &model.analysis.modes {
-        if !asked.damped && system.is_damped() {
+        if asked.response.is_some() && !system.is_damped() {
+            out.push("damping: none is given");
+        } else if !asked.damped && system.is_damped() {
             out.push("damping: `damped = true` takes it into modes");
         }
     } else if model.analysis.kind == AnalysisKind::Static {

@@ -1,0 +1,33 @@
+//! The frequency response that an analysis computes.
+
+/// The steady response to harmonic loads and motions of supports.
+#[derive(Debug, Clone)]
+pub struct ResponseAsked {
+    /// Frequencies, cycles per time, ascending.
+    pub frequencies: Vec<f64>,
+    /// More frequencies around natural ones.
+    pub resonances: Option<AroundResonances>,
+    /// The method of solution.
+    pub method: ResponseMethod,
+    /// The part of critical damping that every mode has besides; zero with direct solution.
+    pub damping_ratio: f64,
+}
+
+/// More frequencies around the natural ones of a range.
+#[derive(Debug, Clone, Copy)]
+pub struct AroundResonances {
+    /// The first frequency of the range, and the last.
+    pub range: [f64; 2],
+    /// Frequencies on each side.
+    pub count: usize,
+}
+
+/// The ways in which a response is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ResponseMethod {
+    /// By the equations themselves, factorised at each frequency.
+    #[default]
+    Direct,
+    /// By natural modes, all others answering as springs.
+    Modal,
+}

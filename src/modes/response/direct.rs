@@ -1,0 +1,166 @@
+//! The response by the equations themselves: (K + iωC − ω²M) x = f is solved at each frequency.
+
+use super::super::fault::ModesFault;
+use super::super::gyroscopic::Gyroscopic;
+use super::super::linearized::Linearized;
+use super::super::modal::natural_frequencies;
+use super::super::mode::Modes;
+use super::super::pencil::Pencil;
+use super::super::steady::Response;
+use super::dynamic_stiffness::DynamicStiffness;
+use super::excitation::{C64, Excitation};
+use super::frequencies::frequencies;
+use super::matrices::Matrices;
+use crate::linear::{Factorization, Solver};
+use crate::math::Vec6;
+use crate::model::{ModeKind, ResponseAsked};
+use crate::names::short;
+use crate::system::assembly::Assembly;
+use std::f64::consts::TAU;
+
+/// What is left of the equations from which a solution is in doubt.
+const DOUBTFUL: f64 = 1e-8;
+/// Penalties of joints are those of the stiffness and of the inertia at this multiple of the highest frequency, which no inertia below
+/// it cancels.
+const BEYOND: f64 = 2.0;
+/// Solutions after which gaps of joints, of which each leaves a small part, have closed.
+const CLOSINGS: usize = 3;
+
+/// Finds the response.
+///
+/// # Errors
+/// The reason why there is none.
+pub fn response(
+    at: &Linearized,
+    asked: &ResponseAsked,
+    linear: (&mut Solver, &mut Assembly),
+) -> Result<Modes, ModesFault> {
+    let mut found = Modes { kind: ModeKind::Natural, ..Modes::default() };
+    let natural = match asked.resonances {
+        Some(around) => natural_frequencies(at, around.range[1], (&mut *linear.0, &mut *linear.1), &mut found)?,
+        None => Vec::new(),
+    };
+    let all = frequencies(asked, &natural);
+    let gyroscopic = Gyroscopic::of(at);
+    let unsymmetric = gyroscopic.acts() || !at.loads_have_potential();
+    let mut own = None;
+    if unsymmetric {
+        let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
+        let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
+        own = Some((solver, assembly));
+    }
+    let mut pencil = match &mut own {
+        Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
+        None => Pencil::new(*at, linear),
+    };
+    let excitation = Excitation::of(&pencil, unsymmetric)?;
+    if excitation.is_nothing() {
+        return Err(ModesFault::NothingExcites);
+    }
+    let matrices = Matrices::of(&mut pencil, &gyroscopic);
+    let highest = TAU * all.last().copied().unwrap_or(0.0);
+    let joints = pencil.joints_at((BEYOND * highest).powi(2));
+    let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
+    let mut direct = Direct { pencil, excitation, stiffness, worst: (0.0, 0.0), resonances: Vec::new() };
+    let mut response = Response::of(at.model);
+    for frequency in &all {
+        at.check_stop()?;
+        direct.solve(*frequency, &mut response);
+    }
+    found.factorizations += all.len();
+    found.solves += all.len();
+    found.doubts.extend(gyroscopic.doubts);
+    found.doubts.extend(direct.doubts());
+    found.response = Some(response);
+    Ok(found)
+}
+
+/// A direct solution under way.
+struct Direct<'a> {
+    pencil: Pencil<'a>,
+    excitation: Excitation,
+    stiffness: DynamicStiffness,
+    /// What has been left of the equations at most, and the frequency.
+    worst: (f64, f64),
+    /// Frequencies at which there is no steady motion.
+    resonances: Vec<f64>,
+}
+
+impl Direct<'_> {
+    /// Adds the motion at a frequency.
+    fn solve(&mut self, frequency: f64, response: &mut Response) {
+        let omega = TAU * frequency;
+        let at = self.pencil.at;
+        if !self.stiffness.factor(omega) {
+            self.resonances.push(frequency);
+            let infinite = vec![Vec6::repeat(f64::INFINITY); at.model.nodes.len()];
+            return response.keep(frequency, [&infinite, &infinite]);
+        }
+        let n = at.unknowns();
+        let mut f = vec![C64::new(0.0, 0.0); at.plan.dofs.unknowns()];
+        for (factor, force) in &self.excitation.loads {
+            f.iter_mut().zip(force).for_each(|(f, force)| *f += factor * force);
+        }
+        let weights = [C64::new(1.0, 0.0), C64::new(0.0, omega), C64::new(-omega * omega, 0.0)];
+        for motion in &self.excitation.motions {
+            let factor = motion.factor(omega);
+            for (weight, force) in weights.iter().zip(&motion.forces) {
+                f.iter_mut().zip(force).for_each(|(f, force)| *f -= factor * weight * force);
+            }
+        }
+        let mut sum = vec![C64::new(0.0, 0.0); n];
+        let mut x = vec![C64::new(0.0, 0.0); f.len()];
+        let mut motions = self.driven(omega);
+        for closing in 0..CLOSINGS {
+            self.pencil.close_gaps(&motions, |tail, [real, imaginary]| f[n + tail] = C64::new(real, imaginary));
+            let left = self.stiffness.solve(&f, &mut x);
+            if closing == 0 && left > self.worst.0 {
+                self.worst = (left, frequency);
+            }
+            sum.iter_mut().zip(&x).for_each(|(sum, x)| *sum += x);
+            motions = self.driven(omega);
+            let parts = [sum.iter().map(|x| x.re).collect::<Vec<_>>(), sum.iter().map(|x| x.im).collect()];
+            for (motions, part) in motions.iter_mut().zip(parts) {
+                let more = at.motions(&self.pencil.nodes, &part);
+                motions.iter_mut().zip(more).for_each(|(motion, more)| *motion += more);
+            }
+            if n == f.len() {
+                break;
+            }
+            f[..n].fill(C64::new(0.0, 0.0));
+        }
+        response.keep(frequency, [&motions[0], &motions[1]]);
+    }
+
+    /// The motions of all nodes that supports prescribe, real and imaginary parts.
+    fn driven(&self, omega: f64) -> [Vec<Vec6>; 2] {
+        let mut motions = [0, 1].map(|_| vec![Vec6::zeros(); self.pencil.nodes.len()]);
+        for motion in &self.excitation.motions {
+            let factor = motion.factor(omega);
+            for (motions, factor) in motions.iter_mut().zip([factor.re, factor.im]) {
+                motions.iter_mut().zip(&motion.moved).for_each(|(sum, moved)| *sum += factor * moved);
+            }
+        }
+        motions
+    }
+
+    /// What is doubtful about the response, in words.
+    fn doubts(&self) -> Vec<String> {
+        let mut doubts = Vec::new();
+        if let (Some(first), count) = (self.resonances.first(), self.resonances.len()) {
+            let more = if count > 1 { format!(" and {} others", count - 1) } else { String::new() };
+            doubts.push(format!(
+                "at frequency {}{more} nothing limits the motion (undamped resonance, or a motion without stiffness): amplitudes stay empty",
+                short(*first)
+            ));
+        }
+        if self.worst.0 > DOUBTFUL {
+            let (left, frequency) = self.worst;
+            doubts.push(format!(
+                "near frequency {} the equations are next to singular: {left:.1e} of the excitation is left unbalanced",
+                short(frequency)
+            ));
+        }
+        doubts
+    }
+}

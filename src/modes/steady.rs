@@ -1,0 +1,64 @@
+//! The steady motion of chosen nodes at each frequency.
+
+use crate::linear::eigen::Complex;
+use crate::math::Vec6;
+use crate::model::{ExpectAt, Model};
+
+/// The response of some nodes.
+#[derive(Debug, Clone, Default)]
+pub struct Response {
+    /// The nodes, ascending.
+    pub nodes: Vec<usize>,
+    /// The motion at each frequency, ascending.
+    pub rows: Vec<ResponseRow>,
+}
+
+/// The motion at a frequency.
+#[derive(Debug, Clone)]
+pub struct ResponseRow {
+    /// The frequency, cycles per time.
+    pub frequency: f64,
+    /// Small motions (u, θ) in the order of [`Response::nodes`], real and imaginary parts: those at ωt = 0 and at −π/2. Not finite
+    /// where the undamped scene has no steady motion.
+    pub motions: Vec<[Complex; 6]>,
+}
+
+impl Response {
+    /// No motion yet of the nodes that tables or `[[expect]]` name.
+    pub(super) fn of(model: &Model) -> Response {
+        let expected = model.expects.iter().filter_map(|expect| match expect.at {
+            ExpectAt::Response(node, _) => Some(node),
+            _ => None,
+        });
+        let bodies = model.bodies.iter().map(|body| body.node);
+        let mut nodes: Vec<usize> = model.output.nodes.iter().copied().chain(bodies).chain(expected).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Response { nodes, rows: Vec::new() }
+    }
+
+    /// Keeps the motions of the nodes wanted from those of all nodes, real and imaginary parts.
+    pub(super) fn keep(&mut self, frequency: f64, [real, imaginary]: [&[Vec6]; 2]) {
+        let motion = |&node: &usize| std::array::from_fn(|dof| [real[node][dof], imaginary[node][dof]]);
+        self.rows.push(ResponseRow { frequency, motions: self.nodes.iter().map(motion).collect() });
+    }
+
+    /// Keeps these motions, in the order of the nodes wanted.
+    pub(super) fn add(&mut self, frequency: f64, motions: Vec<[nalgebra::Complex<f64>; 6]>) {
+        let motions = motions.into_iter().map(|motion| motion.map(|x| [x.re, x.im])).collect();
+        self.rows.push(ResponseRow { frequency, motions });
+    }
+
+    /// Amplitude and phase in degrees of each component of a node at a row; `None` where the node is not among those wanted.
+    #[must_use]
+    pub fn amplitudes(&self, row: &ResponseRow, node: usize) -> Option<[f64; 12]> {
+        let motion = &row.motions[self.nodes.binary_search(&node).ok()?];
+        let mut values = [0.0; 12];
+        for (dof, [real, imaginary]) in motion.iter().enumerate() {
+            values[dof] = real.hypot(*imaginary);
+            // The angle of zero is zero, whatever its sign.
+            values[6 + dof] = if values[dof] == 0.0 { 0.0 } else { imaginary.atan2(*real).to_degrees() };
+        }
+        Some(values)
+    }
+}
