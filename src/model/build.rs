@@ -17,7 +17,7 @@ use super::contacts::contacts;
 use super::control::{control, iterate_along};
 use super::course::{self, Course, CurrentStage};
 use super::data::{
-    Analysis, AnalysisKind, ArcLength, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part, Rigid,
+    Analysis, AnalysisKind, ArcLength, Cadence, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part, Rigid,
     Solution, StepLength,
 };
 use super::environment::{damping, environment};
@@ -383,6 +383,9 @@ fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
     }
     if model.analysis.modes.is_some() && model.analysis.stage.is_none() {
         hold_at_start(model);
+        // Times of a motion would cut load steps that lead to the state.
+        model.output.cadence = Cadence::Steps(1);
+        model.output.fields = model.output.fields.map(|_| Cadence::Steps(1));
         add_expected(model);
     }
     drop_unused(model);

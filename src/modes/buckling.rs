@@ -16,9 +16,10 @@ use crate::linear::{Solver, Sparse};
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec6, angular, linear};
 use crate::model::{ModeExtent, ModeKind};
+use crate::names::{joined, short};
 use crate::state::{Configuration, Increment, Node};
-use crate::system::Loading;
 use crate::system::assembly::Assembly;
+use crate::system::{Group, Loading};
 
 /// Length of residuals relative to their eigenvalues.
 const TOLERANCE: f64 = 1e-9;
@@ -33,6 +34,10 @@ const STEP: f64 = 3e-3;
 const DIFFERENCES: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 /// Factors farther from zero than the nearest by the inverse of this are rounding.
 const FARTHEST: f64 = 1e-8;
+/// Factors of equal size that are taken one by one before the search is given up.
+const CLUSTER: usize = 200;
+/// Largest motion, as that of [`STEP`], up to which bars are judged to be slack.
+const MODERATE: f64 = 0.05;
 /// Searches for factors that pivots show and the iteration has not found.
 const SEARCHES: usize = 8;
 
@@ -56,6 +61,10 @@ impl SymmetricOperator for Buckling<'_, '_> {
 
     fn metric(&mut self, x: &[f64], y: &mut [f64]) {
         self.K.multiply(x, y);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.pencil.at.is_stopped()
     }
 }
 
@@ -87,15 +96,14 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     }
     let first = response.rate(SMALL / response.size(&pencil), &mut pencil);
     let lowest = factors(&mut pencil, (&K, &first), 1)?;
-    let Some((lowest, _)) = lowest.first() else { return Err(ModesFault::NoBuckling) };
+    let Some(lowest) = lowest.first().map(|(lowest, _)| lowest.abs()) else { return Err(ModesFault::NoBuckling) };
     let rate = response.rate((STEP * lowest).min(STEP / response.size(&pencil)), &mut pencil);
     let found = factors(&mut pencil, (&K, &rate), wanted)?;
-    if found.is_empty() {
-        return Err(ModesFault::NoBuckling);
-    }
+    let Some((lowest, _)) = found.first() else { return Err(ModesFault::NoBuckling) };
     let shapes = Shapes::new(&pencil);
     let list = found.iter().map(|(factor, vector)| shapes.buckling(&pencil, *factor, vector)).collect();
-    let doubts = doubts(at, rests, (found.len(), wanted));
+    let mut doubts = doubts(at, rests, (&found, wanted));
+    doubts.extend(response.slackened(lowest.abs(), &pencil));
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     Ok(Modes {
         kind: ModeKind::Buckling,
@@ -110,7 +118,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
 }
 
 /// What is doubtful about so many factors found of those wanted, in words; the scene may not rest without loads.
-fn doubts(at: &Linearized, rests: bool, (found, wanted): (usize, usize)) -> Vec<String> {
+fn doubts(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)) -> Vec<String> {
     let mut doubts = Vec::new();
     if !rests {
         doubts.push(
@@ -119,9 +127,16 @@ fn doubts(at: &Linearized, rests: bool, (found, wanted): (usize, usize)) -> Vec<
                 .to_owned(),
         );
     }
-    if found < wanted {
+    if let Some((nearest, _)) = found.first().filter(|(factor, _)| *factor < 0.0) {
         doubts.push(format!(
-            "{found} factors were found, and no more within reach: the others lie much farther, or only stiffen"
+            "nothing within reach buckles under these loads: factors are negative, those of the reversed loads, which buckle it at {} times \
+             their value",
+            short(-nearest)
+        ));
+    } else if found.len() < wanted {
+        doubts.push(format!(
+            "{} factors were found, and no more within reach: the others lie much farther, or only stiffen",
+            found.len()
         ));
     }
     if !at.loads_have_potential() {
@@ -134,31 +149,26 @@ fn doubts(at: &Linearized, rests: bool, (found, wanted): (usize, usize)) -> Vec<
     doubts
 }
 
-/// The lowest positive factors with their vectors, ascending. K is factorised when they are found.
-fn factors(
-    pencil: &mut Pencil,
-    (K, rate): (&Sparse, &Sparse),
-    wanted: usize,
-) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
+/// A factor of the loads with its vector.
+type Factor = (f64, Vec<f64>);
+
+/// The lowest positive factors, ascending; where there are none within reach the negative ones, the nearest to zero first. K is
+/// factorised when they are found.
+fn factors(pencil: &mut Pencil, (K, rate): (&Sparse, &Sparse), wanted: usize) -> Result<Vec<Factor>, ModesFault> {
     let threads = pencil.at.plan.threads > 1;
     pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
     let mut operator = Buckling { pencil: &mut *pencil, K, rate };
     let mut lanczos = Lanczos::new(&mut operator, WIDTH, wanted, threads);
     let mut goal = wanted;
-    for _ in 0..SEARCHES {
-        let positive = |pairs: Vec<EigenPair>| {
-            let largest = pairs.first().map_or(0.0, |pair| pair.theta.abs());
-            let positive = pairs.into_iter().filter(|pair| pair.theta > FARTHEST * largest);
-            positive.map(|pair| (1.0 / pair.theta, pair.vector)).collect::<Vec<_>>()
-        };
+    let mut searches = 0;
+    while searches < SEARCHES {
         let mut operator = Buckling { pencil: &mut *pencil, K, rate };
         let limit = lanczos.applications + 60 * goal + 600;
         let (pairs, next) =
-            lanczos.converge(&mut operator, goal, TOLERANCE, limit).ok_or(ModesFault::NotConverged { wanted: goal })?;
+            lanczos.converge(&mut operator, goal, TOLERANCE, limit).ok_or_else(|| pencil.not_converged(goal))?;
         let whole = pairs.len() < goal || next.is_none();
         let reached = pairs.last().map_or(0.0, |pair| 1.0 / pair.theta.abs());
-        let mut found = positive(pairs);
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (mut found, mut reversed) = by_sign(pairs);
         // Factors of reversed loads take places of their own.
         if found.len() < wanted && !whole && goal < 4 * wanted + 24 {
             goal += (wanted - found.len()).max(goal / 2);
@@ -168,8 +178,10 @@ fn factors(
         if whole || next - reached <= 1e-4 * reached {
             if whole {
                 found.truncate(wanted);
-                return Ok(found);
+                reversed.truncate(wanted);
+                return Ok(if found.is_empty() { reversed } else { found });
             }
+            searches += usize::from(goal > 4 * wanted + CLUSTER);
             goal += 1;
             continue;
         }
@@ -178,13 +190,24 @@ fn factors(
         let missing = there.unwrap_or(found.len()).saturating_sub(found.len());
         if missing == 0 {
             found.truncate(wanted);
-            return Ok(found);
+            reversed.truncate(wanted);
+            return Ok(if found.is_empty() { reversed } else { found });
         }
+        searches += 1;
         goal += missing;
         let mut operator = Buckling { pencil: &mut *pencil, K, rate };
         lanczos.start(&mut operator, missing);
     }
     Err(ModesFault::Missed { found: wanted, there: goal })
+}
+
+/// The factors of some pairs, positive ones and negative ones, each the nearest to zero first.
+fn by_sign(pairs: Vec<EigenPair>) -> (Vec<Factor>, Vec<Factor>) {
+    let least = FARTHEST * pairs.first().map_or(0.0, |pair| pair.theta.abs());
+    let mut factors: Vec<Factor> =
+        pairs.into_iter().filter(|pair| pair.theta.abs() > least).map(|pair| (1.0 / pair.theta, pair.vector)).collect();
+    factors.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    factors.into_iter().partition(|(factor, _)| *factor > 0.0)
 }
 
 /// The linear response to unit loads.
@@ -237,6 +260,40 @@ impl Response {
         let terms = pairs.iter().zip(DIFFERENCES);
         let terms = terms.flat_map(|([plus, minus], weight)| [(weight / epsilon, plus), (-weight / epsilon, minus)]);
         Sparse::sum(&terms.collect::<Vec<_>>())
+    }
+
+    /// What the loads slacken, and pull taut, up to the lowest factor, in words.
+    fn slackened(&self, lowest: f64, pencil: &Pencil) -> Vec<String> {
+        let factor = lowest.min(MODERATE / self.size(pencil));
+        let moved = self.moved(factor, pencil);
+        let at = |nodes: &[Node], group: &Group, e: usize| {
+            let now = Configuration { nodes, history: &pencil.at.state.history, dt: 0.0, lead: None };
+            group.block.is_inactive(e, &group.configuration(&now))
+        };
+        let mut names = [Vec::new(), Vec::new()];
+        for group in pencil.at.system.groups.iter().filter(|group| !group.kind.is_unilateral()) {
+            for e in 0..group.block.len() {
+                let states = [at(&pencil.nodes, group, e), at(&moved, group, e)];
+                let name = format!("`{}`", group.part_of(e, pencil.at.model).name());
+                if states[0] != states[1] && !names[usize::from(states[0])].contains(&name) {
+                    names[usize::from(states[0])].push(name);
+                }
+            }
+        }
+        let [slack, taut] = names.map(|names| joined(&names.iter().map(String::as_str).collect::<Vec<_>>()));
+        let mut said = Vec::new();
+        if !slack.is_empty() {
+            said.push(format!(
+                "the loads slacken {slack}, whose stiffness counts all the same: factors are too high. Leave out what goes slack, stretch \
+                 cables before (`free_length`), or look for modes about the loaded state (kind = \"modal\")"
+            ));
+        }
+        if !taut.is_empty() {
+            said.push(format!(
+                "{taut} bear nothing without the loads, which strain them: their stiffness is left out, and factors may be too low"
+            ));
+        }
+        said
     }
 
     /// The nodes at a load factor.

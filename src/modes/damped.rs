@@ -71,6 +71,10 @@ impl Operator for Quadratic<'_, '_> {
         new_y.iter_mut().zip(x).zip(&*new_x).for_each(|((y, x), new)| *y = x + self.shift * new);
     }
 
+    fn is_stopped(&self) -> bool {
+        self.pencil.at.is_stopped()
+    }
+
     fn weigh(&self, z: &[f64], out: &mut [f64]) {
         let n = self.diagonal.len();
         for i in 0..n {
@@ -163,7 +167,8 @@ fn nearest(
     let most = 12 * wanted + 240;
     let mut arnoldi = Arnoldi::new(&mut operator, WIDTH, most, threads);
     let enough = |thetas: &[Complex]| enough(thetas, near, extent);
-    arnoldi.converge(&mut operator, TOLERANCE, most, enough).ok_or(ModesFault::NotConverged { wanted })
+    let converged = arnoldi.converge(&mut operator, TOLERANCE, most, enough);
+    converged.ok_or_else(|| operator.pencil.not_converged(wanted))
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -92,10 +92,9 @@ impl fmt::Display for ModesFault {
             ModesFault::NoLoads => {
                 write!(f, "no load acts that deforms anything: buckling needs loads, whose factors are found")
             }
-            ModesFault::NoBuckling => write!(
-                f,
-                "no factor of these loads is found that lets anything buckle: they only stiffen what they act on; reverse them, and it may"
-            ),
+            ModesFault::NoBuckling => {
+                write!(f, "no factor of these loads or of their reverse is found that lets anything buckle")
+            }
             ModesFault::NothingExcites => {
                 write!(f, "nothing that is harmonic moves anything: loads act on supports alone, or are zero")
             }

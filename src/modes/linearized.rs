@@ -46,7 +46,12 @@ impl Linearized<'_> {
     /// # Errors
     /// [`ModesFault::Stopped`].
     pub fn check_stop(&self) -> Result<(), ModesFault> {
-        if self.stop.load(Ordering::Relaxed) { Err(ModesFault::Stopped) } else { Ok(()) }
+        if self.is_stopped() { Err(ModesFault::Stopped) } else { Ok(()) }
+    }
+
+    /// True where the stop flag is raised.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// True where the loads that act have a potential, as in [`System::loads_have_potential`].

@@ -13,6 +13,7 @@ use super::shape::Shapes;
 use crate::linear::Solver;
 use crate::linear::eigen::{EigenPair, Lanczos};
 use crate::model::{ModeExtent, ModeKind};
+use crate::names::short;
 use crate::system::assembly::Assembly;
 use std::f64::consts::TAU;
 
@@ -52,6 +53,7 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let kind = ModeKind::Natural;
     let mut doubts = left_out(at);
+    doubts.extend(far_apart(&list));
     match (list.len(), extent) {
         (0, ModeExtent::UpTo(frequency)) => doubts.push(format!("no mode lies below `up_to` = {frequency}")),
         (found, ModeExtent::Count(count)) if found < count => {
@@ -110,6 +112,30 @@ pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<V
 /// The doubt of a scene that has fewer modes than are asked for.
 pub(super) fn fewer(found: usize, count: usize) -> String {
     format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
+}
+
+/// What rounding hides of modes, in words.
+pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
+    let mut doubts = Vec::new();
+    let lost: Vec<f64> = list.iter().filter_map(|mode| mode.lost).collect();
+    if let Some(largest) = lost.iter().copied().reduce(f64::max) {
+        doubts.push(format!(
+            "{} of the frequencies given as 0 have a stiffness that is lost in the rounding of stiffer parts: they lie somewhere below {}",
+            lost.len(),
+            short(largest)
+        ));
+    }
+    let squares = || list.iter().map(|mode| mode.angular_frequency().powi(2)).filter(|square| *square > 0.0);
+    let (least, largest) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
+    if largest > APART * least {
+        doubts.push(format!(
+            "frequencies from {} to {} are so far apart that the highest have few digits, and some of them may be missing: fewer `modes` \
+             or a lower `up_to` are right",
+            short(least.sqrt() / TAU),
+            short(largest.sqrt() / TAU)
+        ));
+    }
+    doubts
 }
 
 /// What modes without damping leave out, in words.
@@ -173,7 +199,7 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
     for _ in 0..SEARCHES {
         let limit = lanczos.applications + 40 * goal + 400;
         let converged = lanczos.converge(pencil, goal, TOLERANCE, limit);
-        let (pairs, next) = converged.ok_or(ModesFault::NotConverged { wanted: goal })?;
+        let (pairs, next) = converged.ok_or_else(|| pencil.not_converged(goal))?;
         let value = |theta: f64| shift + 1.0 / theta;
         let found: Vec<f64> = pairs.iter().map(|pair| value(pair.theta)).collect();
         let last = found.iter().copied().fold(shift, f64::max);
@@ -223,6 +249,7 @@ fn settle(pencil: &mut Pencil, wanted: usize) -> Result<Lanczos, ModesFault> {
     let mut shift = 0.0;
     let mut row = 0;
     for _ in 0..SHIFTS {
+        pencil.at.check_stop()?;
         match pencil.factor(shift) {
             Ok(0) => {}
             // Some eigenvalues lie below the shift, or K is singular.

@@ -45,6 +45,8 @@ pub struct EigenMode {
     pub participation: [f64; 6],
     /// Parts of the strain energy, in the order of [`crate::model::Model::parts`].
     pub shares: Vec<Share>,
+    /// The frequency below which rounding hides that of a motion with stiffness, which is given as zero; `None` of all others.
+    pub lost: Option<f64>,
 }
 
 /// The part of the strain energy of a mode in a part of the scene.

@@ -287,6 +287,11 @@ impl<'a> Pencil<'a> {
         if least.is_finite() { least } else { 1.0 }
     }
 
+    /// The fault of an iteration for so many modes that has not come to its end.
+    pub fn not_converged(&self, wanted: usize) -> ModesFault {
+        if self.at.is_stopped() { ModesFault::Stopped } else { ModesFault::NotConverged { wanted } }
+    }
+
     /// The fault of a matrix that is singular at this row.
     pub fn singular(&self, row: usize) -> ModesFault {
         let (label, direction) = self.at.name(row);
@@ -306,5 +311,9 @@ impl SymmetricOperator for Pencil<'_> {
 
     fn metric(&mut self, x: &[f64], y: &mut [f64]) {
         self.mass.multiply(x, y);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.at.is_stopped()
     }
 }

@@ -7,6 +7,7 @@ use crate::linear::eigen::{Complex, ComplexPair};
 use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::state::Node;
 use crate::system::Forces;
+use std::f64::consts::TAU;
 
 /// Stiffness times motion rounds to this part of the sum of its terms without signs; an eigenvalue below it is zero.
 const ROUNDING: f64 = 2e-15;
@@ -91,8 +92,10 @@ impl Shapes {
     }
 
     fn natural_mode(&self, lambda: f64, vector: &[f64], mut shape: Vec<Vec6>, energies: Energies) -> EigenMode {
-        let Energies { parts, without_signs } = energies;
-        let lambda = if lambda.abs() <= ROUNDING * without_signs { 0.0 } else { lambda };
+        let Energies { parts, without_signs, is_stiff, .. } = energies;
+        let rounding = ROUNDING * without_signs;
+        let lost = (lambda.abs() <= rounding && is_stiff).then(|| rounding.sqrt() / TAU);
+        let lambda = if lambda.abs() <= rounding { 0.0 } else { lambda };
         let scale = self.scale(&shape);
         shape.iter_mut().for_each(|motion| *motion *= scale);
         let root = if lambda < 0.0 { [(-lambda).sqrt(), 0.0] } else { [0.0, lambda.sqrt()] };
@@ -103,7 +106,7 @@ impl Shapes {
         if lambda == 0.0 {
             shares.clear();
         }
-        EigenMode { root, factor: None, shape, quadrature: Vec::new(), modal_mass, participation, shares }
+        EigenMode { root, factor: None, shape, quadrature: Vec::new(), modal_mass, participation, shares, lost }
     }
 
     /// The mode of a complex root and vector z = (φ, s φ).
@@ -134,7 +137,7 @@ impl Shapes {
             shares.clear();
         }
         let participation = [0.0; 6];
-        EigenMode { root, factor: None, shape, quadrature, modal_mass: 0.0, participation, shares }
+        EigenMode { root, factor: None, shape, quadrature, modal_mass: 0.0, participation, shares, lost: None }
     }
 
     /// The mode of buckling at a load factor, with a vector of strain energy ½.
@@ -144,7 +147,17 @@ impl Shapes {
         let scale = self.scale(&shape);
         shape.iter_mut().for_each(|motion| *motion *= scale);
         let (root, participation) = ([0.0; 2], [0.0; 6]);
-        EigenMode { root, factor: Some(factor), shape, quadrature: Vec::new(), modal_mass: 0.0, participation, shares }
+        let lost = None;
+        EigenMode {
+            root,
+            factor: Some(factor),
+            shape,
+            quadrature: Vec::new(),
+            modal_mass: 0.0,
+            participation,
+            shares,
+            lost,
+        }
     }
 
     /// The factor by which the largest displacement becomes 1, or the largest rotation where nothing is displaced; the component that

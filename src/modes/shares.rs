@@ -7,6 +7,9 @@ use crate::math::Vec6;
 use crate::model::Part;
 use crate::state::{Configuration, Node};
 
+/// Energy of a part above this part of its terms without signs is no rounding.
+const CLEAR: f64 = 1e-6;
+
 /// Twice the strain energies of a small motion.
 #[derive(Clone, Default)]
 pub struct Energies {
@@ -14,6 +17,10 @@ pub struct Energies {
     pub parts: Vec<Share>,
     /// The sum of all terms of all elements, without their signs, by which rounding is measured.
     pub without_signs: f64,
+    /// The same of each part.
+    of_parts: Vec<f64>,
+    /// True where a part stores energy that is not its own rounding.
+    pub is_stiff: bool,
 }
 
 /// Sums φᵀ K φ over the elements of each part, for several shapes: the matrix of an element is formed once for all.
@@ -42,7 +49,11 @@ pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<En
             }
         }
     }
-    all.iter_mut().for_each(|energies| energies.parts.sort_by_key(|share| share.part));
+    for energies in &mut all {
+        let mut parts = energies.parts.iter().zip(&energies.of_parts);
+        energies.is_stiff = parts.any(|(share, without_signs)| share.strain > CLEAR * without_signs);
+        energies.parts.sort_by_key(|share| share.part);
+    }
     all
 }
 
@@ -54,18 +65,24 @@ fn place(parts: &[Part], from: usize, part: &Part) -> usize {
 impl Energies {
     /// Adds the energy of an element with this matrix, row-major, in this motion.
     fn add(&mut self, parts: &[Part], part: usize, K: &[f64], phi: &[f64]) {
-        let (mut energy, mut without_signs) = (0.0, 0.0);
+        let (mut energy, mut own) = (0.0, 0.0);
         for (row, left) in K.chunks(phi.len()).zip(phi) {
             for (k, right) in row.iter().zip(phi) {
                 let term = left * k * right;
                 energy += term;
-                without_signs += term.abs();
+                own += term.abs();
             }
         }
-        self.without_signs += without_signs;
+        self.without_signs += own;
         match self.parts.last_mut() {
             Some(last) if parts[last.part].is_one_with(&parts[part]) => last.strain += energy,
-            _ => self.parts.push(Share { part, strain: energy }),
+            _ => {
+                self.parts.push(Share { part, strain: energy });
+                self.of_parts.push(0.0);
+            }
+        }
+        if let Some(last) = self.of_parts.last_mut() {
+            *last += own;
         }
     }
 }

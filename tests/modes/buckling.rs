@@ -119,10 +119,63 @@ fn refused() {
     };
     let late = "force = [0.0, 0.0, 1.0]\namplitude = \"late\"\n[amplitudes.late]\nkind = \"ramp\"\nend = 1.0";
     assert_eq!(fault(&column("kind = \"buckling\"", [0.02, 0.02], 2, late)), ModesFault::NoLoads);
-    assert_eq!(fault(&rod(1.0)), ModesFault::NoBuckling);
     // A load that moves a body on a bushing changes no stiffness.
     let bushing = "[analysis]\nkind = \"buckling\"\nmodes = 2\n[[bodies]]\nname = \"head\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\n\
          inertia = [1.0, 1.0, 1.0]\n[[links]]\nname = \"neck\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { body = \"head\" }\n\
          bushing = [100.0, 100.0, 100.0, 1.0, 1.0, 1.0]\n[[loads]]\nat = \"head\"\nforce = [10.0, 0.0, 0.0]\n";
     assert_eq!(fault(bushing), ModesFault::NoBuckling);
+}
+
+/// Loads that only stiffen have negative factors, those of their reverse, and it is said: of a rod that hangs from a hinge, and of a
+/// column under tension, which has many before those of its shear.
+#[test]
+fn reversed_loads() {
+    let found = modes(&rod(1.0));
+    assert!(off(&factors(&found), &[-100.0]) < 1e-5, "{:?}", factors(&found));
+    let said = |modes: &Modes| modes.doubts.join("; ");
+    assert!(said(&found).contains("nothing within reach buckles under these loads"), "{}", said(&found));
+    let [pulled, pushed] = ["1.0", "-1.0"].map(|force| {
+        let load = format!("force = [{force}, 0.0, 0.0]");
+        modes(&column("kind = \"buckling\"\nmodes = 3", [0.03, 0.02], 16, &load))
+    });
+    let opposite: Vec<f64> = factors(&pushed).iter().map(|factor| -factor).collect();
+    // Differences of sixth order are about states on the other side.
+    assert!(off(&factors(&pulled), &opposite) < 1e-6, "{:?} {opposite:?}", factors(&pulled));
+    assert!(
+        said(&pulled).contains("reversed loads") && pushed.doubts.is_empty(),
+        "{} {}",
+        said(&pulled),
+        said(&pushed)
+    );
+}
+
+/// A mast on two stays without pretension: the load slackens them, and their stiffness counts all the same. It needs no density.
+#[test]
+fn stays_that_go_slack() {
+    let text = column("kind = \"buckling\"\nmodes = 1", [0.03, 0.02], 8, "force = [-1.0, 0.0, 0.0]")
+        .replace("density = 7850.0\n", "")
+        .replace("[points]\n", "[points]\nleft = [0.0, 1.5, 0.0]\nright = [0.0, -1.5, 0.0]\n")
+        + &["left", "right"].map(|name| format!(
+            "[[bars]]\nname = \"{name}_stay\"\npath = [\"{name}\", \"b\"]\naxial_stiffness = 1e6\nmass_per_length = 0.1\ntension_only = true\n"
+        )).concat()
+        + "[[supports]]\nat = [\"left\", \"right\"]\nfix = \"translations\"\n";
+    let doubts = modes(&text).doubts.join("; ");
+    assert!(doubts.contains("the loads slacken `left_stay` and `right_stay`"), "{doubts}");
+    let pulled = modes(&text.replace("[-1.0, 0.0, 0.0]", "[1.0, 0.0, 0.0]")).doubts.join("; ");
+    assert!(!pulled.contains("slacken"), "{pulled}");
+}
+
+/// What a buckling analysis says of loads without a potential, and of prestress that nothing balances.
+#[test]
+fn doubts() {
+    let of = |text: &str| modes(text).doubts.join("; ");
+    let follower =
+        of(&column("kind = \"buckling\"\nmodes = 1", [0.02, 0.02], 4, "follower = true\nforce = [-1.0, 0.0, 0.0]"));
+    assert!(follower.contains("have no potential"), "{follower}");
+    let text = column("kind = \"buckling\"\nmodes = 1", [0.02, 0.02], 4, "force = [-1.0, 0.0, 0.0]")
+        .replace("[points]\n", "[points]\nc = [2.0, 1.0, 0.0]\n")
+        + "[[bars]]\nname = \"stay\"\npath = [\"b\", \"c\"]\naxial_stiffness = 1e6\nmass_per_length = 0.1\nfree_length = 0.999\n\
+           [[supports]]\nat = \"c\"\nfix = \"translations\"\n";
+    let prestress = of(&text);
+    assert!(prestress.contains("without the loads the scene is not in equilibrium (prestress)"), "{prestress}");
 }

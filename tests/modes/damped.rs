@@ -137,3 +137,30 @@ fn free_beam() {
     assert!(off(&of_damped[6..], &plain[6..]) < 1e-7, "{plain:?} {of_damped:?}");
     assert_eq!((damped.unstable, damped.list.len()), (0, 10));
 }
+
+/// What modes without damping leave out is said: spins, and loads that follow; softness that rounding of stiff parts hides, too.
+#[test]
+fn doubts() {
+    let arm = |more: &str| {
+        head("modes = 2", 0.02, 0.02)
+            + "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"b\"]\nelements = 2\n\
+               material = \"steel\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n"
+            + more
+    };
+    let of = |text: &str| modes(text).doubts.join("; ");
+    let follower = of(&arm("[[loads]]\nat = \"b\"\nforce = [-1.0, 0.0, 0.0]\nfollower = true\n"));
+    assert!(follower.contains("have no potential"), "{follower}");
+    let disc = "[[bodies]]\nname = \"disc\"\ncenter = [1.0, 0.0, 0.0]\nmass = 1.0\ninertia = [0.02, 0.01, 0.01]\n\
+                angular_velocity = [50.0, 0.0, 0.0]\n[[attachments]]\nbody = \"disc\"\nnodes = [\"b\"]\n\
+                dofs = [\"ux\", \"uy\", \"uz\", \"ry\", \"rz\"]\n";
+    let spins = of(&arm(disc));
+    assert!(spins.contains("`disc` spins, and its gyroscopic moments are left out"), "{spins}");
+    // Softness of 1e-3 N/m under a beam of 1e11 N/m: the frequencies of 1e-3 are lost; those of a free beam are zero, and nothing is said.
+    let free = head("modes = 8", 0.03, 0.02)
+        + "[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"b\"]\nelements = 200\n\
+           material = \"steel\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\nmass = \"consistent\"\n";
+    let soft = "[[links]]\nname = \"l\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"a\" }\nbushing = [1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3]\n";
+    let soft = of(&(free.clone() + soft));
+    assert!(soft.contains("lost in the rounding of stiffer parts"), "{soft}");
+    assert_eq!(of(&free), "");
+}

@@ -15,6 +15,10 @@ pub trait Operator {
     fn apply(&mut self, x: &[f64], y: &mut [f64]);
     /// y ← D x with a positive diagonal matrix, by which vectors are measured.
     fn weigh(&self, x: &[f64], y: &mut [f64]);
+    /// True where the search is to end at once.
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
 
 /// A complex eigenvalue with its vector.
@@ -95,6 +99,9 @@ impl Arnoldi {
         let most = most.min(operator.dimension());
         let mut look = 8;
         loop {
+            if operator.is_stopped() {
+                return None;
+            }
             let next = self.H.len();
             let whole = next == self.basis.len() && !self.start(operator);
             if !whole {

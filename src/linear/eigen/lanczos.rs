@@ -24,6 +24,10 @@ pub trait SymmetricOperator {
     fn apply(&mut self, x: &[f64], y: &mut [f64]);
     /// y ← B x.
     fn metric(&mut self, x: &[f64], y: &mut [f64]);
+    /// True where the search is to end at once.
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
 
 /// An eigenvalue of S with its vector, of length 1 in the metric.
@@ -149,7 +153,7 @@ impl Lanczos {
 
     /// Goes on until the `wanted` pairs of largest magnitude have residuals below `tolerance` times their values, and returns them
     /// with one estimate beyond them, if there is one. Fewer are returned where the operator has no more; none where the
-    /// iteration does not come to its end within `most` applications of the operator.
+    /// iteration does not come to its end within `limit` applications of the operator, or is stopped.
     pub fn converge(
         &mut self,
         operator: &mut dyn SymmetricOperator,
@@ -162,7 +166,7 @@ impl Lanczos {
         loop {
             let goes_on = self.H.len() < most && self.expand(operator);
             let q = self.H.len();
-            if goes_on && q < look && q < most {
+            if goes_on && q < look && q < most && !operator.is_stopped() {
                 continue;
             }
             look = q + 4.max(q / 16);
@@ -178,7 +182,7 @@ impl Lanczos {
                 }
                 return Some(self.pairs(&ritz, there));
             }
-            if self.applications > limit {
+            if self.applications > limit || operator.is_stopped() {
                 return None;
             }
             if q >= most {
