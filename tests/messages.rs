@@ -891,3 +891,33 @@ fn stages() {
     let hinge = "[[joints]]\nname = \"hinge\"\nkind = \"spherical\"\nfrom = { node = \"knee_right\" }\nto = { body = \"block\", }\nstages = \"impact\"\naxis = [1.0, 0.0, 0.0]";
     assert_snapshot!("stages_in_one", with(&two, hinge));
 }
+
+#[test]
+fn responses() {
+    let asked = |keys: &str| {
+        portal(&[(
+            "kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4",
+            &format!("kind = \"frequency-response\"\n{keys}"),
+        )])
+    };
+    assert_snapshot!("response_of_nothing", asked("damped = true\nmodes = 3\ndamping_ratio = -0.1"));
+    assert_snapshot!("response_range", asked("frequencies = { from = 5.0, to = 1.0, steps = 0 }\nend_time = 2.0"));
+    assert_snapshot!(
+        "response_logarithmic",
+        asked("frequencies = { from = 0.0, to = 1.0, steps = 5, spacing = \"logarithmic\" }")
+    );
+    assert_snapshot!("response_list", asked("frequencies = [1.0, -2.0]\nmethod = \"harmonic\""));
+    assert_snapshot!("response_word", asked("frequencies = \"all\"\nmethod = \"modal\"\nmodes = 3\nup_to = 5.0"));
+    let harmonic = "[amplitudes.shake]\nkind = \"harmonic\"\nphase = 1.0\nphase_degrees = 30.0\nfrequency = 2.0\n\
+                    [[loads]]\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"shake\"\n";
+    assert_snapshot!("response_over_time", portal_and(harmonic));
+    assert_snapshot!(
+        "response_keys_of_motion",
+        portal(&[("end_time = 0.3", "end_time = 0.3\nfrequencies = 3.0\nmethod = \"modal\"")])
+    );
+    let expect = "[[expect]]\nat = \"portal\"\nquantity = \"ux\"\nfrequency = 1.0\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1\n\
+                  [[expect]]\nat = \"knee_left\"\nquantity = \"vx\"\nfrequency = 1.0\nvalue = 1.0\ntolerance = 0.1\n\
+                  [[expect]]\nmode = 1\nquantity = \"frequency\"\nvalue = 1.0\ntolerance = 0.1\n";
+    assert_snapshot!("response_expected", asked(&("frequencies = 1.0\n".to_owned() + expect)));
+    assert_snapshot!("response_expected_of_motion", portal_and(&expect.replace("mode = 1", "mode = 0")));
+}

@@ -109,7 +109,14 @@ const ELSEWHERE: &[(&[&str], &str)] = &[
     (&["extends", "include", "import", "base"], "a deck is one file; variants of it are made with --set KEY=VALUE"),
     (&["file"], "values stand in the deck itself; only [mesh] and [study] name a file"),
     (&["elements"], "elements are [[beams]], [[bars]] and [[shells]]"),
-    (&["modes", "frequencies", "eigenvalues"], "there is no modal analysis"),
+    (
+        &["modes", "eigenvalues", "modal"],
+        "modes are `kind = \"modal\"` in [analysis], with their number or `up_to` a frequency",
+    ),
+    (
+        &["frequencies", "response", "harmonic", "frequency_response", "steady_state"],
+        "a frequency response is `kind = \"frequency-response\"` in [analysis], with its `frequencies`",
+    ),
     (&["temperature", "thermal"], "there are no temperatures"),
 ];
 
@@ -253,6 +260,9 @@ const EXAMPLES: &[(&[&str], &str)] = &[
 
 const VALUES: &[Row] = &[
     (&["transient", "time-history", "time_history", "explicit", "implicit", "dynamics"], &["dynamic"]),
+    (&["eigen", "eigenvalue", "frequency", "natural", "modes"], &["modal"]),
+    (&["linear-buckling", "buckle", "stability"], &["buckling"]),
+    (&["harmonic", "frf", "steady-state", "steady-state-dynamics", "response"], &["frequency-response"]),
     (&["quasi-static", "quasistatic", "statics", "load-stepping"], &["static"]),
     (&["riks", "arclength", "arc_length"], &["arc-length"]),
     (&["newton", "newton-raphson", "full-newton"], &["tangent-stiffness", "iteration"]),
@@ -287,7 +297,6 @@ const VALUES: &[Row] = &[
 
 /// Values that no word of ours stands for.
 const NO_VALUES: &[(&[&str], &str)] = &[
-    (&["modal", "frequency", "eigen", "buckling"], "there is no modal or buckling analysis"),
     (&["hex", "hexahedron", "hex8", "tet", "tetrahedron", "C3D8", "wedge"], "there are no solid elements"),
     (&["johnson-cook", "hyperelastic", "concrete"], "the material models are elastic and J2 plasticity"),
 ];

@@ -7,6 +7,7 @@ mod exact;
 mod files;
 mod joints;
 mod motion;
+mod response;
 
 use crate::support::read_deck;
 use rdsolve::model::Model;

@@ -142,9 +142,14 @@ fn doubled(structure: &Structure) -> (Structure, Vec<[usize; 2]>) {
         }
         parts.push(own);
     }
-    let of_lists = structure.connectivity.iter();
-    let lists = of_lists.map(|list| list.iter().flat_map(|&g| parts[g].iter().copied()).collect::<Vec<_>>());
-    let alone = parts.iter().filter(|own| own.len() > 1).cloned();
-    let connectivity = lists.chain(alone).collect();
+    // Multipliers of a joint couple with its nodes, and not with each other.
+    let mut connectivity: Vec<Vec<usize>> = parts[..of_nodes].iter().filter(|own| own.len() > 1).cloned().collect();
+    for list in &structure.connectivity {
+        let of =
+            |joints: bool| list.iter().filter(move |&&g| (g >= of_nodes) == joints).flat_map(|&g| parts[g].clone());
+        let nodes: Vec<usize> = of(false).collect();
+        connectivity.extend(of(true).map(|multipliers| nodes.iter().copied().chain([multipliers]).collect()));
+        connectivity.push(nodes);
+    }
     (Structure { sizes, connectivity, multipliers }, places)
 }

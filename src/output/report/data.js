@@ -14,7 +14,7 @@ const places = base64 => new Uint32Array(bytes(base64).buffer);
 /** A table over time: `line(name, column)` is one number a time. */
 class History {
   constructor(from) {
-    Object.assign(this, { file: from.file, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels, bands: from.bands });
+    Object.assign(this, { file: from.file, over: from.over, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels, bands: from.bands });
     this.times = floats(from.times);
     this.values = floats(from.values);
   }

@@ -18,6 +18,10 @@ const TIMES: usize = 1_500;
 /// The number of times below which names are left out instead of further times.
 const FEW_TIMES: usize = 200;
 
+/// The table that goes over frequencies, and the column of these.
+const RESPONSE: &str = "response.csv";
+const OVER_FREQUENCY: &str = "frequency";
+
 /// A table over time.
 pub struct History {
     /// The name of the file.
@@ -26,7 +30,9 @@ pub struct History {
     pub names: Vec<String>,
     /// The names of the columns with numbers, but for the time.
     pub columns: Vec<String>,
-    /// The times that are shown.
+    /// The column that rows go over: the time, or the frequency of a response.
+    pub over: &'static str,
+    /// The times, or frequencies, that are shown.
     pub times: Vec<f32>,
     /// The numbers by time, name and column; NaN where there is none.
     pub values: Vec<f32>,
@@ -42,13 +48,15 @@ struct Places {
 }
 
 impl Places {
-    fn of(rows: &TableReader) -> Places {
+    fn of(rows: &TableReader, over: &str) -> Places {
         let is = |place: &usize, wanted: bool| rows.is_key(*place) == wanted;
-        let when = [rows.column("step"), rows.column("time")];
+        let time = rows.column("time");
+        let when = [rows.column("step"), if over == OVER_FREQUENCY { rows.column(over) } else { time }];
         // Curves go on from stage to stage.
         let all = (0..rows.header.len()).filter(|&place| rows.header[place] != STAGE);
         let keys = all.clone().filter(|place| is(place, true)).collect();
-        Places { when, keys, values: all.filter(|place| is(place, false) && Some(*place) != when[1]).collect() }
+        let is_value = |place: &usize| is(place, false) && Some(*place) != when[1] && Some(*place) != time;
+        Places { when, keys, values: all.filter(is_value).collect() }
     }
 
     /// The name of a row, from its fields.
@@ -85,7 +93,8 @@ impl History {
     pub fn read(folder: &Path, file: &str) -> io::Result<Option<History>> {
         let path = folder.join(file);
         let mut rows = TableReader::open(&path)?;
-        let places = Places::of(&rows);
+        let over = if file == RESPONSE { OVER_FREQUENCY } else { "time" };
+        let places = Places::of(&rows, over);
         let Some(time) = places.when[1] else { return Ok(None) };
         let mut names: Vec<String> = Vec::new();
         let mut known: HashMap<String, usize> = HashMap::new();
@@ -126,7 +135,7 @@ impl History {
                 *value = number(row[place]) as f32;
             }
         })?;
-        Ok(Some(History { file: file.into(), names, columns, times: at, values, all }))
+        Ok(Some(History { file: file.into(), names, columns, over, times: at, values, all }))
     }
 
     /// A column of the name at a place over time; `None` where there is no such column.
@@ -152,6 +161,7 @@ impl History {
     pub fn json(&self, result: &Value) -> Value {
         json!({
             "file": self.file,
+            "over": self.over,
             "names": self.names,
             "columns": self.columns,
             "kinds": self.columns.iter().map(|column| described(&self.file, column).map(|known| known.kind)).collect::<Vec<_>>(),

@@ -60,20 +60,20 @@ function browse(all) {
     };
     const motions = columns.filter(name => ["ux", "uy", "uz"].includes(name));
     let y = motions.length ? motions.reduce((a, b) => (reach(b) > reach(a) ? b : a)) : columns.find(name => name !== "step");
-    let [x, ticked] = ["time", []];
+    let [x, ticked] = [history.over, []];
     const draw = () => {
       const series = ticked.map(i => ({
         name: names[i] || y,
         colour: colour(i),
-        x: x === "time" ? history.times : history.line(i, x),
-        y: y === "time" ? history.times : history.line(i, y),
+        x: x === history.over ? history.times : history.line(i, x),
+        y: y === history.over ? history.times : history.line(i, y),
         band: history.band(y),
       }));
       plot.show(series, { x: history.label(x), y: history.label(y) });
     };
     selects = [
-      choice(controls, "Column", [...columns, "time"], y, value => ((y = value), draw())),
-      choice(controls, "over", ["time", ...columns], x, value => ((x = value), draw())),
+      choice(controls, "Column", [...columns, history.over], y, value => ((y = value), draw())),
+      choice(controls, "over", [history.over, ...columns], x, value => ((x = value), draw())),
     ];
     list = keys(whole, names, i => i < 6, chosen => ((ticked = chosen), draw()));
   };
