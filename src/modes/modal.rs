@@ -114,6 +114,9 @@ pub(super) fn fewer(found: usize, count: usize) -> String {
     format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
 }
 
+/// Squares of frequencies that lie farther apart lose digits.
+const FAR_APART: f64 = 1e12;
+
 /// What rounding hides of modes, in words.
 pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     let mut doubts = Vec::new();
@@ -127,7 +130,7 @@ pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     }
     let squares = || list.iter().map(|mode| mode.angular_frequency().powi(2)).filter(|square| *square > 0.0);
     let (least, largest) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
-    if largest > APART * least {
+    if largest > FAR_APART * least {
         doubts.push(format!(
             "frequencies from {} to {} are so far apart that the highest have few digits, and some of them may be missing: fewer `modes` \
              or a lower `up_to` are right",

@@ -7,8 +7,10 @@ use crate::math::Vec6;
 use crate::model::Part;
 use crate::state::{Configuration, Node};
 
-/// Energy of a part above this part of its terms without signs is no rounding.
+/// Energy of a part above this part of its terms without signs is no rounding, ...
 const CLEAR: f64 = 1e-6;
+/// ... unless its motions are: this is the square of what they are of the largest anywhere.
+const STILL: f64 = 1e-16;
 
 /// Twice the strain energies of a small motion.
 #[derive(Clone, Default)]
@@ -17,8 +19,10 @@ pub struct Energies {
     pub parts: Vec<Share>,
     /// The sum of all terms of all elements, without their signs, by which rounding is measured.
     pub without_signs: f64,
-    /// The same of each part.
-    of_parts: Vec<f64>,
+    /// The same of each part, and the sum of its terms were all its motions the largest anywhere.
+    of_parts: Vec<[f64; 2]>,
+    /// The square of the largest motion anywhere.
+    largest: f64,
     /// True where a part stores energy that is not its own rounding.
     pub is_stiff: bool,
 }
@@ -26,7 +30,9 @@ pub struct Energies {
 /// Sums φᵀ K φ over the elements of each part, for several shapes: the matrix of an element is formed once for all.
 pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<Energies> {
     let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
-    let mut all = vec![Energies::default(); shapes.len()];
+    let largest = |shape: &Vec<Vec6>| shape.iter().map(|motion| motion.amax().powi(2)).fold(0.0, f64::max);
+    let mut all: Vec<Energies> =
+        shapes.iter().map(|shape| Energies { largest: largest(shape), ..Energies::default() }).collect();
     let (mut K, mut phi) = (Vec::new(), Vec::new());
     for group in &at.system.groups {
         let (block, own) = (&group.block, &group.configuration(&now));
@@ -51,7 +57,7 @@ pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<En
     }
     for energies in &mut all {
         let mut parts = energies.parts.iter().zip(&energies.of_parts);
-        energies.is_stiff = parts.any(|(share, without_signs)| share.strain > CLEAR * without_signs);
+        energies.is_stiff = parts.any(|(share, [own, all])| share.strain > CLEAR * own && share.strain > STILL * all);
         energies.parts.sort_by_key(|share| share.part);
     }
     all
@@ -65,12 +71,13 @@ fn place(parts: &[Part], from: usize, part: &Part) -> usize {
 impl Energies {
     /// Adds the energy of an element with this matrix, row-major, in this motion.
     fn add(&mut self, parts: &[Part], part: usize, K: &[f64], phi: &[f64]) {
-        let (mut energy, mut own) = (0.0, 0.0);
+        let (mut energy, mut own, mut all) = (0.0, 0.0, 0.0);
         for (row, left) in K.chunks(phi.len()).zip(phi) {
             for (k, right) in row.iter().zip(phi) {
                 let term = left * k * right;
                 energy += term;
                 own += term.abs();
+                all += k.abs();
             }
         }
         self.without_signs += own;
@@ -78,11 +85,11 @@ impl Energies {
             Some(last) if parts[last.part].is_one_with(&parts[part]) => last.strain += energy,
             _ => {
                 self.parts.push(Share { part, strain: energy });
-                self.of_parts.push(0.0);
+                self.of_parts.push([0.0; 2]);
             }
         }
         if let Some(last) = self.of_parts.last_mut() {
-            *last += own;
+            *last = [last[0] + own, last[1] + all * self.largest];
         }
     }
 }
