@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::analysis::{Integrator, Iteration};
+use super::analysis::{Integrator, Iteration, ResponseWord};
 use super::words::kinds::OneOf;
-use super::words::{Maybe, NumberOrAuto, Table};
+use super::words::{Frequencies, Maybe, NumberOrAuto, Table};
 
 /// A stage of a run. Its state is that which the stage before has reached: positions, rotations, plastic strains, contacts and
 /// friction, multipliers of joints; into a dynamic stage velocities too. Time runs on.
@@ -34,6 +34,12 @@ pub struct Stage {
     pub up_to: Maybe<f64>,
     /// With "modal": complex modes, with damping and gyroscopic moments. Default: false.
     pub damped: Maybe<bool>,
+    /// With "frequency-response", as in `[analysis]`.
+    pub frequencies: Maybe<Frequencies>,
+    /// With "frequency-response", as in `[analysis]`. Default: "direct".
+    pub method: Maybe<ResponseWord>,
+    /// With "frequency-response" and method = "modal", as in `[analysis]`. Default: 0.
+    pub damping_ratio: Maybe<f64>,
     /// The time integration scheme of this stage. Default: that of `[integrator]`.
     pub integrator: Maybe<OneOf<Integrator>>,
     /// The iteration of this stage. Default: that of `[iteration]`.
@@ -52,6 +58,9 @@ pub enum StageKind {
     Modal,
     /// Factors of the loads that first act here, at which the state that has been reached buckles under them. No time passes.
     Buckling,
+    /// The steady motion that loads and supports with amplitudes of kind "harmonic" cause about the state that has been reached. No time
+    /// passes.
+    FrequencyResponse,
 }
 
 /// Where a stage ends before its time: `{ at = "crown", quantity = "uz", value = -0.1 }`, `{ load = "ram", work = 4375.0 }`,

@@ -17,8 +17,8 @@ use super::contacts::contacts;
 use super::control::{control, iterate_along};
 use super::course::{self, Course, CurrentStage};
 use super::data::{
-    Analysis, AnalysisKind, ArcLength, Cadence, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part, Rigid,
-    Solution, StepLength,
+    Analysis, AnalysisKind, ArcLength, Cadence, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part,
+    Rigid, Solution, StepLength,
 };
 use super::environment::{damping, environment};
 use super::expects::expects;
@@ -343,7 +343,7 @@ fn check(
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);
-    check_harmonic(deck, report);
+    check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.course.whole), report);
     if scene.analysis.modes.is_some() {
         check_modal(deck, report);
     } else if kind == AnalysisKind::Static {
@@ -386,8 +386,8 @@ fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
         // Times of a motion would cut load steps that lead to the state.
         model.output.cadence = Cadence::Steps(1);
         model.output.fields = model.output.fields.map(|_| Cadence::Steps(1));
-        add_expected(model);
     }
+    add_expected(model);
     drop_unused(model);
     if all_nodes {
         write_all_nodes(model);

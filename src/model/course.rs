@@ -2,6 +2,7 @@
 
 use super::data::AnalysisKind;
 use super::report::{Owner, Report};
+use super::response::names_harmonic;
 use super::shell_edges::Bulges;
 use super::values::span;
 use crate::amplitude::{Amplitude, StraightLines};
@@ -40,6 +41,19 @@ struct PlannedStage<'d> {
     duration: f64,
     /// The time at which it has ended, or will if nothing stops it.
     end: f64,
+}
+
+impl PlannedStage<'_> {
+    /// True where an expected value, of a mode, at a frequency or at a time, can be read: the peak over frequencies where it names the stage.
+    fn reads(&self, expect: &Expect) -> bool {
+        let kind = self.table.kind.as_ref().map(|kind| kind.value);
+        match (expect.mode.is_some(), expect.frequency.is_some()) {
+            (true, _) => self.has_modes,
+            (_, true) => kind == Some(StageKind::FrequencyResponse),
+            _ if kind == Some(StageKind::FrequencyResponse) => name_of(&expect.stage) == Some(self.name.as_str()),
+            _ => !self.has_modes,
+        }
+    }
 }
 
 /// The stage whose model is built.
@@ -92,6 +106,7 @@ impl<'d> Course<'d> {
             StageKind::Static | StageKind::Dynamic => None,
             StageKind::Modal => Some("a modal stage"),
             StageKind::Buckling => Some("a buckling stage"),
+            StageKind::FrequencyResponse => Some("a stage of a frequency response"),
         });
         let has_modes = of_modes.is_some();
         if let Some(what) = of_modes.or(is_static.then_some("a static stage")) {
@@ -204,6 +219,7 @@ impl<'d> Course<'d> {
             }
             for load in new {
                 match &load.amplitude {
+                    Some(amplitude) if names_harmonic(self.whole, amplitude.as_str()) => {}
                     _ if !buckles => {
                         let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
                         let hint =
@@ -279,10 +295,11 @@ impl<'d> Course<'d> {
                 continue;
             }
             let has_modes = named.is_some_and(|named| self.stages[named].has_modes);
-            let (message, hint) = match &expect.mode {
-                Some(_) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
-                None if has_modes => ("no time passes in this stage", "expect a `mode`, or name another stage"),
-                None => ("what this is expected of is not there", "name a stage in which it is"),
+            let (message, hint) = match (&expect.mode, &expect.frequency) {
+                (Some(_), _) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
+                (_, Some(_)) => ("no response is found there", "`frequency` is expected of a stage of frequency response"),
+                _ if has_modes => ("no time passes in this stage", "expect a `mode`, or name another stage"),
+                _ => ("what this is expected of is not there", "name a stage in which it is"),
             };
             report.error_with::<()>(&self.whole.expect[index].span, message, hint);
         }
@@ -512,7 +529,7 @@ impl<'d> CurrentStage<'d> {
         let absent: HashSet<&str> = joints.chain(links).chain(contacts).filter_map(name).collect();
         let here = |expect: &Expect| {
             name_of(&expect.at).is_none_or(|at| !absent.contains(at))
-                && expect.mode.is_some() == self.has_modes()
+                && self.course.stages[self.index].reads(expect)
                 && name_of(&expect.stage).is_none_or(|stage| stage == self.name())
         };
         let all = deck.expect.iter().enumerate();
@@ -530,6 +547,7 @@ impl<'d> CurrentStage<'d> {
         let word = match table.kind.as_ref().map(|kind| kind.value) {
             Some(StageKind::Modal) => words::AnalysisKind::Modal,
             Some(StageKind::Buckling) => words::AnalysisKind::Buckling,
+            Some(StageKind::FrequencyResponse) => words::AnalysisKind::FrequencyResponse,
             _ if *kind == AnalysisKind::Static => words::AnalysisKind::Static,
             _ => words::AnalysisKind::Dynamic,
         };
@@ -548,9 +566,9 @@ impl<'d> CurrentStage<'d> {
             modes: table.modes.clone(),
             up_to: table.up_to.clone(),
             damped: table.damped.clone(),
-            frequencies: None,
-            method: None,
-            damping_ratio: None,
+            frequencies: table.frequencies.clone(),
+            method: table.method.clone(),
+            damping_ratio: table.damping_ratio.clone(),
         }
     }
 }

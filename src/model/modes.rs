@@ -61,18 +61,7 @@ pub(super) fn modes<'d>(
     if !is_response {
         report.reject_unused(what, &keys_of_response(analysis));
     }
-    for (key, place) in [
-        ("end_time", span(&analysis.end_time)),
-        ("time_step", span(&analysis.time_step)),
-        ("error_tolerance", span(&analysis.error_tolerance)),
-        ("least_step", span(&analysis.least_step)),
-    ] {
-        if let Some(place) = place {
-            let message = format!("`{key}` has no effect in {what}");
-            let hint = "loads are those at t = 0, brought on in load steps of the program's own";
-            report.push(Diagnostic::note(message).at(place).hint(hint));
-        }
-    }
+    note_times(analysis, what, report);
     let plane = analysis.plane.as_ref().is_some_and(|plane| plane.value == words::Plane::Auto);
     let response = is_response.then(|| response(analysis, place, report));
     let (response, of_response) = response.map_or((None, None), |(asked, extent)| (Some(asked), extent));
@@ -92,6 +81,22 @@ pub(super) fn modes<'d>(
         plane,
         modes,
     })
+}
+
+/// Says of the keys of times that they have no effect.
+fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
+    for (key, place) in [
+        ("end_time", span(&analysis.end_time)),
+        ("time_step", span(&analysis.time_step)),
+        ("error_tolerance", span(&analysis.error_tolerance)),
+        ("least_step", span(&analysis.least_step)),
+    ] {
+        if let Some(place) = place {
+            let message = format!("`{key}` has no effect in {what}");
+            let hint = "loads are those at t = 0, brought on in load steps of the program's own";
+            report.push(Diagnostic::note(message).at(place).hint(hint));
+        }
+    }
 }
 
 fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {

@@ -8,6 +8,7 @@ use crate::amplitude::Amplitude;
 use crate::deck::Deck;
 use crate::deck::amplitudes::AmplitudeKind;
 use crate::deck::analysis::{Analysis, AnalysisKind, ResponseWord};
+use crate::deck::stages::StageKind;
 use crate::deck::words::{Frequencies, FrequencyRange, Spacing};
 use crate::diagnostic::{At, Span};
 
@@ -111,7 +112,9 @@ fn in_range<'d>(range: &'d FrequencyRange, report: &mut Report<'d>) -> (Vec<f64>
 }
 
 /// Checks that what is harmonic has a frequency, and that a frequency response has an excitation.
-pub(super) fn check_harmonic(deck: &Deck, report: &mut Report) {
+pub(super) fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
+    let responds = |kind: StageKind| kind == StageKind::FrequencyResponse;
+    let stages_respond = whole.stages.iter().any(|stage| stage.kind.as_ref().is_some_and(|kind| responds(kind.value)));
     let used = amplitudes_over_time(deck);
     let mut harmonic = deck.amplitudes.0.iter().filter(|(name, amplitude)| {
         used.contains(name.as_str())
@@ -124,7 +127,7 @@ pub(super) fn check_harmonic(deck: &Deck, report: &mut Report) {
                         value, and all others hold the state about which the scene moves";
             report.error_with::<()>(&kind.span, "nothing excites this frequency response", hint);
         }
-        AnalysisKind::Dynamic | AnalysisKind::Static => {
+        AnalysisKind::Dynamic | AnalysisKind::Static if !stages_respond => {
             for (name, _) in harmonic {
                 let message =
                     format!("amplitude `{}` is harmonic, and this analysis has no frequency for it", name.value);
@@ -135,6 +138,13 @@ pub(super) fn check_harmonic(deck: &Deck, report: &mut Report) {
         }
         _ => {}
     }
+}
+
+/// True for the name of an amplitude that is harmonic.
+pub(super) fn names_harmonic(deck: &Deck, name: &str) -> bool {
+    let is = |kind: &AmplitudeKind| *kind == AmplitudeKind::Harmonic;
+    let mut named = deck.amplitudes.0.iter().filter(|(own, _)| own.value == name);
+    named.any(|(_, amplitude)| amplitude.kind.as_ref().is_some_and(|kind| is(&kind.value)))
 }
 
 /// Adds the frequencies at which something is expected to those that are computed.

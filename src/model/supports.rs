@@ -122,6 +122,7 @@ impl<'d> Supports<'_, 'd> {
             if let Some(at) = &motion.history
                 && self.scene.analysis.kind == AnalysisKind::Static
                 && self.scene.analysis.modes.is_none()
+                && amplitude.is_none_or(|i| self.amplitudes[i].harmonic_phase().is_none())
                 && history != History::Displacement
             {
                 self.report.error::<()>(&at.span, "a static analysis takes `history = \"displacement\"` only");

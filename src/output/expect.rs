@@ -196,9 +196,8 @@ impl Observer for Expectations {
     }
 
     fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
-        let of_mode = |watch: &&mut Watch| {
-            watch.is_here && matches!(watch.expect.at, ExpectAt::Mode(_) | ExpectAt::Response(..))
-        };
+        let of_mode =
+            |watch: &&mut Watch| watch.is_here && matches!(watch.expect.at, ExpectAt::Mode(_) | ExpectAt::Response(..));
         for watch in self.watches.iter_mut().filter(of_mode) {
             watch.sample = watch.value(frame).map(|value| Sample { time: frame.state.time, value, other: None });
         }

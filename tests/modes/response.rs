@@ -276,3 +276,37 @@ fn undamped_resonance() {
     assert!((all[0].1.re * k - 1.0).abs() < 1e-12 && (all[2].1.re * -3.0 * k - 1.0).abs() < 1e-12, "{all:?}");
     assert!(!all[1].1.re.is_finite() && found.doubts[0].contains("frequency 0.5"), "{all:?} {:?}", found.doubts);
 }
+
+/// A stage of a response is about the state that stages before it have reached: a column under an axial load is softer, as it is under the
+/// same load held in `[analysis]`. Joints and supports with harmonic motion rest in the stages before. The equilibria are found to 1e-8.
+#[test]
+fn stage_about_a_loaded_state() {
+    let column = |analysis: &str, of_stage: &str| {
+        let head = head("kind = \"frequency-response\"", 0.03, 0.02);
+        let scene = head.split_once("[materials").unwrap().1;
+        let text = format!(
+            "{analysis}[materials{scene}[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"b\"]\n\
+             elements = 4\nmaterial = \"steel\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\n\
+             fix = [\"ux\", \"uy\", \"rx\", \"ry\", \"rz\"]\nmotion = {{ uz = {{ amplitude = \"shake\", scale = 0.1, history = \"acceleration\" }} }}\n\
+             [[loads]]\nat = \"b\"\nforce = [-1500.0, 0.0, 0.0]\n[[loads]]\nat = \"b\"\nforce = [0.0, 5.0, 0.0]\namplitude = \"late\"\n{of_stage}"
+        );
+        shaken(text)
+    };
+    let keys = "frequencies = [1.0, 2.0, 3.0]\n";
+    let alone = modes(&column(&analysis(keys), ""));
+    let stages = format!(
+        "[[stages]]\nname = \"weight\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.25\n[[stages]]\nname = \"shaken\"\n\
+         kind = \"frequency-response\"\n{keys}"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let expected = motion(&alone, 1, 2)[1].1.norm();
+    let expect =
+        format!("[[expect]]\nat = \"b\"\nquantity = \"uz\"\nfrequency = 2.0\nvalue = {expected:?}\ntolerance = 1e-6\n");
+    std::fs::write(folder.path().join("d.toml"), column(&stages, "stages = \"shaken\"\n") + &expect).unwrap();
+    let run =
+        assert_cmd::Command::cargo_bin("rdsolve").unwrap().current_dir(folder.path()).arg("d.toml").output().unwrap();
+    let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success() && said.contains("ok   uz of b at frequency 2"), "{said}");
+    let softer = motion(&modes(&column(&analysis(keys), "").replace("-1500.0", "-0.001")), 1, 2)[1].1.norm();
+    assert!((softer / expected - 1.0).abs() > 0.05, "{softer} {expected}");
+}

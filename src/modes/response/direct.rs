@@ -8,7 +8,7 @@ use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::steady::Response;
 use super::dynamic_stiffness::DynamicStiffness;
-use super::excitation::{C64, Excitation};
+use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
 use super::matrices::Matrices;
 use crate::linear::{Factorization, Solver};
@@ -53,7 +53,7 @@ pub fn response(
         Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
         None => Pencil::new(*at, linear),
     };
-    let excitation = Excitation::of(&pencil, unsymmetric)?;
+    let excitation = HarmonicExcitation::of(&pencil, unsymmetric)?;
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
@@ -78,7 +78,7 @@ pub fn response(
 /// A direct solution under way.
 struct Direct<'a> {
     pencil: Pencil<'a>,
-    excitation: Excitation,
+    excitation: HarmonicExcitation,
     stiffness: DynamicStiffness,
     /// What has been left of the equations at most, and the frequency.
     worst: (f64, f64),

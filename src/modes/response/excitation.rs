@@ -16,7 +16,7 @@ use nalgebra::Complex;
 pub type C64 = Complex<f64>;
 
 /// The excitation of a response.
-pub struct Excitation {
+pub struct HarmonicExcitation {
     /// Forces on the unknowns of nodes, each with its complex factor.
     pub loads: Vec<(C64, Vec<f64>)>,
     /// Motions of supports.
@@ -46,15 +46,15 @@ impl SupportMotion {
     }
 }
 
-impl Excitation {
+impl HarmonicExcitation {
     /// The excitation of a model, where `pencil` is about the state.
     ///
     /// # Errors
     /// There is no memory.
-    pub fn of(pencil: &Pencil, unsymmetric: bool) -> Result<Excitation, ModesFault> {
+    pub fn of(pencil: &Pencil, unsymmetric: bool) -> Result<HarmonicExcitation, ModesFault> {
         let loads = [C64::new(1.0, 0.0), C64::new(0.0, 1.0)].map(|factor| (factor, forces(pencil, factor)));
         let loads = loads.into_iter().filter(|(_, force)| force.iter().any(|f| *f != 0.0)).collect();
-        Ok(Excitation { loads, motions: motions(&pencil.at, unsymmetric)? })
+        Ok(HarmonicExcitation { loads, motions: motions(&pencil.at, unsymmetric)? })
     }
 
     /// True where nothing of it can move anything.

@@ -14,7 +14,7 @@ use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
 use super::super::steady::Response;
-use super::excitation::{C64, Excitation};
+use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
 use super::matrices::Matrices;
 use crate::linear::{Solver, Sparse};
@@ -45,7 +45,7 @@ pub fn response(
     if pencil.mass.is_zero() {
         return Err(ModesFault::NoMass);
     }
-    let excitation = Excitation::of(&pencil, false)?;
+    let excitation = HarmonicExcitation::of(&pencil, false)?;
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
@@ -155,7 +155,7 @@ impl<'p> Space<'p> {
         }
     }
 
-    fn parts(&mut self, pencil: &mut Pencil, excitation: &Excitation, matrices: &Matrices) -> Parts {
+    fn parts(&mut self, pencil: &mut Pencil, excitation: &HarmonicExcitation, matrices: &Matrices) -> Parts {
         let loads = excitation.loads.iter().map(|(_, force)| self.part(pencil, force)).collect();
         let mut supports = Vec::new();
         for motion in &excitation.motions {
@@ -191,16 +191,19 @@ impl<'p> Space<'p> {
     }
 }
 
+/// The motions of the nodes wanted that the two parts of [`Part::rest`] are.
+type Rest = [Vec<Vec6>; 2];
+
 /// The motions of the nodes wanted, of modes and of all other parts.
 struct Motion {
     modes: Vec<Vec<Vec6>>,
-    loads: Vec<[Vec<Vec6>; 2]>,
+    loads: Vec<Rest>,
     /// Those of supports with what follows them, then what inertia and damping do besides.
-    supports: Vec<(Vec<Vec6>, [[Vec<Vec6>; 2]; 2])>,
+    supports: Vec<(Vec<Vec6>, [Rest; 2])>,
 }
 
 impl Motion {
-    fn new(pencil: &Pencil, space: &Space, parts: &Parts, excitation: &Excitation, nodes: &[usize]) -> Motion {
+    fn new(pencil: &Pencil, space: &Space, parts: &Parts, excitation: &HarmonicExcitation, nodes: &[usize]) -> Motion {
         let at = pencil.at;
         let of = |x: &Vec<f64>| -> Vec<Vec6> {
             let all = at.motions(&pencil.nodes, x);
@@ -220,7 +223,7 @@ impl Motion {
     }
 
     /// The motions at a frequency, complex.
-    fn at(&self, space: &Space, parts: &Parts, excitation: &Excitation, frequency: f64) -> Vec<[C64; 6]> {
+    fn at(&self, space: &Space, parts: &Parts, excitation: &HarmonicExcitation, frequency: f64) -> Vec<[C64; 6]> {
         let omega = TAU * frequency;
         let beyond = omega * omega - space.shift;
         let mut forces = DVector::from_element(space.pairs.len(), C64::new(0.0, 0.0));
