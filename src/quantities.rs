@@ -36,6 +36,10 @@ pub enum Unit {
     Moment,
     /// A force in rows of translations, a moment in rows of rotations.
     ForceOrMoment,
+    /// A length, or an angle in radians.
+    LengthOrAngle,
+    /// A length per time, or an angle in radians per time.
+    LengthOrAngleRate,
     /// A force per length of a section through a shell.
     ForcePerLength,
     /// A moment per length of a section through a shell.
@@ -73,6 +77,8 @@ impl fmt::Display for Unit {
             Unit::Force => "force",
             Unit::Moment => "force·length",
             Unit::ForceOrMoment => "force, or force·length",
+            Unit::LengthOrAngle => "length, or rad",
+            Unit::LengthOrAngleRate => "length/time, or rad/time",
             Unit::ForcePerLength => "force/length",
             Unit::MomentPerLength => "force·length/length",
             Unit::Stress => "force/length²",
@@ -229,6 +235,24 @@ pub const ANGULAR_ACCELERATION: [Column; 3] = {
 /// Force and moment of a joint on its first part; also the columns of a contact and a link, with meanings of their own.
 pub const JOINT: [Column; 6] =
     wrench("force of the joint on its first part", "moment of the joint on its first part, about that end");
+
+/// Coordinate, its rate and the effort of a joint that has one.
+pub const JOINT_COORDINATE: [Column; 3] = [
+    Column::scalar("coordinate", "angle about the axis, turns counted, or distance along it, since t = 0", Unit::LengthOrAngle)
+        .positive("`to` ahead of `from`"),
+    Column::scalar("rate", "rate of the coordinate", Unit::LengthOrAngleRate).positive("`to` ahead of `from`"),
+    Column::scalar(
+        "effort",
+        "moment or force along the coordinate on `to`: of the drive, the motor, spring, damper, stops and friction together",
+        Unit::ForceOrMoment,
+    )
+    .positive("along the axis, on `to`"),
+];
+/// All that a joint exerts on its second part; the quantities of [`JOINT`] are those of its constraints on the first.
+pub const JOINT_REACTION: [Column; 6] = wrench(
+    "force on the second part: of all that the joint is, drive, motor and friction included",
+    "moment on the second part, about that end, likewise",
+);
 
 /// Elongation, its rate and force of a link, then force and moment on its first end.
 pub const LINK: [Column; 9] = {

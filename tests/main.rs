@@ -21,6 +21,7 @@ mod folders;
 mod foreign_input;
 mod inside_steps;
 mod iterations;
+mod joint_coordinates;
 mod joint_forces;
 mod joints;
 mod left_out;

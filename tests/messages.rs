@@ -412,6 +412,60 @@ fn explicit_schemes() {
     assert_snapshot!("explicit_consistent", portal(&[("orientation = [0.0, 1.0, 0.0]", heavy)]));
 }
 
+/// Joints with what acts along their coordinates; everything that is wrong is said at once.
+#[test]
+fn joint_coordinates() {
+    let ends = "from = { node = \"knee_right\" }\nto = { ground = [1.5, 0.0, 2.0] }";
+    let joint = |name: &str, kind: &str, text: &str| {
+        let axis = if kind == "spherical" { "" } else { "axis = [0.0, 1.0, 0.0]\n" };
+        format!("[[joints]]\nname = \"{name}\"\nkind = \"{kind}\"\n{axis}{ends}\n{text}\n")
+    };
+    let swing = "[amplitudes.swing]\nkind = \"sine\"\nfrequency = 0.25\nphase = 1.0\n";
+    let position = "motion = { position = 8.0, amplitude = \"swing\" }";
+    let all = |joints: &[[&str; 2]]| -> String {
+        let joints = joints.iter().enumerate().map(|(i, [kind, text])| joint(&format!("j{i}"), kind, text));
+        portal_and(&(swing.to_owned() + &joints.collect::<Vec<_>>().join("\n")))
+    };
+    let on_none = "coordinate = \"angle\"\nmotion = { velocity = 1.0 }\nstiffness = 3.0\nlimits = [-1.0, 1.0]";
+    let against = format!("{position}\neffort = {{ value = 1.0 }}\nlimits = [-0.1, 0.2]\nlimit_stiffness = 10.0");
+    assert_snapshot!(
+        "joint_motions",
+        all(&[
+            ["spherical", on_none],
+            ["revolute", &against],
+            ["revolute", "motion = { position = 8.0, velocity = 1.0, amplitude = \"swing\" }"],
+            ["revolute", "motion = { position = 8.0 }"],
+            ["revolute", "motion = { velocity = 8.0, amplitude = \"swung\" }"],
+            ["prismatic", "motion = { }"],
+            ["prismatic", "motion = { speed = 1.0 }"],
+            ["prismatic", position],
+        ])
+    );
+    assert_snapshot!(
+        "joint_efforts",
+        all(&[
+            ["revolute", "coordinate = \"distance\"\neffort = { amplitude = \"swing\" }"],
+            ["revolute", "limits = [0.2, -0.1]\nrestitution = 2.0"],
+            ["revolute", "limits = [0.1, 0.2]\nlimit_stiffness = 0.0"],
+            ["revolute", "rest = 1.0\nlimit_stiffness = 3.0\nstick = 1e-3"],
+            ["cylindrical", "friction_moment = 3.0\nstiffness = -1.0"],
+            ["screw", "lead = 0.0\nfriction_moment = -3.0"],
+            ["screw", "torque = 3.0"],
+        ])
+    );
+    let drive = |velocity: &str| {
+        format!(
+            "[[bodies]]\nname = \"wheel\"\ncenter = [1.5, 9.0, 2.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n{velocity}\n\
+             [[joints]]\nname = \"slew\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.0]\nfrom = {{ ground = [1.5, 9.0, 2.0] }}\n\
+             to = {{ body = \"wheel\" }}\nmotion = {{ velocity = 0.2 }}"
+        )
+    };
+    assert_snapshot!("joint_speed", portal_and(&drive("angular_velocity = [0.0, 0.3, 0.0]")));
+    assert_snapshot!("joint_fixed_ends", portal_and(&drive("[[supports]]\nat = \"wheel\"\nfix = \"all\"")));
+    let fixed = drive("angular_velocity = [0.0, 0.2, 0.0]");
+    assert_eq!(portal_and(&fixed).trim(), "", "the same speed is no contradiction");
+}
+
 #[test]
 fn joints() {
     let joint = |text: &str| portal_and(&format!("[[joints]]\nname = \"pin\"\n{text}"));

@@ -5,8 +5,10 @@
 //! multiplier λ it exerts the forces Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it is closed. Its stiffness is K
 //! = λ ∂²c, for spatial spins as everywhere.
 
+use super::angle::{Angle, body_vector};
 use crate::math::{Mat3, Vec3, Vec6, skew, stack};
 use crate::state::Node;
+use std::f64::consts::TAU;
 
 /// Largest number of constraint equations of a joint: a node of multipliers has six rows.
 pub const MOST_EQUATIONS: usize = 6;
@@ -20,6 +22,42 @@ pub struct Joint {
     pub equations: Vec<ConstraintEquation>,
     /// True where the second node is restrained and stands for a support.
     pub supports: bool,
+    /// What drives the coordinate; the last equation is then the one that holds it there.
+    pub drive: Option<Drive>,
+}
+
+/// A drive prescribes the coordinate of a joint: it is a node that nothing else moves, whose displacement along x is what the
+/// coordinate shall be. So it is a prescribed motion like that of a support, and its reaction is the effort of the drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive {
+    /// The node, restrained along x.
+    pub node: usize,
+    /// Its position at t = 0.
+    pub start: Vec3,
+}
+
+impl Joint {
+    /// The violation of an equation with its first two derivatives in time; what is driven is behind its drive by so much.
+    #[inline]
+    pub fn gap(&self, number: usize, nodes: &[Node]) -> [f64; 3] {
+        let [a, b] = self.nodes.map(|n| &nodes[n]);
+        let row = &self.equations[number];
+        let gap = row.gap(a, b);
+        match &self.drive {
+            Some(drive) if self.is_driven(number) => {
+                let node = &nodes[drive.node];
+                let behind = gap[0] - node.moved(&drive.start).x;
+                [row.nearest(behind), gap[1] - node.v.x, gap[2] - node.a.x]
+            }
+            _ => gap,
+        }
+    }
+
+    /// True for the equation that holds the coordinate where its drive is.
+    #[inline]
+    pub fn is_driven(&self, number: usize) -> bool {
+        self.drive.is_some() && number + 1 == self.equations.len()
+    }
 }
 
 /// One constraint equation. Vectors are unit vectors at t = 0, fixed to the node that they belong to.
@@ -51,9 +89,28 @@ pub enum ConstraintEquation {
         /// The distance.
         length: f64,
     },
+    /// The second node has not turned from the first about an axis that both share.
+    Angle(Angle),
+    /// The second node goes along a shared axis by `lead` for each turn about it: −(x_a − x_b)·R_b e − `at` = `lead` θ/2π.
+    Screw {
+        /// The angle θ of the second node from the first.
+        angle: Angle,
+        /// The axis, fixed to the second node.
+        e: Vec3,
+        /// The left-hand side without it at t = 0, in units of length.
+        at: f64,
+        /// The length of a turn, negative for a left-hand thread.
+        lead: f64,
+    },
 }
 
 impl ConstraintEquation {
+    /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0: its violation is
+    /// that distance. `d` is x_a − x_b at t = 0.
+    pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {
+        ConstraintEquation::BodyAxis { e: -e, at: -d.dot(e) }
+    }
+
     /// The same equation between the nodes a and b as they are now, whose gap is zero there: axes lie as those of the first node do or, for
     /// a support, as they did at t = 0. Ends that are apart, as they are where they do not meet, are held together by an arm that turns with the
     /// second.
@@ -78,6 +135,20 @@ impl ConstraintEquation {
                 ConstraintEquation::Perpendicular { p: *p, s: as_seen(b, &(a.R() * s)) }
             }
             ConstraintEquation::Distance { .. } => ConstraintEquation::Distance { length: d.norm() },
+            ConstraintEquation::Screw { angle, e, at, lead } => {
+                let [gap, ..] = self.gap(a, b);
+                ConstraintEquation::Screw { angle: *angle, e: *e, at: at + gap, lead: *lead }
+            }
+            // A drive is never held where it is: it goes on.
+            ConstraintEquation::Angle(_) => *self,
+        }
+    }
+
+    /// The violation nearest to zero where the equation knows it up to full turns only.
+    pub fn nearest(&self, gap: f64) -> f64 {
+        match self {
+            ConstraintEquation::Angle(_) => gap - TAU * (gap / TAU).round(),
+            _ => gap,
         }
     }
 
@@ -99,6 +170,14 @@ impl ConstraintEquation {
                 let u = d / now;
                 let rate = u.dot(&v);
                 [now - length, rate, u.dot(&w) + (v.norm_squared() - rate * rate) / now]
+            }
+            ConstraintEquation::Angle(angle) => angle.value(a, b),
+            ConstraintEquation::Screw { angle, e, at, lead } => {
+                let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gap(a, b);
+                let turned = angle.value(a, b);
+                let [c, rate, second] = std::array::from_fn(|i| along[i] - lead / TAU * turned[i]);
+                // The distance tells how many turns the angle lacks.
+                [c - lead * (c / lead).round(), rate, second]
             }
         }
     }
@@ -124,6 +203,12 @@ impl ConstraintEquation {
                 let u = d.normalize();
                 [stack(&u, &zero), stack(&-u, &zero)]
             }
+            ConstraintEquation::Angle(angle) => angle.gradient(a, b),
+            ConstraintEquation::Screw { angle, e, at, lead } => {
+                let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gradient(a, b);
+                let turned = angle.gradient(a, b);
+                std::array::from_fn(|i| along[i] - lead / TAU * turned[i])
+            }
         }
     }
 
@@ -133,14 +218,7 @@ impl ConstraintEquation {
         let d = a.relative_position(b);
         match self {
             ConstraintEquation::GlobalAxis { .. } => {}
-            ConstraintEquation::BodyAxis { e, .. } => {
-                let e = skew(&(b.R() * e)) * lambda;
-                add(0, 3, -e);
-                add(2, 3, e);
-                add(3, 0, e);
-                add(3, 2, -e);
-                add(3, 3, skew(&d) * e);
-            }
+            ConstraintEquation::BodyAxis { e, .. } => along_axis(e, b, &d, lambda, &mut add),
             ConstraintEquation::Perpendicular { p, s } => {
                 let (p, s) = (skew(&(a.R() * p)), skew(&(b.R() * s)));
                 let (sp, ps) = (s * p * lambda, p * s * lambda);
@@ -157,12 +235,17 @@ impl ConstraintEquation {
                     add(i, j, k * sign);
                 }
             }
+            ConstraintEquation::Angle(angle) => angle.stiffness(a, b, lambda, &mut add),
+            ConstraintEquation::Screw { angle, e, lead, .. } => {
+                along_axis(&-e, b, &d, lambda, &mut add);
+                angle.stiffness(a, b, -lead / TAU * lambda, &mut add);
+            }
         }
     }
 
     /// True where the multiplier is a moment and the gap an angle; otherwise they are a force and a length.
     pub fn is_rotational(&self) -> bool {
-        matches!(self, ConstraintEquation::Perpendicular { .. })
+        matches!(self, ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_))
     }
 
     /// Tells, for motion in the plane normal to a global axis, whether the equation constrains anything; `None` where
@@ -178,6 +261,9 @@ impl ConstraintEquation {
             ConstraintEquation::Perpendicular { p, s } if along(p) || along(s) => Some(false),
             ConstraintEquation::Perpendicular { p, s } => (across(p) && across(s)).then_some(true),
             ConstraintEquation::Distance { .. } => across(d).then_some(true),
+            ConstraintEquation::Angle(Angle { p, s }) => (across(p) && across(s)).then_some(true),
+            // Its moment is about the axis along which its force acts.
+            ConstraintEquation::Screw { .. } => None,
         }
     }
 
@@ -188,15 +274,20 @@ impl ConstraintEquation {
             ConstraintEquation::BodyAxis { .. } => "sideways",
             ConstraintEquation::Perpendicular { .. } => "turn",
             ConstraintEquation::Distance { .. } => "distance",
+            ConstraintEquation::Angle(_) => "angle",
+            ConstraintEquation::Screw { .. } => "thread",
         }
     }
 }
 
-/// An axis fixed to a node with its first two derivatives in time, global components.
-fn body_vector(node: &Node, e: &Vec3) -> [Vec3; 3] {
-    let e = node.R() * e;
-    let de = node.omega.cross(&e);
-    [e, de, node.alpha.cross(&e) + node.omega.cross(&de)]
+/// The stiffness of [`ConstraintEquation::BodyAxis`]; `d` is x_a − x_b.
+fn along_axis(e: &Vec3, b: &Node, d: &Vec3, lambda: f64, add: &mut impl FnMut(usize, usize, Mat3)) {
+    let e = skew(&(b.R() * e)) * lambda;
+    add(0, 3, -e);
+    add(2, 3, e);
+    add(3, 0, e);
+    add(3, 2, -e);
+    add(3, 3, skew(d) * e);
 }
 
 /// Equations that keep the nodes together along global axes where they meet, as [`super::rigid_link`] does.

@@ -1,5 +1,6 @@
 //! Kinematic constraints between nodes, by elimination (rigid links) or by Lagrange multipliers (joints).
 
+pub mod angle;
 pub mod joint;
 pub mod joints;
 pub mod rigid_link;

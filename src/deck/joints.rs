@@ -5,8 +5,8 @@ use serde::Deserialize;
 
 use super::links::End;
 use super::words::kinds::Kinds;
-use super::words::{Maybe, Names, Table};
-use crate::constraints::joints::kind::MakeJoint;
+use super::words::{Maybe, Names, Numbers, Table};
+use crate::constraints::joints::kind::{Coordinate, MakeJoint};
 use crate::constraints::joints::{JOINTS, JointKind};
 
 /// Two ends that may move against each other only as the kind of joint allows; Lagrange multipliers hold them.
@@ -25,6 +25,59 @@ pub struct Joint {
     pub to: Maybe<Table<End>>,
     /// Names of the stages in which it is there; it joins its ends as it then finds them. Default: all.
     pub stages: Maybe<Names>,
+    /// Which coordinate the keys below are about, where a joint has two: "angle" about `axis` in radians, turns counted, or "distance"
+    /// along it. It is that of `to` from `from`, zero at t = 0. Default: "angle" of a screw, "distance" of a cylindrical
+    /// joint. (revolute, prismatic, cylindrical, screw; the same for all that follows)
+    pub coordinate: Maybe<Coordinate>,
+    /// Drives the coordinate as told; the effort that takes is in joints.csv.
+    pub motion: Maybe<Table<JointMotion>>,
+    /// A force or moment along the coordinate, on `to` and as much against it on `from`: a motor.
+    pub effort: Maybe<Table<Effort>>,
+    /// Force per length, or moment per radian, of a spring along the coordinate, 0 or more. Default: 0.
+    pub stiffness: Maybe<f64>,
+    /// The coordinate at which that spring is without effort. Default: 0.
+    pub rest: Maybe<f64>,
+    /// Force per velocity, or moment per angular velocity, of a damper along the coordinate, 0 or more. Default: 0.
+    pub damping: Maybe<f64>,
+    /// The least and the largest coordinate, between stops on either side; they hold 0, where the joint starts.
+    pub limits: Maybe<Numbers<2>>,
+    /// Force per length, or moment per radian, of the stops, above 0. Required with `limits`.
+    pub limit_stiffness: Maybe<f64>,
+    /// Part of the speed that an impact on a stop gives back, from 0.01 to 1. Default: 1.
+    pub restitution: Maybe<f64>,
+    /// Dry friction against an angle: the moment at which it slips, 0 or more, whatever the joint carries. Default: 0.
+    pub friction_moment: Maybe<f64>,
+    /// Dry friction against a distance: the force at which it slips, 0 or more, whatever the joint carries. Default: 0.
+    pub friction_force: Maybe<f64>,
+    /// By how much the joint gives before friction slips, above 0: what sticks is held by a stiff spring, and comes back. Default:
+    /// 1e-4 radians, or 1e-5 of the size of the scene.
+    pub stick: Maybe<f64>,
+}
+
+/// A prescribed coordinate, or its rate, as a function of time: one of the three quantities times an amplitude.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointMotion {
+    /// Coordinate for the amplitude 1, which the amplitude must then give; it begins at zero.
+    pub position: Maybe<f64>,
+    /// Rate of the coordinate for the amplitude 1; integrated from zero on.
+    pub velocity: Maybe<f64>,
+    /// Second rate of the coordinate for the amplitude 1; integrated twice, from rest.
+    pub acceleration: Maybe<f64>,
+    /// Name of an amplitude. Default: constant (velocity, acceleration).
+    pub amplitude: Maybe<String>,
+}
+
+/// A force or moment between the ends of a joint.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Effort {
+    /// Force along the axis, or moment about it, on `to`.
+    #[schemars(required)]
+    pub value: Maybe<f64>,
+    /// Name of an amplitude that multiplies it. Default: constant in a dynamic analysis, growing linearly to the end time in a static
+    /// one.
+    pub amplitude: Maybe<String>,
 }
 
 impl Kinds for Joint {

@@ -33,6 +33,8 @@ pub struct Output {
     pub layers: Maybe<bool>,
     /// Write parts.csv: the elastic energy of each beam, bar and shell. Default: false.
     pub parts: Maybe<bool>,
+    /// Write joints.csv: coordinate, rate, effort and reactions of joints. Default: false.
+    pub joints: Maybe<bool>,
 }
 
 /// Field files.

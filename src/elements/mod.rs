@@ -6,6 +6,7 @@ pub mod beam;
 mod block;
 pub mod bushing;
 pub mod contact;
+pub mod coordinate_law;
 pub mod link;
 pub mod pressure;
 pub mod relative_rotation;

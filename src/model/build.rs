@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::along_joints::Joints;
 use super::amplitude_ends::check_amplitude_ends;
 use super::amplitudes::amplitudes;
 use super::analysis::{Procedure, analysis, check_explicit};
@@ -212,13 +213,13 @@ fn model<'d>(
     report: &mut Report<'d>,
 ) -> Model {
     let Procedure { analysis, scheme, iteration } = analysis(deck, stage, report);
-    let amplitudes = amplitudes(deck, stage, records, report);
+    let mut amplitudes = amplitudes(deck, stage, records, report);
     let Ground { mut scene, mut nodes, groups, rigid } = ground(deck, (stage, analysis), input, report);
 
     // These tables connect nodes.
     let masses = masses(&scene, &mut nodes, report);
-    let links = links(&scene, &mut nodes, report);
-    let mut joints = joints(&scene, &mut nodes, report);
+    let mut links = links(&scene, &mut nodes, report);
+    let Joints { list: mut joints, efforts } = joints(&scene, &mut links, &mut amplitudes, &mut nodes, report);
     joints.extend(attachments(&scene, &mut nodes, report));
     connect_touching_points(&scene, &mut nodes);
     let mut topology = Topology::new(nodes, report);
@@ -228,7 +229,7 @@ fn model<'d>(
     let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
     set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.course.bulges));
     let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
-    let loads = loads(&scene, &topology, &mut actors, report);
+    let loads = loads(&scene, efforts, &topology, &mut actors, report);
     let damping = damping(&scene, &topology, report);
     initial(&scene, &amplitudes, &mut topology, report);
 
@@ -238,8 +239,8 @@ fn model<'d>(
     let expects = expects(&scene, &topology, arc_length.is_some(), report);
     let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
     let study = study(&scene, &scheme, &topology.list, report);
-    let mesh = check(&scene, &scheme, groups, &topology, &joints, report);
-    let linked = links.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
+    let mesh = check(&scene, &scheme, groups, &topology, (&joints, &amplitudes), report);
+    let linked = links.0.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();
@@ -261,7 +262,7 @@ fn model<'d>(
         output,
         study,
     };
-    model.parts.extend(links.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
+    model.parts.extend(links.0.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
     finish(&mut model, all_nodes, deck.integrator.is_none());
     model
 }
@@ -331,7 +332,7 @@ fn check(
     scheme: &Arc<dyn Scheme>,
     groups: Groups,
     topology: &Topology,
-    joints: &[Joint],
+    (joints, amplitudes): (&[Joint], &[Amplitude]),
     report: &mut Report,
 ) -> Option<MeshFile> {
     let (deck, kind, parts) = (scene.deck, scene.analysis.kind, &scene.parts);
@@ -339,7 +340,7 @@ fn check(
     // A part left out by an error may have been the only one to use it.
     if deck.spoiled.is_empty() && !report.has_errors() {
         check_use(scene.stage.map_or(deck, |stage| stage.course.whole), topology, report);
-        check_joints(deck, joints, topology, report);
+        check_joints(deck, joints, amplitudes, topology, report);
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);

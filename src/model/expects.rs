@@ -236,7 +236,14 @@ impl<'d> Expects<'_, 'd> {
                 let columns = [&quantities::MOTION.concat()[..], &QUATERNION].concat();
                 Some((ExpectAt::Node(self.scene.names.body_node(body)), columns))
             }
-            Some(Place::Joint(joint)) => Some((ExpectAt::Joint(joint), quantities::JOINT.to_vec())),
+            Some(Place::Joint(joint)) => {
+                let mut columns = quantities::JOINT.to_vec();
+                let kind = self.scene.deck.joints.get(joint).and_then(|joint| joint.kind.as_ref());
+                if kind.is_some_and(|kind| !kind.make.coordinates.is_empty()) {
+                    columns.extend(quantities::JOINT_COORDINATE);
+                }
+                Some((ExpectAt::Joint(joint), columns))
+            }
             Some(Place::Part(part)) if part.kind.is_surface() => self.expect_stress(part, name),
             Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
             Some(Place::Part(part)) => Some((ExpectAt::Part(part), quantities_of(part.kind))),

@@ -1,20 +1,30 @@
 //! `[[joints]]`: constraint equations between two nodes, held by multipliers.
 
-use super::data::{Joint, Node};
+use super::along_joints::{Along, Joints, PlacedJoint};
+use super::data::{History, Joint, Node, PrescribedMotion};
 use super::ends::EndTable;
+use super::links::Links;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
+use crate::amplitude::Amplitude;
 use crate::constraints::joint::{ConstraintEquation, rotations, translations};
 use crate::constraints::joints::JointKind;
 use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
+use crate::state;
 
-/// `[[joints]]`, in deck order.
-pub(super) fn joints<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Joint> {
-    let mut joints = Vec::new();
+/// Reads `[[joints]]`; what acts along their coordinates comes after the `links` of the deck, and motions without an amplitude add one.
+pub(super) fn joints<'d>(
+    scene: &Scene<'d>,
+    links: &mut Links,
+    amplitudes: &mut Vec<Amplitude>,
+    nodes: &mut Nodes,
+    report: &mut Report<'d>,
+) -> Joints {
+    let mut joints = Joints::default();
     for (index, joint) in scene.deck.joints.iter().enumerate() {
         let name = joint.name.as_ref().map_or_else(|| format!("joints.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("joint `{name}`"), &joint.span);
@@ -31,13 +41,18 @@ pub(super) fn joints<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repo
             let what = format!("a joint of kind \"{}\"", kind.word);
             report.read(&owner, &what, &joint.values, kind, kind.make.axes)
         });
+        let acts = kind.map(|kind| Along { owner: &owner, joint, scene, amplitudes, report }.read(kind));
         let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
         let ends = [ends.0, ends.1];
         // What comes later finds its ends where they then are.
         let later = scene.stage.is_some_and(|stage| stage.comes_later(&joint.stages));
-        if let Some(equations) = joint_equations(&owner, kind, (ends, later), &axes, nodes, report) {
-            joints.push(Joint::new(name, ends, equations, false));
+        let placed = PlacedJoint { ends, later, axes, values: &joint.values };
+        let Some(equations) = joint_equations(&owner, kind, &placed, nodes, report) else { continue };
+        let mut made = Joint::new(name, ends, equations, false);
+        if let Some(acts) = acts.flatten() {
+            acts.set_up(&placed, &mut made, (nodes, links), &mut joints.efforts);
         }
+        joints.list.push(made);
     }
     joints
 }
@@ -46,8 +61,7 @@ pub(super) fn joints<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repo
 fn joint_equations<'d>(
     owner: &Owner<'d>,
     kind: &JointKind,
-    (ends, later): ([usize; 2], bool),
-    axes: &Mat3,
+    &PlacedJoint { ends, later, axes, values }: &PlacedJoint,
     nodes: &Nodes,
     report: &mut Report<'d>,
 ) -> Option<Vec<ConstraintEquation>> {
@@ -65,7 +79,7 @@ fn joint_equations<'d>(
         let hint = "they are joined as they are; a body's `point` in `to` may be left out";
         report.push(Diagnostic::note(message).at(owner.span).hint(hint));
     }
-    Some((kind.make.equations)(axes, &d))
+    Some((kind.make.equations)(&axes, &d, values))
 }
 
 /// How far the ends of a joint that meet are apart: `true` where as far as coordinates of six digits are, `false` where no
@@ -90,7 +104,13 @@ fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &
 }
 
 /// Reports joints of the deck between things that cannot move against each other. The deck is sound otherwise.
-pub(super) fn check_joints(deck: &Deck, joints: &[Joint], nodes: &Nodes, report: &mut Report) {
+pub(super) fn check_joints(
+    deck: &Deck,
+    joints: &[Joint],
+    amplitudes: &[Amplitude],
+    nodes: &Nodes,
+    report: &mut Report,
+) {
     let is_fixed =
         |node: usize| (0..6).all(|dof| nodes.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none()));
     for joint in &deck.joints {
@@ -104,8 +124,39 @@ pub(super) fn check_joints(deck: &Deck, joints: &[Joint], nodes: &Nodes, report:
             report.error::<()>(&joint.span, message);
         } else if ends.iter().all(|&end| is_fixed(end)) {
             report.error::<()>(&joint.span, format!("both ends of joint `{name}` are fixed, so it holds nothing"));
+        } else if let Some((given, driven)) = initial_rates(made, ends.map(is_fixed), amplitudes, nodes)
+            && let Some(motion) = &joint.motion
+        {
+            let (given, driven) = (short(given), short(driven));
+            let message =
+                format!("the motion of joint `{name}` begins at the rate {driven}, but its ends have {given}");
+            report.error_with::<()>(&motion.span, message, "the velocities of what it joins contradict it");
         }
     }
+}
+
+/// The rate of a driven coordinate by the velocities that the deck gives both of its ends, and by its motion, where they differ. An
+/// end at rest may be taken along, unless it is fixed.
+fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], nodes: &Nodes) -> Option<(f64, f64)> {
+    /// Velocities are written with six digits.
+    const DIGITS: f64 = 1e-5;
+    let coordinate = joint.coordinate.as_ref()?;
+    let PrescribedMotion { amplitude, scale, history } = nodes.restraint(coordinate.drive?, 0)?.motion.clone()?;
+    let amplitude = &amplitudes[amplitude];
+    let driven = scale
+        * match history {
+            History::Displacement => amplitude.rate(0.0),
+            History::Velocity => amplitude.value(0.0),
+            History::Acceleration => 0.0,
+        };
+    let [from, to] = joint.ends.map(|end| {
+        let node = &nodes.list[end];
+        state::Node { v: node.v, omega: node.omega, ..state::Node::at_rest(node.x) }
+    });
+    let moves = |node: &state::Node| node.v.amax() > 0.0 || node.omega.amax() > 0.0;
+    let [_, given, _] = coordinate.lock.gap(&from, &to);
+    let known = (moves(&from) || fixed[0]) && (moves(&to) || fixed[1]);
+    (known && (given - driven).abs() > DIGITS * given.abs().max(driven.abs())).then_some((given, driven))
 }
 
 /// Rows between nodes at one place, about global axes at t = 0.

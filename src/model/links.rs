@@ -7,13 +7,31 @@ use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
+use crate::constraints::joint::ConstraintEquation;
 use crate::deck::links as words;
 use crate::deck::words::{Maybe, Numbers};
+use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::LinkLaw;
 use crate::math::Mat3;
 
+/// The links of a model: those of the deck, then those along coordinates of joints.
+pub(super) struct Links(pub Vec<Link>);
+
+impl Links {
+    /// Adds what acts along the coordinate of a joint; returns its index.
+    pub fn add_along(
+        &mut self,
+        joint: &str,
+        ends: [usize; 2],
+        (lock, law): (ConstraintEquation, CoordinateLaw),
+    ) -> usize {
+        self.0.push(Link { name: joint.to_owned(), ends, kind: LinkKind::Joint { lock, law } });
+        self.0.len() - 1
+    }
+}
+
 /// Reads `[[links]]`, and adds the nodes at their ends.
-pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Link> {
+pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Links {
     let mut links = Vec::new();
     for (index, link) in scene.deck.links.iter().enumerate() {
         let name = link.name.as_ref().map_or_else(|| format!("links.{index}"), |name| name.value.clone());
@@ -36,7 +54,7 @@ pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repor
             links.push(Link { name, ends, kind });
         }
     }
-    links
+    Links(links)
 }
 
 fn line<'d>(

@@ -20,9 +20,11 @@ pub(super) struct Loads {
     pub pressures: Vec<Pressure>,
 }
 
-/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Those with names are added to `actors`.
+/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Those with names are added to `actors`. The
+/// `efforts` of joints come after them.
 pub(super) fn loads<'d>(
     scene: &Scene<'d>,
+    efforts: Vec<Load>,
     topology: &Topology,
     actors: &mut NamedActors<'d>,
     report: &mut Report<'d>,
@@ -44,6 +46,7 @@ pub(super) fn loads<'d>(
             actors.push((name, Actors { nodal, pressures, motions: Vec::new(), are_new }));
         }
     }
+    loads.nodal.extend(efforts);
     loads
 }
 

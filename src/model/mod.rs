@@ -1,6 +1,7 @@
 //! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
 //! Built once from the deck, never changed; everything downstream borrows it.
 
+mod along_joints;
 mod amplitude_ends;
 mod amplitudes;
 mod analysis;

@@ -38,6 +38,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             sections: false,
             layers: false,
             parts: false,
+            joints: false,
             fields: None,
         };
         return Selection { output, all_nodes: false };
@@ -71,6 +72,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         sections: flag(&table.sections, false),
         layers: flag(&table.layers, false),
         parts: flag(&table.parts, false),
+        joints: flag(&table.joints, false),
         fields,
     };
     Selection { output, all_nodes: word == Some("all") }

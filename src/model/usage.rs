@@ -27,8 +27,11 @@ pub(super) fn amplitudes_over_time(deck: &Deck) -> HashSet<&str> {
         let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
         all.into_iter().flatten().map(|motion| &motion.amplitude)
     });
+    let drives = deck.joints.iter().filter_map(|joint| joint.motion.as_ref()).map(|motion| &motion.amplitude);
+    let motors = deck.joints.iter().filter_map(|joint| joint.effort.as_ref()).map(|effort| &effort.amplitude);
     let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
     let gravity = deck.environment.iter().map(|environment| &environment.gravity_amplitude);
-    let named = loads.chain(motions).chain(gravity).chain(ground.map(|base| &base.amplitude));
+    let named =
+        loads.chain(motions).chain(drives).chain(motors).chain(gravity).chain(ground.map(|base| &base.amplitude));
     named.flatten().map(|name| name.as_str()).collect()
 }

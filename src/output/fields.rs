@@ -123,9 +123,9 @@ fn face(corners: usize) -> Cell {
     }
 }
 
-/// Whether a part is drawn. Contacts are not, for what carries them is.
+/// Whether a part is drawn. Contacts and what acts along joints are not, for what carries them is.
 fn is_drawn(part: &Part) -> bool {
-    part.kind().is_drawn()
+    part.kind().is_drawn() && part.is_listed()
 }
 
 /// Bytes of one grid, about: base64 has four letters for three bytes.

@@ -124,7 +124,8 @@ fn reach_of(row: &ConstraintEquation) -> [[bool; 6]; 2] {
     match row {
         ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
         ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
-        ConstraintEquation::Perpendicular { .. } => [turns; 2],
+        ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) => [turns; 2],
+        ConstraintEquation::Screw { .. } => [[true; 6]; 2],
         ConstraintEquation::Distance { .. } => [moves; 2],
     }
 }

@@ -52,10 +52,15 @@ pub fn commit(
     }
     if let Some(damping_power) = account.damping_power.filter(|_| cx.wants_forces) {
         let before = state.work;
-        update_reactions_and_work(cx, ws, state, (scheme, dt), damping_power, reaction_changes);
+        let driven = update_reactions_and_work(cx, ws, state, (scheme, dt), damping_power, reaction_changes);
         if let Some(work) = account.work {
             (state.work.external, state.work.damping) = (before.external, before.damping);
             work.add_to(&mut state.work);
+            if !cx.drives.is_empty() {
+                // In a stage a drive carries what the error of the accelerations there takes; at the end of a step they have been
+                // projected, and the trapezoidal rule is of second order.
+                state.work.external += driven;
+            }
         }
     }
     if cx.system.history > 0 {
@@ -91,7 +96,7 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
 }
 
 /// Updates reactions and work. Reactions and damping power are taken where equilibrium is written and extrapolated
-/// linearly to the end of the step, where stiff parts are not in equilibrium.
+/// linearly to the end of the step, where stiff parts are not in equilibrium. Returns the work on prescribed motion.
 fn update_reactions_and_work(
     cx: &Context,
     ws: &Workspace,
@@ -99,14 +104,17 @@ fn update_reactions_and_work(
     (scheme, dt): (&Coefficients, f64),
     damping_power: f64,
     reaction_changes: &[f64],
-) {
+) -> f64 {
+    let mut driven = 0.0;
     let extrapolate = |old: f64, at_instant: f64| old + (at_instant - old) / scheme.instant;
     for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
         let old = state.reactions[i];
         let at_instant = -ws.forces.on_nodes[restraint.node][restraint.dof];
         let new = extrapolate(old, at_instant) + reaction_changes.get(i).unwrap_or(&0.0);
         let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
-        state.work.external += 0.5 * (old + new) * moved;
+        let work = 0.5 * (old + new) * moved;
+        state.work.external += work;
+        driven += work;
         state.reactions[i] = new;
     }
     state.work.external += cx.system.external_work((&state.nodes, &ws.loads.start), (&ws.trial, &ws.loads.end));
@@ -114,4 +122,5 @@ fn update_reactions_and_work(
     let new = extrapolate(old, damping_power);
     state.work.damping += 0.5 * dt * (old + new);
     state.work.damping_power = new;
+    driven
 }

@@ -20,6 +20,8 @@ pub struct Context<'a> {
     pub independent_nodes: Vec<usize>,
     /// Prescribed degrees of freedom, by index in the model's list, whose motion joints transmit to other nodes.
     pub driving: Vec<usize>,
+    /// Nodes whose displacement is the prescribed coordinate of a joint: no place in space.
+    pub drives: Vec<usize>,
     /// Coefficients of [`crate::integrators::Scheme::algorithmic_acceleration`]; `None` in statics too.
     pub algorithmic_acceleration: Option<[f64; 3]>,
     /// The largest distance of a node from the first, the length to which corrections are compared where hardly
@@ -50,6 +52,7 @@ impl<'a> Context<'a> {
             excitation: Excitation::new(model),
             independent_nodes: independent_nodes(model, plan, system),
             driving: driving(model, system),
+            drives: model.constraints.drives().collect(),
             algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },
             length: extent(model),
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
@@ -89,6 +92,7 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
 fn driving(model: &Model, system: &System) -> Vec<usize> {
     let mut leads = vec![false; model.nodes.len()];
     system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
+    system.joints.iter().filter_map(|joint| joint.drive).for_each(|drive| leads[drive.node] = true);
     // The order is reversed, for dependent nodes come after their masters.
     for dependent in system.rigid_links.iter().rev() {
         leads[dependent.master] |= leads[dependent.node];

@@ -44,6 +44,12 @@ impl Wanted {
         self.0 & what.0 == what.0
     }
 
+    /// The set with `what` too.
+    #[must_use]
+    pub const fn with(self, what: Wanted) -> Wanted {
+        Wanted(self.0 | what.0)
+    }
+
     /// The set without `what`.
     #[must_use]
     pub const fn without(self, what: Wanted) -> Wanted {

@@ -99,7 +99,8 @@ pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
 /// Writes the largest coordinate of a node, by which rounding is measured.
 pub fn measure_reach(cx: &Context, ws: &mut Workspace, state: &State) {
     let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
-    ws.reach = cx.independent_nodes.iter().fold(cx.length, farthest);
+    let placed = cx.independent_nodes.iter().filter(|node| !cx.drives.contains(node));
+    ws.reach = placed.fold(cx.length, farthest);
 }
 
 /// Writes the rates of the increments by the scheme.

@@ -16,10 +16,10 @@ pub struct Power {
 }
 
 impl Power {
-    /// The power at the start of a step.
-    pub fn at_start(cx: &Context, ws: &mut Workspace, state: &State) -> Power {
+    /// The power at the start of a step; with `driven`, that on prescribed motion is included.
+    pub fn at_start(cx: &Context, ws: &mut Workspace, state: &State, driven: bool) -> Power {
         cx.system.external(&state.nodes, &ws.loads.start, &mut ws.forces);
-        let driving = driving_power(&state.reactions, &ws.prescribed.start);
+        let driving = if driven { driving_power(&state.reactions, &ws.prescribed.start) } else { 0.0 };
         let external = external_power(&ws.forces, &state.nodes) + driving;
         Power { external, damping: damping_power(cx, &state.configuration()) }
     }

@@ -20,13 +20,17 @@ use crate::state::Node;
 /// Size of a joint's matrix: the degrees of freedom of its two nodes, then its multipliers as those of a third node.
 pub(super) const WIDTH: usize = 6 + 6 + MOST_EQUATIONS;
 
-/// Force and moment that a joint exerts on its first node, global components.
+/// Force and moment that the constraint equations of a joint exert on its first node, global components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointState {
     /// Force.
     pub f: Vec3,
     /// Moment.
     pub m: Vec3,
+    /// Force and moment on the second node.
+    pub on_second: [Vec3; 2],
+    /// What the drive of the coordinate exerts along it on the second node; zero without a drive.
+    pub drive: f64,
 }
 
 impl System {
@@ -50,7 +54,7 @@ impl System {
         for (joint, first) in self.numbered() {
             let [a, b] = joint.nodes.map(|n| &nodes[n]);
             for (k, row) in joint.equations.iter().enumerate() {
-                multipliers.gaps[first + k] = row.gap(a, b)[0];
+                multipliers.gaps[first + k] = joint.gap(k, nodes)[0];
                 let lambda = multipliers.values[first + k];
                 if lambda == 0.0 {
                     continue;
@@ -60,6 +64,10 @@ impl System {
                     scale.include(&pull.data.0);
                     F[node].iter_mut().zip(&pull).for_each(|(f, pull)| *f -= pull);
                 }
+            }
+            if let Some(drive) = &joint.drive {
+                // The equation holds the coordinate less the displacement of the drive, which has the gradient −1.
+                F[drive.node][0] += multipliers.values[first + joint.equations.len() - 1];
             }
         }
     }
@@ -89,9 +97,8 @@ impl System {
     /// Writes the gaps of the joints (`derivative` 0) or their first or second derivative in time.
     pub fn gaps(&self, nodes: &[Node], derivative: usize, gaps: &mut [f64]) {
         for (joint, first) in self.numbered() {
-            let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            for (k, row) in joint.equations.iter().enumerate() {
-                gaps[first + k] = row.gap(a, b)[derivative];
+            for k in 0..joint.equations.len() {
+                gaps[first + k] = joint.gap(k, nodes)[derivative];
             }
         }
     }
@@ -130,13 +137,16 @@ impl System {
         out.clear();
         out.extend(self.numbered().map(|(joint, first)| {
             let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            let (mut f, mut m) = (Vec3::zeros(), Vec3::zeros());
+            let [mut f, mut m, mut second_f, mut second_m] = [Vec3::zeros(); 4];
             for (row, lambda) in joint.equations.iter().zip(&values[first..]) {
-                let [G, _] = row.gradient(a, b);
+                let [G, second] = row.gradient(a, b);
                 f -= *lambda * linear(&G);
                 m -= *lambda * angular(&G);
+                second_f -= *lambda * linear(&second);
+                second_m -= *lambda * angular(&second);
             }
-            JointState { f, m }
+            let drive = joint.drive.map_or(0.0, |_| -values[first + joint.equations.len() - 1]);
+            JointState { f, m, on_second: [second_f, second_m], drive }
         }));
     }
 }
@@ -181,6 +191,18 @@ impl Diagonal {
         }
         [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
+
+    /// The sum of the moments, without signs, that the equations of a joint exert on independent nodes.
+    fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> f64 {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let of = |(row, lambda): (&ConstraintEquation, &f64)| {
+            let G = row.gradient(a, b);
+            let on =
+                |(end, node, k, _): &(usize, usize, usize, _)| angular(&projections[*node][*k].tr_mul(&G[*end])).amax();
+            lambda.abs() * self.0.iter().map(on).fold(0.0, f64::max)
+        };
+        joint.equations.iter().zip(values).map(of).sum()
+    }
 }
 
 /// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
@@ -205,6 +227,10 @@ fn set_penalties(
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.equations.iter().enumerate() {
             let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
+            let s = match joint.is_driven(k) {
+                true => drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])),
+                false => s,
+            };
             multipliers.penalties[first + k] = s;
             let largest = &mut largest[usize::from(row.is_rotational())];
             *largest = largest.max(s).max(heaviest);
@@ -226,6 +252,12 @@ fn set_penalties(
 /// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
 /// cancel it to zero, and no simple ratio of masses makes this factor 1.
 const INDEFINITE: f64 = 2.618_033_988_749_895;
+
+/// The penalty factor of a drive from that of any equation: it holds even where what it carries has no stiffness of its own, or a
+/// negative one, as a weight that is turned upright. `moment` is of the size of the stiffness that the forces of the joint have.
+fn drive_penalty(s: f64, row: &ConstraintEquation, moment: f64) -> f64 {
+    INDEFINITE * if row.is_rotational() { s.max(moment) } else { s }
+}
 
 /// Adds the derivative of the force of a constraint equation to the matrix of its joint.
 fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, K: &mut [f64]) {

@@ -5,7 +5,7 @@ use super::parts::assembled;
 use super::plane::{MotionPlane, SMALL};
 use crate::constraints::rigid_link::RigidLink;
 use crate::math::{Vec3, skew};
-use crate::model::{Joint, Loading, Model, Node};
+use crate::model::{Joint, Loading, Model, Node, Restraint};
 
 /// The global axis normal to the plane of a scene in which nothing can move out of it, unless the deck keeps
 /// out-of-plane motion.
@@ -39,11 +39,17 @@ fn holds_loading(plane: &MotionPlane, loading: &Loading) -> bool {
 /// True where no prescribed motion and no joint leads out of the plane.
 fn holds_constraints(plane: &MotionPlane, model: &Model) -> bool {
     let in_plane = |dof: usize| if dof < 3 { dof != plane.normal } else { dof - 3 == plane.normal };
+    let drive = |joint: &Joint| joint.coordinate.as_ref().and_then(|coordinate| coordinate.drive);
     let joint_holds = |joint: &Joint| {
         let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
         joint.equations.iter().all(|row| row.in_plane(plane.normal, &d).is_some())
+            && (drive(joint).is_none()
+                || joint.equations.last().is_some_and(|row| row.in_plane(plane.normal, &d) == Some(true)))
     };
     let constraints = &model.constraints;
-    constraints.restraints.iter().all(|restraint| restraint.motion.is_none() || in_plane(restraint.dof))
+    // The displacement of a drive is a number rather than a way in space.
+    let drives: Vec<usize> = constraints.drives().collect();
+    let moves = |restraint: &Restraint| restraint.motion.is_some() && !drives.contains(&restraint.node);
+    constraints.restraints.iter().all(|restraint| !moves(restraint) || in_plane(restraint.dof))
         && constraints.joints.iter().all(joint_holds)
 }

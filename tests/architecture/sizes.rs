@@ -19,6 +19,7 @@ const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 16),
     ("deck/analysis.rs: Analysis", 16),
     ("deck/beams.rs: Beam", 17),
+    ("deck/joints.rs: Joint", 16),
     ("deck/mod.rs: Deck", 30),
     ("solve/workspace.rs: Workspace", 16),
 ];

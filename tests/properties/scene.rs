@@ -83,6 +83,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             sections: false,
             layers: false,
             parts: false,
+            joints: false,
             fields: None,
         },
         study: None,
@@ -340,6 +341,7 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
             LinkKind::Line { direction: Some(d), .. } => *d = R * *d,
             LinkKind::Line { .. } => {}
             LinkKind::Bushing { axes, .. } => *axes = R * *axes,
+            LinkKind::Joint { .. } => unreachable!("the scene has no coordinates of joints"),
         }
     }
     for load in &mut t.loading.nodal {

@@ -231,6 +231,7 @@ fn damp(m: &mut Model) {
         match &mut link.kind {
             rdsolve::model::LinkKind::Line { damping, .. } => *damping = 0.7,
             rdsolve::model::LinkKind::Bushing { damping, .. } => *damping = [0.5, 0.3, 0.4, 0.2, 0.3, 0.1],
+            rdsolve::model::LinkKind::Joint { law, .. } => law.damping = 0.6,
         }
     }
 }

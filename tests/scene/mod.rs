@@ -131,6 +131,7 @@ pub fn model() -> Model {
             sections: true,
             layers: true,
             parts: false,
+            joints: false,
             fields: None,
         },
         study: None,

@@ -13,6 +13,7 @@ pub static KIND: JointKind = JointKind {
     make: MakeJoint {
         axes: no_axis,
         ends_meet: false,
-        equations: |_, d| vec![ConstraintEquation::Distance { length: d.norm() }],
+        equations: |_, d, _| vec![ConstraintEquation::Distance { length: d.norm() }],
+        coordinates: &[],
     },
 };

@@ -10,5 +10,10 @@ pub static KIND: JointKind = JointKind {
     guesses: &["welded", "clamp", "rigid", "lock"],
     about: "Nothing is free: the ends are welded together. 6 constraint equations.",
     keys: &[],
-    make: MakeJoint { axes: no_axis, ends_meet: true, equations: |axes, d| meeting(d, rotations([true; 3], axes)) },
+    make: MakeJoint {
+        axes: no_axis,
+        ends_meet: true,
+        equations: |axes, d, _| meeting(d, rotations([true; 3], axes)),
+        coordinates: &[],
+    },
 };

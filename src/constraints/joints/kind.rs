@@ -1,8 +1,11 @@
 //! The description of a kind of joint, and what several kinds share.
 
+use crate::constraints::angle::Angle;
 use crate::constraints::joint::{ConstraintEquation, translations};
 use crate::math::{Mat3, Vec3};
-use crate::words::kinds::{Form, Given, Key, Kind};
+use crate::words::kinds::{Form, Given, Key, Kind, Values};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// A kind of joint that the deck can name.
 pub type JointKind = Kind<MakeJoint>;
@@ -14,8 +17,40 @@ pub struct MakeJoint {
     pub axes: fn(&mut Given) -> Option<Mat3>,
     /// The two ends lie at the same place at t = 0; otherwise they must not.
     pub ends_meet: bool,
-    /// The constraint equations, from the axes and from x_a − x_b at t = 0.
-    pub equations: fn(&Mat3, &Vec3) -> Vec<ConstraintEquation>,
+    /// The constraint equations, from the axes, from x_a − x_b at t = 0, and from the values of the kind's own keys.
+    pub equations: fn(&Mat3, &Vec3, &Values) -> Vec<ConstraintEquation>,
+    /// The coordinates that the joint may have; the first is its own unless the deck says otherwise. None where it leaves free
+    /// what is no motion about or along its axis.
+    pub coordinates: &'static [Coordinate],
+}
+
+/// The coordinate of a joint: by how much its second end has moved from its first since t = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coordinate {
+    /// The angle about the axis, in radians, turns counted.
+    Angle,
+    /// The distance along the axis.
+    Distance,
+}
+
+impl Coordinate {
+    /// The equation that would lock the coordinate, whose violation it is. The first of the axes is the joint's; `d` is x_a − x_b at
+    /// t = 0.
+    pub fn lock(self, axes: &Mat3, d: &Vec3) -> ConstraintEquation {
+        match self {
+            Coordinate::Angle => ConstraintEquation::Angle(Angle::about_first(axes)),
+            Coordinate::Distance => ConstraintEquation::distance_along(&axes.column(0).into_owned(), d),
+        }
+    }
+
+    /// Its word in the deck.
+    pub fn word(self) -> &'static str {
+        match self {
+            Coordinate::Angle => "angle",
+            Coordinate::Distance => "distance",
+        }
+    }
 }
 
 /// The key of joints with one axis.

@@ -7,6 +7,7 @@ pub mod fixed;
 pub mod kind;
 pub mod prismatic;
 pub mod revolute;
+pub mod screw;
 pub mod spherical;
 pub mod universal;
 
@@ -18,6 +19,7 @@ pub static JOINTS: &[&JointKind] = &[
     &revolute::KIND,
     &prismatic::KIND,
     &cylindrical::KIND,
+    &screw::KIND,
     &universal::KIND,
     &fixed::KIND,
     &distance::KIND,

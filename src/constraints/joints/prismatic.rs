@@ -1,6 +1,6 @@
 //! The prismatic joint leaves the displacement along its axis free.
 
-use super::kind::{AXIS, JointKind, MakeJoint, one_axis, sliding};
+use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, one_axis, sliding};
 use crate::constraints::joint::rotations;
 
 /// The joint's word, keys and equations.
@@ -13,6 +13,7 @@ pub static KIND: JointKind = JointKind {
     make: MakeJoint {
         axes: one_axis,
         ends_meet: true,
-        equations: |axes, d| sliding(axes, d, rotations([true; 3], axes)),
+        equations: |axes, d, _| sliding(axes, d, rotations([true; 3], axes)),
+        coordinates: &[Coordinate::Distance],
     },
 };

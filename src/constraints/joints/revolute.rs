@@ -1,6 +1,6 @@
 //! The revolute joint leaves the rotation about its axis free.
 
-use super::kind::{AXIS, JointKind, MakeJoint, meeting, one_axis};
+use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, meeting, one_axis};
 use crate::constraints::joint::rotations;
 
 /// The joint's word, keys and equations.
@@ -13,6 +13,7 @@ pub static KIND: JointKind = JointKind {
     make: MakeJoint {
         axes: one_axis,
         ends_meet: true,
-        equations: |axes, d| meeting(d, rotations([false, true, true], axes)),
+        equations: |axes, d, _| meeting(d, rotations([false, true, true], axes)),
+        coordinates: &[Coordinate::Angle],
     },
 };

@@ -23,7 +23,12 @@ pub static KIND: JointKind = JointKind {
             about: "The arm of the cross that `to` carries, global at t = 0, perpendicular to `axis`. Any length.",
         },
     ],
-    make: MakeJoint { axes, ends_meet: true, equations: |axes, d| meeting(d, rotations([false, false, true], axes)) },
+    make: MakeJoint {
+        axes,
+        ends_meet: true,
+        equations: |axes, d, _| meeting(d, rotations([false, false, true], axes)),
+        coordinates: &[],
+    },
 };
 
 /// The arms of a cross count as perpendicular below this cosine of their angle.

@@ -2,6 +2,7 @@
 
 use crate::constraints::joint::ConstraintEquation;
 use crate::deck::supports::History;
+use crate::math::Vec3;
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]
@@ -12,6 +13,13 @@ pub struct Constraints {
     pub joints: Vec<Joint>,
     /// The restraints, at most one for each degree of freedom, sorted by node and degree of freedom.
     pub restraints: Vec<Restraint>,
+}
+
+impl Constraints {
+    /// The nodes whose displacement is the prescribed coordinate of a joint.
+    pub fn drives(&self) -> impl Iterator<Item = usize> {
+        self.joints.iter().filter_map(|joint| joint.coordinate.as_ref()?.drive)
+    }
 }
 
 /// A node rigidly attached to another in some of its degrees of freedom (45)-(48).
@@ -40,12 +48,39 @@ pub struct Joint {
     pub of_deck: Vec<ConstraintEquation>,
     /// True where it holds a dependent node to its support; the support's reactions are then the joint's forces.
     pub supports: bool,
+    /// Its coordinate; `None` where it has none, or it holds a support or an attachment.
+    pub coordinate: Option<JointCoordinate>,
+}
+
+/// The coordinate of a joint, and what acts along it.
+#[derive(Debug, Clone)]
+pub struct JointCoordinate {
+    /// The equation that would lock it; its violation is the coordinate.
+    pub lock: ConstraintEquation,
+    /// The axis, a unit vector, global at t = 0.
+    pub axis: Vec3,
+    /// The node whose displacement along x is the coordinate that is prescribed; the last equation of the joint is then
+    /// [`JointCoordinate::lock`].
+    pub drive: Option<usize>,
+    /// The force or moment between the ends.
+    pub effort: Option<JointEffort>,
+    /// Index, among all links, of the one that acts along the coordinate and counts its turns.
+    pub spring: Option<usize>,
+}
+
+/// A force or moment between the ends of a joint; it acts as two loads.
+#[derive(Debug, Clone, Copy)]
+pub struct JointEffort {
+    /// Force along the axis, or moment about it, on the second end.
+    pub value: f64,
+    /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
+    pub amplitude: Option<usize>,
 }
 
 impl Joint {
     /// A joint as the deck has it.
     pub fn new(name: String, ends: [usize; 2], equations: Vec<ConstraintEquation>, supports: bool) -> Joint {
-        Joint { name, ends, of_deck: equations.clone(), equations, supports }
+        Joint { name, ends, of_deck: equations.clone(), equations, supports, coordinate: None }
     }
 }
 

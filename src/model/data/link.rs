@@ -1,6 +1,8 @@
 //! Springs, dampers, gaps and bushings between two nodes.
 
 use super::part_answers::{Drawing, LinearSpring, PartAnswers};
+use crate::constraints::joint::ConstraintEquation;
+use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::LinkLaw;
 use crate::math::{Mat3, Vec3};
 use crate::quantities::{Column, LINK};
@@ -40,6 +42,20 @@ pub enum LinkKind {
         /// The axes (columns, global at t = 0).
         axes: Mat3,
     },
+    /// Along the coordinate of a joint, after which the link is named.
+    Joint {
+        /// The equation whose violation is the coordinate.
+        lock: ConstraintEquation,
+        /// What acts along it.
+        law: CoordinateLaw,
+    },
+}
+
+impl Link {
+    /// True where the link is part of a joint and not one of the deck.
+    pub fn is_of_joint(&self) -> bool {
+        matches!(self.kind, LinkKind::Joint { .. })
+    }
 }
 
 impl PartAnswers for Link {
@@ -47,6 +63,10 @@ impl PartAnswers for Link {
 
     fn name(&self) -> &str {
         &self.name
+    }
+
+    fn is_listed(&self) -> bool {
+        !self.is_of_joint()
     }
 
     fn elements(&self) -> usize {
@@ -62,7 +82,11 @@ impl PartAnswers for Link {
     }
 
     fn may_stiffen(&self) -> bool {
-        matches!(&self.kind, LinkKind::Line { law, .. } if !matches!(law, LinkLaw::Linear { .. }))
+        match &self.kind {
+            LinkKind::Line { law, .. } => !matches!(law, LinkLaw::Linear { .. }),
+            LinkKind::Bushing { .. } => false,
+            LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some(),
+        }
     }
 
     fn may_release(&self) -> bool {
@@ -75,11 +99,11 @@ impl PartAnswers for Link {
             LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, damping, .. } => {
                 Some(LinearSpring { ends: self.ends, stiffness, damping })
             }
-            LinkKind::Line { .. } | LinkKind::Bushing { .. } => None,
+            LinkKind::Line { .. } | LinkKind::Bushing { .. } | LinkKind::Joint { .. } => None,
         }
     }
 
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {
-        Some(Drawing::Curve { nodes: self.nodes(element), axes: Mat3::identity() })
+        (!self.is_of_joint()).then(|| Drawing::Curve { nodes: self.nodes(element), axes: Mat3::identity() })
     }
 }

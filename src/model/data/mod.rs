@@ -30,7 +30,7 @@ pub use crate::deck::supports::History;
 pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
-pub use constraints::{Constraints, DependentNode, Joint, PrescribedMotion, Restraint};
+pub use constraints::{Constraints, DependentNode, Joint, JointCoordinate, JointEffort, PrescribedMotion, Restraint};
 pub use contact::Contact;
 pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};

@@ -27,6 +27,8 @@ pub struct Output {
     pub layers: bool,
     /// True where parts.csv is written.
     pub parts: bool,
+    /// True where joints.csv is written.
+    pub joints: bool,
     /// The times of field files; `None`: no fields.
     pub fields: Option<Cadence>,
 }

@@ -65,6 +65,11 @@ impl Part {
         self.kind() == other.kind() && self.name() == other.name()
     }
 
+    /// True for a part that stands in a table of its own; false for what acts along a joint.
+    pub fn is_listed(&self) -> bool {
+        ask!(self, is_listed)
+    }
+
     /// Number of elements; a link is one, and so is each point and each box of a contact.
     pub fn elements(&self) -> usize {
         ask!(self, elements)

@@ -43,6 +43,10 @@ pub trait PartAnswers {
 
     fn name(&self) -> &str;
 
+    fn is_listed(&self) -> bool {
+        true
+    }
+
     fn elements(&self) -> usize;
 
     fn nodes(&self, element: usize) -> &[usize];

@@ -1,6 +1,6 @@
 //! links.csv: elongations and forces of the links.
 
-use crate::model::{ExpectAt, Link, PartKind};
+use crate::model::{ExpectAt, Link, Model, PartKind};
 use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Column, LINK, names};
@@ -11,18 +11,23 @@ pub static TABLE: TableKind = TableKind {
     file: "links.csv",
     about: "One row for each link. Written if `[output] links = true` and there are links.",
     columns: &[&[Column::key("link", "name of the link")], &LINK],
-    wanted: |model| model.output.links && model.has(PartKind::Link),
+    wanted: |model| model.output.links && of_deck(model).next().is_some(),
     needs: Wanted::LINKS,
     every_step: false,
     extent: |extent| {
         // Elongation, rate and force, and the force as a vector; few resist moments.
         let [force, _] = extent.components();
-        let links = || extent.model.each::<Link>();
+        let links = || of_deck(extent.model);
         Rows::named(links().map(|link| link.name.as_str()), (3 + force) * links().count())
     },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::LINKS, value }),
 };
+
+/// Links of joints come after those of the deck, and have rows in joints.csv.
+fn of_deck(model: &Model) -> impl Iterator<Item = &Link> {
+    model.each::<Link>().filter(|link| !link.is_of_joint())
+}
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
@@ -44,7 +49,7 @@ fn values(link: &LinkState) -> [f64; 9] {
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
-    frame.model.each::<Link>().zip(&frame.derived.links).try_for_each(|(link, state)| {
+    of_deck(frame.model).zip(&frame.derived.links).try_for_each(|(link, state)| {
         table.row(frame.step, frame.state.time).text(&link.name).numbers(&values(state)).end()
     })
 }

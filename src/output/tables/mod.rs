@@ -3,6 +3,7 @@
 mod bodies;
 mod contacts;
 mod energy;
+mod joints;
 mod layers;
 mod links;
 mod mode_parts;
@@ -26,6 +27,7 @@ pub static TABLES: &[&TableKind] = &[
     &energy::TABLE,
     &links::TABLE,
     &contacts::TABLE,
+    &joints::TABLE,
     &reactions::TABLE,
     &sections::TABLE,
     &shells::TABLE,

@@ -2,7 +2,7 @@
 
 use super::explanation::Explanation;
 use super::{bars, beams, contacts, shells};
-use crate::model::{MeshFile, Model, Part, PartKind};
+use crate::model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind};
 use crate::names::{joined, short};
 use crate::plan::Plan;
 use crate::system::System;
@@ -29,13 +29,30 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
         let what = "constraint equations with Lagrange multipliers, projected onto at the end of each step";
         text.add("joints", format!("{multipliers} {what}"));
     }
+    explain_coordinates(text, model);
     PARTS.iter().for_each(|explain| explain(text, model, system));
+}
+
+/// Adds a line about the joints along whose coordinates something acts.
+fn explain_coordinates(text: &mut Explanation, model: &Model) {
+    let along = |joint: &Joint| {
+        let JointCoordinate { drive, effort, spring, .. } = joint.coordinate.as_ref()?;
+        let acts = [(drive.is_some(), "driven"), (effort.is_some(), "motor"), (spring.is_some(), "coordinate counted")];
+        let words: Vec<&str> = acts.iter().filter(|(acts, _)| *acts).map(|(_, word)| *word).collect();
+        (!words.is_empty()).then(|| format!("`{}` ({})", joint.name, words.join(", ")))
+    };
+    let acting: Vec<String> = model.constraints.joints.iter().filter_map(along).collect();
+    match acting.len() {
+        0 => {}
+        1..=6 => text.add("along", acting.join(", ")),
+        many => text.add("along", format!("{many} joints: {}, …", acting[..6].join(", "))),
+    }
 }
 
 /// The number of things of each kind.
 fn counts(model: &Model) -> String {
     let parts = PartKind::ALL.map(|kind| {
-        let of_kind = model.parts.iter().filter(|part| part.kind() == kind);
+        let of_kind = model.parts.iter().filter(|part| part.kind() == kind && part.is_listed());
         (of_kind.map(Part::counted).sum(), kind.counted_as())
     });
     let before = [(model.nodes.len(), ["node", "nodes"]), (model.bodies.len(), ["body", "bodies"])];

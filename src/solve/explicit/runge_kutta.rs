@@ -103,7 +103,7 @@ impl RungeKuttaStepper {
         let tableau = self.tableau;
         if cx.wants_energy {
             self.work = WorkQuadrature::default();
-            self.work.add(&Power::at_start(cx, ws, state), dt * weight_of(tableau.b, 0));
+            self.work.add(&Power::at_start(cx, ws, state, true), dt * weight_of(tableau.b, 0));
         }
         let inner = tableau.a.iter().zip(tableau.c).enumerate();
         for (stage, (weights, c)) in inner.map(|(i, of)| (i + 1, of)) {

@@ -127,7 +127,8 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
         let (block, now) = (&group.block, &group.configuration(now));
         let mut is_open = |&e: &usize| {
             let nodes = block.nodes(e);
-            if !nodes.iter().any(|&of| of == node || follows(of)) {
+            // What counts the turns of a joint never pushes, open or not.
+            if !group.part_of(e, model).is_listed() || !nodes.iter().any(|&of| of == node || follows(of)) {
                 return false;
             }
             K.clear();

@@ -37,7 +37,7 @@ pub struct StageStepper {
     /// Power at both ends of it, and its work.
     powers: [Power; 2],
     work: WorkQuadrature,
-    /// True where motion is prescribed, which does work.
+    /// True where motion is prescribed whose work the stages tell; that of drives of joints is taken from the ends of steps.
     driven: bool,
 }
 
@@ -55,7 +55,8 @@ impl StageStepper {
             ends: [vec![[Vec6::zeros(); 3]; moving], vec![[Vec6::zeros(); 3]; moving]],
             powers: [Power::default(); 2],
             work: WorkQuadrature::default(),
-            driven: cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
+            driven: cx.drives.is_empty()
+                && cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
         }
     }
 
@@ -139,7 +140,7 @@ impl StageStepper {
         }
         if cx.wants_energy {
             excite(cx, ws, state.time, to, 1.0);
-            self.powers[0] = Power::at_start(cx, ws, state);
+            self.powers[0] = Power::at_start(cx, ws, state, cx.drives.is_empty());
         }
     }
 

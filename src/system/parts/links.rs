@@ -1,10 +1,12 @@
 //! Links in the equation of motion: their blocks, and their forces for output.
 
 use super::assembled::{Assembled, NumberedBlock, Setting};
+use super::coordinate_springs::{CoordinateSpring, CoordinateSprings};
 use crate::elements::bushing::{Bushing, Bushings};
+use crate::elements::coordinate_law::{CoordinateLaw, MEMORY};
 use crate::elements::link::{self, Links};
 use crate::elements::relative_rotation::RotationalSpring;
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, angular, linear};
 use crate::model::{Link, LinkKind, Model, PartKind};
 use crate::sections::Stiffness;
 use crate::state::{Configuration, Node};
@@ -14,11 +16,11 @@ use crate::system::plane::MotionPlane;
 /// The state of a link at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkState {
-    /// Elongation; of a bushing, the relative displacement along its first axis.
+    /// Elongation; of a bushing, the relative displacement along its first axis; of a joint, its coordinate.
     pub elongation: f64,
     /// Rate of the elongation.
     pub rate: f64,
-    /// Axial force, positive in tension.
+    /// Axial force, positive in tension; of a joint, the effort that pulls its second end back.
     pub force: f64,
     /// Force that the link exerts on its first end, global components; the second end pulls on it.
     pub f: Vec3,
@@ -32,6 +34,8 @@ pub enum LinkElement {
     Line(link::Link),
     /// A bushing.
     Bushing(Bushing),
+    /// What acts along the coordinate of a joint.
+    Joint(CoordinateSpring),
 }
 
 impl Assembled for Link {
@@ -40,14 +44,16 @@ impl Assembled for Link {
         if !setting.model.each::<Link>().next().is_some_and(|first| std::ptr::eq(first, self)) {
             return Vec::new();
         }
-        let (mut lines, mut bushings) = (Vec::new(), Vec::new());
+        let (mut lines, mut bushings, mut joints) = (Vec::new(), Vec::new(), Vec::new());
         for element in elements(setting.model, setting.x) {
             match element {
                 LinkElement::Line(line) => lines.push(line),
                 LinkElement::Bushing(bushing) => bushings.push(bushing),
+                LinkElement::Joint(spring) => joints.push(spring),
             }
         }
-        vec![(Box::new(Links(lines)), 0), (Box::new(Bushings(bushings)), 0)]
+        // Links of joints come after those of the deck, and so does their history.
+        vec![(Box::new(Links(lines)), 0), (Box::new(Bushings(bushings)), 0), (Box::new(CoordinateSprings(joints)), 0)]
     }
 
     fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
@@ -57,6 +63,9 @@ impl Assembled for Link {
                 let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
                 plane.decouples(&turn(&k[..3])) && plane.decouples(&turn(&k[3..]))
             }),
+            LinkKind::Joint { lock, law } => {
+                *law == CoordinateLaw::FREE || lock.in_plane(plane.normal, &Vec3::zeros()) == Some(true)
+            }
         }
     }
 }
@@ -76,6 +85,9 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
             damping: *damping,
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
         }),
+        LinkKind::Joint { lock, law } => {
+            LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law: *law })
+        }
     };
     model.each::<Link>().map(element).collect()
 }
@@ -114,14 +126,14 @@ pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration,
     out.clear();
     let nodes = now.nodes;
     let own = groups.iter().filter(|group| group.kind == PartKind::Link);
-    let mut twists = own.flat_map(|group| group.configuration(now).history);
+    let mut histories = own.flat_map(|group| group.configuration(now).history);
     out.extend(links.iter().map(|link| match link {
         LinkElement::Line(link) => {
             let (elongation, rate, force) = link.state(nodes);
             LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros() }
         }
         LinkElement::Bushing(bushing) => {
-            let last = if bushing.spring.counts_turns() { twists.next() } else { None };
+            let last = if bushing.spring.counts_turns() { histories.next() } else { None };
             let (d, rate, f, m) = bushing.state(nodes, *last.unwrap_or(&0.0));
             let [first, second] = bushing.nodes.map(|n| &nodes[n]);
             let B = first.R() * bushing.axes;
@@ -130,6 +142,14 @@ pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration,
             let f_global = B * f;
             let m = B * m + (second.x - first.x).cross(&f_global);
             LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
+        }
+        LinkElement::Joint(spring) => {
+            let mut memory = [0.0; MEMORY];
+            memory.iter_mut().zip(&mut histories).for_each(|(memory, value)| *memory = *value);
+            let at = spring.state(nodes, &memory, 0.0);
+            let [G, _] = spring.lock.gradient(&nodes[spring.nodes[0]], &nodes[spring.nodes[1]]);
+            let [f, m] = [linear(&G), angular(&G)].map(|part| -at.effort * part);
+            LinkState { elongation: at.q, rate: at.rate, force: at.effort, f, m }
         }
     }));
 }

@@ -4,6 +4,7 @@ mod assembled;
 mod bars;
 pub mod beams;
 mod contacts;
+pub mod coordinate_springs;
 pub mod links;
 mod masses;
 pub mod shells;

@@ -1,0 +1,144 @@
+//! What acts along the coordinate q of a joint: a spring, a damper, stops and dry friction, as an effort over q, q̇ and the past.
+//!
+//! Stops push back as contacts do, with the damping of a set restitution ([`super::contact::restitution`]). Friction is a spring that
+//! slips at its limit (return mapping), so what sticks does not creep. Efforts are forces, or moments where the coordinate is an angle;
+//! they are positive where they pull the second part back.
+
+use super::contact::restitution::{Loss, normal_force};
+
+/// The effort over a coordinate, its rate and its past.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoordinateLaw {
+    /// Effort per coordinate.
+    pub stiffness: f64,
+    /// Coordinate at which the spring is without effort.
+    pub rest: f64,
+    /// Effort per rate.
+    pub damping: f64,
+    /// The stops.
+    pub stops: Option<Stops>,
+    /// Dry friction.
+    pub friction: Option<DryFriction>,
+}
+
+/// Stops at either end of the way of a coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stops {
+    /// The least and the largest coordinate; infinite where there is no stop.
+    pub limits: [f64; 2],
+    /// Effort per coordinate beyond.
+    pub stiffness: f64,
+    /// What an impact loses.
+    pub loss: Loss,
+}
+
+/// Dry friction, a spring that slips.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DryFriction {
+    /// The effort at which it slips.
+    pub limit: f64,
+    /// Effort per coordinate before it does.
+    pub stiffness: f64,
+}
+
+/// Numbers that a joint remembers: coordinate and rate at the end of the last step, the speed of the last landing on a stop, the
+/// power that the impact took, and the anchor of friction.
+pub const MEMORY: usize = 5;
+/// Place of the rate.
+pub const RATE: usize = 1;
+/// Place of the speed of the last landing.
+pub const IMPACT_SPEED: usize = 2;
+/// Place of the power of its impact.
+pub const IMPACT_POWER: usize = 3;
+/// Place of the anchor of friction.
+pub const ANCHOR: usize = 4;
+
+/// Coordinate and effort at an instant.
+#[derive(Debug, Clone, Copy)]
+pub struct CoordinateState {
+    /// q, turns counted.
+    pub q: f64,
+    /// q̇.
+    pub rate: f64,
+    /// f, positive where it pulls the second node back.
+    pub effort: f64,
+    /// ∂f/∂q.
+    pub by_q: f64,
+    /// ∂f/∂q̇.
+    pub by_rate: f64,
+    /// What springs store.
+    pub energy: f64,
+    /// The way of the anchor of friction.
+    pub slip: f64,
+    /// What is dissipated by impact, per time.
+    pub impact_power: f64,
+    /// Speed of the landing.
+    pub impact_speed: f64,
+}
+
+impl CoordinateLaw {
+    /// A joint on whose coordinate nothing acts: it counts turns.
+    pub const FREE: CoordinateLaw =
+        CoordinateLaw { stiffness: 0.0, rest: 0.0, damping: 0.0, stops: None, friction: None };
+
+    /// Effort, derivatives and energy at a coordinate and its rate; `memory` is that of the last step, [`MEMORY`] numbers.
+    pub fn at(&self, q: f64, rate: f64, memory: &[f64]) -> CoordinateState {
+        let stretch = q - self.rest;
+        let mut state = CoordinateState {
+            q,
+            rate,
+            effort: self.stiffness * stretch + self.damping * rate,
+            by_q: self.stiffness,
+            by_rate: self.damping,
+            energy: 0.5 * self.stiffness * stretch * stretch,
+            slip: 0.0,
+            impact_power: 0.0,
+            impact_speed: 0.0,
+        };
+        if let Some(stops) = &self.stops {
+            stops.add(memory, &mut state);
+        }
+        if let Some(friction) = &self.friction {
+            friction.add(memory[ANCHOR], &mut state);
+        }
+        state
+    }
+}
+
+impl Stops {
+    /// Depth behind the nearer stop, negative before it, and the sign of the way into it.
+    fn depth(&self, q: f64) -> (f64, f64) {
+        let [low, high] = self.limits;
+        if q - high >= low - q { (q - high, 1.0) } else { (low - q, -1.0) }
+    }
+
+    fn add(&self, memory: &[f64], state: &mut CoordinateState) {
+        let (depth, sign) = self.depth(state.q);
+        if depth < 0.0 {
+            return;
+        }
+        let (before, approach) = (self.depth(memory[0]).0, sign * state.rate);
+        let landed = if before >= 0.0 { memory[IMPACT_SPEED] } else { sign * memory[RATE] };
+        state.impact_speed = landed.max(approach).max(0.0);
+        let push = normal_force(self.stiffness, &self.loss, depth, approach, state.impact_speed);
+        state.effort += sign * push.force;
+        state.by_q += push.by_depth;
+        state.by_rate += push.by_rate;
+        state.energy += 0.5 * self.stiffness * depth * depth;
+        state.impact_power = (push.force - self.stiffness * depth) * approach;
+    }
+}
+
+impl DryFriction {
+    fn add(&self, anchor: f64, state: &mut CoordinateState) {
+        let stretch = state.q - anchor;
+        let most = self.limit / self.stiffness;
+        let held = stretch.clamp(-most, most);
+        state.slip = stretch - held;
+        state.effort += self.stiffness * held;
+        if state.slip == 0.0 {
+            state.by_q += self.stiffness;
+        }
+        state.energy += 0.5 * self.stiffness * held * held;
+    }
+}

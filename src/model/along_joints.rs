@@ -1,0 +1,346 @@
+//! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops and friction.
+
+use super::data::{AnalysisKind, History, Joint, JointCoordinate, JointEffort, Load, Node, PrescribedMotion};
+use super::links::Links;
+use super::nodes::Nodes;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use super::values::{flag, span};
+use crate::amplitude::Amplitude;
+use crate::constraints::joints::JointKind;
+use crate::constraints::joints::kind::Coordinate;
+use crate::deck::joints as words;
+use crate::deck::words::Table;
+use crate::diagnostic::{At, Span};
+use crate::elements::contact::restitution::{LEAST, Loss, number};
+use crate::elements::coordinate_law::{CoordinateLaw, DryFriction, Stops};
+use crate::math::{Mat3, Vec3};
+use crate::names::short;
+use crate::words::kinds::{OneOf, Values};
+
+/// What `[[joints]]` make.
+#[derive(Default)]
+pub(super) struct Joints {
+    /// The joints in deck order.
+    pub list: Vec<Joint>,
+    /// Forces and moments of motors, two of each.
+    pub efforts: Vec<Load>,
+}
+
+/// Where a joint lies.
+pub(super) struct PlacedJoint<'v> {
+    /// Its two ends.
+    pub ends: [usize; 2],
+    /// True where it comes in a later stage, and finds its ends where they then are.
+    pub later: bool,
+    /// Its axes as columns, global at t = 0.
+    pub axes: Mat3,
+    /// The values of its kind's own keys.
+    pub values: &'v Values,
+}
+
+/// The keys of a joint that are about its coordinate.
+pub(super) struct Along<'a, 'd> {
+    /// The joint, as messages call it.
+    pub owner: &'a Owner<'d>,
+    /// Its table.
+    pub joint: &'d OneOf<words::Joint>,
+    /// The scene.
+    pub scene: &'a Scene<'d>,
+    /// The amplitudes, to which a motion without one adds another.
+    pub amplitudes: &'a mut Vec<Amplitude>,
+    /// The problems.
+    pub report: &'a mut Report<'d>,
+}
+
+/// What acts along the coordinate of a joint.
+pub(super) struct ActsAlong {
+    coordinate: Coordinate,
+    motion: Option<PrescribedMotion>,
+    effort: Option<JointEffort>,
+    law: CoordinateLaw,
+    /// By how much the joint gives before friction slips, where the deck says so.
+    stick: Option<f64>,
+    /// True where its turns are counted although nothing acts.
+    counted: bool,
+}
+
+impl<'d> Along<'_, 'd> {
+    /// Reads what acts along the coordinate; `None` where the joint has none.
+    pub fn read(mut self, kind: &JointKind) -> Option<ActsAlong> {
+        let joint = self.joint;
+        let Some(&own) = kind.make.coordinates.first() else {
+            let what = format!("a joint of kind \"{}\": it has no coordinate", kind.word);
+            self.report.reject_unused(&what, &keys(joint));
+            return None;
+        };
+        let coordinate = match &joint.coordinate {
+            Some(word) if !kind.make.coordinates.contains(&word.value) => {
+                let message = format!("the coordinate of a joint of kind \"{}\" is no {}", kind.word, word.word());
+                self.report.error_with::<()>(&word.span, message, format!("it is its {}", own.word()));
+                own
+            }
+            word => word.as_ref().map_or(own, |word| word.value),
+        };
+        if self.scene.stage.is_some() {
+            self.reject_in_stages();
+        }
+        let motion = self.motion();
+        let effort = self.effort();
+        let law = self.law(coordinate);
+        let stick = self.report.positive("stick", &joint.stick);
+        let counted = self.is_counted();
+        Some(ActsAlong { coordinate, motion, effort, law, stick, counted })
+    }
+
+    /// Reports keys about the coordinate in a deck of stages, which carry none of it from one to the next.
+    fn reject_in_stages(&mut self) {
+        for (key, place) in keys(self.joint) {
+            let Some(place) = place else { continue };
+            let message = format!("`{key}` of a joint does not go with `[[stages]]`");
+            let hint = "drives, motors and springs of joints take a deck of one analysis";
+            self.report.error_with::<()>(place, message, hint);
+        }
+    }
+
+    /// True where results of the coordinate are asked for. Stages carry no turns from one to the next.
+    fn is_counted(&self) -> bool {
+        if self.scene.stage.is_some() {
+            return false;
+        }
+        let deck = self.scene.deck;
+        let name = self.joint.name.as_ref().map(|name| name.as_str());
+        let of_coordinate = |word: &str| ["coordinate", "rate", "effort"].contains(&word);
+        deck.output.as_ref().is_some_and(|output| flag(&output.joints, false))
+            || deck.expect.iter().any(|expect| {
+                expect.at.as_ref().map(|at| at.as_str()) == name
+                    && expect.quantity.as_ref().is_some_and(|quantity| of_coordinate(quantity.as_str()))
+            })
+    }
+
+    fn amplitude(&mut self, name: &'d Option<At<String>>) -> Option<usize> {
+        self.report.find("amplitude", &self.scene.deck.amplitudes, name.as_ref()?).map(|(index, _)| index)
+    }
+
+    fn motion(&mut self) -> Option<PrescribedMotion> {
+        let motion = self.joint.motion.as_ref()?;
+        for (key, place) in self.against_motion() {
+            let message = format!("{} has both `motion` and `{key}`", self.owner.what);
+            self.report.error_with::<()>(place, message, "the motion is prescribed, whatever acts against it");
+        }
+        let amplitude = self.amplitude(&motion.amplitude);
+        let (scale, history) = self.quantity(motion)?;
+        if self.scene.analysis.kind == AnalysisKind::Static && history != History::Displacement {
+            return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
+        }
+        let index = match (&motion.amplitude, history) {
+            (Some(_), _) => amplitude?,
+            (None, _) if self.report.is_spoiled(&motion.span, "amplitude") => return None,
+            (None, History::Displacement) => {
+                let message = format!("the motion of {} by `position` needs `amplitude`", self.owner.what);
+                let hint = "the coordinate is zero at t = 0, and goes on from there";
+                return self.report.error_with(&motion.span, message, hint);
+            }
+            (None, _) => {
+                self.amplitudes.push(Amplitude::Constant);
+                self.amplitudes.len() - 1
+            }
+        };
+        let starts = scale.value * self.amplitudes[index].value(0.0);
+        if history == History::Displacement && self.scene.analysis.kind == AnalysisKind::Dynamic && starts != 0.0 {
+            let (what, starts) = (&self.owner.what, short(starts));
+            let message = format!("the motion of {what} begins at {starts}, but the coordinate is zero at t = 0");
+            return self.report.error_with(&motion.span, message, "let the amplitude begin at zero");
+        }
+        Some(PrescribedMotion { amplitude: index, scale: scale.value, history })
+    }
+
+    /// The one quantity that a motion gives.
+    fn quantity(&mut self, motion: &'d At<Table<words::JointMotion>>) -> Option<(&'d At<f64>, History)> {
+        let given = [
+            (&motion.position, History::Displacement),
+            (&motion.velocity, History::Velocity),
+            (&motion.acceleration, History::Acceleration),
+        ];
+        let mut given = given.into_iter().filter_map(|(value, history)| Some((value.as_ref()?, history)));
+        let Some(first) = given.next() else {
+            if !self.report.is_any_spoiled(&motion.span) {
+                let message = format!("the motion of {} says nothing", self.owner.what);
+                let hint = "give it `position`, `velocity` or `acceleration`";
+                self.report.error_with::<()>(&motion.span, message, hint);
+            }
+            return None;
+        };
+        if let Some((other, _)) = given.next() {
+            let message = format!("{} has two motions", self.owner.what);
+            return self.report.error_with(&other.span, message, "one quantity gives the other two");
+        }
+        Some(first)
+    }
+
+    /// Keys that contradict a prescribed motion, where they are written.
+    fn against_motion(&self) -> Vec<(&'static str, &'d Span)> {
+        let joint = self.joint;
+        let keys = [
+            ("effort", span(&joint.effort)),
+            ("limits", span(&joint.limits)),
+            ("friction_moment", span(&joint.friction_moment)),
+            ("friction_force", span(&joint.friction_force)),
+        ];
+        keys.into_iter().filter_map(|(key, place)| Some((key, place?))).collect()
+    }
+
+    fn effort(&mut self) -> Option<JointEffort> {
+        let effort: &'d words::Effort = &self.joint.effort.as_ref()?.value;
+        let span = &self.joint.effort.as_ref()?.span;
+        let owner = Owner::new(format!("the effort of {}", self.owner.what), span);
+        let value = self.report.require(&owner, "value", &effort.value).map(|value| value.value);
+        let amplitude = self.amplitude(&effort.amplitude);
+        (effort.amplitude.is_none() || amplitude.is_some()).then_some(JointEffort { value: value?, amplitude })
+    }
+
+    fn law(&mut self, coordinate: Coordinate) -> CoordinateLaw {
+        let joint = self.joint;
+        if let (Some(rest), None) = (&joint.rest, &joint.stiffness)
+            && !self.report.is_spoiled(self.owner.span, "stiffness")
+        {
+            self.report.error_with::<()>(
+                &rest.span,
+                "`rest` needs `stiffness`",
+                "without a spring nothing rests there",
+            );
+        }
+        CoordinateLaw {
+            stiffness: self.report.not_negative("stiffness", &joint.stiffness, 0.0),
+            rest: joint.rest.as_ref().map_or(0.0, |rest| rest.value),
+            damping: self.report.not_negative("damping", &joint.damping, 0.0),
+            stops: self.stops(),
+            friction: self.friction(coordinate),
+        }
+    }
+
+    fn stops(&mut self) -> Option<Stops> {
+        let joint = self.joint;
+        let Some(limits) = &joint.limits else {
+            let of_stops =
+                [("limit_stiffness", span(&joint.limit_stiffness)), ("restitution", span(&joint.restitution))];
+            if !self.report.is_spoiled(self.owner.span, "limits") {
+                self.report.reject_unused("a joint without `limits`", &of_stops);
+            }
+            return None;
+        };
+        let [low, high] = limits.0;
+        if low >= high {
+            let message = format!("the limits of {} are reversed", self.owner.what);
+            self.report.error_with::<()>(&limits.span, message, "the least coordinate comes first");
+        } else if low > 0.0 || high < 0.0 {
+            let message = format!("{} starts outside its limits", self.owner.what);
+            self.report.error_with::<()>(
+                &limits.span,
+                message,
+                "the coordinate is zero at t = 0, as the deck draws the joint",
+            );
+        }
+        let stiffness = self.report.require_positive(self.owner, "limit_stiffness", &joint.limit_stiffness);
+        let loss = match &joint.restitution {
+            Some(e) if !(LEAST..=1.0).contains(&e.value) => {
+                let hint = format!("from {LEAST} to 1");
+                return self.report.error_with(&e.span, "`restitution` lies out of its range", hint);
+            }
+            Some(e) if e.value < 1.0 => Loss::Restitution { number: number(e.value), floor: 0.0 },
+            _ => Loss::None,
+        };
+        Some(Stops { limits: [low, high], stiffness: stiffness?, loss })
+    }
+
+    /// Friction, its stiffness yet to be found.
+    fn friction(&mut self, coordinate: Coordinate) -> Option<DryFriction> {
+        let joint = self.joint;
+        let moment = ("friction_moment", &joint.friction_moment);
+        let force = ("friction_force", &joint.friction_force);
+        let ((key, value), other) = match coordinate {
+            Coordinate::Angle => (moment, force),
+            Coordinate::Distance => (force, moment),
+        };
+        let what = format!("a joint whose coordinate is its {}", coordinate.word());
+        self.report.reject_unused(&what, &[(other.0, span(other.1))]);
+        if value.is_none() && other.1.is_none() && !self.report.is_spoiled(self.owner.span, key) {
+            self.report.reject_unused("a joint without friction", &[("stick", span(&joint.stick))]);
+        }
+        let limit = self.report.not_negative(key, value, 0.0);
+        (limit > 0.0).then_some(DryFriction { limit, stiffness: 0.0 })
+    }
+}
+
+impl ActsAlong {
+    /// Gives a joint its coordinate and what acts along it.
+    pub fn set_up(
+        mut self,
+        placed: &PlacedJoint,
+        joint: &mut Joint,
+        (nodes, links): (&mut Nodes, &mut Links),
+        efforts: &mut Vec<Load>,
+    ) {
+        let [from, to] = placed.ends;
+        let d = nodes.x(from) - nodes.x(to);
+        let axis = placed.axes.column(0).into_owned();
+        let lock = self.coordinate.lock(&placed.axes, &d);
+        if let Some(friction) = &mut self.law.friction {
+            let stick = self.stick.unwrap_or_else(|| match self.coordinate {
+                Coordinate::Angle => 1e-4,
+                Coordinate::Distance => 1e-5 * size(nodes),
+            });
+            friction.stiffness = friction.limit / stick;
+        }
+        let drive = self.motion.map(|motion| {
+            let drive = nodes.add(format!("{}.motion", joint.name), false, nodes.x(from));
+            nodes.restrain(drive, 0, Some(motion));
+            joint.equations.push(lock);
+            joint.of_deck.push(lock);
+            drive
+        });
+        if let Some(effort) = &self.effort {
+            let pull = effort.value * axis;
+            let (force, moment) = match self.coordinate {
+                Coordinate::Angle => (Vec3::zeros(), pull),
+                Coordinate::Distance => (pull, Vec3::zeros()),
+            };
+            let load = |node, sign: f64| Load {
+                node,
+                force: sign * force,
+                moment: sign * moment,
+                follower: true,
+                amplitude: effort.amplitude,
+            };
+            efforts.extend([load(from, -1.0), load(to, 1.0)]);
+        }
+        let spring = (self.counted || self.law != CoordinateLaw::FREE)
+            .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law)));
+        joint.coordinate = Some(JointCoordinate { lock, axis, drive, effort: self.effort, spring });
+    }
+}
+
+/// The size of the scene, or 1 for a single point.
+fn size(nodes: &Nodes) -> f64 {
+    let first = nodes.list.first().map_or(Vec3::zeros(), |node| node.x);
+    let size = nodes.list.iter().map(|node: &Node| (node.x - first).norm()).fold(0.0, f64::max);
+    if size > 0.0 { size } else { 1.0 }
+}
+
+/// The keys about the coordinate, with the places where they stand.
+fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 12] {
+    [
+        ("coordinate", span(&joint.coordinate)),
+        ("motion", span(&joint.motion)),
+        ("effort", span(&joint.effort)),
+        ("stiffness", span(&joint.stiffness)),
+        ("rest", span(&joint.rest)),
+        ("damping", span(&joint.damping)),
+        ("limits", span(&joint.limits)),
+        ("limit_stiffness", span(&joint.limit_stiffness)),
+        ("restitution", span(&joint.restitution)),
+        ("friction_moment", span(&joint.friction_moment)),
+        ("friction_force", span(&joint.friction_force)),
+        ("stick", span(&joint.stick)),
+    ]
+}
