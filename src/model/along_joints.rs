@@ -1,7 +1,7 @@
 //! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops and friction.
 
 use super::data::{AnalysisKind, History, Joint, JointCoordinate, JointEffort, Load, Node, PrescribedMotion};
-use super::links::Links;
+use super::links::ModelLinks;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -278,7 +278,7 @@ impl ActsAlong {
         mut self,
         placed: &PlacedJoint,
         joint: &mut Joint,
-        (nodes, links): (&mut Nodes, &mut Links),
+        (nodes, links): (&mut Nodes, &mut ModelLinks),
         efforts: &mut Vec<Load>,
     ) {
         let [from, to] = placed.ends;

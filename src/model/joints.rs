@@ -3,7 +3,7 @@
 use super::along_joints::{Along, Joints, PlacedJoint};
 use super::data::{History, Joint, Node, PrescribedMotion};
 use super::ends::EndTable;
-use super::links::Links;
+use super::links::ModelLinks;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -19,7 +19,7 @@ use crate::state;
 /// Reads `[[joints]]`; what acts along their coordinates comes after the `links` of the deck, and motions without an amplitude add one.
 pub(super) fn joints<'d>(
     scene: &Scene<'d>,
-    links: &mut Links,
+    links: &mut ModelLinks,
     amplitudes: &mut Vec<Amplitude>,
     nodes: &mut Nodes,
     report: &mut Report<'d>,

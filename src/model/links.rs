@@ -15,9 +15,9 @@ use crate::elements::link::LinkLaw;
 use crate::math::Mat3;
 
 /// The links of a model: those of the deck, then those along coordinates of joints.
-pub(super) struct Links(pub Vec<Link>);
+pub(super) struct ModelLinks(pub Vec<Link>);
 
-impl Links {
+impl ModelLinks {
     /// Adds what acts along the coordinate of a joint; returns its index.
     pub fn add_along(
         &mut self,
@@ -31,7 +31,7 @@ impl Links {
 }
 
 /// Reads `[[links]]`, and adds the nodes at their ends.
-pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Links {
+pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> ModelLinks {
     let mut links = Vec::new();
     for (index, link) in scene.deck.links.iter().enumerate() {
         let name = link.name.as_ref().map_or_else(|| format!("links.{index}"), |name| name.value.clone());
@@ -54,7 +54,7 @@ pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repor
             links.push(Link { name, ends, kind });
         }
     }
-    Links(links)
+    ModelLinks(links)
 }
 
 fn line<'d>(

@@ -192,13 +192,16 @@ impl Diagonal {
         [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
 
-    /// The sum of the moments, without signs, that the equations of a joint exert on independent nodes.
+    /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
+    /// signs, that its equations exert on independent nodes.
     fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> f64 {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         let of = |(row, lambda): (&ConstraintEquation, &f64)| {
             let G = row.gradient(a, b);
-            let on =
-                |(end, node, k, _): &(usize, usize, usize, _)| angular(&projections[*node][*k].tr_mul(&G[*end])).amax();
+            let on = |(end, node, k, _): &(usize, usize, usize, _)| {
+                let arm = projections[*node][*k].fixed_view::<3, 3>(0, 3).amax();
+                arm * linear(&G[*end]).amax() + angular(&G[*end]).amax()
+            };
             lambda.abs() * self.0.iter().map(on).fold(0.0, f64::max)
         };
         joint.equations.iter().zip(values).map(of).sum()
