@@ -496,14 +496,20 @@ fn a_sweep_reads_tables_with_stages() {
     let bodies = "step,time,stage,body,z\n0,0.0,push,block,1.0\n1,1.0,push,block,2.0\n2,2.0,free,block,-7.0\n";
     std::fs::write(folder.path().join("energy.csv"), energy).unwrap();
     std::fs::write(folder.path().join("bodies.csv"), bodies).unwrap();
-    let read = |at: &str, quantity: &str, when| {
-        let wanted = Collected { name: "x".to_owned(), at: at.to_owned(), quantity: quantity.to_owned(), when };
+    let read_in = |stage: Option<&str>, at: &str, quantity: &str, when| {
+        let stage = stage.map(str::to_owned);
+        let wanted = Collected { name: "x".to_owned(), at: at.to_owned(), quantity: quantity.to_owned(), stage, when };
         collect(folder.path(), &wanted).unwrap()
     };
+    let read = |at: &str, quantity: &str, when| read_in(None, at, quantity, when);
     assert_eq!(read("energy", "kinetic", CollectedWhen::Max), Some(5.0));
     assert_eq!(read("block", "z", CollectedWhen::End), Some(-7.0));
     assert_eq!(read("block", "z", CollectedWhen::Time(1.0)), Some(2.0));
     assert_eq!(read("push", "z", CollectedWhen::End), None);
+    assert_eq!(read_in(Some("push"), "energy", "kinetic", CollectedWhen::Max), Some(3.0));
+    assert_eq!(read_in(Some("push"), "block", "z", CollectedWhen::End), Some(2.0));
+    assert_eq!(read_in(Some("free"), "energy", "kinetic", CollectedWhen::Time(1.0)), Some(5.0));
+    assert_eq!(read_in(Some("fall"), "energy", "kinetic", CollectedWhen::Max), None);
 }
 
 /// A body on a spring along z, free in that direction alone.

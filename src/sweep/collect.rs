@@ -34,10 +34,15 @@ fn of_table(path: &Path, wanted: &Collected) -> io::Result<Option<f64>> {
     // The stage of a row says when it is, as its time does, not what it is about.
     let says_what = |&key: &usize| rows.is_key(key) && rows.header[key] != STAGE;
     let keys: Vec<usize> = (0..rows.header.len()).filter(says_what).collect();
+    let stages = rows.column(STAGE);
+    let in_stage = |row: &[&[u8]]| match &wanted.stage {
+        Some(stage) => stages.and_then(|column| row.get(column)).is_some_and(|field| text(field) == *stage),
+        None => true,
+    };
     let mut best: Option<f64> = None;
     while let Some(row) = rows.next()? {
         let row: Vec<&[u8]> = fields(row).collect();
-        if row.len() <= place.max(time) || (!keys.is_empty() && !is_about(&row, &keys, &wanted.at)) {
+        if row.len() <= place.max(time) || !in_stage(&row) || (!keys.is_empty() && !is_about(&row, &keys, &wanted.at)) {
             continue;
         }
         let (t, value) = (number(row[time]), number(row[place]));

@@ -77,6 +77,8 @@ pub struct Collected {
     pub at: String,
     /// The column of the table.
     pub quantity: String,
+    /// The stage to whose rows it is limited.
+    pub stage: Option<String>,
     /// The time at which it is taken.
     pub when: CollectedWhen,
 }
@@ -269,12 +271,14 @@ impl Reader<'_> {
             return None;
         };
         let before = self.problems.len();
-        let (mut at, mut quantity, mut when) = (None, None, None);
-        for (key, place, value) in self.entries(&format!("`{name}`"), table, &["at", "quantity", "peak", "time"]) {
+        let (mut at, mut quantity, mut stage, mut when) = (None, None, None, None);
+        let keys = ["at", "quantity", "stage", "peak", "time"];
+        for (key, place, value) in self.entries(&format!("`{name}`"), table, &keys) {
             match (key, value.get_ref()) {
                 ("at", DeValue::String(text)) => at = Some(text.to_string()),
                 ("quantity", DeValue::String(text)) => quantity = Some(text.to_string()),
-                ("at" | "quantity", _) => self.error(&value.span(), format!("`{key}` must be a name in quotes")),
+                ("stage", DeValue::String(text)) => stage = Some(text.to_string()),
+                ("at" | "quantity" | "stage", _) => self.error(&value.span(), format!("`{key}` must be a name in quotes")),
                 _ if when.is_some() => self.error(&place, format!("`{name}` takes `peak` or `time`, not both")),
                 ("peak", DeValue::String(word)) if word.as_ref() == "max" => when = Some(CollectedWhen::Max),
                 ("peak", DeValue::String(word)) if word.as_ref() == "min" => when = Some(CollectedWhen::Min),
@@ -291,7 +295,7 @@ impl Reader<'_> {
         if taken.contains(name.as_str()) {
             self.error(&key.span(), format!("`{name}` is a column of the summary already"));
         }
-        Some(Collected { name, at: at?, quantity: quantity?, when: when? })
+        Some(Collected { name, at: at?, quantity: quantity?, stage, when: when? })
     }
 
     fn number<'t>(&mut self, name: &str, value: &'t Spanned<DeValue<'t>>) -> Option<f64> {
