@@ -915,7 +915,7 @@ fn stages() {
     let expected = "[[supports]]\nat = \"knee_left\"\nmotion = { uy = { scale = 1e-3 } }\nstages = \"low\"\n\
                     [[expect]]\nat = \"knee_left\"\nquantity = \"ux\"\nstage = \"low\"\nvalue = 1.0\ntolerance = 0.1\n\
                     [[expect]]\nat = \"pad\"\nquantity = \"force\"\nstage = \"impact\"\nvalue = 1.0\ntolerance = 0.1\n\
-                    [[links]]\nname = \"pad\"\nfrom = \"knee_left\"\nto = { ground = [0.0, 0.0, 0.0] }\nstiffness = 1.0\nstages = \"weight\"\n";
+                    [[links]]\nname = \"pad\"\nfrom = { node = \"knee_left\" }\nto = { ground = [0.0, 0.0, 0.0] }\nstiffness = 1.0\nstages = \"weight\"\n";
     assert_snapshot!("stages_not_there", with(&not_there, expected));
     let integrator = "integrator = { scheme = \"newmark\" }";
     let dynamic_keys = stage("weight", "static", integrator).replace("time_step = 0.1", "time_step = \"auto\"");

@@ -189,59 +189,54 @@ impl<'d> Course<'d> {
             report.error_with::<()>(&self.stages[first].table.span, message, hint);
             return;
         }
-        for &index in &of_modes {
-            let stage = &self.stages[index];
-            let before = self.before(index);
-            let buckles = buckles(stage.table);
-            let is_new = |stages: &Maybe<Names>| {
-                let all = buckles && before.is_none();
-                (all || stages.is_some())
-                    && self.holds(index, stages)
-                    && !before.is_some_and(|before| self.holds(before, stages))
-            };
-            let new: Vec<_> = self.whole.loads.iter().filter(|load| is_new(&load.stages)).collect();
-            for support in self.whole.supports.iter().filter(|support| is_new(&support.stages)) {
-                if let Some(motion) = &support.motion {
-                    let message = format!("nothing moves in stage `{}`", stage.name);
-                    report.error_with::<()>(
-                        &motion.span,
-                        message,
-                        "let the motion first act in a static or dynamic stage",
-                    );
-                }
-            }
-            if buckles && new.is_empty() {
-                let message =
-                    format!("no load first acts in stage `{}`, so none has a factor at which it buckles", stage.name);
-                let hint =
-                    format!("give a load `stages = [\"{}\"]`; those of the stage before stay as they are", stage.name);
-                report.error_with::<()>(&stage.table.span, message, hint);
-            }
-            for load in new {
-                match &load.amplitude {
-                    Some(amplitude) if names_harmonic(self.whole, amplitude.as_str()) => {}
-                    _ if !buckles => {
-                        let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
-                        let hint =
-                            "they are those about the state that has been reached: name a static stage before it";
-                        report.error_with::<()>(&load.span, message, hint);
-                    }
-                    Some(amplitude) => {
-                        let message = format!("a load of the buckling stage `{}` has no amplitude", stage.name);
-                        report.error_with::<()>(
-                            &amplitude.span,
-                            message,
-                            "it is multiplied by the factor that is sought",
-                        );
-                    }
-                    None => {}
-                }
-            }
-        }
+        of_modes.iter().for_each(|&index| self.check_new(index, report));
         for expect in self.whole.expect.iter().filter(|expect| expect.mode.is_some() && expect.stage.is_none()) {
             if of_modes.len() > 1 {
                 let hint = "several stages have modes";
                 report.error_with::<()>(&expect.span, "an expected value of a mode needs `stage` here", hint);
+            }
+        }
+    }
+
+    /// Reports what first acts in a stage of modes and has no meaning there, or nothing that a buckling stage seeks the factor of.
+    fn check_new(&self, index: usize, report: &mut Report<'d>) {
+        let stage = &self.stages[index];
+        let before = self.before(index);
+        let buckles = buckles(stage.table);
+        let is_new = |stages: &Maybe<Names>| {
+            let all = buckles && before.is_none();
+            (all || stages.is_some())
+                && self.holds(index, stages)
+                && !before.is_some_and(|before| self.holds(before, stages))
+        };
+        let new: Vec<_> = self.whole.loads.iter().filter(|load| is_new(&load.stages)).collect();
+        for support in self.whole.supports.iter().filter(|support| is_new(&support.stages)) {
+            let responds = stage.table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::FrequencyResponse);
+            if let Some(motion) = support.motion.as_ref().filter(|_| !responds) {
+                let message = format!("nothing moves in stage `{}`", stage.name);
+                report.error_with::<()>(&motion.span, message, "let the motion first act in a static or dynamic stage");
+            }
+        }
+        if buckles && new.is_empty() {
+            let message =
+                format!("no load first acts in stage `{}`, so none has a factor at which it buckles", stage.name);
+            let hint =
+                format!("give a load `stages = [\"{}\"]`; those of the stage before stay as they are", stage.name);
+            report.error_with::<()>(&stage.table.span, message, hint);
+        }
+        for load in new {
+            match &load.amplitude {
+                Some(amplitude) if names_harmonic(self.whole, amplitude.as_str()) => {}
+                _ if !buckles => {
+                    let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
+                    let hint = "they are those about the state that has been reached: name a static stage before it";
+                    report.error_with::<()>(&load.span, message, hint);
+                }
+                Some(amplitude) => {
+                    let message = format!("a load of the buckling stage `{}` has no amplitude", stage.name);
+                    report.error_with::<()>(&amplitude.span, message, "it is multiplied by the factor that is sought");
+                }
+                None => {}
             }
         }
     }
@@ -297,7 +292,9 @@ impl<'d> Course<'d> {
             let has_modes = named.is_some_and(|named| self.stages[named].has_modes);
             let (message, hint) = match (&expect.mode, &expect.frequency) {
                 (Some(_), _) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
-                (_, Some(_)) => ("no response is found there", "`frequency` is expected of a stage of frequency response"),
+                (_, Some(_)) => {
+                    ("no response is found there", "`frequency` is expected of a stage of frequency response")
+                }
                 _ if has_modes => ("no time passes in this stage", "expect a `mode`, or name another stage"),
                 _ => ("what this is expected of is not there", "name a stage in which it is"),
             };

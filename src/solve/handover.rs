@@ -6,7 +6,6 @@
 
 use super::context::Context;
 use super::load_steps::LoadSteps;
-use super::modes::ARM;
 use super::outcome::Counts;
 use crate::amplitude::{Amplitude, StraightLines};
 use crate::constraints::joint::ConstraintEquation;
@@ -304,7 +303,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
         forces.on_nodes.iter_mut().for_each(keep);
     }
     if let Some(stage) = &mut model.analysis.stage {
-        stage.holds_back = forces.on_nodes.iter().any(|of| is_felt(of, scale, ARM * length));
+        stage.holds_back = forces.on_nodes.iter().any(|of| is_felt(of, scale, length));
     }
     let amplitude = model.loading.amplitudes.len();
     let before = model.loading.nodal.len();
@@ -322,9 +321,9 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
 }
 
 /// True for forces above those that an equilibrium leaves.
-fn is_felt(of: &[f64; 6], scale: Scale, arm: f64) -> bool {
+fn is_felt(of: &[f64; 6], scale: Scale, length: f64) -> bool {
     /// Part of the largest force.
     const LEFT: f64 = 1e-6;
     let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment.max(arm * scale.force)
+    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment_beside_forces(length)
 }

@@ -14,9 +14,6 @@ use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest};
 use crate::state::State;
 use crate::system::{Loading, Side};
 
-/// Part of the size of the scene at which forces make moments: where only forces act, moments are rounding of them.
-pub(super) const ARM: f64 = 1e-2;
-
 /// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
 const BALANCED: f64 = 1e-3;
 
@@ -90,7 +87,7 @@ fn unbalanced(cx: &Context, ws: &mut Workspace, state: &State, loading: &Loading
     cx.model.analysis.stage.as_ref()?;
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     let scale = cx.system.residual(&state.configuration(), loading, &mut ws.forces);
-    let moment = scale.moment.max(ARM * cx.length * scale.force);
+    let moment = scale.moment_beside_forces(cx.length);
     let part = |&(node, dof): &(usize, usize)| {
         let (left, of) = (ws.forces.on_nodes[node][dof].abs(), if dof < 3 { scale.force } else { moment });
         if left == 0.0 { 0.0 } else { left / of }

@@ -278,7 +278,9 @@ impl Reader<'_> {
                 ("at", DeValue::String(text)) => at = Some(text.to_string()),
                 ("quantity", DeValue::String(text)) => quantity = Some(text.to_string()),
                 ("stage", DeValue::String(text)) => stage = Some(text.to_string()),
-                ("at" | "quantity" | "stage", _) => self.error(&value.span(), format!("`{key}` must be a name in quotes")),
+                ("at" | "quantity" | "stage", _) => {
+                    self.error(&value.span(), format!("`{key}` must be a name in quotes"))
+                }
                 _ if when.is_some() => self.error(&place, format!("`{name}` takes `peak` or `time`, not both")),
                 ("peak", DeValue::String(word)) if word.as_ref() == "max" => when = Some(CollectedWhen::Max),
                 ("peak", DeValue::String(word)) if word.as_ref() == "min" => when = Some(CollectedWhen::Min),

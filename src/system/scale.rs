@@ -12,7 +12,15 @@ pub struct Scale {
     pub moment: f64,
 }
 
+/// Part of a length at which forces make moments: where only forces act, moments are rounding of them.
+const ARM: f64 = 1e-2;
+
 impl Scale {
+    /// The scale of moments in a scene of this size, where these may be rounding of forces.
+    pub fn moment_beside_forces(&self, length: f64) -> f64 {
+        self.moment.max(ARM * length * self.force)
+    }
+
     /// Raises the scale of forces to the largest component of a force.
     #[inline]
     pub(super) fn include_force(&mut self, f: &Vec3) {
