@@ -16,7 +16,7 @@ pub struct Expect {
     /// Instead of `at`: number of a mode, 1 or more; the quantity is then a column of modes.csv, and needs no time.
     pub mode: Maybe<u64>,
     /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "fx" to "mz" of a joint, what
-    /// it does to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest
+    /// its constraints and its drive do to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest
     /// anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,

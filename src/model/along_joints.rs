@@ -130,7 +130,8 @@ impl<'d> Along<'_, 'd> {
         }
         let amplitude = self.amplitude(&motion.amplitude);
         let (scale, history) = self.quantity(motion)?;
-        if self.scene.analysis.kind == AnalysisKind::Static && history != History::Displacement {
+        let is_static = self.scene.analysis.kind == AnalysisKind::Static && self.scene.analysis.modes.is_none();
+        if is_static && history != History::Displacement {
             return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
         }
         let index = match (&motion.amplitude, history) {

@@ -47,7 +47,8 @@ fn all_move_as_bodies(model: &Model) -> bool {
         of_node.is_some_and(|dependent| dependent.dofs[..3].iter().all(|follows| *follows))
     };
     let is_body = |node: usize| model.bodies.iter().any(|body| body.node == node);
-    (0..model.nodes.len()).all(|node| is_body(node) || follows(node) || held(node) >= 3)
+    let drives: Vec<usize> = model.constraints.drives().collect();
+    (0..model.nodes.len()).all(|node| is_body(node) || follows(node) || held(node) >= 3 || drives.contains(&node))
 }
 
 /// The node that this one is fixed on, or the node itself.

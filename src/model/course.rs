@@ -9,6 +9,7 @@ use crate::amplitude::{Amplitude, StraightLines};
 use crate::deck::Deck;
 use crate::deck::analysis::{self as words, Analysis};
 use crate::deck::expect::Expect;
+use crate::deck::loads::Load;
 use crate::deck::stages::{Stage, StageKind};
 use crate::deck::words::{Maybe, Names, Table};
 use crate::diagnostic::{At, Diagnostic, Span};
@@ -196,6 +197,15 @@ impl<'d> Course<'d> {
                 report.error_with::<()>(&expect.span, "an expected value of a mode needs `stage` here", hint);
             }
         }
+        let responses = of_modes.iter().filter(|&&index| responds(self.stages[index].table)).count();
+        let others = self.whole.expect.iter().filter(|expect| expect.mode.is_none() && expect.time.is_none());
+        for expect in others.filter(|expect| expect.stage.is_none()) {
+            let is_open = if expect.frequency.is_some() { responses > 1 } else { responses > 0 };
+            if is_open {
+                let hint = "it may be that of a response over frequencies, or of a motion over time";
+                report.error_with::<()>(&expect.span, "an expected value needs `stage` here", hint);
+            }
+        }
     }
 
     /// Reports what first acts in a stage of modes and has no meaning there, or nothing that a buckling stage seeks the factor of.
@@ -211,8 +221,7 @@ impl<'d> Course<'d> {
         };
         let new: Vec<_> = self.whole.loads.iter().filter(|load| is_new(&load.stages)).collect();
         for support in self.whole.supports.iter().filter(|support| is_new(&support.stages)) {
-            let responds = stage.table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::FrequencyResponse);
-            if let Some(motion) = support.motion.as_ref().filter(|_| !responds) {
+            if let Some(motion) = support.motion.as_ref().filter(|_| !responds(stage.table)) {
                 let message = format!("nothing moves in stage `{}`", stage.name);
                 report.error_with::<()>(&motion.span, message, "let the motion first act in a static or dynamic stage");
             }
@@ -226,7 +235,7 @@ impl<'d> Course<'d> {
         }
         for load in new {
             match &load.amplitude {
-                Some(amplitude) if names_harmonic(self.whole, amplitude.as_str()) => {}
+                Some(amplitude) if !buckles && names_harmonic(self.whole, amplitude.as_str()) => {}
                 _ if !buckles => {
                     let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
                     let hint = "they are those about the state that has been reached: name a static stage before it";
@@ -482,7 +491,11 @@ impl<'d> CurrentStage<'d> {
         deck.joints.retain(|table| self.holds(&table.stages));
         deck.links.retain(|table| self.holds(&table.stages));
         deck.contacts.retain(|table| self.holds(&table.stages));
-        deck.loads.retain(|table| self.is_loaded(&table.stages));
+        let excites = |load: &Load| load.amplitude.as_ref().is_some_and(|name| names_harmonic(whole, name.as_str()));
+        deck.loads.retain(|table| match excites(table) {
+            true => self.holds(&table.stages),
+            false => self.is_loaded(&table.stages),
+        });
         let first_dynamic = self.course.first_dynamic();
         // Modes before anything has moved are those of a scene that moves as it will.
         let starts = match planned.has_modes {
@@ -573,6 +586,11 @@ impl<'d> CurrentStage<'d> {
 /// True for a stage that seeks factors of loads.
 fn buckles(table: &Stage) -> bool {
     table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::Buckling)
+}
+
+/// True for a stage that finds a response over frequencies.
+fn responds(table: &Stage) -> bool {
+    table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::FrequencyResponse)
 }
 
 /// The keys of a stage in which time passes.

@@ -156,7 +156,13 @@ fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], node
     let moves = |node: &state::Node| node.v.amax() > 0.0 || node.omega.amax() > 0.0;
     let [_, given, _] = coordinate.lock.gap(&from, &to);
     let known = (moves(&from) || fixed[0]) && (moves(&to) || fixed[1]);
-    (known && (given - driven).abs() > DIGITS * given.abs().max(driven.abs())).then_some((given, driven))
+    // The rate is the difference of what both ends have, which rounds.
+    let size = |node: &state::Node| match coordinate.lock.is_rotational() {
+        true => node.omega.amax(),
+        false => node.v.amax() + node.omega.amax() * node.x.amax(),
+    };
+    let size = size(&from).max(size(&to)).max(driven.abs());
+    (known && (given - driven).abs() > DIGITS * size).then_some((given, driven))
 }
 
 /// Rows between nodes at one place, about global axes at t = 0.

@@ -17,7 +17,7 @@ const MOST: u64 = 1_000_000;
 /// Most frequencies on each side of a natural one.
 const MOST_AROUND: u64 = 1000;
 /// Modes up to this multiple of the highest frequency answer with their inertia, unless the deck says otherwise.
-const BEYOND: f64 = 2.0;
+const BEYOND: f64 = 4.0;
 
 /// The keys of `[analysis]` that a frequency response alone has.
 pub(super) fn keys_of_response(analysis: &Analysis) -> [(&'static str, Option<&Span>); 3] {
@@ -54,10 +54,23 @@ pub(super) fn response<'d>(
     let (mut frequencies, resonances) = given.map_or((Vec::new(), None), |at| frequencies(at, report));
     frequencies.sort_by(f64::total_cmp);
     frequencies.dedup();
-    let highest = frequencies.last().copied().unwrap_or(1.0);
-    let all = ModeExtent::UpTo(BEYOND * highest.max(f64::MIN_POSITIVE));
-    let extent = (analysis.modes.is_none() && analysis.up_to.is_none()).then_some(all);
-    (ResponseAsked { frequencies, resonances, method, damping_ratio }, extent)
+    if let Some(at) = analysis.damping_ratio.as_ref().filter(|at| at.value >= 1.0) {
+        report.warn(
+            &at.span,
+            "with this damping nothing vibrates",
+            "the ratio is that to critical damping: 0.02 is 2 %",
+        );
+    }
+    let extent_is_open = analysis.modes.is_none() && analysis.up_to.is_none();
+    let asked = ResponseAsked { frequencies, resonances, method, damping_ratio, extent_is_open };
+    let extent = extent_is_open.then(|| extent(&asked));
+    (asked, extent)
+}
+
+/// The modes that answer with their inertia, unless the deck says otherwise.
+fn extent(asked: &ResponseAsked) -> ModeExtent {
+    let highest = asked.frequencies.last().copied().unwrap_or(1.0);
+    ModeExtent::UpTo(BEYOND * highest.max(f64::MIN_POSITIVE))
 }
 
 /// The frequencies of the deck.
@@ -149,7 +162,8 @@ pub(super) fn names_harmonic(deck: &Deck, name: &str) -> bool {
 
 /// Adds the frequencies at which something is expected to those that are computed.
 pub(super) fn add_expected(model: &mut Model) {
-    let Some(response) = model.analysis.modes.as_mut().and_then(|asked| asked.response.as_mut()) else { return };
+    let Some(modes) = model.analysis.modes.as_mut() else { return };
+    let Some(response) = &mut modes.response else { return };
     for expect in &model.expects {
         if let ExpectAt::Response(_, OverFrequencies::At(frequency)) = expect.at {
             response.frequencies.push(frequency);
@@ -157,6 +171,9 @@ pub(super) fn add_expected(model: &mut Model) {
     }
     response.frequencies.sort_by(f64::total_cmp);
     response.frequencies.dedup();
+    if response.extent_is_open {
+        modes.extent = extent(response);
+    }
 }
 
 /// True for the amplitude of this index where it is harmonic.

@@ -57,7 +57,11 @@ impl Response {
         for (dof, [real, imaginary]) in motion.iter().enumerate() {
             values[dof] = real.hypot(*imaginary);
             // The angle of zero is zero, whatever its sign.
-            values[6 + dof] = if values[dof] == 0.0 { 0.0 } else { imaginary.atan2(*real).to_degrees() };
+            values[6 + dof] = match values[dof] {
+                0.0 => 0.0,
+                size if !size.is_finite() => f64::NAN,
+                _ => imaginary.atan2(*real).to_degrees(),
+            };
         }
         Some(values)
     }

@@ -301,6 +301,11 @@ impl Watch {
         let difference = self.sample.map(|sample| match tolerance {
             Tolerance::AtLeast => (expected - sample.value).max(0.0),
             Tolerance::AtMost => (sample.value - expected).max(0.0),
+            // A phase is the same after a full turn.
+            _ if quantity.ends_with("_phase") => {
+                let apart = (sample.value - expected).rem_euclid(360.0);
+                apart.min(360.0 - apart)
+            }
             _ => (sample.value - expected).abs(),
         });
         let bound = match tolerance {

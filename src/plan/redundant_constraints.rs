@@ -22,7 +22,8 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let projections = dependents::projections(&system.rigid_links, &nodes, &independent_nodes);
     let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
     // The size of the scene makes rotations comparable with translations.
-    let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max);
+    let length = if length > 0.0 { length } else { 1.0 };
 
     // The columns are the degrees of freedom on which joints act, numbered as they are met.
     let mut column = vec![None; directions];

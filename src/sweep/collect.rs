@@ -2,7 +2,7 @@
 
 use super::file::{Collected, CollectedWhen};
 use crate::output::TABLES;
-use crate::output::table::STAGE;
+use crate::output::table::{STAGE, TableKind};
 use crate::output::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::path::Path;
@@ -15,7 +15,10 @@ const SAME_TIME: f64 = 1e-9;
 /// # Errors
 /// A table cannot be read; the error names it.
 pub fn collect(folder: &Path, wanted: &Collected) -> io::Result<Option<f64>> {
-    for table in TABLES.iter().filter(|table| !table.every_step && folder.join(table.file).exists()) {
+    // A response is asked for its own table, whose columns have the names of others.
+    let there = TABLES.iter().copied().filter(|table| !table.every_step && folder.join(table.file).exists());
+    let (first, others): (Vec<&TableKind>, Vec<&TableKind>) = there.partition(|table| table.file == "response.csv");
+    for table in first.into_iter().chain(others) {
         let has_it = table.columns().any(|column| !column.is_key() && column.answers_to(&wanted.quantity));
         let about_all = !table.columns().any(|column| column.is_key());
         if !has_it || (wanted.at == "energy") != (about_all && table.file == "energy.csv") {

@@ -111,6 +111,9 @@ impl System {
                 let [Ga, Gb] = row.gradient(a, b);
                 gaps[first + k] = Ga.dot(&motions[joint.nodes[0]]) + Gb.dot(&motions[joint.nodes[1]]);
             }
+            if let Some(drive) = &joint.drive {
+                gaps[first + joint.equations.len() - 1] -= motions[drive.node][0];
+            }
         }
     }
 

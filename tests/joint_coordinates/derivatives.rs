@@ -139,7 +139,7 @@ fn what_acts_along_a_coordinate_against_differences() {
     let (h, tolerance) = (1e-5, 5e-8);
     for law in laws() {
         for lock in equations().into_iter().filter(|row| !matches!(row, ConstraintEquation::Screw { .. })) {
-            let block = CoordinateSprings(vec![CoordinateSpring { nodes: [0, 1], lock, law }]);
+            let block = CoordinateSprings(vec![CoordinateSpring { nodes: [0, 1], lock, law, drive: None }]);
             for _ in 0..20 {
                 let nodes = random.pair(&axes().column(0).into_owned());
                 let q = lock.gap(&nodes[0], &nodes[1])[0];

@@ -63,3 +63,15 @@ fn a_spring_is_wound_up_by_turns() {
         }
     }
 }
+
+/// A drive that turns by more than a turn in one step, from rest and back to rest: rates at its ends tell nothing, the drive itself does.
+#[test]
+fn the_turns_of_a_drive_are_those_that_it_says() {
+    for scheme in all_schemes() {
+        let along = "motion = { position = 1.0, amplitude = \"table\" }\nstiffness = 2.0\n[amplitudes.table]\nkind = \"table\"\n\
+                     points = [[0.0, 0.0], [5.0, 0.0], [5.1, 7.0], [10.0, 7.0]]\n";
+        let text = rotor(scheme, 0.1, along);
+        let last = *shown(&read_deck(&text), "pin").last().unwrap();
+        assert!((last.coordinate - 7.0).abs() < 1e-9, "{scheme}: {last:?}");
+    }
+}

@@ -310,3 +310,45 @@ fn stage_about_a_loaded_state() {
     let softer = motion(&modes(&column(&analysis(keys), "").replace("-1500.0", "-0.001")), 1, 2)[1].1.norm();
     assert!((softer / expected - 1.0).abs() > 0.05, "{softer} {expected}");
 }
+
+/// A drive between ground and body is shaken: the body turns by what the drive says, whatever the frequency, and its centre with it.
+#[test]
+fn shaken_drive() {
+    for method in ["", "\nmethod = \"modal\"\nmodes = 1"] {
+        let text = analysis(&format!("frequencies = [0.5, 2.0]{method}"))
+            + "[[bodies]]\nname = \"arm\"\ncenter = [1.0, 0.0, 0.0]\nmass = 2.0\ninertia = [0.3, 0.4, 0.5]\n\
+               [[bodies]]\nname = \"other\"\ncenter = [0.0, 5.0, 0.0]\nmass = 2.0\ninertia = [0.3, 0.4, 0.5]\n\
+               [[joints]]\nname = \"pin\"\nkind = \"revolute\"\naxis = [0.0, 0.0, 1.0]\nfrom = { ground = [0.0, 0.0, 0.0] }\n\
+               to = { body = \"arm\" }\nmotion = { position = 0.1, amplitude = \"shake\" }\n";
+        let text = shaken(text);
+        let (model, found) = (read_deck(&text), modes(&text));
+        let arm = node(&model, "arm");
+        for (dof, size) in [(5, 0.1), (1, 0.1), (0, 0.0)] {
+            let motion = motion(&found, arm, dof);
+            assert_eq!(motion.len(), 2);
+            assert!(motion.iter().all(|(_, x)| (x - size).norm() < 1e-8), "{method:?} {dof}: {motion:?}");
+        }
+    }
+}
+
+/// One oscillator, asked below half of its frequency and expected above it: the mode answers with its inertia and its damping, as in the
+/// closed form.
+#[test]
+fn modes_beyond_the_frequencies_asked_answer_too() {
+    let (m, k, ratio) = (2.0, 710.6, 0.2);
+    let text = analysis(&format!("frequencies = [1.0]\nmethod = \"modal\"\ndamping_ratio = {ratio:?}"))
+        + "[points]\na = [1.0, 0.0, 0.0]\n[[masses]]\nat = \"a\"\nmass = 2.0\n\
+           [[links]]\nname = \"first\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"a\" }\nlaw = \"linear\"\nstiffness = 710.6\n\
+           [[supports]]\nat = \"a\"\nfix = [\"uy\", \"uz\"]\n\
+           [[loads]]\nat = \"a\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"shake\"\n\
+           [[expect]]\nat = \"a\"\nquantity = \"ux\"\nfrequency = 3.0\nvalue = 1.0\ntolerance = 1e9\n";
+    let text = shaken(text);
+    let (model, found) = (read_deck(&text), modes(&text));
+    let exact = |omega: f64| {
+        let damping = 2.0 * ratio * f64::sqrt(k / m) * m;
+        C64::new(1.0, 0.0) / C64::new(k - omega * omega * m, omega * damping)
+    };
+    let found = motion(&found, node(&model, "a"), 0);
+    assert_eq!(found.len(), 2);
+    assert!(differs(&found, exact) < 1e-9, "{found:?}");
+}

@@ -99,6 +99,9 @@ impl PartAnswers for Link {
             LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, damping, .. } => {
                 Some(LinearSpring { ends: self.ends, stiffness, damping })
             }
+            LinkKind::Joint { law, .. } if law == CoordinateLaw::FREE => {
+                Some(LinearSpring { ends: self.ends, stiffness: 0.0, damping: 0.0 })
+            }
             LinkKind::Line { .. } | LinkKind::Bushing { .. } | LinkKind::Joint { .. } => None,
         }
     }

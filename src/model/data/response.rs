@@ -11,6 +11,8 @@ pub struct ResponseAsked {
     pub method: ResponseMethod,
     /// The part of critical damping that every mode has besides; zero with direct solution.
     pub damping_ratio: f64,
+    /// True where the deck leaves open how many modes answer with their inertia.
+    pub extent_is_open: bool,
 }
 
 /// More frequencies around the natural ones of a range.

@@ -57,6 +57,7 @@ pub fn response(
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
+    let unstable = if unsymmetric { 0 } else { pencil.factor(0.0).unwrap_or(0) };
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
@@ -70,6 +71,9 @@ pub fn response(
     found.factorizations += all.len();
     found.solves += all.len();
     found.doubts.extend(gyroscopic.doubts);
+    if unstable > 0 {
+        found.doubts.push("the state is unstable: no steady motion about it lasts".to_owned());
+    }
     found.doubts.extend(direct.doubts());
     found.response = Some(response);
     Ok(found)

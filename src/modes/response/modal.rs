@@ -20,6 +20,7 @@ use super::matrices::Matrices;
 use crate::linear::{Solver, Sparse};
 use crate::math::Vec6;
 use crate::model::{ModeExtent, ModeKind, ResponseAsked};
+use crate::names::short;
 use crate::system::assembly::Assembly;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -55,6 +56,7 @@ pub fn response(
     let list = shapes.natural(&pencil, &pairs);
     let natural: Vec<f64> = list.iter().map(|mode| mode.frequency()).collect();
     let all = frequencies(asked, &natural);
+    let highest = all.last().copied().unwrap_or_default();
     let gyroscopic = Gyroscopic::of(at);
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let shift = shift(&mut pencil, &pairs)?;
@@ -66,12 +68,30 @@ pub fn response(
         let row = motion.at(&space, &parts, &excitation, frequency);
         response.add(frequency, row);
     }
+    let truncated = truncation(&pencil, &natural, highest, gyroscopic.acts());
     let mut doubts = gyroscopic.doubts;
+    doubts.extend(truncated);
     doubts.extend(left_out(at).into_iter().filter(|_| !at.loads_have_potential()));
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let (kind, masses, response) = (ModeKind::Natural, shapes.masses, Some(response));
     Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response })
+}
+
+/// What the modes that were not found leave out, in words, where it may be seen.
+fn truncation(pencil: &Pencil, natural: &[f64], highest: f64, spins: bool) -> Option<String> {
+    /// Of the highest mode: what answers as a spring is then at least twice as fast, and wrong by a tenth at most.
+    const NEAR: f64 = 0.5;
+    let last = natural.last().copied().unwrap_or_default();
+    if natural.len() >= pencil.at.unknowns() || !(spins || highest > NEAR * last) {
+        return None;
+    }
+    let what = if spins { "gyroscopic moments and damping" } else { "damping" };
+    Some(format!(
+        "the modes found reach up to frequency {}, all others answer as springs, without {what}: take more of them (`up_to`, `modes`), or \
+         method = \"direct\"",
+        short(last)
+    ))
 }
 
 /// Factorises at a shift: zero where nothing moves without stiffness, else below zero.

@@ -81,7 +81,12 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.constraints.joints.iter().enumerate().filter(|(_, joint)| !joint.supports).try_for_each(
         |(index, joint)| {
             let values = values(index, frame).unwrap_or([f64::NAN; 9]);
-            table.row(frame.step, frame.state.time).text(&joint.name).numbers(&values).end()
+            let mut row = table.row(frame.step, frame.state.time).text(&joint.name);
+            // A joint without a coordinate has none to write, which is no fault of a number.
+            for value in &values[..3] {
+                row = if joint.coordinate.is_none() { row.text("") } else { row.number(*value) };
+            }
+            row.numbers(&values[3..]).end()
         },
     )
 }

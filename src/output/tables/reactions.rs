@@ -12,7 +12,8 @@ pub static TABLE: TableKind = TableKind {
     file: "reactions.csv",
     about: "One row for each restrained or prescribed degree of freedom, also of ends of joints, links and contact surfaces on the \
             ground (`joint.to`, `link.from`, `contact.surface`); and six rows for each joint between two parts: what the joint \
-            exerts on its first part (`from`), at that end. Written if `[output] reactions = true`.",
+            exerts on its first part (`from`), at that end, by its constraints and its drive; joints.csv has what motors, springs, \
+            stops and friction add. Written if `[output] reactions = true`.",
     columns: &[&[
         Column::key("node", "name of the supported node, of the end on the ground, or of the joint"),
         Column::key("direction", "`ux uy uz` for forces, `rx ry rz` for moments; global"),

@@ -36,8 +36,12 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     let ExpectAt::Response(node, over) = at else { return None };
     let response = frame.modes?.response.as_ref()?;
     let of = |row: &ResponseRow| response.amplitudes(row, node).map(|values| values[index]);
-    let finite = || response.rows.iter().filter_map(of).filter(|value| value.is_finite());
+    let all = || response.rows.iter().filter_map(of);
+    // Where nothing limits the motion there is no largest.
+    let unlimited = all().any(|value| !value.is_finite());
+    let finite = || all().filter(|value| value.is_finite());
     match over {
+        OverFrequencies::Max | OverFrequencies::Abs if unlimited => None,
         OverFrequencies::At(frequency) => {
             response.rows.iter().find(|row| row.frequency == frequency).and_then(of).filter(|value| value.is_finite())
         }
@@ -65,8 +69,11 @@ fn write_row(
 ) -> io::Result<()> {
     for &(name, node) in named {
         let Some(values) = response.amplitudes(row, node) else { continue };
-        let out = table.row(frame.step, frame.state.time).number(row.frequency).text(name);
-        out.numbers(&values).end()?;
+        let mut out = table.row(frame.step, frame.state.time).number(row.frequency).text(name);
+        for value in values {
+            out = if value.is_finite() { out.number(value) } else { out.text("") };
+        }
+        out.end()?;
     }
     Ok(())
 }

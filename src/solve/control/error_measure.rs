@@ -20,6 +20,8 @@ pub struct ErrorMeasure {
     end_time: f64,
     /// The nodes of bodies: errors of their rotations count.
     bodies: Vec<usize>,
+    /// The nodes of drives of joints, whose displacements may be angles.
+    drives: Vec<usize>,
 }
 
 impl ErrorMeasure {
@@ -31,6 +33,7 @@ impl ErrorMeasure {
             extent,
             end_time: model.analysis.duration(),
             bodies: model.bodies.iter().map(|body| body.node).collect(),
+            drives: model.constraints.drives().collect(),
         }
     }
 
@@ -51,7 +54,9 @@ impl ErrorMeasure {
 
     /// The largest displacements and rotations so far, including those of a state.
     pub fn with(&self, largest: Size, model: &Model, state: &State) -> Size {
-        let moved = state.nodes.iter().zip(&model.nodes).map(|(node, spec)| node.moved(&spec.x).norm());
+        let nodes = state.nodes.iter().zip(&model.nodes).enumerate();
+        let nodes = nodes.filter(|(node, _)| self.drives.is_empty() || !self.drives.contains(node));
+        let moved = nodes.map(|(_, (node, spec))| node.moved(&spec.x).norm());
         let turned = self.bodies.iter().map(|&body| 2.0 * state.nodes[body].rotation.imag().norm());
         Size {
             translation: moved.fold(largest.translation, f64::max),

@@ -93,8 +93,11 @@ impl Kept {
         if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, ends) - 1e-9 * ends[1] {
             return;
         }
-        let compared = state.nodes.iter().zip(&model.nodes).step_by(stride);
-        self.displacements.extend(compared.map(|(node, start)| node.moved(&start.x)));
+        // What drives joints has displacements that may be angles, and no error.
+        let drives: Vec<usize> = model.constraints.drives().collect();
+        let compared = state.nodes.iter().zip(&model.nodes).enumerate().step_by(stride);
+        let compared = compared.filter(|(node, _)| !drives.contains(node));
+        self.displacements.extend(compared.map(|(_, (node, start))| node.moved(&start.x)));
         let bodies = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.rotations.extend(bodies().map(|node| node.rotation));
         // What is elastic vibrates, and what touches stops at once: velocities are then far less certain than positions, and matter less.

@@ -3,9 +3,10 @@
 //! reaction.
 //!
 //! Angles are counted over full turns from that at the end of the last step, on from there with the mean of the rates: half a turn
-//! more or less is the limit, not the turn itself.
+//! more or less is the limit, not the turn itself. That of a drive is what the drive says, to the nearest turn.
 
-use crate::constraints::joint::ConstraintEquation;
+use crate::constraints::joint::{ConstraintEquation, Drive};
+use crate::elements::contact::restitution::Loss;
 use crate::elements::coordinate_law::{
     ANCHOR, CoordinateLaw, CoordinateState, IMPACT_POWER, IMPACT_SPEED, MEMORY, RATE,
 };
@@ -23,6 +24,8 @@ pub struct CoordinateSpring {
     pub lock: ConstraintEquation,
     /// Its laws.
     pub law: CoordinateLaw,
+    /// What drives the joint.
+    pub drive: Option<Drive>,
 }
 
 impl CoordinateSpring {
@@ -30,7 +33,11 @@ impl CoordinateSpring {
     pub fn state(&self, nodes: &[Node], memory: &[f64], dt: f64) -> CoordinateState {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let [q, rate, _] = self.lock.gap(a, b);
-        let off = q - (memory[0] + 0.5 * dt * (memory[RATE] + rate));
+        let expected = match &self.drive {
+            Some(drive) => nodes[drive.node].moved(&drive.start).x,
+            None => memory[0] + 0.5 * dt * (memory[RATE] + rate),
+        };
+        let off = q - expected;
         // Nothing is lost where there are no turns to count.
         self.law.at(q + (self.lock.nearest(off) - off), rate, memory)
     }
@@ -68,7 +75,9 @@ impl ElementBlock for CoordinateSprings {
     }
 
     fn is_damped(&self) -> bool {
-        self.0.iter().any(|spring| spring.law.damping > 0.0)
+        // What an impact loses is lost over the rate.
+        let loses = |law: &CoordinateLaw| law.stops.as_ref().is_some_and(|stops| stops.loss != Loss::None);
+        self.0.iter().any(|spring| spring.law.damping > 0.0 || loses(&spring.law))
     }
 
     fn history(&self) -> usize {

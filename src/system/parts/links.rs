@@ -2,6 +2,7 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting};
 use super::coordinate_springs::{CoordinateSpring, CoordinateSprings};
+use crate::constraints::joint::Drive;
 use crate::elements::bushing::{Bushing, Bushings};
 use crate::elements::coordinate_law::{CoordinateLaw, MEMORY};
 use crate::elements::link::{self, Links};
@@ -72,7 +73,12 @@ impl Assembled for Link {
 
 /// All links one by one, in deck order.
 pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
-    let element = |part: &Link| match &part.kind {
+    let drive = |spring: usize| {
+        let coordinates = model.constraints.joints.iter().filter_map(|joint| joint.coordinate.as_ref());
+        let node = coordinates.filter(|coordinate| coordinate.spring == Some(spring)).find_map(|of| of.drive)?;
+        Some(Drive { node, start: x[node] })
+    };
+    let element = |(index, part): (usize, &Link)| match &part.kind {
         LinkKind::Line { law, damping, direction, free_length } => {
             let start = part.ends.map(|node| x[node]);
             LinkElement::Line(link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start))
@@ -86,10 +92,10 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
         }),
         LinkKind::Joint { lock, law } => {
-            LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law: *law })
+            LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law: *law, drive: drive(index) })
         }
     };
-    model.each::<Link>().map(element).collect()
+    model.each::<Link>().enumerate().map(element).collect()
 }
 
 /// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`:
