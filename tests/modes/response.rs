@@ -352,3 +352,25 @@ fn modes_beyond_the_frequencies_asked_answer_too() {
     assert_eq!(found.len(), 2);
     assert!(differs(&found, exact) < 1e-9, "{found:?}");
 }
+
+/// Two undamped absorbers on a machine, asked where one of them would resonate alone: the machine rests, and the absorber takes the force.
+#[test]
+fn a_tuned_absorber_is_no_resonance() {
+    let tuned = TAU * TAU * 4.0; // 1 kg at 2 Hz
+    let text = analysis("frequencies = [2.0]")
+        + "[points]\na = [1.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\nc = [3.0, 0.0, 0.0]\n\
+           [[masses]]\nat = \"a\"\nmass = 10.0\n[[masses]]\nat = [\"b\", \"c\"]\nmass = 1.0\n\
+           [[links]]\nname = \"first\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"a\" }\nlaw = \"linear\"\nstiffness = 3000.0\n\
+           [[supports]]\nat = [\"a\", \"b\", \"c\"]\nfix = [\"uy\", \"uz\"]\n\
+           [[loads]]\nat = \"a\"\nforce = [10.0, 0.0, 0.0]\namplitude = \"shake\"\n"
+        + &format!(
+            "[[links]]\nname = \"second\"\nfrom = {{ node = \"a\" }}\nto = {{ node = \"b\" }}\nlaw = \"linear\"\nstiffness = {tuned:?}\n\
+             [[links]]\nname = \"third\"\nfrom = {{ node = \"a\" }}\nto = {{ node = \"c\" }}\nlaw = \"linear\"\nstiffness = {:?}\n",
+            2.25 * tuned
+        );
+    let text = shaken(text);
+    let (model, found) = (read_deck(&text), modes(&text));
+    let [a, b] = ["a", "b"].map(|name| motion(&found, node(&model, name), 0)[0].1);
+    // The answer is that of a frequency 1e-9 beside.
+    assert!(a.norm() < 1e-8 && (b + 10.0 / tuned).norm() < 1e-6 * 10.0 / tuned, "{a} {b}");
+}

@@ -79,6 +79,15 @@ pub fn response(
     Ok(found)
 }
 
+/// True for motions beside a frequency that are the same to what the frequencies differ by, many times over: near a resonance they are
+/// opposite.
+fn agree([before, after]: &[[Vec<Vec6>; 2]; 2]) -> bool {
+    const SAME: f64 = 1e-4;
+    let pairs = || before.iter().flatten().zip(after.iter().flatten());
+    let largest = pairs().map(|(a, b)| a.amax().max(b.amax())).fold(0.0, f64::max);
+    pairs().all(|(a, b)| (a - b).amax() <= SAME * largest)
+}
+
 /// A direct solution under way.
 struct Direct<'a> {
     pencil: Pencil<'a>,
@@ -93,12 +102,29 @@ struct Direct<'a> {
 impl Direct<'_> {
     /// Adds the motion at a frequency.
     fn solve(&mut self, frequency: f64, response: &mut Response) {
+        /// Part of a frequency by which it is left on either side where its own equations cannot be solved.
+        const ASIDE: f64 = 1e-9;
+        let found = self.motions(frequency).or_else(|| {
+            // A part that would resonate alone makes a pivot vanish, but the whole may not.
+            let sides = [self.motions(frequency * (1.0 - ASIDE))?, self.motions(frequency * (1.0 + ASIDE))?];
+            agree(&sides).then(|| sides[0].clone())
+        });
+        match found {
+            Some([real, imaginary]) => response.keep(frequency, [&real, &imaginary]),
+            None => {
+                self.resonances.push(frequency);
+                let infinite = vec![Vec6::repeat(f64::INFINITY); self.pencil.nodes.len()];
+                response.keep(frequency, [&infinite, &infinite]);
+            }
+        }
+    }
+
+    /// The motions of all nodes at a frequency, real and imaginary parts; `None` where the equations are singular.
+    fn motions(&mut self, frequency: f64) -> Option<[Vec<Vec6>; 2]> {
         let omega = TAU * frequency;
         let at = self.pencil.at;
         if !self.stiffness.factor(omega) {
-            self.resonances.push(frequency);
-            let infinite = vec![Vec6::repeat(f64::INFINITY); at.model.nodes.len()];
-            return response.keep(frequency, [&infinite, &infinite]);
+            return None;
         }
         let n = at.unknowns();
         let mut f = vec![C64::new(0.0, 0.0); at.plan.dofs.unknowns()];
@@ -133,7 +159,7 @@ impl Direct<'_> {
             }
             f[..n].fill(C64::new(0.0, 0.0));
         }
-        response.keep(frequency, [&motions[0], &motions[1]]);
+        Some(motions)
     }
 
     /// The motions of all nodes that supports prescribe, real and imaginary parts.
