@@ -51,6 +51,7 @@ pub mod plan;
 pub mod quantities;
 pub mod record;
 pub mod sections;
+pub mod snapshot;
 pub mod solids;
 pub mod solve;
 pub mod state;

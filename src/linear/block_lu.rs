@@ -13,6 +13,7 @@ use super::kernel::{
 };
 use super::pivot::Singular;
 use super::stats::Stats;
+use crate::snapshot::{Keep, Snapshot};
 
 /// A matrix of B×B blocks and its LU factorisation.
 pub struct BlockLu<const B: usize> {
@@ -31,6 +32,14 @@ pub struct BlockLu<const B: usize> {
     scales: Vec<DenseColumn<B>>,
     /// Right-hand side and solution by position; zero in padded rows. Written by `solve`.
     x: Vec<DenseColumn<B>>,
+}
+
+impl<const B: usize> Keep for BlockLu<B> {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let BlockLu { blocks, scales, graph: _, elimination: _, start: _, places: _, padding: _, x: _ } = self;
+        blocks.keep(snapshot);
+        scales.keep(snapshot);
+    }
 }
 
 impl<const B: usize> BlockLu<B> {

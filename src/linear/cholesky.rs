@@ -11,6 +11,7 @@ use super::graph::Graph;
 use super::memory::{self, TooLarge};
 use super::pivot::{PIVOT_TOLERANCE, Singular};
 use super::stats::Stats;
+use crate::snapshot::{Keep, Snapshot};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
@@ -48,6 +49,35 @@ pub struct Cholesky {
     buffer: MemBuffer,
     /// `buffer` is large enough.
     ready_for_indefinite: bool,
+}
+
+impl Keep for Cholesky {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let Cholesky {
+            values,
+            L,
+            definite,
+            graph: _,
+            ordering: _,
+            flops: _,
+            position: _,
+            external: _,
+            pattern: _,
+            symbolic: _,
+            fronts: _,
+            par: _,
+            diagonal: _,
+            x: _,
+            buffer: _,
+            ready_for_indefinite: _,
+        } = self;
+        values.keep(snapshot);
+        L.keep(snapshot);
+        definite.keep(snapshot);
+        if snapshot.gives() && !self.definite {
+            self.prepare_indefinite();
+        }
+    }
 }
 
 impl Cholesky {

@@ -1,6 +1,7 @@
 //! Checks that the memory holds a factor before it is taken: a system that promises more memory than it has ends the
 //! programs that come to use it, without a message.
 
+use crate::snapshot::keep;
 use std::fmt;
 
 /// Memory of a factor, its matrix and the update matrices of its fronts, over that of the factor alone. Shells of 250,000
@@ -15,6 +16,8 @@ pub struct TooLarge {
     /// Bytes needed at least.
     pub needed: f64,
 }
+
+keep!(TooLarge { unknowns, needed });
 
 impl fmt::Display for TooLarge {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -10,6 +10,7 @@ use super::pivot::Singular;
 use super::sparse::Sparse;
 use super::stats::Stats;
 use super::structure::Structure;
+use crate::snapshot::{Keep, Snapshot};
 
 /// A matrix and its factorisation, the memory of both included.
 pub enum Solver {
@@ -30,6 +31,12 @@ macro_rules! each {
             Solver::Cholesky($inner) => $call,
         }
     };
+}
+
+impl Keep for Solver {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        each!(self, inner => inner.keep(snapshot));
+    }
 }
 
 impl Solver {

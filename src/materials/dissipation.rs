@@ -1,5 +1,6 @@
 //! Energy that does not come back as motion, and where it went.
 
+use crate::snapshot::keep;
 use std::ops::{AddAssign, Mul};
 
 /// Energy dissipated and stored by plastic flow and at contacts, per volume or of a whole.
@@ -16,6 +17,8 @@ pub struct Dissipation {
     /// Dissipated in impacts.
     pub impact: f64,
 }
+
+keep!(Dissipation { plastic, viscous, stored, friction, impact });
 
 impl AddAssign for Dissipation {
     fn add_assign(&mut self, more: Dissipation) {

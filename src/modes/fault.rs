@@ -1,6 +1,7 @@
 //! The reasons why there are no modes.
 
 use crate::linear::TooLarge;
+use crate::snapshot::keep_either;
 use std::fmt;
 
 /// The reason why modes were not found.
@@ -49,6 +50,19 @@ pub enum ModesFault {
     /// There is no memory.
     TooLarge(TooLarge),
 }
+
+keep_either!(ModesFault {
+    0 => NoMass,
+    1 => Singular { label, direction },
+    2 => NotConverged { wanted },
+    3 => Missed { found, there },
+    4 => TooMany { there, most },
+    5 => MovedSupport,
+    6 => UnstableUnloaded,
+    7 => NoLoads,
+    8 => NoBuckling,
+    9 => TooLarge(needed),
+});
 
 impl From<TooLarge> for ModesFault {
     fn from(error: TooLarge) -> ModesFault {

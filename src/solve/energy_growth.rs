@@ -5,6 +5,7 @@ use super::failure::Failure;
 use crate::integrators::Stepping;
 use crate::model::{AnalysisKind, Model, Part};
 use crate::plan::Plan;
+use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::System;
 use crate::system::energy::{Balance, Energy};
@@ -18,6 +19,8 @@ pub struct EnergyGrowth {
     /// True where energy had grown at the last check.
     growing: bool,
 }
+
+keep!(EnergyGrowth { balance, growing });
 
 impl EnergyGrowth {
     /// Updates the balance; `energy` is that of the state where it is known. Central differences have failed where they

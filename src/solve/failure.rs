@@ -4,6 +4,7 @@ use crate::model::{DIRECTIONS, Model};
 use crate::modes::ModesFault;
 use crate::names::to_digits;
 use crate::plan::Plan;
+use crate::snapshot::{keep, keep_either};
 use crate::system::System;
 use std::fmt;
 
@@ -149,8 +150,31 @@ pub enum Failure {
     },
 }
 
+keep_either!(Failure {
+    0 => NoLoadIncrement { time },
+    1 => Singular { label, direction, open, at_start },
+    2 => MasslessDirection { label, rotation, direction, buckles, open },
+    3 => NotConverged { iterations, load_control, open, largest },
+    4 => ConstraintsViolated { largest },
+    5 => TooManySubsteps { steps, substeps, dt, cause },
+    6 => NoEquilibriumOnArc { largest },
+    7 => TooManySteps { steps },
+    8 => ContactNotResolved { name },
+    9 => BushingTurnedOver { name },
+    10 => BushingTurnsTooFar { name, dt },
+    11 => Unstable { dt, longest, automatic },
+    12 => EnergyGrowth { ratio },
+    13 => RotationTooLarge { dt },
+    14 => LoadStepTurns { label, angle },
+    15 => TurnedOver { name },
+    16 => EquilibriumJumps { label, direction, work, stored },
+    17 => ErrorTooLarge { dt },
+    18 => Modes(fault),
+    19 => NotFinite { largest },
+});
+
 /// A residual force, or a gap, with its name.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct NamedResidual {
     /// Name of the node or joint.
     pub label: String,
@@ -159,6 +183,8 @@ pub struct NamedResidual {
     /// Its residual or gap.
     pub residual: f64,
 }
+
+keep!(NamedResidual: Default { label, direction, residual });
 
 impl Failure {
     /// A pivot that vanishes, by its row; the part that is open there, and whether nothing has moved yet.

@@ -3,6 +3,7 @@
 use super::derived::Derived;
 use crate::model::Model;
 use crate::modes::Modes;
+use crate::snapshot::{Snapshot, keep};
 use crate::state::State;
 
 /// One accepted step, read-only.
@@ -17,6 +18,8 @@ pub struct Frame<'a> {
     pub dt: f64,
     /// What the step took; at a time inside it, what that time took alone.
     pub effort: Effort,
+    /// What all steps took since tables were due before, this one included.
+    pub since: Effort,
     /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
     /// True when the output cadence asks for this step; t = 0 and the last step always are. The last step before a
@@ -54,6 +57,21 @@ pub struct Effort {
     pub cuts: usize,
 }
 
+keep!(Effort { iterations, refactorizations, residual, cuts });
+
+impl Effort {
+    /// That of these steps and of another.
+    #[must_use]
+    pub fn and(self, other: Effort) -> Effort {
+        Effort {
+            iterations: self.iterations + other.iterations,
+            refactorizations: self.refactorizations + other.refactorizations,
+            residual: self.residual.max(other.residual),
+            cuts: self.cuts + other.cuts,
+        }
+    }
+}
+
 /// The observer of a run.
 pub trait Observer {
     /// Receives each accepted step. An error is an input/output error; it ends the run with exit code 6.
@@ -85,6 +103,19 @@ pub trait Observer {
 
     /// Takes note of the run that tells the errors of what has been received; of `None` where none does.
     fn on_other_run(&mut self, _: Option<OtherRun>) {}
+
+    /// True where a checkpoint is due. It is asked before every step.
+    fn wants_checkpoint(&mut self) -> bool {
+        false
+    }
+
+    /// Receives all that the run needs to go on from the last accepted step. An error is one of input/output.
+    fn on_checkpoint(&mut self, _: &[u8]) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    /// Keeps what the run itself lets watch its steps; what others have received they keep with [`Observer::on_checkpoint`].
+    fn keep(&mut self, _: &mut Snapshot) {}
 }
 
 /// Another run of the scene, with longer steps.

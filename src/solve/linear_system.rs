@@ -1,6 +1,7 @@
 //! A matrix with its factorization, and the one protocol by which systems with joints are solved.
 
 use crate::linear::Solver;
+use crate::snapshot::keep;
 use crate::system::Multipliers;
 use crate::system::assembly::Assembly;
 
@@ -11,6 +12,8 @@ pub struct LinearSystem {
     /// The slots of the matrices of elements and nodes.
     pub assembly: Assembly,
 }
+
+keep!(LinearSystem { solver } without { assembly });
 
 impl LinearSystem {
     /// Solves for nodal unknowns and multipliers together. `rhs` holds the forces on the nodal unknowns and becomes the

@@ -4,6 +4,7 @@
 //! had are then the measure.
 
 use super::sudden_loads::SuddenLoads;
+use crate::snapshot::keep;
 use crate::system::{Loading, Prescribed, Scale};
 
 /// Loads and motions below this part of the largest so far are those of a structure that has been let go: amplitudes come back to zero
@@ -33,6 +34,8 @@ pub struct Peak {
     pub stressed: bool,
 }
 
+keep!(Peak { acting, forces, last, released, unloaded, unstressed, stressed });
+
 /// What load steps leave to those after them.
 #[derive(Debug, Clone, Default)]
 pub struct LoadSteps {
@@ -48,6 +51,8 @@ pub struct LoadSteps {
     pub sudden: Option<SuddenLoads>,
 }
 
+keep!(LoadSteps: Default { stored, doubtful, peak, works, sudden });
+
 /// The works of loads and of supports in the load steps of a static analysis.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Works {
@@ -58,6 +63,8 @@ pub struct Works {
     /// What loads may have done before they were in equilibrium, where they act at once.
     pub sudden: f64,
 }
+
+keep!(Works { loads, supports, largest, sudden });
 
 impl Works {
     /// Adds those of a step.

@@ -9,6 +9,7 @@ use super::report::StepReport;
 use super::sample::{Sample, Samples};
 use super::stop_watch::StopWatch;
 use super::workspace::Workspace;
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::State;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -30,18 +31,68 @@ pub struct March<'r, 'a> {
     pub stop_watch: Option<&'r mut StopWatch>,
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
+    /// Where between its events the run is.
+    pub place: Place,
+    /// True where it does not begin, but goes on from a checkpoint.
+    pub resumes: bool,
+    /// What leads to further runs of the scene.
+    pub search: &'r mut dyn Keep,
 }
 
+/// The place of a run between the events that steps end at.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Place {
+    /// The interval that is being covered, from 0.
+    pub interval: usize,
+    /// Number of its steps that are done, where their length is given.
+    pub step: usize,
+    /// Cutbacks before the step at hand.
+    pub cuts: usize,
+}
+
+keep!(Place { interval, step, cuts });
+
 impl March<'_, '_> {
-    /// Ends the run where the stop flag is raised.
+    /// Between two steps that `controller` leads: shows a checkpoint where one is due, and ends the run where the stop flag is raised, with
+    /// one.
     ///
     /// # Errors
-    /// [`Outcome::Stopped`] where the run is to end.
-    pub fn check_stop(&self) -> Result<(), Outcome> {
-        match self.stop.load(Ordering::Relaxed) {
-            true => Err(Outcome::Stopped { time: self.state.time }),
-            false => Ok(()),
+    /// [`Outcome::Stopped`] where the run is to end, [`Outcome::Io`] where the observer cannot write.
+    pub fn pause(&mut self, controller: &mut dyn Keep) -> Result<(), Outcome> {
+        let stops = self.stop.load(Ordering::Relaxed);
+        if !stops && !self.observer.wants_checkpoint() {
+            return Ok(());
         }
+        let mut snapshot = Snapshot::taken();
+        self.search.keep(&mut snapshot);
+        self.recorder.keep(&mut snapshot);
+        self.keep_rest(controller, &mut snapshot);
+        self.observer.on_checkpoint(&snapshot.into_bytes()).map_err(Outcome::Io)?;
+        if stops { Err(Outcome::Stopped { time: self.state.time }) } else { Ok(()) }
+    }
+
+    /// Keeps what comes behind the search and the recorder, or takes it back.
+    pub fn keep_rest(&mut self, controller: &mut dyn Keep, snapshot: &mut Snapshot) {
+        let March {
+            ws,
+            state,
+            observer,
+            samples,
+            stop_watch,
+            place,
+            cx: _,
+            recorder: _,
+            stop: _,
+            resumes: _,
+            search: _,
+        } = self;
+        place.keep(snapshot);
+        samples.keep(snapshot);
+        stop_watch.iter_mut().for_each(|watch| watch.keep(snapshot));
+        ws.keep(snapshot);
+        state.keep(snapshot);
+        controller.keep(snapshot);
+        observer.keep(snapshot);
     }
 
     /// Takes account of an accepted step; true where it has come to the value at which the stage stops.

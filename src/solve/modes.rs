@@ -16,6 +16,8 @@ use crate::system::{Loading, Side};
 
 /// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
 const BALANCED: f64 = 1e-3;
+/// The interval of a run that has come to the state of its modes.
+const AT_ITS_END: usize = usize::MAX;
 
 /// Leads a run to its end, and shows the modes about the state there where the model asks for them.
 ///
@@ -24,7 +26,7 @@ const BALANCED: f64 = 1e-3;
 pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
     let Some(asked) = &march.cx.model.analysis.modes else { return controller.run(march, schedule) };
     // A stage of modes takes the state as it is; loads of buckling are factors of modes, and bring nothing on before.
-    if march.cx.model.analysis.stage.is_none() {
+    if march.cx.model.analysis.stage.is_none() && march.place.interval < AT_ITS_END {
         if asked.kind == ModeKind::Buckling || rests(march) {
             let report = &StepReport::begin(0.0);
             march.notify(&AcceptedStep {
@@ -40,7 +42,8 @@ pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule)
             controller.run(march, schedule)?;
         }
     }
-    march.check_stop()?;
+    march.place.interval = AT_ITS_END;
+    march.pause(controller)?;
     show(march)
 }
 

@@ -1,6 +1,7 @@
 //! The outcome of a run, and its effort.
 
 use super::failure::Failure;
+use crate::snapshot::keep;
 
 /// The way a run ended.
 #[derive(Debug)]
@@ -37,3 +38,5 @@ pub struct Counts {
     /// Cutbacks.
     pub cuts: usize,
 }
+
+keep!(Counts: Default { steps, iterations, factorizations, solves, cuts });

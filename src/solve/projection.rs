@@ -17,6 +17,7 @@ use crate::linear::TooLarge;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec3, angular};
 use crate::plan::Plan;
+use crate::snapshot::keep;
 use crate::state::{Configuration, Node, State};
 use crate::system::TangentWeights;
 use crate::system::{Forces, Loading, System};
@@ -39,6 +40,8 @@ pub struct ConstraintProjection {
     change: ForceChange,
 }
 
+keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless });
+
 /// What the joints must carry in addition for the accelerations that were projected last: with M a + Gᵀλ = f before and
 /// M δa + Gᵀδλ = 0, forces and accelerations at the end of a step belong to one another, and both are of the scheme's order.
 /// Where equilibrium is written past the end, forces are carried there on a straight line, which has that order already.
@@ -49,6 +52,8 @@ struct ForceChange {
     /// Change of the reactions −M δa − Gᵀδλ, in the order of the model's restraints; empty where forces are not wanted.
     reactions: Vec<f64>,
 }
+
+keep!(ForceChange { multipliers, reactions });
 
 /// A slot on the diagonal of the matrix.
 struct DiagonalSlot {

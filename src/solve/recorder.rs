@@ -12,6 +12,7 @@ use super::sample::Sample;
 use super::workspace::Workspace;
 use crate::model::{Cadence, Model};
 use crate::modes::Modes;
+use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::energy::{Balance, Energy};
 use std::time::{Duration, Instant};
@@ -40,7 +41,13 @@ pub struct Recorder {
     looked_inside: bool,
     /// Length of the last step, where tables were not due at its end.
     pending: Option<f64>,
+    /// The effort of all steps since tables were due.
+    since: Effort,
 }
+
+keep!(Recorder {
+    counts, before, is_trial, most_steps, growth, initial_energy, tables, fields, looked_inside, pending, since,
+} without { wanted, observing, derived });
 
 /// The progress of a cadence.
 #[derive(Default)]
@@ -48,6 +55,8 @@ struct Pace {
     /// Time of the last output.
     last: f64,
 }
+
+keep!(Pace { last });
 
 impl Pace {
     /// True where output is due at a step; that of t = 0 and of the end is due anyway.
@@ -84,6 +93,14 @@ pub struct AcceptedStep<'s> {
     pub passed: &'s [usize],
 }
 
+impl AcceptedStep<'_> {
+    /// What it took.
+    fn effort(&self) -> Effort {
+        let StepReport { iterations, factorizations, residual, .. } = *self.report;
+        Effort { iterations, refactorizations: factorizations, residual, cuts: self.cuts }
+    }
+}
+
 impl Recorder {
     /// A recorder that shows the `wanted` quantities.
     pub fn new(model: &Model, wanted: Wanted) -> Recorder {
@@ -101,6 +118,7 @@ impl Recorder {
             fields: Pace::default(),
             looked_inside: false,
             pending: None,
+            since: Effort::default(),
         }
     }
 
@@ -166,6 +184,7 @@ impl Recorder {
             return Err(Outcome::Failed { time: state.time, failure: Failure::ErrorTooLarge { dt: step.dt } });
         }
         let (due, drawn) = self.is_due(cx.model, step, state.time);
+        self.spend(step);
         self.pending = (!due).then_some(step.dt);
         // Reading the clock twice costs a twentieth of a step of two bodies.
         let began = (due || drawn).then(Instant::now);
@@ -183,6 +202,9 @@ impl Recorder {
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
         observer.on_step(&self.frame(cx, ws, state, step, [due, drawn])).map_err(Outcome::Io)?;
+        if due {
+            self.since = Effort::default();
+        }
         if let Some(began) = began {
             self.observing += began.elapsed();
         }
@@ -206,12 +228,16 @@ impl Recorder {
         let (due, compared) = (sample.due && !self.is_trial, sample.compared);
         let began = due.then(Instant::now);
         let step = &AcceptedStep { dt, report, cuts: 0, due, compared, last: false, passed: &[] };
+        self.spend(step);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let request = Request { model, system, state, due: due || compared, drawn: false, balance, threads };
         self.derived.compute(self.wanted, &request);
         self.looked_inside = true;
         let frame = self.frame(cx, ws, state, step, [due, false]);
         observer.on_step(&Frame { step: frame.step + 1, inside: true, ..frame }).map_err(Outcome::Io)?;
+        if due {
+            self.since = Effort::default();
+        }
         if let Some(began) = began {
             self.observing += began.elapsed();
         }
@@ -274,6 +300,11 @@ impl Recorder {
         (due, drawn)
     }
 
+    /// Adds what a step took to what steps took since tables were due.
+    fn spend(&mut self, step: &AcceptedStep) {
+        self.since = self.since.and(step.effort());
+    }
+
     fn frame<'f>(
         &'f self,
         cx: &Context<'f>,
@@ -282,7 +313,7 @@ impl Recorder {
         step: &AcceptedStep<'f>,
         [due, drawn]: [bool; 2],
     ) -> Frame<'f> {
-        let &AcceptedStep { dt, report, cuts, compared, last, passed, .. } = step;
+        let &AcceptedStep { dt, compared, last, passed, .. } = step;
         // Each multiplier has a negative pivot of its own.
         let negative = || ws.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
         Frame {
@@ -290,12 +321,8 @@ impl Recorder {
             state,
             step: self.counts.steps,
             dt,
-            effort: Effort {
-                iterations: report.iterations,
-                refactorizations: report.factorizations,
-                residual: report.residual,
-                cuts,
-            },
+            effort: step.effort(),
+            since: self.since,
             due,
             drawn,
             last,

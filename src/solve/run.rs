@@ -6,7 +6,7 @@ use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::{Observer, OtherRun};
 use super::handover::{EndedStage, Handover, hand_over};
-use super::march::March;
+use super::march::{March, Place};
 use super::modes;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
@@ -20,6 +20,7 @@ use super::workspace::Workspace;
 use crate::linear::TooLarge;
 use crate::model::{AnalysisKind, Model, StepLength};
 use crate::plan::Plan;
+use crate::snapshot::{Keep, Snapshot, keep, keep_either};
 use crate::state::State;
 use crate::system::System;
 use crate::system::energy::Balance;
@@ -31,6 +32,59 @@ use std::time::Duration;
 struct Pieces {
     now: usize,
     before: usize,
+}
+
+keep!(Pieces { now, before });
+
+/// What runs of a scene by a tolerance leave to those after them.
+struct Search {
+    /// The run that is under way.
+    under_way: UnderWay,
+    error: StepError,
+    pieces: Pieces,
+    /// Times at which the run under way is compared, besides those of every scene.
+    compared: Vec<f64>,
+    /// The run before.
+    before: Option<Kept>,
+    judged: Judged,
+}
+
+keep!(Search { under_way, error, pieces, compared, before, judged });
+
+/// The runs of a search.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum UnderWay {
+    /// One whose results may be those of the deck.
+    Main,
+    /// One with longer steps that tells the error of the one before it.
+    Trial,
+    /// The one before, once more.
+    Settled,
+}
+
+keep_either!(UnderWay { 0 => Main, 1 => Trial, 2 => Settled });
+
+/// A run whose error a trial is to tell, with what is set aside for the trial.
+struct Judged {
+    run: Kept,
+    state: State,
+    recorder: Recorder,
+    warnings: Warnings,
+    seen: [f64; 2],
+}
+
+keep!(Judged { run, state, recorder, warnings, seen });
+
+/// No search: the run is the only one.
+struct NoSearch;
+
+impl Keep for NoSearch {
+    fn keep(&mut self, _: &mut Snapshot) {}
+}
+
+/// The error that a checkpoint is not one of this scene.
+fn unfit() -> std::io::Error {
+    std::io::Error::new(std::io::ErrorKind::InvalidData, "the checkpoint does not fit the scene of the deck")
 }
 
 /// A run of one scene. Whatever its steps need is allocated when it is made.
@@ -46,6 +100,8 @@ pub struct Run<'a> {
     /// What ends the stage before its time.
     stop_watch: Option<StopWatch>,
     stop: &'a AtomicBool,
+    /// The checkpoint that the run goes on from; `None` once it does.
+    checkpoint: Option<Snapshot>,
 }
 
 impl<'a> Run<'a> {
@@ -69,12 +125,18 @@ impl<'a> Run<'a> {
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);
         let stop_watch = StopWatch::new(&context);
-        Ok(Run { context, workspace, controller, recorder, wanted, step_error: None, handover: None, stop_watch, stop })
+        let (step_error, handover, checkpoint) = (None, None, None);
+        Ok(Run { context, workspace, controller, recorder, wanted, step_error, handover, stop_watch, stop, checkpoint })
     }
 
     /// Lets the run begin with what the stage before has left; with `None` it begins at t = 0.
     pub fn go_on_from(&mut self, handover: Option<Handover>) {
         self.handover = handover;
+    }
+
+    /// Lets the run go on from a checkpoint that [`Observer::on_checkpoint`] has received from a run of the same scene.
+    pub fn resume(&mut self, checkpoint: Vec<u8>) {
+        self.checkpoint = Some(Snapshot::of(checkpoint));
     }
 
     /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
@@ -83,25 +145,46 @@ impl<'a> Run<'a> {
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         match (&self.context.model.analysis.step_length, self.controller.by_tolerance()) {
             (&StepLength::ErrorControlled { tolerance, .. }, Some(_)) => self.within(tolerance, observer),
-            _ => self.once(observer, &Schedule::new(self.context.model, std::iter::empty(), false)),
+            _ => self.once(observer, &Schedule::new(self.context.model, std::iter::empty(), false), &mut NoSearch),
         }
     }
 
-    /// One run as scheduled.
-    fn once(&mut self, observer: &mut dyn Observer, schedule: &Schedule) -> (Outcome, Option<State>) {
-        let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, .. } = self;
-        let began = match handover {
-            Some(handover) => start_stage(cx, ws, handover),
-            None => start(cx, ws),
+    /// One run as scheduled, or the rest of it.
+    fn once(
+        &mut self,
+        observer: &mut dyn Observer,
+        schedule: &Schedule,
+        search: &mut dyn Keep,
+    ) -> (Outcome, Option<State>) {
+        let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, checkpoint, .. } = self;
+        let mut checkpoint = checkpoint.take();
+        let began = match (&mut checkpoint, handover.as_ref()) {
+            (Some(snapshot), _) => {
+                recorder.keep(snapshot);
+                Ok(State::default())
+            }
+            (None, Some(handover)) => start_stage(cx, ws, handover),
+            (None, None) => start(cx, ws),
         };
         let mut state = match began {
             Ok(state) => state,
             Err(failure) => return (Outcome::Failed { time: cx.model.analysis.begin, failure }, None),
         };
-        recorder.begin(cx, &state, handover.as_ref());
+        if checkpoint.is_none() {
+            recorder.begin(cx, &state, handover.as_ref());
+        }
         let samples = Samples::new(&schedule.samples);
         let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_trial);
-        let mut march = March { cx, ws, state: &mut state, recorder, observer, samples, stop_watch, stop };
+        let (place, resumes) = (Place::default(), checkpoint.is_some());
+        let state_at = &mut state;
+        let mut march =
+            March { cx, ws, state: state_at, recorder, observer, samples, stop_watch, stop, place, resumes, search };
+        if let Some(mut snapshot) = checkpoint {
+            march.keep_rest(controller, &mut snapshot);
+            if !snapshot.is_used_up() {
+                return (Outcome::Io(unfit()), None);
+            }
+        }
         let mut outcome = modes::lead(controller, &mut march, schedule);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
@@ -112,89 +195,120 @@ impl<'a> Run<'a> {
 
     /// Runs with steps that follow a tolerance until the error is the one asked for.
     fn within(&mut self, asked: f64, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
-        let model = self.context.model;
-        let power = model.solution.scheme.order() + 1;
-        let inside = self.controller.looks_inside();
-        let times = || comparison_times(&model.analysis);
-        let mut schedule = Schedule::new(model, times(), inside);
-        let mut error = StepError::new(asked);
-        let mut before: Option<Kept> = None;
-        let mut pieces = Pieces { now: 1, before: 1 };
-        self.follow(asked, None);
+        let mut search = self.begin_search(asked);
         loop {
-            let mut trace = Trace::new(observer, power);
-            let (outcome, state) = self.once(&mut trace, &schedule);
-            let run = trace.into_kept();
-            // What fails with shorter steps did come to its end with those before.
-            if before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
-                return self.settle(error, &Schedule::new(model, times(), inside).cut(pieces.before), observer);
-            }
-            if !matches!(outcome, Outcome::Done) {
-                return (outcome, state);
-            }
-            let other = match self.other_run(&run, before.take(), &mut error, observer) {
-                Ok(other) => other,
-                Err(outcome) => return (outcome, state),
+            let ended = match search.under_way {
+                UnderWay::Main => self.main_run(&mut search, observer),
+                UnderWay::Trial => self.trial(&mut search, observer),
+                UnderWay::Settled => Some(self.settle(&mut search, observer)),
             };
-            let next = match &other {
-                Some((_, other)) => error.judge(&run, other, self.context.length),
-                None => Some(error.without_trial()),
-            };
-            let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
-            observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which));
-            // Jumps and kinks of loads dictate most steps: only shorter ones between them tell anything.
-            pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
-            let next = if dictated { Some(error.tolerance) } else { next };
-            let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
-                self.workspace.warnings.extend(error.doubt());
-                self.step_error = Some(error);
-                return (outcome, state);
-            };
-            let most_steps = MOST_LONGER * self.recorder.own().steps;
-            // Steps that no tolerance limits shrink as well, or the run would be the same again.
-            let compared = if inside { observer.times_to_compare() } else { Vec::new() };
-            schedule = Schedule::new(model, times().chain(compared), inside).cut(pieces.now);
-            let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / (power - 1) as f64);
-            if let Err(error) = self.begin_again(&mut error, (tolerance, Some(longest)), observer) {
-                return (Outcome::Io(error), state);
+            if let Some(ended) = ended {
+                return ended;
             }
-            self.recorder.most_steps = most_steps;
-            before = Some(run);
         }
     }
 
-    /// The run that tells the error of this one: that before, or a trial; `None` where the trial does not come to its end.
-    ///
-    /// # Errors
-    /// The outcome that ends the run: a signal, or a fault of the observer.
-    fn other_run(
-        &mut self,
-        run: &Kept,
-        before: Option<Kept>,
-        error: &mut StepError,
-        observer: &mut dyn Observer,
-    ) -> Result<Option<(OtherRun, Kept)>, Outcome> {
-        if let Some(before) = before.filter(|before| run.is_told_by(before)) {
-            return Ok(Some((OtherRun::Before(run.apart(&before)), before)));
+    /// Begins with the first run, or takes up the search at a checkpoint.
+    fn begin_search(&mut self, asked: f64) -> Search {
+        let model = self.context.model;
+        let mut search = Search {
+            under_way: UnderWay::Main,
+            error: StepError::new(asked),
+            pieces: Pieces { now: 1, before: 1 },
+            compared: Vec::new(),
+            before: None,
+            judged: Judged {
+                run: Kept::default(),
+                state: State::default(),
+                recorder: Recorder::new(model, self.wanted),
+                warnings: Warnings::default(),
+                seen: [0.0; 2],
+            },
+        };
+        self.follow(asked, None);
+        if let Some(snapshot) = &mut self.checkpoint {
+            search.keep(snapshot);
+            if search.under_way == UnderWay::Trial {
+                self.recorder = Recorder::new(model, self.wanted.where_due());
+            }
         }
-        let trial = self.trial(error, (run.longest(), run.end()), observer)?;
-        Ok(trial.map(|trial| (OtherRun::Trial(run.apart(&trial)), trial)))
+        search
     }
 
-    /// Makes the run by the tolerance before once more, for the run under way fails or asks for far too many steps.
-    fn settle(
-        &mut self,
-        mut error: StepError,
-        schedule: &Schedule,
-        observer: &mut dyn Observer,
-    ) -> (Outcome, Option<State>) {
-        let of_before = error.before;
-        if let Err(error) = self.begin_again(&mut error, of_before, observer) {
-            return (Outcome::Io(error), None);
+    /// Makes a run that may be the last, or the rest of it. Returns what ends the search, if anything does.
+    fn main_run(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
+        let model = self.context.model;
+        let times = comparison_times(&model.analysis).chain(search.compared.iter().copied());
+        let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(search.pieces.now);
+        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1);
+        let (outcome, state) = self.once(&mut trace, &schedule, search);
+        let run = trace.into_kept();
+        // What fails with shorter steps did come to its end with those before.
+        if search.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
+            let of_before = search.error.before;
+            let begun = self.begin_again(&mut search.error, of_before, observer);
+            search.under_way = UnderWay::Settled;
+            return begun.err().map(|error| (Outcome::Io(error), None));
         }
-        let (outcome, state) = self.once(observer, schedule);
-        self.workspace.warnings.extend(error.doubt());
-        self.step_error = Some(error);
+        let (Outcome::Done, Some(state)) = (&outcome, &state) else { return Some((outcome, state)) };
+        search.judged.run = run;
+        search.judged.state.clone_from(state);
+        match search.before.take().filter(|before| search.judged.run.is_told_by(before)) {
+            Some(before) => {
+                let apart = search.judged.run.apart(&before);
+                self.judge(search, Some((OtherRun::Before(apart), before)), observer)
+            }
+            None => {
+                self.begin_trial(search, observer);
+                None
+            }
+        }
+    }
+
+    /// Judges the run that has come to its end by another one. Returns what ends the search, if it is good enough, and prepares for a
+    /// further one else.
+    fn judge(
+        &mut self,
+        search: &mut Search,
+        other: Option<(OtherRun, Kept)>,
+        observer: &mut dyn Observer,
+    ) -> Option<(Outcome, Option<State>)> {
+        let Search { error, pieces, judged, .. } = search;
+        let (run, inside) = (std::mem::take(&mut judged.run), self.controller.looks_inside());
+        let next = match &other {
+            Some((_, other)) => error.judge(&run, other, self.context.length),
+            None => Some(error.without_trial()),
+        };
+        let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
+        observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which));
+        // Jumps and kinks of loads dictate most steps: only shorter ones between them tell anything.
+        *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
+        let next = if dictated { Some(error.tolerance) } else { next };
+        let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
+            self.workspace.warnings.extend(error.doubt());
+            self.step_error = Some(*error);
+            return Some((Outcome::Done, Some(std::mem::take(&mut judged.state))));
+        };
+        let most_steps = MOST_LONGER * self.recorder.own().steps;
+        // Steps that no tolerance limits shrink as well, or the run would be the same again.
+        search.compared = if inside { observer.times_to_compare() } else { Vec::new() };
+        let power = self.context.model.solution.scheme.order();
+        let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / power as f64);
+        if let Err(fault) = self.begin_again(error, (tolerance, Some(longest)), observer) {
+            return Some((Outcome::Io(fault), Some(std::mem::take(&mut judged.state))));
+        }
+        self.recorder.most_steps = most_steps;
+        (search.before, search.under_way) = (Some(run), UnderWay::Main);
+        None
+    }
+
+    /// Makes the run by the tolerance before once more, for the run after it fails or asks for far too many steps.
+    fn settle(&mut self, search: &mut Search, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
+        let model = self.context.model;
+        let schedule = Schedule::new(model, comparison_times(&model.analysis), self.controller.looks_inside());
+        let (outcome, state) = self.once(observer, &schedule.cut(search.pieces.before), search);
+        self.workspace.warnings.extend(search.error.doubt());
+        self.step_error = Some(search.error);
         (outcome, state)
     }
 
@@ -219,40 +333,49 @@ impl<'a> Run<'a> {
         observer.restart(model)
     }
 
-    /// Runs with longer steps, unseen, for the sake of the error of the run before; `None` where that run does not come to its end.
-    ///
-    /// # Errors
-    /// [`Outcome::Stopped`], and [`Outcome::Io`] where the observer fails.
-    fn trial(
-        &mut self,
-        error: &mut StepError,
-        (longest, reached): (f64, f64),
-        observer: &mut dyn Observer,
-    ) -> Result<Option<Kept>, Outcome> {
-        let (model, inside) = (self.context.model, self.controller.looks_inside());
-        let power = model.solution.scheme.order() + 1;
-        let recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));
+    /// Sets aside what belongs to the run that has come to its end, for a trial with longer steps.
+    fn begin_trial(&mut self, search: &mut Search, observer: &mut dyn Observer) {
+        let (model, Search { error, judged, .. }) = (self.context.model, &mut *search);
+        judged.recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));
         self.recorder.is_trial = true;
-        let warnings = std::mem::take(&mut self.workspace.warnings);
-        let seen = (self.workspace.rotation_drift, self.workspace.joint_violation);
-        self.follow(error.tolerance * LOOSER, Some(2.0 * longest));
-        self.recorder.most_steps = 2 * recorder.own().steps + FEW;
-        let compared = if inside { observer.times_to_compare() } else { Vec::new() };
-        let schedule = Schedule::of_trial(model, comparison_times(&model.analysis).chain(compared), inside);
-        // A stage that has stopped is compared up to there.
-        let schedule = schedule.until(if self.has_stopped() == Some(true) { reached } else { f64::INFINITY });
+        judged.warnings = std::mem::take(&mut self.workspace.warnings);
+        judged.seen = [self.workspace.rotation_drift, self.workspace.joint_violation];
+        self.follow(error.tolerance * LOOSER, Some(2.0 * judged.run.longest()));
+        self.recorder.most_steps = 2 * judged.recorder.own().steps + FEW;
+        search.compared = if self.controller.looks_inside() { observer.times_to_compare() } else { Vec::new() };
+        search.under_way = UnderWay::Trial;
         observer.begin_trial();
+    }
+
+    /// Runs with longer steps, unseen, for the sake of the error of the run before, and judges that. Returns what ends the search, if
+    /// anything does.
+    fn trial(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
+        let model = self.context.model;
+        let times = comparison_times(&model.analysis).chain(search.compared.iter().copied());
+        let schedule = Schedule::of_trial(model, times, self.controller.looks_inside());
+        // A stage that has stopped is compared up to there.
+        let reached = if self.has_stopped() == Some(true) { search.judged.run.end() } else { f64::INFINITY };
+        let schedule = schedule.until(reached);
         let mut unseen = Unseen(observer);
-        let mut trace = Trace::new(&mut unseen, power);
-        let (outcome, _) = self.once(&mut trace, &schedule);
+        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1);
+        let (outcome, _) = self.once(&mut trace, &schedule, search);
+        let trial = trace.into_kept();
+        let Search { error, judged, .. } = &mut *search;
         error.add(self.recorder.own());
-        (self.recorder, self.workspace.warnings) = (recorder, warnings);
-        (self.workspace.rotation_drift, self.workspace.joint_violation) = seen;
+        std::mem::swap(&mut self.recorder, &mut judged.recorder);
+        self.workspace.warnings = std::mem::take(&mut judged.warnings);
+        [self.workspace.rotation_drift, self.workspace.joint_violation] = judged.seen;
         match outcome {
-            Outcome::Done => Ok(Some(trace.into_kept())),
-            Outcome::Stopped { .. } => Err(Outcome::Stopped { time: model.analysis.end_time }),
-            Outcome::Io(_) => Err(outcome),
-            Outcome::Failed { .. } => Ok(None),
+            Outcome::Done => {
+                let apart = judged.run.apart(&trial);
+                self.judge(search, Some((OtherRun::Trial(apart), trial)), observer)
+            }
+            Outcome::Failed { .. } => self.judge(search, None, observer),
+            Outcome::Stopped { .. } => {
+                let stopped = Outcome::Stopped { time: model.analysis.end_time };
+                Some((stopped, Some(std::mem::take(&mut judged.state))))
+            }
+            Outcome::Io(_) => Some((outcome, Some(std::mem::take(&mut judged.state)))),
         }
     }
 
@@ -266,7 +389,7 @@ impl<'a> Run<'a> {
         self.recorder.is_trial = true;
         let schedule = Schedule::new(model, times.into_iter(), self.controller.looks_inside());
         observer.begin_trial();
-        self.once(&mut Unseen(observer), &schedule).0
+        self.once(&mut Unseen(observer), &schedule, &mut NoSearch).0
     }
 
     /// Prepares for a run by this tolerance, whose counts begin anew.

@@ -1,5 +1,7 @@
 //! The times inside steps at which the motion is looked at.
 
+use crate::snapshot::{Keep, Snapshot};
+
 /// A time inside the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -14,6 +16,18 @@ pub struct Sample {
 /// Times to look at inside steps, in order.
 pub struct Samples<'s> {
     coming: &'s [Sample],
+}
+
+impl Keep for Samples<'_> {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let Samples { coming } = self;
+        let mut left = coming.len();
+        left.keep(snapshot);
+        match coming.len().checked_sub(left) {
+            Some(passed) => *coming = &coming[passed..],
+            None => snapshot.tear(),
+        }
+    }
 }
 
 impl<'s> Samples<'s> {

@@ -1,5 +1,7 @@
 //! The size of a motion, translations and rotations apart.
 
+use crate::snapshot::keep;
+
 /// The largest translation and the largest rotation of a set of nodes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Size {
@@ -8,6 +10,8 @@ pub struct Size {
     /// Largest rotation, in radians.
     pub rotation: f64,
 }
+
+keep!(Size { translation, rotation });
 
 impl Size {
     /// This size, unless the other is not a number.

@@ -6,6 +6,7 @@ use super::workspace::Workspace;
 use crate::elements::Force;
 use crate::math::{Vec3, rotation};
 use crate::model::{Actors, Stop, StopQuantity};
+use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::{Loading, Prescribed, Side};
 
@@ -29,6 +30,8 @@ pub struct StopWatch {
     buffers: Buffers,
 }
 
+keep!(StopWatch { side, size, work, reached, before, load_steps, buffers } without { stop, moved });
+
 /// Loads and motions at the ends of a step, and forces on nodes.
 #[derive(Default)]
 struct Buffers {
@@ -38,6 +41,8 @@ struct Buffers {
     /// What is held back of the loads at the beginning of the stage; empty where nothing is.
     held: Loading,
 }
+
+keep!(Buffers { loads, motions, forces, held });
 
 impl Buffers {
     /// Finds what a static stage that follows another one holds back of loads that come with it, or that jump where it begins.

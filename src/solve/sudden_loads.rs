@@ -3,6 +3,7 @@
 //! of forces that grow with what they move.
 
 use super::context::Context;
+use crate::snapshot::keep;
 use crate::system::{Loading, Side};
 
 /// The step that brings loads on.
@@ -13,6 +14,8 @@ pub struct SuddenLoads {
     /// By how much loads jump at its start.
     jump: Loading,
 }
+
+keep!(SuddenLoads: Default { from, to, jump });
 
 impl SuddenLoads {
     /// The step that ends at `to`, from t = 0, where nothing acts before, or from a jump.

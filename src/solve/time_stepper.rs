@@ -8,6 +8,7 @@ use super::report::StepReport;
 use super::workspace::Workspace;
 use crate::integrators::Stepping;
 use crate::linear::TooLarge;
+use crate::snapshot::{Keep, Snapshot};
 use crate::state::State;
 
 /// A stepper that takes a step of given length.
@@ -18,6 +19,16 @@ pub enum TimeStepper<'a> {
     CentralDifference(Box<CentralDifferenceStepper>),
     /// Steps of an explicit Runge-Kutta scheme.
     RungeKutta(Box<RungeKuttaStepper>),
+}
+
+impl Keep for TimeStepper<'_> {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        match self {
+            TimeStepper::Implicit(stepper) => stepper.keep(snapshot),
+            TimeStepper::CentralDifference(stepper) => stepper.keep(snapshot),
+            TimeStepper::RungeKutta(stepper) => stepper.keep(snapshot),
+        }
+    }
 }
 
 impl<'a> TimeStepper<'a> {

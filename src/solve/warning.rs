@@ -1,6 +1,7 @@
 //! What a run has to say about its own results: they may not be the answer to the deck, or not to all of it.
 
 use crate::names::{short, to_digits};
+use crate::snapshot::{keep, keep_either};
 use std::fmt;
 use std::mem::discriminant;
 
@@ -50,8 +51,19 @@ pub enum Warning {
     Modes(String),
 }
 
+keep_either!(Warning {
+    0 => InitialVelocities { change },
+    1 => StepError { asked, estimate },
+    2 => Unbalanced { residual },
+    3 => DeepContact { name, depth, size },
+    4 => Unstable(instability),
+    5 => UnstableOutOfPlane(instability),
+    6 => Grows { modes, rate, fastest },
+    7 => Modes(doubts),
+});
+
 /// Where and how an equilibrium becomes unstable.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Instability {
     /// Time at which the first mode buckles, estimated between the ends of a step; its start where it was unstable already.
     pub time: f64,
@@ -67,6 +79,8 @@ pub struct Instability {
     pub label: String,
     pub direction: &'static str,
 }
+
+keep!(Instability: Default { time, already, certain, modes, seen, label, direction });
 
 /// The error that steps leave, beside the one asked for.
 fn step_error(asked: f64, estimate: Option<f64>) -> String {
@@ -149,6 +163,8 @@ pub struct Warnings {
     remarks: Vec<Remark>,
 }
 
+keep!(Warnings: Default { warnings, remarks });
+
 impl Warnings {
     /// Adds a warning, unless there is one of its kind already.
     pub fn add(&mut self, warning: Warning) {
@@ -214,6 +230,8 @@ pub enum Remark {
     /// A plane scene has joints: buckling out of it is not judged.
     Jointed,
 }
+
+keep_either!(Remark { 0 => JudgedAsHeld { places }, 1 => NotHeld { place }, 2 => Jointed });
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -1,6 +1,7 @@
 //! The work of loads and dampers over a step, by quadrature with the weights of a Runge-Kutta scheme.
 
 use crate::integrators::tableau::StageWeights;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, Node, State, Work};
@@ -14,6 +15,8 @@ pub struct Power {
     /// Of viscous damping.
     pub damping: f64,
 }
+
+keep!(Power { external, damping });
 
 impl Power {
     /// The power at the start of a step; with `driven`, that on prescribed motion is included.
@@ -50,6 +53,8 @@ pub struct WorkQuadrature {
     external: f64,
     damping: f64,
 }
+
+keep!(WorkQuadrature { external, damping });
 
 impl WorkQuadrature {
     /// Adds the power at an instant with its weight.

@@ -5,6 +5,7 @@ use super::linear_system::LinearSystem;
 use super::load_steps::LoadSteps;
 use super::warning::Warnings;
 use crate::linear::TooLarge;
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Increment, Node};
 use crate::system::{Forces, Loading, Prescribed, TurningStart};
 
@@ -45,6 +46,25 @@ pub struct Workspace {
     pub warnings: Warnings,
 }
 
+keep!(Workspace {
+    trial,
+    increments,
+    turning,
+    history,
+    forces,
+    r,
+    loads,
+    prescribed,
+    reach,
+    load_steps,
+    matrix,
+    factorizations,
+    solves,
+    rotation_drift,
+    joint_violation,
+    warnings,
+});
+
 /// An excitation at the three times that a step needs.
 #[derive(Default)]
 pub struct AtTimes<T> {
@@ -54,6 +74,13 @@ pub struct AtTimes<T> {
     pub end: T,
     /// Its value at the instant where equilibrium is written.
     pub instant: T,
+}
+
+impl<T: Keep> Keep for AtTimes<T> {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let AtTimes { start, end, instant } = self;
+        [start, end, instant].into_iter().for_each(|value| value.keep(snapshot));
+    }
 }
 
 impl Workspace {

@@ -4,6 +4,7 @@
 use crate::materials::Dissipation;
 use crate::math::rotation::{self, RotationUpdate};
 use crate::math::{Mat3, Vec3, Vec6, angular, linear};
+use crate::snapshot::{Keep, Snapshot, keep};
 use nalgebra::Quaternion;
 
 /// The motion of one node, all in global components.
@@ -24,6 +25,18 @@ pub struct Node {
     pub a: Vec3,
     /// Angular acceleration.
     pub alpha: Vec3,
+}
+
+impl Keep for Node {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let Node { x, low, rotation, v, omega, a, alpha } = self;
+        [x, low, v, omega, a, alpha].into_iter().for_each(|vector| vector.keep(snapshot));
+        rotation.keep(snapshot);
+    }
+
+    fn blank() -> Option<Self> {
+        Some(Node::at_rest(Vec3::zeros()))
+    }
 }
 
 impl Node {
@@ -123,6 +136,8 @@ pub struct Increment {
     pub dd: Vec6,
 }
 
+keep!(Increment { q, d, dd });
+
 impl State {
     /// The configuration of the state itself, at the time that it holds.
     pub fn configuration(&self) -> Configuration<'_> {
@@ -199,6 +214,8 @@ pub struct State {
     pub work: Work,
 }
 
+keep!(State: Default { time, nodes, history, jerk, reactions, multipliers, algorithmic_accelerations, work });
+
 /// Running integrals of power since t = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Work {
@@ -219,6 +236,8 @@ pub struct Work {
     /// Length of the last step; zero likewise.
     pub step: f64,
 }
+
+keep!(Work { external, damping, damping_power, material, verlet_energy_offset, accelerations, step });
 
 #[cfg(test)]
 mod tests {

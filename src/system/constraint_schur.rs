@@ -7,6 +7,7 @@ use super::masses::Masses;
 use super::multipliers::REGULARIZATION;
 use crate::elements::Force;
 use crate::math::{Vec6, angular, linear, stack};
+use crate::snapshot::keep;
 use crate::state::Node;
 
 /// The largest number of constraint equations; beyond it a sparse factorization is cheaper.
@@ -35,6 +36,8 @@ pub struct ConstraintSchur {
     pub x: Vec<f64>,
     scratch: Vec<f64>,
 }
+
+keep!(ConstraintSchur { G, W, inert, S, L, x, scratch } without { rows, shares });
 
 impl ConstraintSchur {
     /// Returns `None` where there are too many equations, or where an end depends on its master in some directions

@@ -5,6 +5,7 @@ use super::parts::{Storage, storage};
 use super::thread_partition;
 use crate::math::Vec3;
 use crate::model::{Model, Part};
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Configuration, State};
 
 /// Energies and momenta at the end of a step: the columns of energy.csv.
@@ -137,9 +138,17 @@ pub struct Balance {
     exchanged: [Range; 3],
 }
 
+keep!(Balance { dissipated, generated, peak, available, plastic, before, start, external, released, lost, exchanged });
+
 /// The least and the largest value so far.
 #[derive(Debug, Clone, Copy, Default)]
 struct Range(Option<[f64; 2]>);
+
+impl Keep for Range {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.0.keep(snapshot);
+    }
+}
 
 impl Range {
     fn update(&mut self, value: f64) {

@@ -15,6 +15,7 @@ use crate::elements::Force;
 use crate::materials::Dissipation;
 use crate::math::{Vec3, Vec6, angular, linear, rotation};
 use crate::model::{self, Model};
+use crate::snapshot::keep;
 use crate::state::{Configuration, Node};
 use std::ops::Range;
 
@@ -67,6 +68,8 @@ pub struct Forces {
     partitions: Vec<Partition>,
     threads: bool,
 }
+
+keep!(Forces { on_nodes, on_dependents, multipliers } without { partitions, threads });
 
 impl Forces {
     /// Zero forces for this number of nodes, to be summed on one thread.

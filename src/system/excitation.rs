@@ -5,6 +5,7 @@ use super::loads::Loading;
 use crate::amplitude::{Amplitude, Jump};
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, History, Model, PrescribedMotion, Restraint};
+use crate::snapshot::keep;
 
 /// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,6 +17,8 @@ pub struct Prescribed {
     /// Its second derivative in time.
     pub a: f64,
 }
+
+keep!(Prescribed: Default { u, v, a });
 
 /// The side of a jump on which a load is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

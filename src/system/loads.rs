@@ -2,6 +2,7 @@
 
 use crate::math::{Mat3, Vec3, skew};
 use crate::model;
+use crate::snapshot::keep;
 use crate::state::Node;
 
 /// Values of the loads at the instant where equilibrium is written. [`super::Excitation`] writes them.
@@ -14,6 +15,8 @@ pub struct Loading {
     /// Gravity less the acceleration of the base, global components: every mass m feels the force m × field.
     pub field: Vec3,
 }
+
+keep!(Loading: Default { factors, pressures, field });
 
 impl Loading {
     /// These loads and a multiple of others.

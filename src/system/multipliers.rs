@@ -1,5 +1,7 @@
 //! The Lagrange multipliers of joints in the iteration; see [`super::joints`] for the equations.
 
+use crate::snapshot::keep;
+
 /// ε regularizes redundant constraint equations: rounding in a redundant equation is amplified by 1/ε, and an iteration
 /// leaves the fraction ε of a gap.
 pub(super) const REGULARIZATION: f64 = 1e-7;
@@ -14,6 +16,8 @@ pub struct Multipliers {
     /// s: the penalty factors. Assembly of the tangent writes them.
     pub(super) penalties: Vec<f64>,
 }
+
+keep!(Multipliers { values, gaps, penalties });
 
 impl Multipliers {
     /// Zero multipliers for this number of constraint equations.

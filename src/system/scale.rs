@@ -2,6 +2,7 @@
 
 use crate::elements::Force;
 use crate::math::{Vec3, larger};
+use crate::snapshot::keep;
 
 /// The largest force and the largest moment met while a residual is summed. The residual is judged relative to them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -11,6 +12,8 @@ pub struct Scale {
     /// Largest absolute moment component, global.
     pub moment: f64,
 }
+
+keep!(Scale { force, moment });
 
 /// Part of a length at which forces make moments: where only forces act, moments are rounding of them.
 const ARM: f64 = 1e-2;

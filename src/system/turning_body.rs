@@ -20,6 +20,7 @@ use crate::constraints::rigid_link::RigidLink;
 use crate::integrators::Coefficients;
 use crate::math::{Mat3, Vec3, Vec6, angular, rotation};
 use crate::model::{AnalysisKind, Model};
+use crate::snapshot::{Keep, Snapshot};
 use crate::state::{Increment, Node};
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -53,6 +54,19 @@ pub struct TurningStart {
     momentum: Vec3,
     /// −g₀.
     free: Vec3,
+}
+
+impl Keep for TurningStart {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let TurningStart { R, omega, alpha, momentum, free } = self;
+        R.keep(snapshot);
+        [omega, alpha, momentum, free].into_iter().for_each(|vector| vector.keep(snapshot));
+    }
+
+    fn blank() -> Option<Self> {
+        let zero = Vec3::zeros();
+        Some(TurningStart { R: Mat3::zeros(), omega: zero, alpha: zero, momentum: zero, free: zero })
+    }
 }
 
 impl TurningBody {

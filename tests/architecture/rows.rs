@@ -5,7 +5,7 @@ use super::source::{files, root};
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 12] = [
     &["math", "names", "quantities", "diagnostic"],
-    &["words", "text_file"],
+    &["words", "text_file", "snapshot"],
     &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh", "record"],
     &["elements", "constraints", "integrators"],
     &["deck"],

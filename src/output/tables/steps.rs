@@ -4,8 +4,7 @@ use crate::model::ExpectAt;
 use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Column, TIME, Unit};
-use crate::solve::{Effort, Frame, Wanted};
-use std::cell::Cell;
+use crate::solve::{Frame, Wanted};
 use std::io;
 
 pub static TABLE: TableKind = TableKind {
@@ -28,10 +27,7 @@ pub static TABLE: TableKind = TableKind {
     every_step: true,
     // Length and residual; the rest are counts, like zeros in length.
     extent: |_| Rows { rows: 1, letters: 0, numbers: 2 },
-    rows: |_| {
-        let since = Cell::new(Effort::default());
-        Box::new(move |table, frame| write(table, &since, frame))
-    },
+    rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
 };
 
@@ -46,22 +42,12 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
     matches!(at, ExpectAt::Analysis).then_some(frame.state.time)
 }
 
-fn write(table: &mut dyn WriteRow, since: &Cell<Effort>, frame: &Frame) -> io::Result<()> {
-    if frame.step == 0 {
-        return Ok(()); // no step led to t = 0
-    }
-    let before = since.get();
-    let cost = Effort {
-        iterations: before.iterations + frame.effort.iterations,
-        refactorizations: before.refactorizations + frame.effort.refactorizations,
-        residual: before.residual.max(frame.effort.residual),
-        cuts: before.cuts + frame.effort.cuts,
-    };
-    if !frame.due {
-        since.set(cost);
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+    // No step led to t = 0.
+    if frame.step == 0 || !frame.due {
         return Ok(());
     }
-    since.set(Effort::default());
+    let cost = frame.since;
     table.row(frame.step, frame.state.time).number(frame.dt).count(cost.iterations).count(cost.refactorizations);
     table.number(cost.residual).count(cost.cuts).end()
 }

@@ -1,6 +1,7 @@
 //! Adaptive steps, by error or stability: the loop that all such controllers share.
 
 use super::intervals::{CoverInterval, Interval};
+use crate::snapshot::Keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::march::March;
@@ -11,7 +12,7 @@ use crate::solve::workspace::Workspace;
 use crate::state::State;
 
 /// A controller that finds the length of each step, and leads a stepper by it.
-pub trait StepController {
+pub trait StepController: Keep {
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
 
@@ -65,9 +66,8 @@ impl<C: StepController> CoverInterval for C {
     /// Covers the interval in equal steps as long as nothing requires another length.
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         let least = march.cx.model.analysis.least_step;
-        let mut cuts = 0;
         while march.state.time < interval.to {
-            march.check_stop()?;
+            march.pause(self)?;
             let left = interval.to - march.state.time;
             let length = self.propose(march.cx, march.ws, march.state, left);
             let length = length.map_err(|failure| march.failed(failure))?;
@@ -91,11 +91,11 @@ impl<C: StepController> CoverInterval for C {
                     let stops = march.passes_stop();
                     let (due, compared) = (due || stops, compared || stops);
                     let last = stops || at_end && march.is_end(interval.to);
+                    let cuts = std::mem::take(&mut march.place.cuts);
                     march.notify(&AcceptedStep { dt, report: &report, cuts, due, compared, last, passed: &[] })?;
                     if stops {
                         return Err(Outcome::Done);
                     }
-                    cuts = 0;
                 }
                 Ok(None) => {}
                 Err(failure) => {
@@ -106,7 +106,7 @@ impl<C: StepController> CoverInterval for C {
                     if !matches!(failure, Failure::ErrorTooLarge { .. }) {
                         self.cut_back(dt);
                     }
-                    cuts += 1;
+                    march.place.cuts += 1;
                     march.count_cut();
                 }
             }

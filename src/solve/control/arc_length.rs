@@ -5,6 +5,7 @@
 use super::targets::{TargetQuantity, Targets};
 use crate::integrators::load_steps;
 use crate::model::{ArcLength, DisplacementTarget};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::implicit::{ArcLengthConstraint, Condition, Newton, StepMotion};
@@ -55,6 +56,8 @@ pub struct ArcLengthController {
     pub short_of_stop: Option<f64>,
 }
 
+keep!(ArcLengthController { newton, constraint, targets, unit, size, cuts, bent, short_of_stop } without { path, begin, least });
+
 /// An equilibrium that was found, with the target that it lies at.
 struct Found {
     report: StepReport,
@@ -81,11 +84,27 @@ impl ArcLengthController {
         }
     }
 
+    /// Leads the run from its beginning, or from the place that it has come to.
+    ///
+    /// # Errors
+    /// The outcome that ends it early.
+    pub fn lead(&mut self, march: &mut March) -> Result<(), Outcome> {
+        if !march.resumes {
+            self.apply_initial_loads(march)?;
+            march.notify_start()?;
+            if self.begin >= march.cx.model.analysis.end_time {
+                return Err(march.failed(Failure::NoLoadIncrement { time: march.state.time }));
+            }
+            self.targets.start(march.cx, march.ws, march.state);
+        }
+        self.follow(march)
+    }
+
     /// Finds the equilibrium under loads that do not begin at zero, which act at once.
     ///
     /// # Errors
     /// No equilibrium is found under them.
-    pub fn apply_initial_loads(&mut self, march: &mut March) -> Result<(), Outcome> {
+    fn apply_initial_loads(&mut self, march: &mut March) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         if residual::gather(cx, ws, &scale) > cx.model.solution.iteration.tolerance {
@@ -100,13 +119,9 @@ impl ArcLengthController {
     ///
     /// # Errors
     /// The outcome that ends the run early.
-    pub fn follow(&mut self, march: &mut March) -> Result<(), Outcome> {
-        if self.begin >= march.cx.model.analysis.end_time {
-            return Err(march.failed(Failure::NoLoadIncrement { time: march.state.time }));
-        }
-        self.targets.start(march.cx, march.ws, march.state);
+    fn follow(&mut self, march: &mut March) -> Result<(), Outcome> {
         loop {
-            march.check_stop()?;
+            march.pause(self)?;
             let Some(found) = self.find_or_cut(march)? else { continue };
             let dt = found.report.to - march.state.time;
             self.accept(march, &found)?;

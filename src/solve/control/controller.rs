@@ -9,9 +9,10 @@ use super::stability_limited::StabilityController;
 use super::tolerance::FollowTolerance;
 use crate::linear::TooLarge;
 use crate::model::StepLength;
+use crate::snapshot::{Keep, Snapshot};
 use crate::solve::context::Context;
 use crate::solve::initial_transient;
-use crate::solve::march::March;
+use crate::solve::march::{March, Place};
 use crate::solve::outcome::Outcome;
 use crate::solve::start;
 use crate::solve::time_stepper::TimeStepper;
@@ -29,6 +30,19 @@ pub enum Controller<'a> {
     StabilityLimited(StabilityController),
     /// Steps along an equilibrium path.
     ArcLength(Box<ArcLengthController>),
+}
+
+/// Controllers are kept as such wherever they pause.
+impl Keep for Controller<'_> {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        match self {
+            Controller::Fixed(controller) => controller.keep(snapshot),
+            Controller::ErrorControlled(controller) => controller.keep(snapshot),
+            Controller::EmbeddedError(controller) => controller.keep(snapshot),
+            Controller::StabilityLimited(controller) => controller.keep(snapshot),
+            Controller::ArcLength(controller) => controller.keep(snapshot),
+        }
+    }
 }
 
 impl<'a> Controller<'a> {
@@ -79,11 +93,7 @@ impl<'a> Controller<'a> {
             Controller::ErrorControlled(controller) => through_intervals(controller.as_mut(), march, intervals),
             Controller::EmbeddedError(controller) => through_intervals(controller, march, intervals),
             Controller::StabilityLimited(controller) => through_intervals(controller, march, intervals),
-            Controller::ArcLength(controller) => {
-                controller.apply_initial_loads(march)?;
-                march.notify_start()?;
-                controller.follow(march)
-            }
+            Controller::ArcLength(controller) => controller.lead(march),
         }
     }
 
@@ -102,21 +112,24 @@ fn through_intervals(
     march: &mut March,
     intervals: &[Interval],
 ) -> Result<(), Outcome> {
-    controller.restart(march.cx, march.ws, march.state);
-    march.notify_start()?;
-    if !march.cx.model.analysis.goes_on() {
-        initial_transient::pass_over(march.cx, march.ws, march.state);
+    if !march.resumes {
+        controller.restart(march.cx, march.ws, march.state);
+        march.notify_start()?;
+        if !march.cx.model.analysis.goes_on() {
+            initial_transient::pass_over(march.cx, march.ws, march.state);
+        }
+        if let Some(watch) = march.stop_watch.as_deref_mut() {
+            watch.begin(march.cx, march.ws, march.state);
+        }
     }
-    if let Some(watch) = march.stop_watch.as_deref_mut() {
-        watch.begin(march.cx, march.ws, march.state);
-    }
-    for interval in intervals {
+    for interval in &intervals[march.place.interval..] {
         controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {
             start::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
             controller.restart(march.cx, march.ws, march.state);
             initial_transient::pass_over(march.cx, march.ws, march.state);
         }
+        march.place = Place { interval: march.place.interval + 1, ..Place::default() };
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::adaptive::StepController;
 use super::tolerance::FollowTolerance;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::explicit::RungeKuttaStepper;
 use crate::solve::failure::Failure;
@@ -32,6 +33,8 @@ pub struct EmbeddedErrorController {
     first: f64,
     longest: f64,
 }
+
+keep!(EmbeddedErrorController { stepper, tolerance, next, motion, longest } without { asked, first });
 
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.

@@ -15,6 +15,7 @@ use super::tolerance::FollowTolerance;
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{AlphaFamily, RotationUpdate};
 use crate::math::{Vec3, Vec6, stack};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::implicit::{Implicit, Newton};
@@ -88,6 +89,10 @@ pub struct ErrorController<'a> {
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
 }
+
+keep!(ErrorController<'_> { 
+    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting,
+ } without { asked, constant, order, first, most });
 
 /// An estimated error relative to the largest motion.
 struct Estimate {

@@ -2,6 +2,7 @@
 
 use crate::math::{Vec6, angular, linear};
 use crate::model::Model;
+use crate::snapshot::keep;
 use crate::solve::size::Size;
 use crate::state::State;
 
@@ -23,6 +24,8 @@ pub struct ErrorMeasure {
     /// The nodes of drives of joints, whose displacements may be angles.
     drives: Vec<usize>,
 }
+
+keep!(ErrorMeasure { ahead, begun } without { extent, end_time, bodies });
 
 impl ErrorMeasure {
     /// A measure for this model; `extent` is its length.

@@ -2,6 +2,7 @@
 
 use super::intervals::{CoverInterval, Interval};
 use crate::model::AnalysisKind;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::march::March;
@@ -29,13 +30,19 @@ pub struct FixedController<'a> {
     subdivided: SubdividedSteps,
     /// True where loads may act at once as the next step begins.
     sudden: bool,
+    /// The step of the deck under way.
+    step: Substeps,
 }
+
+keep!(FixedController<'_> { stepper, subdivided, sudden, step });
 
 #[derive(Clone, Copy, Default)]
 struct SubdividedSteps {
     steps: usize,
     substeps: usize,
 }
+
+keep!(SubdividedSteps { steps, substeps });
 
 /// A step of the deck under way. Substeps are halves of halves, so they end where the step ends.
 struct Substeps {
@@ -54,20 +61,24 @@ struct Substeps {
     cause: Option<Failure>,
 }
 
+keep!(Substeps { from, to, at, length, taken, successes, cuts, violated_at_full_length, cause });
+
 impl<'a> FixedController<'a> {
     /// A controller that leads this stepper.
     pub fn new(stepper: TimeStepper<'a>) -> Self {
-        FixedController { stepper, subdivided: SubdividedSteps::default(), sudden: true }
+        FixedController { stepper, subdivided: SubdividedSteps::default(), sudden: true, step: Substeps::NONE }
     }
 
     /// Takes the k-th step of the interval, in as many substeps as it needs.
     fn advance(&mut self, march: &mut March, interval: &Interval, k: usize) -> Result<(), Outcome> {
         let at_end = |of: bool| k == interval.steps && of;
         let (due, compared) = (at_end(interval.due), at_end(interval.compared));
-        let mut step = Substeps::of(march.state.time, interval.time(k));
-        while step.at < WHOLE_STEP {
-            march.check_stop()?;
-            let target = step.target();
+        if self.step.at == WHOLE_STEP {
+            self.step = Substeps::of(march.state.time, interval.time(k));
+        }
+        while self.step.at < WHOLE_STEP {
+            march.pause(self)?;
+            let target = self.step.target();
             let dt = target - march.state.time;
             if let Some(watch) = march.stop_watch.as_deref_mut() {
                 watch.note(march.ws, march.state);
@@ -75,24 +86,24 @@ impl<'a> FixedController<'a> {
             match self.stepper.step(march.cx, march.ws, march.state, target) {
                 Ok(report) => {
                     if let Some((report, dt)) = self.end_at_stop(march, (target - dt, target), report) {
-                        let end = AcceptedStep { due: true, last: true, ..step.accepted(&report, dt) };
+                        let end = AcceptedStep { due: true, last: true, ..self.step.accepted(&report, dt) };
                         return march.notify(&end).and(Err(Outcome::Done));
                     }
-                    step.count();
-                    step.notify(march, &report, dt, [due, compared])?;
-                    self.check_substeps(march, &step, dt)?;
-                    step.grow();
+                    self.step.count();
+                    self.step.notify(march, &report, dt, [due, compared])?;
+                    self.check_substeps(march, dt)?;
+                    self.step.grow();
                 }
                 Err(failure) => {
-                    step.cut_back(march, failure, dt)?;
+                    self.step.cut_back(march, failure, dt)?;
                     march.count_cut();
                 }
             }
         }
         let SubdividedSteps { steps, substeps } = self.subdivided;
-        let subdivided = step.taken > MANY && !march.cx.system.has_contacts();
+        let subdivided = self.step.taken > MANY && !march.cx.system.has_contacts();
         self.subdivided = match subdivided {
-            true => SubdividedSteps { steps: steps + 1, substeps: substeps + step.taken },
+            true => SubdividedSteps { steps: steps + 1, substeps: substeps + self.step.taken },
             false => SubdividedSteps::default(),
         };
         Ok(())
@@ -144,8 +155,8 @@ impl<'a> FixedController<'a> {
 
     /// # Errors
     /// [`Failure::TooManySubsteps`] where steps need too many substeps.
-    fn check_substeps(&self, march: &March, step: &Substeps, dt: f64) -> Result<(), Outcome> {
-        let SubdividedSteps { steps, substeps } = self.subdivided;
+    fn check_substeps(&self, march: &March, dt: f64) -> Result<(), Outcome> {
+        let (step, SubdividedSteps { steps, substeps }) = (&self.step, self.subdivided);
         let most = MOST_SUBSTEPS[usize::from(march.cx.system.has_contacts())];
         match &step.cause {
             Some(cause) if substeps + step.taken >= most && step.at < WHOLE_STEP => {
@@ -159,14 +170,14 @@ impl<'a> FixedController<'a> {
 
 impl CoverInterval for FixedController<'_> {
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
-        self.sudden = true;
+        (self.sudden, self.step) = (true, Substeps::NONE);
         self.stepper.restart(cx, ws, state);
     }
 
     /// Covers the interval in its equal steps.
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         let is_static = !march.cx.is_dynamic();
-        for k in 1..=interval.steps {
+        for k in march.place.step + 1..=interval.steps {
             // What comes or goes with a stage is brought on over all of it.
             let begin = march.cx.model.analysis.begin;
             let begins = begin > 0.0 && march.state.time <= begin;
@@ -175,6 +186,7 @@ impl CoverInterval for FixedController<'_> {
             }
             self.advance(march, interval, k)?;
             march.ws.load_steps.sudden = None;
+            march.place.step = k;
         }
         self.sudden = interval.jump;
         Ok(())
@@ -182,18 +194,21 @@ impl CoverInterval for FixedController<'_> {
 }
 
 impl Substeps {
+    /// No step: one that has come to its end.
+    const NONE: Substeps = Substeps {
+        from: 0.0,
+        to: 0.0,
+        at: WHOLE_STEP,
+        length: WHOLE_STEP,
+        taken: 0,
+        successes: 0,
+        cuts: 0,
+        violated_at_full_length: None,
+        cause: None,
+    };
+
     fn of(from: f64, to: f64) -> Substeps {
-        Substeps {
-            from,
-            to,
-            at: 0,
-            length: WHOLE_STEP,
-            taken: 0,
-            successes: 0,
-            cuts: 0,
-            violated_at_full_length: None,
-            cause: None,
-        }
+        Substeps { from, to, at: 0, ..Substeps::NONE }
     }
 
     /// Time at which the next substep ends.

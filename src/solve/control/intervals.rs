@@ -1,6 +1,7 @@
 //! The output times and events that steps must end at, and the intervals between them.
 
 use crate::model::{Analysis, Cadence, Model, When};
+use crate::snapshot::Keep;
 use crate::solve::context::Context;
 use crate::solve::march::March;
 use crate::solve::outcome::Outcome;
@@ -9,11 +10,11 @@ use crate::solve::workspace::Workspace;
 use crate::state::State;
 
 /// A controller that covers the time interval by interval.
-pub trait CoverInterval {
+pub trait CoverInterval: Keep {
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
 
-    /// Takes the state of a run to the end of an interval.
+    /// Takes the state of a run to the end of an interval, from the place in it where the run is.
     ///
     /// # Errors
     /// The outcome that ends the run early.

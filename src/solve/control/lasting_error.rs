@@ -3,6 +3,7 @@
 //! time, with its corner at φ = 1, makes that φ A/√(1 + φ²): modes long out of phase count by their amplitude.
 
 use crate::math::Vec6;
+use crate::snapshot::keep;
 
 /// The filtered errors by node, over c Δt³: a filter of first order and one of second order in a row. It is allocated
 /// once.
@@ -14,6 +15,8 @@ pub struct LastingError {
     /// Time constant of the last step; `None` before the first.
     tau: Option<f64>,
 }
+
+keep!(LastingError { first, value, rate, tau });
 
 impl LastingError {
     /// A filter at rest for this number of nodes.

@@ -1,6 +1,7 @@
 //! Steps of central differences at a fraction of the critical time step.
 
 use super::adaptive::StepController;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::explicit::CentralDifferenceStepper;
 use crate::solve::failure::Failure;
@@ -19,6 +20,8 @@ pub struct StabilityController {
     /// Longest step after the last one: a little longer than a success, half of a failure.
     longest: f64,
 }
+
+keep!(StabilityController { stepper, longest } without { fraction });
 
 impl StabilityController {
     /// A controller at this fraction of the critical time step.

@@ -1,6 +1,7 @@
 //! The times and displacements at which a step along a path must end.
 
 use crate::model::{ArcLength, DisplacementTarget, Model, When};
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
@@ -21,6 +22,8 @@ pub struct Target {
     pub expects: Vec<usize>,
 }
 
+keep!(Target { passes, side } without { quantity, value, ends, expects });
+
 /// The quantity that reaches a value.
 #[derive(Clone, Copy, PartialEq)]
 pub enum TargetQuantity {
@@ -30,6 +33,12 @@ pub enum TargetQuantity {
 
 /// All targets of a path.
 pub struct Targets(pub Vec<Target>);
+
+impl Keep for Targets {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.0.keep(snapshot);
+    }
+}
 
 impl Targets {
     /// The end of the path, its `stop`, and the expectations along it.

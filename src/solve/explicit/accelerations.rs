@@ -7,6 +7,7 @@ use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
 use crate::math::rotation::vector_rates;
 use crate::math::{Vec6, angular, linear, stack};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::joints::constraints_violated;
@@ -30,6 +31,8 @@ pub struct Accelerations {
     /// Projection onto the constraints with a coupled mass matrix.
     projection: Option<ConstraintProjection>,
 }
+
+keep!(Accelerations { schur, missing, operand, projection } without { masses });
 
 impl Accelerations {
     /// # Errors

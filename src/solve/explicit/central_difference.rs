@@ -8,6 +8,7 @@ use super::stiffening::{change, is_growing, resistance};
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
 use crate::math::{Vec6, angular, linear, stack};
+use crate::snapshot::keep;
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -25,6 +26,8 @@ pub struct CentralDifferenceStepper {
     /// True where steps find their own length; the advice of a failure depends on it.
     automatic: bool,
 }
+
+keep!(CentralDifferenceStepper { accelerations, critical } without { automatic });
 
 impl CentralDifferenceStepper {
     /// A stepper for central differences.

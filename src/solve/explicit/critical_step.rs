@@ -9,6 +9,7 @@ use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::model::Model;
 use crate::plan::Plan;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{excite, update_dependent_nodes};
@@ -63,6 +64,10 @@ pub struct CriticalStep {
     /// True once the fastest mode has been searched for, with dampers if there are any.
     met: bool,
 }
+
+keep!(CriticalStep { 
+    longest, mode, next, hints, place, base, steps, steps_since_cutback, holdoff, max_aMa, max_spin, met,
+ } without { stiffens });
 
 impl CriticalStep {
     /// A search that begins with a mode of all frequencies, the same in every run.

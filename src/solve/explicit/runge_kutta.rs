@@ -6,6 +6,7 @@ use crate::integrators::tableau::{StageWeights, Tableau};
 use crate::linear::TooLarge;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, angular, linear, stack};
+use crate::snapshot::keep;
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -34,6 +35,8 @@ pub struct RungeKuttaStepper {
     driven: bool,
     work: WorkQuadrature,
 }
+
+keep!(RungeKuttaStepper { accelerations, stages, work } without { tableau, varying, driven });
 
 /// A stage of a step: its number, its weights of earlier rates, and its time within the step.
 #[derive(Clone, Copy)]

@@ -2,6 +2,8 @@
 //! ones so that the remaining residual is least. For a linear problem it is GMRES on the preconditioned residual. D. G.
 //! Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
 
+use crate::snapshot::keep;
+
 /// Number of earlier corrections that are combined.
 const DEPTH: usize = 5;
 /// A difference counts where more than this fraction of it is linearly independent of the newer ones.
@@ -21,6 +23,8 @@ pub struct Anderson {
     /// Squared weights of the unknowns.
     weights: Vec<f64>,
 }
+
+keep!(Anderson { differences, used, last, seen, basis } without { weights });
 
 impl Anderson {
     /// Room for the corrections of a step; `weights` make the unknowns comparable, a length for rotations.

@@ -8,6 +8,7 @@
 use crate::integrators::load_steps;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, angular, linear, stack};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, excite, move_trial};
@@ -40,6 +41,8 @@ pub struct ArcLengthConstraint {
     /// Square of the model's length: a rotation counts as a translation over it.
     weight: f64,
 }
+
+keep!(ArcLengthConstraint { rate, loading, forces, gaps, last } without { driven, weight });
 
 /// A motion smaller than this fraction of the step before does not show a direction.
 const SHORT: f64 = 1e-6;

@@ -4,6 +4,7 @@ use super::newton::Newton;
 use crate::integrators::TwoStages;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, angular, linear, stack};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, rates_of};
@@ -19,6 +20,8 @@ pub struct Composite<'a> {
     /// Velocities and accelerations that the second stage uses at its start, by node.
     start_rates: Vec<[Vec6; 2]>,
 }
+
+keep!(Composite<'_> { start, start_rates } without { scheme });
 
 impl<'a> Composite<'a> {
     /// Room for the start of a step of this many nodes.

@@ -1,6 +1,7 @@
 //! When the iteration ends: its tolerance, and what earlier steps tell of its contraction.
 
 use super::convergence::Judgement;
+use crate::snapshot::keep;
 
 /// Contraction assumed where none was seen.
 const UNKNOWN: f64 = 0.5;
@@ -21,6 +22,8 @@ pub struct Ending {
     /// True where steps are iterated to a part of their error.
     pub carries: bool,
 }
+
+keep!(Ending { tolerance, residual, least, contraction, carries });
 
 impl Ending {
     /// Every step is iterated to this tolerance.

@@ -2,6 +2,7 @@
 
 use crate::math::{Vec6, angular, linear};
 use crate::model::StepLength;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::Node;
@@ -16,12 +17,16 @@ pub struct Lead {
     trusted: bool,
 }
 
+keep!(Lead { last, of_equilibrium, corrections, trusted });
+
 /// Motion with a correction in place of its velocities.
 #[derive(Clone)]
 struct Iterate {
     nodes: Vec<Node>,
     known: bool,
 }
+
+keep!(Iterate { nodes, known });
 
 impl Lead {
     /// Room for the iterates of a scene, where steps are automatic: equilibria are found from farther away, and some of these are not those

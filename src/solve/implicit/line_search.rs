@@ -4,6 +4,7 @@
 //! leaves more than four fifths of |s| is shortened.
 
 use crate::math::Vec6;
+use crate::snapshot::keep;
 use crate::state::Increment;
 
 /// Largest fraction of the work of the residual that may be left after a correction.
@@ -26,6 +27,8 @@ pub struct LineSearch {
     /// Relative residual before the correction.
     size: f64,
 }
+
+keep!(LineSearch { residual, correction, before, multipliers, at_start, tries, size });
 
 impl LineSearch {
     /// Room for corrections of this many nodal unknowns, nodes and multipliers.

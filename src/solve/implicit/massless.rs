@@ -5,6 +5,7 @@
 use super::mechanism::open_part;
 use crate::elements::Moduli;
 use crate::math::Vec3;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::Stage;
@@ -28,6 +29,8 @@ pub struct MasslessNodes {
     /// True once the scene has been found held before anything moves.
     started: bool,
 }
+
+keep!(MasslessNodes { started } without { clusters, K });
 
 /// Nodes that elements join to one another.
 struct Cluster {

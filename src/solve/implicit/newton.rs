@@ -19,6 +19,7 @@ use crate::elements::Moduli;
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
 use crate::model::{AnalysisKind, Method, Update};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{self, Stage};
@@ -61,6 +62,22 @@ pub struct Newton {
     /// True where loads grow along the path at the equilibrium at hand; a path of given arc length may go back.
     pub grows: bool,
 }
+
+keep!(Newton {
+    refresh,
+    anderson,
+    line_search,
+    turning,
+    projection,
+    mass_weight,
+    ending,
+    lead,
+    searched,
+    opened,
+    massless,
+    stability,
+    grows,
+});
 
 /// The progress of the iteration of a step.
 struct Progress {

@@ -6,6 +6,7 @@ use crate::linear::TooLarge;
 use crate::math::Vec6;
 use crate::model::DIRECTIONS;
 use crate::plan::Sideways;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::linear_system::LinearSystem;
 use crate::solve::warning::{Remark, Warning};
@@ -31,6 +32,8 @@ pub struct OutOfPlane {
     /// History variables, of points that a plane motion has fewer of: at the start of the step, and at its end.
     history: [Vec<f64>; 2],
 }
+
+keep!(OutOfPlane { matrix, forces, springs, searched, history } without { system, dofs, criterion });
 
 impl OutOfPlane {
     /// The motion out of the plane; `None` where nothing is left out.

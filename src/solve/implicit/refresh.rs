@@ -3,6 +3,7 @@
 use super::convergence::Judgement;
 use crate::elements::Moduli;
 use crate::model::{Method, Update};
+use crate::snapshot::keep;
 
 /// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
 /// always takes the same path.
@@ -28,6 +29,10 @@ pub struct Refresh {
     /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
     fresh_matrix_required: bool,
 }
+
+keep!(Refresh { 
+    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required,
+ } without { method, update, cost });
 
 /// The advice after a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,6 +11,7 @@ use super::newton::Newton;
 use crate::integrators::{Coefficients, StageTableau};
 use crate::math::Vec6;
 use crate::math::quintic;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::{Stage, differentiate, excite, move_trial, rates_of};
@@ -40,6 +41,8 @@ pub struct StageStepper {
     /// True where motion is prescribed whose work the stages tell; that of drives of joints is taken from the ends of steps.
     driven: bool,
 }
+
+keep!(StageStepper { rates, start_rates, prediction, ends, powers, work } without { tableau, extrapolation, curvature, driven });
 
 impl StageStepper {
     /// Room for the stages of this scheme.

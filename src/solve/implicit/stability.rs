@@ -7,6 +7,7 @@ use super::out_of_plane::OutOfPlane;
 use super::tangent::{Criterion, Ends, Tangent};
 use crate::linear::{Factorization, TooLarge};
 use crate::plan::deforms_in_plane;
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::linear_system::LinearSystem;
 use crate::solve::warning::{Remark, Warning};
@@ -28,11 +29,15 @@ pub struct Stability {
     sideways: Option<Box<OutOfPlane>>,
 }
 
+keep!(Stability { counts, path, own, seen, sideways } without { criterion });
+
 /// What was seen of a path.
 struct Path {
     /// True where loads grow along it.
     grows: bool,
 }
+
+keep!(Path { grows });
 
 impl Stability {
     /// The watch of a static analysis; `None` in dynamics, and where the tangent never changes. `kept`: the matrix of the iteration is not

@@ -5,6 +5,7 @@ use super::newton::Newton;
 use super::runge_kutta::StageStepper;
 use crate::integrators::{Coefficients, Stepping, load_steps};
 use crate::linear::TooLarge;
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::motion::Stage;
@@ -19,11 +20,23 @@ pub struct Implicit<'a> {
     stages: Stages<'a>,
 }
 
+keep!(Implicit<'_> { newton, stages });
+
 /// The stages of a step, with what they need besides the iteration.
 enum Stages<'a> {
     One,
     Composite(Composite<'a>),
     RungeKutta(StageStepper),
+}
+
+impl Keep for Stages<'_> {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        match self {
+            Stages::One => {}
+            Stages::Composite(composite) => composite.keep(snapshot),
+            Stages::RungeKutta(stages) => stages.keep(snapshot),
+        }
+    }
 }
 
 impl<'a> Implicit<'a> {

@@ -2,6 +2,7 @@
 
 use super::beam_trees::MOST_NODES;
 use crate::math::{Vec3, quadrature};
+use crate::snapshot::keep;
 use crate::state::Node;
 use nalgebra::Quaternion;
 
@@ -58,6 +59,8 @@ pub struct LinePoint {
     /// Spin of the point: Σ (w θ + θ×v) over the spins θ of the nodes.
     spins: [(f64, Vec3); MOST_NODES],
 }
+
+keep!(LinePoint { rotation, along, spins });
 
 impl LinePoint {
     /// At rest.

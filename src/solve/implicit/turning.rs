@@ -12,6 +12,7 @@ use super::beam_trees::{BeamTrees, MOST_NODES};
 use super::strained_line::{LinePoint, LineShape};
 use crate::math::rotation::matrix;
 use crate::math::{Mat3, Vec3};
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::state::Node;
 use crate::system::NodeRows;
@@ -49,12 +50,16 @@ pub struct Turning {
     matrices: usize,
 }
 
+keep!(Turning { formed, turns, turned, before, now, points_turned, fresh, matrices } without { trees, shapes, first_points, masters, members, mass });
+
 /// A configuration with displacements and spins of all nodes, or forces and moments.
 struct MotionAt {
     points: Vec<LinePoint>,
     u: Vec<Vec3>,
     theta: Vec<Vec3>,
 }
+
+keep!(MotionAt { points, u, theta });
 
 impl MotionAt {
     fn new(nodes: usize, points: usize) -> MotionAt {

@@ -11,6 +11,7 @@ pub use trace::{Kept, Trace, Unseen};
 
 use super::outcome::Counts;
 use super::warning::Warning;
+use crate::snapshot::keep;
 
 /// Largest number of runs, the trial aside.
 pub const MOST_RUNS: usize = 4;
@@ -49,6 +50,8 @@ pub struct StepError {
     /// The effort of these.
     pub effort: Counts,
 }
+
+keep!(StepError { asked, tolerance, longest, before, estimate, others, effort });
 
 impl StepError {
     /// The error of a run by this tolerance, of which nothing is known yet.

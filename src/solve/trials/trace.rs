@@ -2,6 +2,7 @@
 
 use crate::math::Vec3;
 use crate::model::Model;
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::solve::control::{COMPARISONS, comparison_time};
 use crate::solve::frame::{Frame, Observer};
 use nalgebra::Quaternion;
@@ -41,6 +42,8 @@ pub struct Kept {
     longest: f64,
 }
 
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest });
+
 impl<'o> Trace<'o> {
     /// An empty trace in front of another observer; the error of a step goes with this power of its length.
     pub fn new(observer: &'o mut dyn Observer, power: usize) -> Self {
@@ -60,6 +63,14 @@ impl Observer for Unseen<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if frame.compared { self.0.on_trial(frame) } else { Ok(()) }
     }
+
+    fn wants_checkpoint(&mut self) -> bool {
+        self.0.wants_checkpoint()
+    }
+
+    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
+        self.0.on_checkpoint(run)
+    }
 }
 
 impl Observer for Trace<'_> {
@@ -70,6 +81,18 @@ impl Observer for Trace<'_> {
         }
         self.kept.look(frame);
         self.observer.on_step(frame)
+    }
+
+    fn wants_checkpoint(&mut self) -> bool {
+        self.observer.wants_checkpoint()
+    }
+
+    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
+        self.observer.on_checkpoint(run)
+    }
+
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.kept.keep(snapshot);
     }
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {

@@ -1,0 +1,26 @@
+//! A snapshot: the numbers that a run under way needs to go on as if it had never stopped, as bytes.
+//!
+//! What changes from step to step says, in one function, what of it is kept; the same function writes the bytes and reads them
+//! back into what was built anew from the deck. A structure is taken apart whole there, so that a field that is added to it and
+//! forgotten does not compile. The bytes hold no names and no types: they are of use to the very program that wrote them only,
+//! with the same deck, which whoever keeps them has to make sure of.
+
+mod bytes;
+mod shapes;
+
+pub use bytes::Snapshot;
+pub(crate) use shapes::{keep, keep_either};
+
+/// What a snapshot can hold.
+pub trait Keep {
+    /// Writes what has to be kept into a snapshot, or takes it from one.
+    fn keep(&mut self, snapshot: &mut Snapshot);
+
+    /// A value to be overwritten, where a snapshot holds one more than there are; `None` for what only a deck can build.
+    fn blank() -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+}
