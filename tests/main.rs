@@ -41,6 +41,7 @@ mod properties;
 mod records;
 mod report;
 mod resultants;
+mod resume;
 mod safety_cab;
 mod schemes;
 mod shells;

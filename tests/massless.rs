@@ -20,7 +20,7 @@ fn run_to(end: f64, deck: &str, scheme: &str) -> (Outcome, Tables) {
     ));
     let (system, stop) = (System::new(&model).expect("a system"), AtomicBool::new(false));
     let (plan, folder) = (Plan::new(&model, &system, 1), tempfile::tempdir().unwrap());
-    let mut files = Files::open(folder.path(), &model, None).unwrap();
+    let mut files = Files::open(folder.path(), &model).unwrap();
     let (outcome, _) = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap().run(&mut files);
     files.finish().unwrap();
     (outcome, Tables::of(folder))

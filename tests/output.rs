@@ -19,7 +19,7 @@ fn show(observer: &mut dyn Observer, model: &Model, from: usize, to: usize) {
 }
 
 fn run(dir: &Path, model: &Model) {
-    let mut files = Files::open(dir, model, None).unwrap();
+    let mut files = Files::open(dir, model).unwrap();
     show(&mut files, model, 0, 10);
     files.finish().unwrap();
 }
@@ -102,10 +102,13 @@ fn a_resumed_run_leaves_the_same_files() {
     let mut model = scene::model();
     model.output.fields = Some(Cadence::Steps(3));
     run(whole.path(), &model);
-    let mut files = Files::open(resumed.path(), &model, None).unwrap();
-    show(&mut files, &model, 0, 7);
+    let mut files = Files::open(resumed.path(), &model).unwrap();
+    show(&mut files, &model, 0, 4);
+    let mark = files.mark().unwrap();
+    show(&mut files, &model, 5, 7);
     files.finish().unwrap();
-    let mut files = Files::open(resumed.path(), &model, Some(4)).unwrap();
+    let mut files = Files::waiting(resumed.path());
+    files.go_on(&model, mark).unwrap();
     show(&mut files, &model, 5, 10);
     files.finish().unwrap();
     let mut names: Vec<_> = fs::read_dir(whole.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -136,7 +139,7 @@ fn a_folder_that_cannot_be_made_is_named() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("file");
     fs::write(&file, "").unwrap();
-    let error = Files::open(&file.join("out"), &scene::model(), None).err().unwrap();
+    let error = Files::open(&file.join("out"), &scene::model()).err().unwrap();
     assert!(error.to_string().contains("file/out: "), "{error}");
 }
 

@@ -120,7 +120,7 @@ fn costs_add_up_whatever_the_cadence() {
         model.output.cadence = cadence;
         let (system, stop) = (System::new(&model).unwrap(), AtomicBool::new(false));
         let (plan, folder) = (Plan::new(&model, &system, 1), tempfile::tempdir().unwrap());
-        let mut files = Files::open(folder.path(), &model, None).unwrap();
+        let mut files = Files::open(folder.path(), &model).unwrap();
         let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
         let (outcome, _) = run.run(&mut files);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
@@ -181,7 +181,7 @@ fn tables_of_a_run_that_fails_end_where_it_does() {
         let model = truss(every);
         let (system, stop) = (System::new(&model).unwrap(), AtomicBool::new(false));
         let (plan, folder) = (Plan::new(&model, &system, 1), tempfile::tempdir().unwrap());
-        let mut files = Files::open(folder.path(), &model, None).unwrap();
+        let mut files = Files::open(folder.path(), &model).unwrap();
         let (outcome, _) = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap().run(&mut files);
         files.finish().unwrap();
         let Outcome::Failed { time, .. } = outcome else { panic!("{outcome:?}") };

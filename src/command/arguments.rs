@@ -39,6 +39,9 @@ pub struct RunArgs {
     #[arg(long)]
     pub quiet: bool,
     /// Write into a folder that already holds files, and replace results there
-    #[arg(long)]
+    #[arg(long, conflicts_with = "resume")]
     pub overwrite: bool,
+    /// Go on from the checkpoint in the folder, which a run has left that was stopped; from the beginning where there is none yet
+    #[arg(long)]
+    pub resume: bool,
 }

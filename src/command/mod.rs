@@ -2,6 +2,7 @@
 
 mod arguments;
 mod check;
+mod checkpoints;
 mod compare;
 mod console;
 mod exit;
@@ -12,6 +13,7 @@ mod load;
 mod mesh_error;
 mod recommend;
 mod report;
+mod resume;
 mod run;
 mod schema;
 mod shell_completions;
@@ -45,7 +47,7 @@ use hint::command_hint;
 #[command(after_help = "`rdsolve deck.toml` is short for `rdsolve run deck.toml`.
 
 Exit codes: 0 done, 1 internal error, 2 usage, 3 deck invalid, 4 did not converge, 5 an expected value was missed or folders
-differ, 6 input/output, 75 stopped by a signal.")]
+differ, 6 input/output, 75 stopped by a signal: --resume goes on.")]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

@@ -7,11 +7,13 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::arguments::{MAX_THREADS, RunArgs};
-use super::console::{complain, print, show};
+use super::checkpoints::Checkpoints;
+use super::console::{complain, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
+use super::resume::{Begins, checkpoint_origin, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::stages::{StageRunner, StagesTold};
 use super::verdict::{End, end, error_bars_in_words, line};
@@ -19,13 +21,14 @@ use super::version::VERSION;
 use super::watchers::{Watchers, stage_begins};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::{Model, Part, StepLength};
+use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
 use crate::output::error_bars::ErrorBars;
 use crate::output::log::Log;
 use crate::output::result_json::{
     ReportedCounts, ReportedErrors, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes, Status, Timings,
     peak_memory_bytes,
 };
-use crate::output::{claim, listed, wanted};
+use crate::output::{claim, listed, take_up, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
 use crate::solve::{Counts, Outcome, Run, StepError};
@@ -44,7 +47,11 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     }
     let mut loaded = load(&args.deck, &args.sets, Vec::new())?;
     let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "out"));
-    require_free(&folder, args.overwrite)?;
+    let origin = checkpoint_origin(&loaded, args.mesh_error);
+    let begins = match args.resume {
+        true => resume(&folder, &origin, &loaded.hash)?,
+        false => require_free(&folder, args.overwrite).map(|()| Begins::Anew)?,
+    };
     let threads = args.threads.map_or_else(available_threads, usize::from);
     if threads > 1 {
         // Where the pool is there already, its threads serve: results do not depend on their number.
@@ -65,7 +72,8 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let job = Job {
         loaded: &loaded,
         folder: &folder,
-        overwrite: args.overwrite,
+        overwrite: args.overwrite || args.resume,
+        checkpoints: Some((origin, loaded.model.output.checkpoint)),
         quiet: args.quiet,
         mesh_error: args.mesh_error,
         threads,
@@ -77,7 +85,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     };
     let computed = stop_on_signals(&stop).and_then(|()| {
         drop(reading);
-        job.compute(&mut run)
+        job.compute(&mut run, begins.checkpoint())
     });
     let (end, result, energy) = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
@@ -110,6 +118,7 @@ pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBoo
         loaded: &loaded,
         folder,
         overwrite: true,
+        checkpoints: None,
         quiet: true,
         mesh_error: false,
         threads: 1,
@@ -119,7 +128,7 @@ pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBoo
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
-    let (end, ..) = job.compute(&mut run).map_err(CaseFault::Io)?;
+    let (end, ..) = job.compute(&mut run, None).map_err(CaseFault::Io)?;
     Ok(end.status)
 }
 
@@ -161,6 +170,8 @@ struct Job<'a> {
     loaded: &'a Loaded,
     folder: &'a Path,
     overwrite: bool,
+    /// What checkpoints belong to, and the seconds between two of them; `None` where none are written.
+    checkpoints: Option<(CheckpointOrigin, Option<f64>)>,
     quiet: bool,
     mesh_error: bool,
     threads: usize,
@@ -185,20 +196,26 @@ impl Job<'_> {
         }
     }
 
-    /// Runs the scene and writes its files; an error is one of input/output.
-    fn compute(&self, run: &mut Run) -> io::Result<(End, RunResult, Option<String>)> {
-        let model = &self.loaded.model;
-        let _lock = claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;
-        let mut log = Log::open(self.folder, false)?;
+    /// Runs the scene, or what is left of it after a checkpoint, and writes its files; an error is one of input/output.
+    fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Option<String>)> {
+        let resumes = checkpoint.is_some();
+        let _lock = match resumes {
+            true => take_up(self.folder)?,
+            false => claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?,
+        };
+        let mut log = Log::open(self.folder, resumes)?;
         let origin = self.origin();
-        log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
-        self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
-        // Bars are those of one run from t = 0 on.
-        let tells_errors = (by_error(model) || self.mesh_error) && model.analysis.stage.is_none();
-        let mut watchers = Watchers::new(log, self.folder, model, [self.quiet, tells_errors])?;
+        match resumes {
+            true => log.say("the run goes on from its checkpoint")?,
+            false => {
+                log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
+                self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
+            }
+        }
+        let mut watchers = self.watchers(log, resumes)?;
         let looping = Instant::now();
         let mut told = StagesTold::default();
-        let outcome = self.stages().run(run, &mut watchers, &mut told)?;
+        let outcome = self.stages().run(run, checkpoint, (&mut watchers, &mut told))?;
         let whole = looping.elapsed();
         watchers.progress.finish();
         watchers.files.finish()?;
@@ -243,7 +260,27 @@ impl Job<'_> {
             expectations,
         };
         result.write(self.folder)?;
+        if end.status != Status::Stopped && self.checkpoints.is_some() {
+            Checkpoint::remove(self.folder)?;
+        }
         Ok((end, result, energy))
+    }
+
+    /// Who watches the run.
+    fn watchers(&self, log: Log, resumes: bool) -> io::Result<Watchers> {
+        let model = &self.loaded.model;
+        // Bars are those of one run from t = 0 on.
+        let tells_errors = (by_error(model) || self.mesh_error) && model.analysis.stage.is_none();
+        let options = [self.quiet, tells_errors];
+        let mut watchers = match resumes {
+            true => Watchers::waiting(log, self.folder, model, options),
+            false => Watchers::new(log, self.folder, model, options)?,
+        };
+        watchers.checkpoints = self
+            .checkpoints
+            .clone()
+            .map(|(origin, apart)| Checkpoints::new(self.folder, origin, apart).after_another(resumes));
+        Ok(watchers)
     }
 
     /// What runs the stages of the deck.
@@ -335,6 +372,9 @@ impl Job<'_> {
             Status::Failed => Exit::Internal,
         };
         complain(&end.sentence());
+        if exit == Exit::Stopped {
+            say("  help: the same command with --resume goes on from there");
+        }
         Err(exit)
     }
 }

@@ -9,8 +9,10 @@ use super::verdict::{energy_line, energy_warning, short_of_stop, work_warning};
 use super::watchers::{Watchers, stage_begins};
 use crate::model::{self, AnalysisKind, Model};
 use crate::names::{instant, to_digits};
+use crate::output::checkpoint::Checkpoint;
 use crate::output::{settle_cadence, wanted};
 use crate::plan::Plan;
+use crate::snapshot::{Keep, Snapshot, keep};
 use crate::solve::{Counts, Handover, Outcome, Run, StepError};
 use crate::state::State;
 use crate::system::System;
@@ -36,6 +38,66 @@ pub struct StagesTold {
     pub step_error: Option<StepError>,
     /// Says of a path that it ended before its `stop`.
     pub short: Option<String>,
+}
+
+keep!(StagesTold {
+    warnings, remarks, energy, counts, rotation_drift, joint_violation, step_error, short,
+} without { observing });
+
+/// A stage that has come to its end before a checkpoint.
+#[derive(Debug, Default)]
+struct PastStage {
+    /// The state at its end.
+    state: State,
+    /// The effort up to then.
+    counts: Counts,
+    /// What else it leaves to the next, as [`Run::keep_end`] has it.
+    left: Vec<u8>,
+}
+
+keep!(PastStage: Default { state, counts, left });
+
+/// The way through the stages so far.
+#[derive(Default)]
+struct Course {
+    /// The stages that have come to their ends.
+    past: Vec<PastStage>,
+    /// Those of them that a checkpoint holds and that have not been gone through again, the last first.
+    recalled: Vec<PastStage>,
+    /// The checkpoint in the stage after these; `None` once it has been taken up.
+    checkpoint: Option<Checkpoint>,
+}
+
+impl Course {
+    /// The way to a checkpoint, or from the beginning.
+    fn to(checkpoint: Option<Checkpoint>) -> io::Result<Course> {
+        let mut course = Course { checkpoint, ..Course::default() };
+        if let Some(checkpoint) = &course.checkpoint {
+            // What has been told by then is read where the run goes on.
+            let mut told = StagesTold::default();
+            let mut snapshot = Snapshot::of(checkpoint.stages.clone());
+            course.recalled.keep(&mut snapshot);
+            told.keep(&mut snapshot);
+            if !snapshot.is_used_up() {
+                return Err(unfit());
+            }
+            course.recalled.reverse();
+        }
+        Ok(course)
+    }
+
+    /// What a checkpoint in the stage under way has to hold of this.
+    fn so_far(&mut self, told: &mut StagesTold) -> Vec<u8> {
+        let mut snapshot = Snapshot::taken();
+        self.past.keep(&mut snapshot);
+        told.keep(&mut snapshot);
+        snapshot.into_bytes()
+    }
+}
+
+/// The error that a checkpoint is not one of this deck.
+fn unfit() -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, "the checkpoint does not fit the deck")
 }
 
 impl StagesTold {
@@ -127,39 +189,81 @@ pub struct StageRunner<'a> {
 }
 
 impl StageRunner<'_> {
-    /// Runs the first stage, or the only one, and then the others as long as each comes to its end.
+    /// Runs the first stage, or the only one, and then the others as long as each comes to its end; or goes on from a checkpoint in any
+    /// of them.
     ///
     /// # Errors
-    /// Results cannot be written, or there is no memory for the solver of a stage.
-    pub fn run(&self, first: &mut Run, watchers: &mut Watchers, told: &mut StagesTold) -> io::Result<Outcome> {
+    /// Results cannot be written, the checkpoint does not fit, or there is no memory for the solver of a stage.
+    pub fn run(
+        &self,
+        first: &mut Run,
+        checkpoint: Option<Checkpoint>,
+        (watchers, told): (&mut Watchers, &mut StagesTold),
+    ) -> io::Result<Outcome> {
         let Loaded { model, .. } = self.loaded;
-        let mut ends = Vec::new();
-        if model.analysis.stage.is_some() {
+        let mut course = Course::to(checkpoint)?;
+        if model.analysis.stage.is_some() && course.checkpoint.is_none() {
             watchers.log.say(&stage_begins(model))?;
         }
-        let ended = first.run(watchers);
-        told.take(first, model, ended.1.as_ref().map(|state| state.time));
-        let mut next = self.next_stage((model, first), ended, &mut ends, (watchers, told))?;
+        let mut ends = Vec::new();
+        let ended = self.run_stage((model, first), &mut course, (watchers, told))?;
+        let mut next = self.next_stage((model, first), ended, (&mut ends, &mut course), (watchers, told))?;
         loop {
             let NextStage { mut model, system, handover } = match next {
                 Next::Stage(stage) => *stage,
                 Next::End(outcome) => return Ok(outcome),
             };
-            let plan = self.begin(&mut model, &system, watchers)?;
+            let plan = self.begin(&mut model, &system, &course, watchers)?;
             let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
             let mut run = made.map_err(|error| io::Error::other(error.to_string()))?;
             run.go_on_from(handover);
-            let ended = run.run(watchers);
-            told.take(&run, &model, ended.1.as_ref().map(|state| state.time));
-            next = self.next_stage((&model, &run), ended, &mut ends, (watchers, told))?;
+            let ended = self.run_stage((&model, &mut run), &mut course, (watchers, told))?;
+            next = self.next_stage((&model, &run), ended, (&mut ends, &mut course), (watchers, told))?;
         }
     }
 
-    /// Plans a stage and lets the watchers know.
-    fn begin(&self, model: &mut Model, system: &System, watchers: &mut Watchers) -> io::Result<Plan> {
+    /// Runs a stage, goes on in it from a checkpoint, or recalls how it ended before that.
+    fn run_stage(
+        &self,
+        (model, run): (&Model, &mut Run),
+        course: &mut Course,
+        (watchers, told): (&mut Watchers, &mut StagesTold),
+    ) -> io::Result<(Outcome, Option<State>)> {
+        if let Some(past) = course.recalled.pop() {
+            run.keep_end(&mut Snapshot::of(past.left.clone()));
+            told.counts = past.counts;
+            let state = past.state.clone();
+            course.past.push(past);
+            return Ok((Outcome::Done, Some(state)));
+        }
+        if let Some(checkpoint) = course.checkpoint.take() {
+            let mut snapshot = Snapshot::of(checkpoint.stages);
+            course.past.keep(&mut snapshot);
+            told.keep(&mut snapshot);
+            watchers.go_on(model, checkpoint.watchers)?;
+            run.resume(checkpoint.run);
+        }
+        if let Some(checkpoints) = &mut watchers.checkpoints {
+            checkpoints.begin_stage(course.so_far(told));
+        }
+        let (outcome, state) = run.run(watchers);
+        told.take(run, model, state.as_ref().map(|state| state.time));
+        if let (Outcome::Done, Some(state)) = (&outcome, &state) {
+            let mut left = Snapshot::taken();
+            run.keep_end(&mut left);
+            course.past.push(PastStage { state: state.clone(), counts: told.counts, left: left.into_bytes() });
+        }
+        Ok((outcome, state))
+    }
+
+    /// Plans a stage and lets the watchers know, unless it lies before a checkpoint.
+    fn begin(&self, model: &mut Model, system: &System, course: &Course, watchers: &mut Watchers) -> io::Result<Plan> {
         let plan = Plan::new(model, system, self.threads);
         settle_cadence(model, &plan);
-        watchers.next_stage(model)?;
+        match course.checkpoint {
+            None => watchers.next_stage(model)?,
+            Some(_) => watchers.expectations.next_stage(model),
+        }
         Ok(plan)
     }
 
@@ -169,7 +273,7 @@ impl StageRunner<'_> {
         &self,
         (before, run): (&Model, &Run),
         (mut outcome, state): (Outcome, Option<State>),
-        ends: &mut Vec<f64>,
+        (ends, course): (&mut Vec<f64>, &mut Course),
         (watchers, told): (&mut Watchers, &mut StagesTold),
     ) -> io::Result<Next> {
         let Some(state) = state else { return Ok(Next::End(outcome)) };
@@ -191,13 +295,11 @@ impl StageRunner<'_> {
             if model.analysis.modes.is_none() {
                 return Ok(Next::Stage(Box::new(NextStage { model, system, handover })));
             }
-            let plan = self.begin(&mut model, &system, watchers)?;
+            let plan = self.begin(&mut model, &system, course, watchers)?;
             let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
             let mut modes = made.map_err(|error| io::Error::other(error.to_string()))?;
             modes.go_on_from(handover);
-            let (ended, at) = modes.run(watchers);
-            told.take(&modes, &model, at.map(|state| state.time));
-            outcome = ended;
+            outcome = self.run_stage((&model, &mut modes), course, (watchers, told))?.0;
         }
         Ok(Next::End(outcome))
     }

@@ -1,13 +1,15 @@
 //! All who watch a run: the log, the files, the expectations, the errors and the terminal.
 
+use super::checkpoints::Checkpoints;
 use super::load::model_stage;
 use crate::model::{AnalysisKind, ModeKind, Model};
 use crate::names::instant;
-use crate::output::Files;
 use crate::output::error_bars::ErrorBars;
 use crate::output::expect::Expectations;
 use crate::output::log::Log;
 use crate::output::progress::Progress;
+use crate::output::{Files, FilesMark};
+use crate::snapshot::{Keep, Snapshot};
 use crate::solve::{Frame, Observer, OtherRun};
 use std::io;
 use std::path::Path;
@@ -24,6 +26,8 @@ pub struct Watchers {
     pub bars: Option<ErrorBars>,
     /// The bar on the terminal.
     pub progress: Progress,
+    /// Where the run is to be able to go on after a stop.
+    pub checkpoints: Option<Checkpoints>,
 }
 
 impl Watchers {
@@ -34,11 +38,46 @@ impl Watchers {
     pub fn new(log: Log, folder: &Path, model: &Model, [quiet, bars]: [bool; 2]) -> io::Result<Watchers> {
         Ok(Watchers {
             log,
-            files: Files::open(folder, model, None)?,
+            files: Files::open(folder, model)?,
             expectations: Expectations::new(model),
             bars: bars.then(|| ErrorBars::new(model)),
             progress: Progress::new(quiet),
+            checkpoints: None,
         })
+    }
+
+    /// Those of a run that goes on in a folder, to be told by [`Watchers::go_on`] from where.
+    pub fn waiting(log: Log, folder: &Path, model: &Model, [quiet, bars]: [bool; 2]) -> Watchers {
+        Watchers {
+            log,
+            files: Files::waiting(folder),
+            expectations: Expectations::new(model),
+            bars: bars.then(|| ErrorBars::new(model)),
+            progress: Progress::new(quiet),
+            checkpoints: None,
+        }
+    }
+
+    /// Goes on from a checkpoint in the stage of this model.
+    ///
+    /// # Errors
+    /// A file is not what it was at the checkpoint.
+    pub fn go_on(&mut self, model: &Model, checkpoint: Vec<u8>) -> io::Result<()> {
+        let (mut snapshot, mut mark) = (Snapshot::of(checkpoint), FilesMark::default());
+        mark.keep(&mut snapshot);
+        self.keep_rest(&mut snapshot);
+        if !snapshot.is_used_up() {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, "the checkpoint does not fit the deck"));
+        }
+        self.files.go_on(model, mark)
+    }
+
+    /// Keeps what stands behind the files in a checkpoint.
+    fn keep_rest(&mut self, snapshot: &mut Snapshot) {
+        let Watchers { log, expectations, bars, files: _, progress: _, checkpoints: _ } = self;
+        log.keep(snapshot);
+        expectations.keep(snapshot);
+        bars.keep(snapshot);
     }
 }
 
@@ -85,7 +124,26 @@ impl Observer for Watchers {
         self.files.on_modes(frame)
     }
 
+    fn wants_checkpoint(&mut self) -> bool {
+        self.checkpoints.as_ref().is_some_and(Checkpoints::is_due)
+    }
+
+    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
+        if self.checkpoints.is_none() {
+            return Ok(());
+        }
+        let mut snapshot = Snapshot::taken();
+        self.files.mark()?.keep(&mut snapshot);
+        self.keep_rest(&mut snapshot);
+        match &mut self.checkpoints {
+            Some(checkpoints) => checkpoints.write(snapshot.into_bytes(), run),
+            None => Ok(()),
+        }
+    }
+
     fn restart(&mut self, model: &Model) -> io::Result<()> {
+        // The tables of the checkpoint are about to go.
+        self.checkpoints.iter_mut().try_for_each(Checkpoints::withdraw)?;
         self.log.sum_up()?;
         self.log.say(&match model.analysis.begin {
             0.0 => "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps"

@@ -35,6 +35,9 @@ pub struct Output {
     pub parts: Maybe<bool>,
     /// Write joints.csv: coordinate, rate, effort and reactions of joints. Default: false.
     pub joints: Maybe<bool>,
+    /// Seconds of run time between two checkpoints, above 0, from which `--resume` goes on. Default: none but the one that is
+    /// written when a signal stops the run.
+    pub checkpoint: Maybe<f64>,
 }
 
 /// Field files.

@@ -40,6 +40,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             parts: false,
             joints: false,
             fields: None,
+            checkpoint: None,
         };
         return Selection { output, all_nodes: false };
     };
@@ -74,6 +75,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         parts: flag(&table.parts, false),
         joints: flag(&table.joints, false),
         fields,
+        checkpoint: report.positive("checkpoint", &table.checkpoint),
     };
     Selection { output, all_nodes: word == Some("all") }
 }

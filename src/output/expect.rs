@@ -6,6 +6,7 @@ use super::error_bars::{ComparedHistory, Told};
 use super::table::Answers;
 use super::tables::TABLES;
 use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
+use crate::snapshot::keep;
 use crate::solve::{Frame, Observer, OtherRun, Wanted};
 use serde::Serialize;
 use std::io;
@@ -75,6 +76,8 @@ pub struct Expectations {
     end_time: f64,
 }
 
+keep!(Expectations { watches } without { end_time });
+
 struct Watch {
     expect: Expect,
     /// True where the stage under way has what is expected.
@@ -93,13 +96,17 @@ struct Watch {
     mesh_error: Option<f64>,
 }
 
-#[derive(Clone, Copy)]
+keep!(Watch { is_here, sample, of_stages_before, history, before, unseen, step_error, mesh_error } without { expect, quantity });
+
+#[derive(Clone, Copy, Default)]
 struct Sample {
     time: f64,
     value: f64,
     /// The value of another run at this time.
     other: Option<f64>,
 }
+
+keep!(Sample: Default { time, value, other });
 
 impl Sample {
     /// Keeps the value of another run where it is that of the time of the sample.

@@ -12,6 +12,7 @@ use super::run_list::RunList;
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
 use crate::model::{Drawing, Model, Part};
+use crate::snapshot::keep;
 use crate::solids::outline::OutlineCell;
 use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
@@ -195,6 +196,17 @@ pub struct Fields {
     count: usize,
     /// The number of cells before those of shells; `None` where there are no shells.
     before: Option<usize>,
+    /// How far the grids have come.
+    marked: FieldsMark,
+    /// The text of a grid; its memory serves again at the next step.
+    text: String,
+    /// The bytes of an array before they are encoded; their memory serves again as well.
+    bytes: Vec<u8>,
+}
+
+/// How far the grids of a run have come.
+#[derive(Debug, Clone, Default)]
+pub struct FieldsMark {
     /// The lines of fields.pvd so far, ...
     listed: String,
     /// ... and their bytes before the stage under way.
@@ -202,18 +214,16 @@ pub struct Fields {
     /// The lines of modes.pvd so far, and their number.
     listed_modes: String,
     modes: usize,
-    /// The text of a grid; its memory serves again at the next step.
-    text: String,
-    /// The bytes of an array before they are encoded; their memory serves again as well.
-    bytes: Vec<u8>,
 }
 
+keep!(FieldsMark: Default { listed, before_stage, listed_modes, modes });
+
 impl Fields {
-    /// Writes fields.csv; with `keep_to`, the list of grids goes on after the grid of that step.
+    /// Writes fields.csv.
     ///
     /// # Errors
-    /// A file cannot be written, or the list that is to go on cannot be read.
-    pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Fields> {
+    /// A file cannot be written.
+    pub fn open(dir: &Path, model: &Model) -> io::Result<Fields> {
         let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
         replace(&dir.join("fields.csv"), &names(model)?)?;
         let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
@@ -223,10 +233,6 @@ impl Fields {
         vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.iter().copied());
         vtu::array(&mut cells, &mut bytes, "types", 1, types.into_iter());
         cells.push_str("</Cells>\n</Piece>\n");
-        let listed = match keep_to {
-            Some(step) => kept(&dir.join("fields.pvd"), step)?,
-            None => String::new(),
-        };
         Ok(Fields {
             dir: dir.into(),
             list: RunList::open(dir)?,
@@ -239,10 +245,7 @@ impl Fields {
                 let others = model.parts.iter().take_while(|part| !part.kind().is_surface());
                 others.map(Part::elements).sum()
             }),
-            before_stage: listed.len(),
-            listed,
-            listed_modes: String::new(),
-            modes: 0,
+            marked: FieldsMark::default(),
             text: String::new(),
             bytes,
         })
@@ -253,11 +256,24 @@ impl Fields {
     /// # Errors
     /// A file cannot be written.
     pub fn next_stage(&mut self, model: &Model) -> io::Result<()> {
-        let [listed, listed_modes] = [&mut self.listed, &mut self.listed_modes].map(std::mem::take);
-        let modes = self.modes;
-        let open = Fields::open(&self.dir, model, None)?;
-        *self = Fields { before_stage: listed.len(), listed, listed_modes, modes, ..open };
+        let mut marked = std::mem::take(&mut self.marked);
+        marked.before_stage = marked.listed.len();
+        *self = Fields { marked, ..Fields::open(&self.dir, model)? };
         Ok(())
+    }
+
+    /// Goes on with the grids of a checkpoint; what was drawn after it is drawn again.
+    ///
+    /// # Errors
+    /// The list cannot be written.
+    pub fn go_on(&mut self, mark: FieldsMark) -> io::Result<()> {
+        self.marked = mark;
+        if self.marked.listed.is_empty() { Ok(()) } else { self.write_list() }
+    }
+
+    /// How far the grids have come.
+    pub fn mark(&self) -> FieldsMark {
+        self.marked.clone()
     }
 
     /// Writes a grid where one is to be drawn.
@@ -273,13 +289,18 @@ impl Fields {
     /// # Errors
     /// One of them cannot be removed.
     pub fn withdraw(&mut self) -> io::Result<()> {
-        let names =
-            self.listed[self.before_stage..].lines().filter_map(|line| line.split_once("file=\"")?.1.split('"').next());
+        let names = self.marked.listed[self.marked.before_stage..]
+            .lines()
+            .filter_map(|line| line.split_once("file=\"")?.1.split('"').next());
         for name in names {
             let path = self.dir.join(name);
-            fs::remove_file(&path).map_err(|e| at(&path, e))?;
+            match fs::remove_file(&path) {
+                // A run that was killed while it began again has taken some away.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                removed => removed.map_err(|error| at(&path, error))?,
+            }
         }
-        self.listed.truncate(self.before_stage);
+        self.marked.listed.truncate(self.marked.before_stage);
         Ok(())
     }
 
@@ -325,10 +346,14 @@ impl Fields {
             let path = self.dir.join(&name);
             self.list.note(&name)?;
             create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
-            self.modes += 1;
-            let _ = writeln!(self.listed_modes, "<DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>", self.modes);
+            self.marked.modes += 1;
+            let _ = writeln!(
+                self.marked.listed_modes,
+                "<DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>",
+                self.marked.modes
+            );
         }
-        let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.listed_modes);
+        let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.marked.listed_modes);
         self.list.note(MODES)?;
         replace(&self.dir.join(MODES), list.as_bytes())
     }
@@ -389,21 +414,16 @@ impl Fields {
         let path = self.dir.join(&name);
         self.list.note(&name)?;
         create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
-        let _ = writeln!(self.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
-        let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.listed);
+        let _ = writeln!(self.marked.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
+        self.write_list()
+    }
+
+    /// Writes the list of all grids.
+    fn write_list(&self) -> io::Result<()> {
+        let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.marked.listed);
         replace(&self.dir.join("fields.pvd"), list.as_bytes())
     }
 }
 
 /// The beginning of fields.pvd.
 const LIST: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-
-/// The lines of a list up to the grid of `step`; none where there is no list yet.
-fn kept(path: &Path, step: usize) -> io::Result<String> {
-    let list = match fs::read_to_string(path) {
-        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(String::new()),
-        read => read.map_err(|e| at(path, e))?,
-    };
-    let number = |line: &str| line.split_once("file=\"fields_")?.1.split_once(".vtu")?.0.parse::<usize>().ok();
-    Ok(list.lines().filter(|line| number(line).is_some_and(|n| n <= step)).flat_map(|line| [line, "\n"]).collect())
-}

@@ -2,14 +2,15 @@
 
 use super::disk::at;
 use super::expect::needs;
-use super::fields::{Fields, LISTS};
+use super::fields::{Fields, FieldsMark, LISTS};
 use super::table::{TableKind, WriteRows};
-use super::table_file::{EmptyFields, TableFile};
+use super::table_file::{EmptyFields, TableFile, TableMark};
 use super::table_size::size_in_words;
 use super::tables::TABLES;
 use crate::model::{Cadence, Model, When};
 use crate::names::instant;
 use crate::plan::Plan;
+use crate::snapshot::keep;
 use crate::solve::{Frame, Observer, Wanted};
 use std::fs;
 use std::io;
@@ -28,9 +29,9 @@ struct OpenTable {
 }
 
 impl OpenTable {
-    fn open(dir: &Path, kind: &'static TableKind, model: &Model, keep_to: Option<usize>) -> io::Result<OpenTable> {
+    fn open(dir: &Path, kind: &'static TableKind, model: &Model) -> io::Result<OpenTable> {
         let stage = model.analysis.stage.as_ref();
-        let mut file = TableFile::open(dir, kind.file, &kind.header(stage.is_some()), keep_to)?;
+        let mut file = TableFile::open(dir, kind.file, &kind.header(stage.is_some()))?;
         if let Some(stage) = stage {
             file.begin_stage(&stage.name)?;
         }
@@ -46,14 +47,58 @@ pub struct Files {
     flushed: Instant,
 }
 
+/// How far the files of a run had come at a checkpoint.
+#[derive(Debug, Default)]
+pub struct FilesMark {
+    tables: Vec<TableMark>,
+    fields: Option<FieldsMark>,
+}
+
+keep!(FilesMark: Default { tables, fields });
+
 impl Files {
-    /// Creates the folder and its files; with `keep_to`, goes on with those of a run interrupted after that step.
-    pub fn open(dir: &Path, model: &Model, keep_to: Option<usize>) -> io::Result<Files> {
+    /// Creates the folder and its files.
+    ///
+    /// # Errors
+    /// A file cannot be made.
+    pub fn open(dir: &Path, model: &Model) -> io::Result<Files> {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
         let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
-        let tables = wanted.map(|kind| OpenTable::open(dir, kind, model, keep_to)).collect::<io::Result<_>>()?;
-        let fields = model.output.fields.map(|_| Fields::open(dir, model, keep_to)).transpose()?;
+        let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
+        let fields = model.output.fields.map(|_| Fields::open(dir, model)).transpose()?;
         Ok(Files { dir: dir.to_owned(), tables, fields, flushed: Instant::now() })
+    }
+
+    /// No files in a folder that holds those of a checkpoint, until they are opened by [`Files::go_on`].
+    pub fn waiting(dir: &Path) -> Files {
+        Files { dir: dir.to_owned(), tables: Vec::new(), fields: None, flushed: Instant::now() }
+    }
+
+    /// Goes on with the files of a checkpoint in the stage of this model, as they were then.
+    ///
+    /// # Errors
+    /// A file cannot be opened, or is not what it was.
+    pub fn go_on(&mut self, model: &Model, mark: FilesMark) -> io::Result<()> {
+        for mark in mark.tables {
+            let Some(&kind) = TABLES.iter().find(|kind| kind.file == mark.file) else { continue };
+            let file = TableFile::reopen(&self.dir, mark)?;
+            self.tables.push(OpenTable { kind, file, write: (kind.wanted)(model).then(|| (kind.rows)(model)) });
+        }
+        if let Some(mark) = mark.fields {
+            let mut fields = Fields::open(&self.dir, model)?;
+            fields.go_on(mark)?;
+            self.fields = Some(fields);
+        }
+        Ok(())
+    }
+
+    /// How far all files have come, with their rows safe on the disk.
+    ///
+    /// # Errors
+    /// As for [`Files::finish`].
+    pub fn mark(&mut self) -> io::Result<FilesMark> {
+        let tables = self.tables.iter_mut().map(|table| table.file.mark()).collect::<io::Result<_>>()?;
+        Ok(FilesMark { tables, fields: self.fields.as_ref().map(Fields::mark) })
     }
 
     /// Goes on with the next stage, whose model this is.
@@ -69,7 +114,7 @@ impl Files {
         }
         for &kind in TABLES.iter().filter(|kind| (kind.wanted)(model)) {
             if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
-                self.tables.push(OpenTable::open(&self.dir, kind, model, None)?);
+                self.tables.push(OpenTable::open(&self.dir, kind, model)?);
             }
         }
         if let Some(fields) = &mut self.fields {
@@ -78,7 +123,7 @@ impl Files {
         Ok(())
     }
 
-    /// Hands over the rows still waiting: at the end of a run, and before a checkpoint.
+    /// Hands over the rows still waiting, at the end of a run.
     ///
     /// # Errors
     /// A table cannot grow, or is no longer what this run has written.
@@ -144,7 +189,7 @@ impl Observer for Files {
         if model.analysis.begin > 0.0 {
             return self.tables.iter_mut().try_for_each(|table| table.file.withdraw_stage());
         }
-        *self = Files::open(&self.dir, model, None)?;
+        *self = Files::open(&self.dir, model)?;
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use super::disk::{UNFINISHED, at};
 use super::files::names;
 use super::lock::{self, FolderLock};
 use super::run_list::{self, RunList, foreign};
-use super::{fields, log, result_json, tables};
+use super::{checkpoint, fields, log, result_json, tables};
 use crate::model::Model;
 use std::collections::HashSet;
 use std::fs;
@@ -28,7 +28,7 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     let older = ours(dir, &files)?;
     let mut written: Vec<&str> = models.iter().copied().flat_map(names).collect();
     let draws = models.iter().any(|model| model.output.fields.is_some());
-    written.extend([log::NAME, result_json::NAME]);
+    written.extend([log::NAME, result_json::NAME, checkpoint::NAME]);
     let in_the_way = |name: &&String| {
         let is_next = written.contains(&name.as_str()) || (draws && fields::is_grid(name));
         is_next && !older.contains(*name)
@@ -46,6 +46,19 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     let mut list = RunList::open(dir)?;
     written.iter().try_for_each(|name| list.note(name))?;
     Ok(lock)
+}
+
+/// Locks a folder in which a run is to go on from its checkpoint. The result goes, for it is that of the part before.
+///
+/// # Errors
+/// Another run writes there, or the result cannot be removed.
+pub fn take_up(dir: &Path) -> io::Result<FolderLock> {
+    let lock = FolderLock::take(dir)?;
+    let result = dir.join(result_json::NAME);
+    match fs::remove_file(&result) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&result, error)),
+        _ => Ok(lock),
+    }
 }
 
 /// The names of all that is in a folder.
@@ -103,7 +116,7 @@ fn take_away(dir: &Path, files: &[String], ours: &HashSet<String>) -> io::Result
 fn is_of_a_run(name: &str) -> bool {
     let whole = name.strip_suffix(UNFINISHED).unwrap_or(name);
     let is_result = tables::of_file(whole).is_some() || fields::is_file(whole) || whole == result_json::NAME;
-    is_result || [log::NAME, run_list::NAME, lock::NAME].contains(&name)
+    is_result || [log::NAME, run_list::NAME, lock::NAME, checkpoint::NAME].contains(&name)
 }
 
 /// Removes what an earlier run has left, and its folder unless something else is in it.

@@ -4,6 +4,7 @@
 use super::disk::{at, create};
 use crate::diagnostic::plain;
 use crate::names::instant;
+use crate::snapshot::keep;
 use crate::solve::{Frame, Observer};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
@@ -25,6 +26,8 @@ pub struct Log {
     passed: Events,
 }
 
+keep!(Log { path_before, cut, passed } without { path, file });
+
 /// Lines of one kind.
 #[derive(Default)]
 struct Events {
@@ -34,6 +37,8 @@ struct Events {
     /// The cutbacks of those after them.
     cutbacks: usize,
 }
+
+keep!(Events { said, more, cutbacks });
 
 impl Events {
     /// Counts a step; true where it has a line of its own.

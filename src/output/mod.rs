@@ -3,6 +3,7 @@
 //! A table is one file of [`tables`] and one line of its list; [`Files`] opens those that the deck asks for and shows them every
 //! accepted step. Errors name the file.
 
+pub mod checkpoint;
 pub mod compare;
 mod disk;
 pub mod error_bars;
@@ -26,8 +27,8 @@ pub mod tables;
 mod vtu;
 
 pub(crate) use disk::{at, replace};
-pub use files::{Files, listed, wanted};
-pub use folder::claim;
+pub use files::{Files, FilesMark, listed, wanted};
+pub use folder::{claim, take_up};
 pub(crate) use folder::{holds_run, remove, remove_empty, remove_run};
 pub use lock::FolderLock;
 pub use table_size::{expected_sizes, settle_cadence};

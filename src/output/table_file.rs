@@ -7,8 +7,9 @@
 
 use super::disk::{at, create, is_same};
 use super::table::WriteRow;
+use crate::snapshot::keep;
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Seek, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// The number of bytes of finished rows that do not wait for the next flush.
@@ -35,7 +36,7 @@ pub struct TableFile {
 }
 
 /// Fields that stayed empty because what they should hold is no finite number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EmptyFields {
     /// The time of the first row that has one.
     pub since: f64,
@@ -43,35 +44,78 @@ pub struct EmptyFields {
     pub count: usize,
 }
 
+keep!(EmptyFields: Default { since, count });
+
+/// How far a table had come at a checkpoint.
+#[derive(Debug, Clone, Default)]
+pub struct TableMark {
+    /// The name of the file.
+    pub file: String,
+    written: u64,
+    stage: String,
+    before_stage: u64,
+    empty: Option<EmptyFields>,
+}
+
+keep!(TableMark: Default { file, written, stage, before_stage, empty });
+
 impl TableFile {
-    /// Makes a new file with its header row; or, with `keep_to`, opens an old one and cuts it after the rows of that step (the
-    /// first column).
+    /// Makes a new file with its header row.
     ///
     /// # Errors
     /// The file cannot be opened or written; the error names it.
-    pub fn open(dir: &Path, name: &str, header: &str, keep_to: Option<usize>) -> io::Result<TableFile> {
+    pub fn open(dir: &Path, name: &str, header: &str) -> io::Result<TableFile> {
         let path = dir.join(name);
-        let file = match keep_to {
-            None => create(&path).map(|file| (file, 0)),
-            Some(step) => reopen(&path, step),
-        };
-        let (file, written) = file.map_err(|e| at(&path, e))?;
-        let mut table = TableFile {
+        let file = create(&path).map_err(|e| at(&path, e))?;
+        let mut table = TableFile::of(path, file);
+        let _ = writeln!(table.rows, "{header}");
+        table.flush()?;
+        Ok(table)
+    }
+
+    /// Opens the table of a checkpoint and cuts off what was written after it.
+    ///
+    /// # Errors
+    /// The file cannot be opened or cut, or is not what it was at the checkpoint; the error names it.
+    pub fn reopen(dir: &Path, mark: TableMark) -> io::Result<TableFile> {
+        let TableMark { file: name, written, stage, before_stage, empty } = mark;
+        let path = dir.join(name);
+        let mut file = OpenOptions::new().read(true).write(true).open(&path).map_err(|e| at(&path, e))?;
+        if file.metadata().map_err(|e| at(&path, e))?.len() < written {
+            let what =
+                "the table is shorter than it was at the checkpoint: --overwrite runs the deck from the beginning";
+            return Err(at(&path, io::Error::new(io::ErrorKind::InvalidData, what)));
+        }
+        let cut = file.set_len(written).and_then(|()| file.seek(io::SeekFrom::End(0)));
+        cut.map_err(|e| at(&path, e))?;
+        Ok(TableFile { written, stage, before_stage, empty, ..TableFile::of(path, file) })
+    }
+
+    /// An empty table.
+    fn of(path: PathBuf, file: File) -> TableFile {
+        TableFile {
             path,
             file,
-            written,
+            written: 0,
             rows: Vec::with_capacity(2 * ENOUGH),
             digits: ryu::Buffer::new(),
             time: 0.0,
             stage: String::new(),
             before_stage: 0,
             empty: None,
-        };
-        if keep_to.is_none() {
-            let _ = writeln!(table.rows, "{header}");
-            table.flush()?;
         }
-        Ok(table)
+    }
+
+    /// How far the table has come, with all its rows safe on the disk.
+    ///
+    /// # Errors
+    /// As for [`TableFile::flush`].
+    pub fn mark(&mut self) -> io::Result<TableMark> {
+        self.flush()?;
+        self.file.sync_data().map_err(|e| at(&self.path, e))?;
+        let file = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let TableFile { written, stage, before_stage, empty, .. } = self;
+        Ok(TableMark { file, written: *written, stage: stage.clone(), before_stage: *before_stage, empty: *empty })
     }
 
     /// Lets all rows to come name this stage.
@@ -200,27 +244,6 @@ impl WriteRow for TableFile {
     }
 }
 
-/// Opens a table for more rows, without what was written after `step`.
-fn reopen(path: &Path, step: usize) -> io::Result<(File, u64)> {
-    let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-    let (mut end, mut line) = (0, Vec::new());
-    let mut reader = BufReader::new(&file);
-    loop {
-        line.clear();
-        reader.read_until(b'\n', &mut line)?;
-        // A quoted label with a line break continues its row on a line that does not begin with a number.
-        let number =
-            line.split(|b| *b == b',').next().and_then(|first| std::str::from_utf8(first).ok()?.parse::<usize>().ok());
-        if !line.ends_with(b"\n") || number.is_some_and(|number| number > step) {
-            break;
-        }
-        end += line.len() as u64;
-    }
-    file.set_len(end)?;
-    file.seek(io::SeekFrom::End(0))?;
-    Ok((file, end))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -237,7 +260,7 @@ mod tests {
         let mut random = SmallRng::seed_from_u64(5);
         let mut values = vec![0.0, -0.0, 0.1, 1e-3, 1e300, f64::MIN_POSITIVE, 5e-324, f64::MAX, -1.0 / 3.0];
         values.extend((0..20_000).map(|_| f64::from_bits(random.next_u64())).filter(|x| x.is_finite()));
-        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,value", None).unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,value").unwrap();
         for (i, value) in values.iter().enumerate() {
             table.row(i, *value).number(-value).end().unwrap();
         }
@@ -253,7 +276,7 @@ mod tests {
     #[test]
     fn text_survives_commas_and_quotes() {
         let dir = tempfile::tempdir().unwrap();
-        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name,none", None).unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name,none").unwrap();
         let names = ["portal[3]", "a, b", "the \"elbow\"", "two\nlines", "Träger"];
         for name in names {
             table.row(0, 0.5).text(name).number(f64::NAN).end().unwrap();
@@ -267,16 +290,24 @@ mod tests {
     #[test]
     fn a_resumed_table_ends_where_the_checkpoint_was() {
         let dir = tempfile::tempdir().unwrap();
-        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name", None).unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name").unwrap();
         for step in 0..5 {
             table.row(step, 0.5).text("first\nline").end().unwrap();
             table.row(step, 0.5).text("b").end().unwrap();
         }
         table.flush().unwrap();
         let path = dir.path().join("t.csv");
-        OpenOptions::new().append(true).open(&path).unwrap().write_all(b"5,0.").unwrap(); // truncated
-        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name", Some(2)).unwrap();
+        let mark = table.mark().unwrap();
+        table.row(9, 0.5).text("lost").end().unwrap();
+        table.flush().unwrap();
+        OpenOptions::new().append(true).open(&path).unwrap().write_all(b"5,0.").unwrap(); // torn
+        let mut table = TableFile::reopen(dir.path(), mark.clone()).unwrap();
         table.row(3, 0.25).text("c").end().unwrap();
+        table.flush().unwrap();
+        OpenOptions::new().write(true).open(&path).unwrap().set_len(mark.written - 1).unwrap();
+        let error = TableFile::reopen(dir.path(), mark).err().unwrap();
+        assert!(error.to_string().contains("t.csv: the table is shorter"), "{error}");
+        table = TableFile::open(dir.path(), "u.csv", "step").unwrap();
         table.flush().unwrap();
         let rows = read(&path);
         assert_eq!(rows.len(), 1 + 2 * 3 + 1);
@@ -290,7 +321,7 @@ mod tests {
             return;
         }
         let dir = tempfile::tempdir().unwrap();
-        let mut table = TableFile::open(dir.path(), "t.csv", "step,time", None).unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
         table.path = PathBuf::from("/dev/full");
         table.file = OpenOptions::new().write(true).open(&table.path).unwrap();
         table.written = 0;
@@ -305,7 +336,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("t.csv");
         let table = || {
-            let mut table = TableFile::open(dir.path(), "t.csv", "step,time", None).unwrap();
+            let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
             table.row(0, 0.0).end().unwrap();
             table.flush().and_then(|()| table.verify()).unwrap();
             table
@@ -330,7 +361,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         std::fs::write(dir.path().join("mine"), "kept").unwrap();
         std::os::unix::fs::symlink("mine", dir.path().join("t.csv")).unwrap();
-        TableFile::open(dir.path(), "t.csv", "step,time", None).unwrap();
+        TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
         assert_eq!(std::fs::read_to_string(dir.path().join("mine")).unwrap(), "kept");
         assert_eq!(std::fs::read_to_string(dir.path().join("t.csv")).unwrap(), "step,time\n");
     }
@@ -338,7 +369,7 @@ mod tests {
     #[test]
     fn rows_longer_and_shorter_than_a_page_arrive_whole() {
         let dir = tempfile::tempdir().unwrap();
-        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name", None).unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name").unwrap();
         let mut random = SmallRng::seed_from_u64(9);
         let lengths: Vec<usize> = (0..300).map(|_| (random.next_u64() % 6000) as usize).collect();
         for (step, length) in lengths.iter().enumerate() {

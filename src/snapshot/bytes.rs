@@ -45,6 +45,19 @@ impl Snapshot {
         self.is_torn = true;
     }
 
+    /// Writes a whole list of bytes, or reads one.
+    pub fn all(&mut self, bytes: &mut Vec<u8>) {
+        let length = self.length(bytes.len());
+        match &mut self.at {
+            None => self.bytes.extend_from_slice(bytes),
+            Some(at) => {
+                bytes.clear();
+                bytes.extend_from_slice(&self.bytes[*at..*at + length]);
+                *at += length;
+            }
+        }
+    }
+
     /// Writes these bytes, or overwrites them by the next of the snapshot.
     fn pass<const N: usize>(&mut self, value: [u8; N]) -> [u8; N] {
         let Some(at) = self.at else {

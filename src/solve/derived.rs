@@ -1,7 +1,9 @@
 //! Derived quantities, computed for output only: energies, forces of links, joints and contacts, stress resultants,
 //! strains. A step itself needs none of them.
 
+use super::effort::Effort;
 use crate::model::Model;
+use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::energy::{self, Energy, PartEnergy};
 use crate::system::{ContactState, JointState, LinkState, SectionPoint, ShellState, System, results};
@@ -104,7 +106,11 @@ pub struct Derived {
     pub sections: Vec<SectionPoint>,
     /// Elastic energies of all beams, bars and shells in deck order.
     pub parts: Vec<PartEnergy>,
+    /// What all steps took since tables were due before, this one included.
+    pub effort: Effort,
 }
+
+keep!(Derived { effort } without { energy, links, joints, contacts, plastic_strains, shells, sections, parts });
 
 /// The request for the derived quantities of one accepted step.
 pub struct Request<'a> {

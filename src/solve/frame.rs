@@ -1,9 +1,10 @@
 //! The frame that a run shows of each accepted step, to an observer that can only read it.
 
 use super::derived::Derived;
+use super::effort::Effort;
 use crate::model::Model;
 use crate::modes::Modes;
-use crate::snapshot::{Snapshot, keep};
+use crate::snapshot::Snapshot;
 use crate::state::State;
 
 /// One accepted step, read-only.
@@ -18,8 +19,6 @@ pub struct Frame<'a> {
     pub dt: f64,
     /// What the step took; at a time inside it, what that time took alone.
     pub effort: Effort,
-    /// What all steps took since tables were due before, this one included.
-    pub since: Effort,
     /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
     /// True when the output cadence asks for this step; t = 0 and the last step always are. The last step before a
@@ -42,34 +41,6 @@ pub struct Frame<'a> {
     pub derived: &'a Derived,
     /// The modes about the state, where the frame is theirs.
     pub modes: Option<&'a Modes>,
-}
-
-/// What a step took.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Effort {
-    /// Iterations.
-    pub iterations: usize,
-    /// Factorizations of the matrix.
-    pub refactorizations: usize,
-    /// Relative residual at the last evaluation.
-    pub residual: f64,
-    /// Cutbacks before the step was accepted.
-    pub cuts: usize,
-}
-
-keep!(Effort { iterations, refactorizations, residual, cuts });
-
-impl Effort {
-    /// That of these steps and of another.
-    #[must_use]
-    pub fn and(self, other: Effort) -> Effort {
-        Effort {
-            iterations: self.iterations + other.iterations,
-            refactorizations: self.refactorizations + other.refactorizations,
-            residual: self.residual.max(other.residual),
-            cuts: self.cuts + other.cuts,
-        }
-    }
 }
 
 /// The observer of a run.
@@ -115,7 +86,7 @@ pub trait Observer {
     }
 
     /// Keeps what the run itself lets watch its steps; what others have received they keep with [`Observer::on_checkpoint`].
-    fn keep(&mut self, _: &mut Snapshot) {}
+    fn keep_seen(&mut self, _: &mut Snapshot) {}
 }
 
 /// Another run of the scene, with longer steps.

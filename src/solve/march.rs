@@ -92,7 +92,7 @@ impl March<'_, '_> {
         ws.keep(snapshot);
         state.keep(snapshot);
         controller.keep(snapshot);
-        observer.keep(snapshot);
+        observer.keep_seen(snapshot);
     }
 
     /// Takes account of an accepted step; true where it has come to the value at which the stage stops.

@@ -2,9 +2,10 @@
 
 use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
+use super::effort::Effort;
 use super::energy_growth::{EnergyGrowth, checks_energy_growth};
 use super::failure::Failure;
-use super::frame::{Effort, Frame, Observer};
+use super::frame::{Frame, Observer};
 use super::handover::Handover;
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
@@ -41,13 +42,11 @@ pub struct Recorder {
     looked_inside: bool,
     /// Length of the last step, where tables were not due at its end.
     pending: Option<f64>,
-    /// The effort of all steps since tables were due.
-    since: Effort,
 }
 
 keep!(Recorder {
-    counts, before, is_trial, most_steps, growth, initial_energy, tables, fields, looked_inside, pending, since,
-} without { wanted, observing, derived });
+    counts, before, is_trial, most_steps, growth, initial_energy, tables, fields, looked_inside, pending, derived,
+} without { wanted, observing });
 
 /// The progress of a cadence.
 #[derive(Default)]
@@ -118,7 +117,6 @@ impl Recorder {
             fields: Pace::default(),
             looked_inside: false,
             pending: None,
-            since: Effort::default(),
         }
     }
 
@@ -144,6 +142,11 @@ impl Recorder {
     /// Mechanical energy from which the balance is drawn; `None` where no energy is summed.
     pub fn initial_energy(&self) -> Option<f64> {
         self.initial_energy
+    }
+
+    /// The same, to be taken from a checkpoint.
+    pub fn initial_energy_mut(&mut self) -> &mut Option<f64> {
+        &mut self.initial_energy
     }
 
     /// The effort without that of the stages before.
@@ -203,7 +206,7 @@ impl Recorder {
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
         observer.on_step(&self.frame(cx, ws, state, step, [due, drawn])).map_err(Outcome::Io)?;
         if due {
-            self.since = Effort::default();
+            self.derived.effort = Effort::default();
         }
         if let Some(began) = began {
             self.observing += began.elapsed();
@@ -236,7 +239,7 @@ impl Recorder {
         let frame = self.frame(cx, ws, state, step, [due, false]);
         observer.on_step(&Frame { step: frame.step + 1, inside: true, ..frame }).map_err(Outcome::Io)?;
         if due {
-            self.since = Effort::default();
+            self.derived.effort = Effort::default();
         }
         if let Some(began) = began {
             self.observing += began.elapsed();
@@ -302,7 +305,7 @@ impl Recorder {
 
     /// Adds what a step took to what steps took since tables were due.
     fn spend(&mut self, step: &AcceptedStep) {
-        self.since = self.since.and(step.effort());
+        self.derived.effort = self.derived.effort.and(step.effort());
     }
 
     fn frame<'f>(
@@ -322,7 +325,6 @@ impl Recorder {
             step: self.counts.steps,
             dt,
             effort: step.effort(),
-            since: self.since,
             due,
             drawn,
             last,

@@ -421,6 +421,13 @@ impl<'a> Run<'a> {
         hand_over(&EndedStage { cx: &self.context, state, counts, initial_energy, load_steps }, model)
     }
 
+    /// Keeps what a run that has come to its end leaves to the stage after it, besides its state and counts: what
+    /// [`Run::hand_over`] needs where the run was made before a checkpoint.
+    pub fn keep_end(&mut self, snapshot: &mut Snapshot) {
+        self.recorder.initial_energy_mut().keep(snapshot);
+        self.workspace.load_steps.keep(snapshot);
+    }
+
     /// Whether the value at which the stage was to stop has been reached; `None` where there is none.
     pub fn has_stopped(&self) -> Option<bool> {
         self.stop_watch.as_ref().map(StopWatch::is_reached)

@@ -15,7 +15,7 @@ fn nothing_is_allocated_per_row() {
     model.nodes[2].label = "elbow".into();
     let state = scene::state(&model, 0.7);
     let extras = scene::Extras::at(0.7);
-    let mut files = Files::open(dir.path(), &model, None).unwrap();
+    let mut files = Files::open(dir.path(), &model).unwrap();
     let (mut expectations, mut progress) = (Expectations::new(&model), Progress::new(true));
     let mut round = |steps| {
         for step in steps {

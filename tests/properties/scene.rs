@@ -85,6 +85,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             parts: false,
             joints: false,
             fields: None,
+            checkpoint: None,
         },
         study: None,
     }

@@ -133,6 +133,7 @@ pub fn model() -> Model {
             parts: false,
             joints: false,
             fields: None,
+            checkpoint: None,
         },
         study: None,
     }
@@ -200,6 +201,8 @@ impl Extras {
             links: vec![LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
             contacts: vec![ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
             sections: vec![point(0), point(1)],
+            // That of two steps, of which the second is due.
+            effort: Effort { iterations: 6, refactorizations: 2, residual: 1e-9, cuts: 1 },
             ..Derived::default()
         };
         Extras { reactions: [time, -1.0], derived }
@@ -212,7 +215,6 @@ impl Extras {
             step,
             dt: if step == 0 { 0.0 } else { 0.1 },
             effort: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2 },
-            since: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2 },
             due: step.is_multiple_of(2) || step == 10,
             drawn: matches!(model.output.fields, Some(Cadence::Steps(every)) if step.is_multiple_of(every))
                 || step == 10,

@@ -241,7 +241,7 @@ pub fn write(model: &Model, folder: &Path, steps: usize) {
     let plan = Plan::new(model, &system, 1);
     let stop = AtomicBool::new(false);
     let mut run = Run::new(model, &system, &plan, wanted(model), &stop).unwrap();
-    let mut writer = Writer { files: Files::open(folder, model, None).unwrap(), steps, stop: &stop };
+    let mut writer = Writer { files: Files::open(folder, model).unwrap(), steps, stop: &stop };
     run.run(&mut writer);
     writer.files.finish().unwrap();
 }
@@ -330,7 +330,7 @@ pub fn tables_of(model: &Model) -> Tables {
     let folder = tempfile::tempdir().unwrap();
     let (system, stop) = (System::new(model).expect("a system"), AtomicBool::new(false));
     let plan = Plan::new(model, &system, 1);
-    let mut files = Files::open(folder.path(), model, None).unwrap();
+    let mut files = Files::open(folder.path(), model).unwrap();
     let (outcome, _) = Run::new(model, &system, &plan, wanted(model), &stop).unwrap().run(&mut files);
     assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
     files.finish().unwrap();

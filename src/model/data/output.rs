@@ -31,6 +31,8 @@ pub struct Output {
     pub joints: bool,
     /// The times of field files; `None`: no fields.
     pub fields: Option<Cadence>,
+    /// Seconds of run time between two checkpoints; `None`: only when the run is stopped.
+    pub checkpoint: Option<f64>,
 }
 
 /// The times at which histories or fields are written; t = 0 and the end are always among them.

@@ -1,5 +1,6 @@
 //! One error bar.
 
+use crate::snapshot::keep;
 use serde::Serialize;
 
 /// Of 1240 columns of 19 decks at three tolerances 94 % were within three times the error told at the time of the value itself, ...
@@ -34,13 +35,15 @@ pub struct ErrorBar {
 }
 
 /// The error of a value as another run tells it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Told {
     /// A bound of the error by estimate.
     pub error: Option<f64>,
     /// The largest error at any time that was compared.
     pub anywhere: Option<f64>,
 }
+
+keep!(Told: Default { error, anywhere });
 
 impl Told {
     /// From the value and that of another run at its time, whose errors are larger by the factor `apart`, and the largest difference at any

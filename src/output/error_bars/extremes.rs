@@ -1,9 +1,10 @@
 //! The largest value of each column of a table, and what another run has at its place.
 
 use super::rows::CollectedRows;
+use crate::snapshot::{Keep, Snapshot, keep};
 
 /// The number of largest magnitude in one column.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Extreme {
     /// The number, with its sign.
     pub value: f64,
@@ -17,9 +18,17 @@ pub struct Extreme {
     pub other: Option<f64>,
 }
 
+keep!(Extreme: Default { value, time, label, row, other });
+
 /// The extremes of all columns with numbers, in their order; `None` where no number has come yet.
 #[derive(Debug, Clone, Default)]
 pub struct Extremes(pub Vec<Option<Extreme>>);
+
+impl Keep for Extremes {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.0.keep(snapshot);
+    }
+}
 
 impl Extremes {
     /// Takes account of the rows of a frame.

@@ -1,5 +1,7 @@
 //! The numbers of a table at the times at which runs are compared.
 
+use crate::snapshot::keep;
+
 /// Largest number of numbers of one table that are kept of a run.
 const MOST: usize = 1 << 21;
 
@@ -14,6 +16,8 @@ pub struct ComparedHistory {
     /// True where a time had no room.
     is_full: bool,
 }
+
+keep!(ComparedHistory { times, numbers, ends, is_full });
 
 impl ComparedHistory {
     /// Keeps the numbers of a time; where there is no more room nothing is known any more.

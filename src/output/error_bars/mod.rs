@@ -19,6 +19,7 @@ use super::table::{TableKind, WriteRows};
 use super::tables::TABLES;
 use crate::model::{Model, StepLength};
 use crate::quantities::Unit;
+use crate::snapshot::keep;
 use crate::solve::{Frame, Observer, OtherRun};
 use std::io;
 
@@ -29,6 +30,8 @@ pub struct ErrorBars {
     /// True where runs are compared at the times of output: their steps do not follow a tolerance, and have the same ends.
     at_output_times: bool,
 }
+
+keep!(ErrorBars { tables } without { rounding, at_output_times });
 
 /// A table that the run writes.
 struct WatchedTable {
@@ -45,12 +48,16 @@ struct WatchedTable {
     of_mesh: Vec<Told>,
 }
 
+keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows });
+
 /// What is kept of one run.
 #[derive(Default)]
 struct Account {
     largest: Extremes,
     history: ComparedHistory,
 }
+
+keep!(Account { largest, history });
 
 impl ErrorBars {
     /// Nothing seen yet. Tables of what steps cost have no errors.

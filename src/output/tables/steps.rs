@@ -47,7 +47,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     if frame.step == 0 || !frame.due {
         return Ok(());
     }
-    let cost = frame.since;
+    let cost = frame.derived.effort;
     table.row(frame.step, frame.state.time).number(frame.dt).count(cost.iterations).count(cost.refactorizations);
     table.number(cost.residual).count(cost.cuts).end()
 }

@@ -33,7 +33,7 @@ const LOST: f64 = 0.03;
 const SATURATED: f64 = 0.3;
 
 /// The error of the steps of a run, relative to its largest motion, and what it took to know it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct StepError {
     /// The error that the deck asks for.
     pub asked: f64,
@@ -51,7 +51,7 @@ pub struct StepError {
     pub effort: Counts,
 }
 
-keep!(StepError { asked, tolerance, longest, before, estimate, others, effort });
+keep!(StepError: Default { asked, tolerance, longest, before, estimate, others, effort });
 
 impl StepError {
     /// The error of a run by this tolerance, of which nothing is known yet.

@@ -91,7 +91,7 @@ impl Observer for Trace<'_> {
         self.observer.on_checkpoint(run)
     }
 
-    fn keep(&mut self, snapshot: &mut Snapshot) {
+    fn keep_seen(&mut self, snapshot: &mut Snapshot) {
         self.kept.keep(snapshot);
     }
 

@@ -1,0 +1,81 @@
+//! The checkpoints of a run: when they are due, and what is written.
+
+use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Writes checkpoints into the folder of a run.
+pub struct Checkpoints {
+    folder: PathBuf,
+    /// What is written; its memory serves again.
+    next: Checkpoint,
+    /// Raised by the clock.
+    due: Arc<AtomicBool>,
+    /// True once the first has been written, or was there.
+    any: bool,
+}
+
+impl Checkpoints {
+    /// Checkpoints of a run of this origin: so many seconds apart, or only where the run is stopped.
+    pub fn new(folder: &Path, origin: CheckpointOrigin, apart: Option<f64>) -> Checkpoints {
+        let due = Arc::new(AtomicBool::new(false));
+        // A thread looks at the clock: to look at it before every step would cost a small scene a twentieth.
+        if let Some(apart) = apart.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()) {
+            let due = Arc::downgrade(&due);
+            std::thread::spawn(move || {
+                loop {
+                    std::thread::sleep(apart);
+                    match due.upgrade() {
+                        Some(due) => due.store(true, Ordering::Relaxed),
+                        None => return,
+                    }
+                }
+            });
+        }
+        Checkpoints { folder: folder.to_owned(), next: Checkpoint { origin, ..Checkpoint::default() }, due, any: false }
+    }
+
+    /// The same where there is one in the folder already.
+    #[must_use]
+    pub fn after_another(self, any: bool) -> Checkpoints {
+        Checkpoints { any, ..self }
+    }
+
+    /// True where a checkpoint is due.
+    pub fn is_due(&self) -> bool {
+        self.due.load(Ordering::Relaxed)
+    }
+
+    /// Notes what the stages before the one under way have left.
+    pub fn begin_stage(&mut self, stages: Vec<u8>) {
+        self.next.stages = stages;
+    }
+
+    /// Writes a checkpoint.
+    ///
+    /// # Errors
+    /// It cannot be written; the one before then stands.
+    pub fn write(&mut self, watchers: Vec<u8>, run: &[u8]) -> io::Result<()> {
+        self.next.watchers = watchers;
+        self.next.run.clear();
+        self.next.run.extend_from_slice(run);
+        self.next.write(&self.folder)?;
+        self.due.store(false, Ordering::Relaxed);
+        self.any = true;
+        Ok(())
+    }
+
+    /// Takes the checkpoint away, for its tables are about to be written anew; the next is due at once where there was one.
+    ///
+    /// # Errors
+    /// It cannot be removed.
+    pub fn withdraw(&mut self) -> io::Result<()> {
+        if std::mem::take(&mut self.any) {
+            self.due.store(true, Ordering::Relaxed);
+        }
+        Checkpoint::remove(&self.folder)
+    }
+}

@@ -1,0 +1,196 @@
+//! run.checkpoint: all that a run needs to go on as if it had never stopped, and what it belongs to. It is written beside the one before
+//! and moved into its place, and closed by a digest: a reader finds a whole one, or none.
+
+use super::disk::{UNFINISHED, at, create};
+use crate::snapshot::{Keep, Snapshot, keep};
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The name of the checkpoint in the output folder.
+pub const NAME: &str = "run.checkpoint";
+/// The first line of a checkpoint, by which it is known.
+const HEAD: &[u8] = b"rdsolve checkpoint 1\n";
+/// The number of bytes of the digest at the end.
+const DIGEST: usize = 32;
+
+/// The program, the deck and the options that a checkpoint belongs to.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct CheckpointOrigin {
+    /// The version of the program, with its commit.
+    pub version: String,
+    /// The digest of the text of the deck.
+    pub deck: String,
+    /// The overrides, as they were given.
+    pub sets: Vec<String>,
+    /// The names and digests of the mesh and the records that the deck names.
+    pub files: Vec<(String, String)>,
+    /// True with `--mesh-error`.
+    pub mesh_error: bool,
+}
+
+keep!(CheckpointOrigin: Default { version, deck, sets, files, mesh_error });
+
+impl CheckpointOrigin {
+    /// What differs from the checkpoint in what is to be run now, in words; `None` where nothing does.
+    pub fn difference(&self, now: &CheckpointOrigin) -> Option<String> {
+        let list = |sets: &[String]| match sets {
+            [] => "none".to_owned(),
+            sets => sets.iter().map(|set| format!("`{set}`")).collect::<Vec<_>>().join(", "),
+        };
+        if self.version != now.version {
+            return Some(format!("rdsolve {} has written it, and this is {}", self.version, now.version));
+        }
+        if self.deck != now.deck {
+            return Some("the deck has changed since".to_owned());
+        }
+        if self.sets != now.sets {
+            return Some(format!("its --set are {}, and now {}", list(&self.sets), list(&now.sets)));
+        }
+        if self.mesh_error != now.mesh_error {
+            return Some(format!("it was {} --mesh-error", if self.mesh_error { "with" } else { "without" }));
+        }
+        let changed = now.files.iter().find(|file| !self.files.contains(file));
+        changed.map(|(name, _)| format!("`{name}` has changed since"))
+    }
+}
+
+/// A checkpoint: what it belongs to, and what the stages before, those who watch the run and the run itself need.
+#[derive(Debug, Default)]
+pub struct Checkpoint {
+    /// What it belongs to.
+    pub origin: CheckpointOrigin,
+    /// The stages before.
+    pub stages: Vec<u8>,
+    /// Files, expectations, log and error bars.
+    pub watchers: Vec<u8>,
+    /// The run.
+    pub run: Vec<u8>,
+}
+
+impl Keep for Checkpoint {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        let Checkpoint { origin, stages, watchers, run } = self;
+        origin.keep(snapshot);
+        [stages, watchers, run].into_iter().for_each(|bytes| snapshot.all(bytes));
+    }
+}
+
+impl Checkpoint {
+    /// The path of the checkpoint of a folder.
+    pub fn path(dir: &Path) -> PathBuf {
+        dir.join(NAME)
+    }
+
+    /// Writes the checkpoint of a folder, safe on the disk before it takes the place of the one before.
+    ///
+    /// # Errors
+    /// It cannot be written; the one before then stands.
+    pub fn write(&mut self, dir: &Path) -> io::Result<()> {
+        let path = Checkpoint::path(dir);
+        let mut snapshot = Snapshot::taken();
+        self.keep(&mut snapshot);
+        let body = snapshot.into_bytes();
+        let unfinished = dir.join(format!("{NAME}{UNFINISHED}"));
+        let write = || {
+            let mut file = create(&unfinished)?;
+            file.write_all(HEAD)?;
+            file.write_all(&body)?;
+            file.write_all(&digest(&body))?;
+            file.sync_all()?;
+            fs::rename(&unfinished, &path)
+        };
+        write().map_err(|error| {
+            let _ = fs::remove_file(&unfinished);
+            at(&path, error)
+        })
+    }
+
+    /// Reads the checkpoint of a folder; `None` where there is none.
+    ///
+    /// # Errors
+    /// It cannot be read, or is not whole.
+    pub fn read(dir: &Path) -> io::Result<Option<Checkpoint>> {
+        let path = Checkpoint::path(dir);
+        let mut bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(at(&path, error)),
+        };
+        let torn = || at(&path, io::Error::new(io::ErrorKind::InvalidData, "this is no whole checkpoint of a run"));
+        if !bytes.starts_with(HEAD) || bytes.len() < HEAD.len() + DIGEST {
+            return Err(torn());
+        }
+        let told = bytes.split_off(bytes.len() - DIGEST);
+        let body = bytes.split_off(HEAD.len());
+        if digest(&body)[..] != told[..] {
+            return Err(torn());
+        }
+        let (mut snapshot, mut checkpoint) = (Snapshot::of(body), Checkpoint::default());
+        checkpoint.keep(&mut snapshot);
+        if snapshot.is_used_up() { Ok(Some(checkpoint)) } else { Err(torn()) }
+    }
+
+    /// Takes the checkpoint of a folder away, if there is one.
+    ///
+    /// # Errors
+    /// It cannot be removed.
+    pub fn remove(dir: &Path) -> io::Result<()> {
+        let path = Checkpoint::path(dir);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            removed => removed.map_err(|error| at(&path, error)),
+        }
+    }
+}
+
+fn digest(bytes: &[u8]) -> [u8; DIGEST] {
+    Sha256::digest(bytes).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checkpoint(run: &[u8]) -> Checkpoint {
+        let origin = CheckpointOrigin { version: "1".into(), deck: "a".into(), ..CheckpointOrigin::default() };
+        Checkpoint { origin, run: run.to_vec(), ..Checkpoint::default() }
+    }
+
+    #[test]
+    fn a_checkpoint_is_whole_or_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        assert!(Checkpoint::read(dir.path()).unwrap().is_none());
+        checkpoint(b"first").write(dir.path()).unwrap();
+        checkpoint(b"second").write(dir.path()).unwrap();
+        let back = Checkpoint::read(dir.path()).unwrap().unwrap();
+        assert_eq!((back.run.as_slice(), back.origin.version.as_str()), (&b"second"[..], "1"));
+        let whole = fs::read(Checkpoint::path(dir.path())).unwrap();
+        for place in 0..whole.len() {
+            // Cut short, and a bit turned.
+            let mut turned = whole.clone();
+            turned[place] ^= 4;
+            for spoiled in [&whole[..place], &turned] {
+                fs::write(Checkpoint::path(dir.path()), spoiled).unwrap();
+                assert!(Checkpoint::read(dir.path()).is_err(), "{place}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_differs_is_named() {
+        let was = checkpoint(b"").origin;
+        assert_eq!(was.difference(&was), None);
+        let differs = |change: &dyn Fn(&mut CheckpointOrigin)| {
+            let mut now = was.clone();
+            change(&mut now);
+            was.difference(&now).unwrap()
+        };
+        assert!(differs(&|now| now.version = "2".into()).contains("rdsolve 1 has written it, and this is 2"));
+        assert!(differs(&|now| now.deck = "b".into()).contains("the deck has changed"));
+        assert!(differs(&|now| now.sets = vec!["a=1".into()]).contains("its --set are none, and now `a=1`"));
+        assert!(differs(&|now| now.files = vec![("m.msh".into(), "0".into())]).contains("`m.msh` has changed"));
+        assert!(differs(&|now| now.mesh_error = true).contains("without --mesh-error"));
+    }
+}

@@ -1,0 +1,31 @@
+//! The effort of a step.
+
+use crate::snapshot::keep;
+
+/// What a step took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// Iterations.
+    pub iterations: usize,
+    /// Factorizations of the matrix.
+    pub refactorizations: usize,
+    /// Relative residual at the last evaluation.
+    pub residual: f64,
+    /// Cutbacks before the step was accepted.
+    pub cuts: usize,
+}
+
+keep!(Effort { iterations, refactorizations, residual, cuts });
+
+impl Effort {
+    /// That of these steps and of another.
+    #[must_use]
+    pub fn and(self, other: Effort) -> Effort {
+        Effort {
+            iterations: self.iterations + other.iterations,
+            refactorizations: self.refactorizations + other.refactorizations,
+            residual: self.residual.max(other.residual),
+            cuts: self.cuts + other.cuts,
+        }
+    }
+}
