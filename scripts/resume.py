@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Kills runs at random instants, lets them go on with --resume, and compares all that they leave with runs that never stopped.
 
-    scripts/resume.py [--program target/release/rdsolve] [--kills 100] [--seed 1] [DECK ...]
+    scripts/resume.py [--program target/release/rdsolve] [--kills 100] [--seed 1] [--set KEY=VALUE] [DECK ...]
 
 Every deck (all below decks/ by default) is run once whole; then it is begun again and again, each time stopped at a random instant by
 SIGKILL or SIGTERM and resumed, until it has been stopped as often as asked; on the way a run may be stopped several times. Tables,
@@ -33,12 +33,14 @@ def left(folder):
 
 
 class Runner:
-    def __init__(self, program, deck, apart):
-        self.command = [program, str(deck), "--quiet", "--threads", "1", "--set", f"output.checkpoint={apart}"]
+    def __init__(self, program, deck, sets, apart):
+        self.command = [program, str(deck), "--quiet", "--set", f"output.checkpoint={apart}"]
+        for text in sets:
+            self.command += ["--set", text]
 
     def run(self, folder, resume, until=None, how=signal.SIGKILL):
         """The exit code of a run that is stopped after so many seconds; None where it was killed."""
-        command = self.command + ["-o", str(folder)] + (["--resume"] if resume else [])
+        command = self.command + ["--threads", random.choice("12"), "-o", str(folder)] + (["--resume"] if resume else [])
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         if until is not None:
             try:
@@ -52,15 +54,15 @@ class Runner:
         return code
 
 
-def check(program, deck, kills, dice, scratch):
+def check(program, deck, sets, kills, dice, scratch):
     whole = scratch / "whole"
     begun = time.time()
-    runner = Runner(program, deck, 1e9)
+    runner = Runner(program, deck, sets, 1e9)
     runner.run(whole, False)
     took = time.time() - begun
     # Some ten checkpoints a run, and the same options in each.
     apart = max(1e-3, took / dice.uniform(5.0, 40.0))
-    runner = Runner(program, deck, apart)
+    runner = Runner(program, deck, sets, apart)
     expected = left(whole)
     stops = runs = signals = largest = 0
     while stops < kills:
@@ -96,6 +98,7 @@ def main():
     parser.add_argument("--program", default=str(ROOT / "target/release/rdsolve"))
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--set", action="append", default=[], help="an entry of the decks, as for the program")
     parser.add_argument("decks", nargs="*", type=Path)
     args = parser.parse_args()
     decks = args.decks or sorted(ROOT.glob("decks/**/deck.toml"))
@@ -103,7 +106,7 @@ def main():
     for deck in decks:
         dice = random.Random(f"{args.seed} {deck.name} {deck.parent.name}")
         with tempfile.TemporaryDirectory(prefix="resume_") as scratch:
-            line, wrong = check(args.program, deck, args.kills, dice, Path(scratch))
+            line, wrong = check(args.program, deck, args.set, args.kills, dice, Path(scratch))
         differs |= wrong
         print(f"{deck}: {line}", flush=True)
     sys.exit(1 if differs else 0)

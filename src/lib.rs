@@ -4,7 +4,7 @@
 //!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
 //!           words     meaning    machine   motion     files
 //!  below them, used by them, knowing nothing of them:
-//!  system │ constraints  elements  integrators │ state  sections  solids  materials  amplitude  linear  mesh  record │ math  names  text_file  diagnostic
+//!  system │ constraints  elements  integrators │ state  sections  solids  materials  amplitude  linear  mesh  record │ math  names  snapshot  text_file  diagnostic
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]

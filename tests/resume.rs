@@ -1,15 +1,22 @@
 //! A run that goes on from a checkpoint takes the very steps of one that never stopped.
 
-use crate::support::{deck_names, read};
+use crate::support::{deck_names, decks, read};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
 use rdsolve::model::Model;
 use rdsolve::output::wanted;
 use rdsolve::plan::Plan;
 use rdsolve::solve::{Frame, Observer, OtherRun, Outcome, Run};
 use rdsolve::system::System;
+use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
+use std::fs;
 use std::hash::{Hash, Hasher};
 use std::io;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
 use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
 
 /// Keeps a digest of everything that a run shows, and a few checkpoints.
 #[derive(Default)]
@@ -72,15 +79,15 @@ impl Observer for Witness {
         self.note(format!("{other:?}"));
     }
 
-    fn wants_checkpoint(&mut self) -> bool {
+    fn wants_checkpoint(&mut self, at_end: bool) -> bool {
         self.asked += 1;
-        self.every > 0 && self.asked.is_multiple_of(self.every)
+        self.every > 0 && self.asked.is_multiple_of(self.every) && !at_end
     }
 
-    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
+    fn on_checkpoint(&mut self, run: &[u8], _: bool) -> io::Result<()> {
         self.checkpoints.push((self.seen.len(), run.to_vec()));
         // Of a long run every second, fourth, ... is kept.
-        if self.checkpoints.len() == 16 {
+        if self.checkpoints.len() == 6 {
             let mut place = 0..;
             self.checkpoints.retain(|_| place.next().is_some_and(|place: usize| place % 2 == 1));
             self.every *= 2;
@@ -137,4 +144,232 @@ fn every_deck_goes_on_as_if_it_had_never_stopped() {
         checkpoints += resume(name, &read(name, &[]));
     }
     println!("{checkpoints} checkpoints");
+}
+
+/// A top, a mechanism with joints, and a block caught by a rope, in every scheme, with steps of given length and automatic ones.
+#[test]
+fn every_scheme_goes_on_as_if_it_had_never_stopped() {
+    let implicit = ["wilson-theta", "newmark", "hht-alpha", "generalized-alpha", "bathe", "esdirk3"];
+    let explicit = ["central-difference", "runge-kutta"];
+    for scheme in implicit.into_iter().chain(explicit) {
+        for (name, end_time, time_step) in
+            [("heavy_top", "0.05", "1e-4"), ("four_bar", "0.2", "1e-3"), ("caught_by_a_rope", "0.5", "5e-4")]
+        {
+            for time_step in [time_step, "\"auto\""] {
+                let sets = [
+                    format!("integrator={{scheme=\"{scheme}\"}}"),
+                    format!("analysis.end_time={end_time}"),
+                    format!("analysis.time_step={time_step}"),
+                    "expect=[]".to_owned(),
+                ];
+                let checkpoints = resume(&format!("{name} {scheme} {time_step}"), &read(name, &sets));
+                assert!(checkpoints > 2, "{name} {scheme} {time_step}: {checkpoints}");
+            }
+        }
+    }
+}
+
+/// A deck in a folder of its own.
+struct Desk {
+    dir: tempfile::TempDir,
+    deck: PathBuf,
+}
+
+impl Desk {
+    fn new(deck: &str) -> Desk {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("deck.toml"), deck).unwrap();
+        Desk { deck: dir.path().join("deck.toml"), dir }
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn command(&self, folder: &str, more: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_rdsolve"));
+        command.arg(&self.deck).arg("-o").arg(self.at(folder)).args(more);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command
+    }
+
+    /// Exit code and standard error.
+    fn run(&self, folder: &str, more: &[&str]) -> (Option<i32>, String) {
+        let output = self.command(folder, more).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    }
+
+    /// Starts a run and stops it by a signal once a file is there and so much time has gone; returns its exit code.
+    fn stop(&self, folder: &str, more: &[&str], signal: &str, (file, after): (&str, Duration)) -> Option<i32> {
+        let (mut child, began) = (self.command(folder, more).spawn().unwrap(), Instant::now());
+        while !self.at(folder).join(file).exists() && child.try_wait().unwrap().is_none() {
+            assert!(began.elapsed() < Duration::from_secs(60), "no {file}");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(after);
+        Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+        child.wait().unwrap().code()
+    }
+
+    /// What a run has left, but for what tells the clock.
+    fn left(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let entries = fs::read_dir(self.at(folder)).unwrap().map(|entry| entry.unwrap().path());
+        let named = entries.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), path));
+        let lasting = named.filter(|(name, _)| !["result.json", "run.log", "run.list"].contains(&name.as_str()));
+        lasting.map(|(name, path)| (name, fs::read(path).unwrap())).collect()
+    }
+
+    fn result(&self, folder: &str) -> serde_json::Value {
+        serde_json::from_slice(&fs::read(self.at(folder).join("result.json")).unwrap()).unwrap()
+    }
+}
+
+/// Runs a deck whole, and again with stops by SIGKILL and SIGTERM wherever the dice fall; compares all that both leave.
+fn stopped_and_whole(name: &str, more: &[&str], stops: u64) {
+    let deck = fs::read_to_string(decks().join(name).join("deck.toml")).unwrap();
+    let desk = Desk::new(&deck);
+    let more = [&["--quiet", "--set", "output.checkpoint=0.002"], more].concat();
+    let began = Instant::now();
+    assert_eq!(desk.run("whole", &more).0, Some(0));
+    let took = began.elapsed();
+    let resumed = [&more[..], &["--resume"]].concat();
+    let mut dice = SmallRng::seed_from_u64(7);
+    let mut waits = || took.mul_f64(f64::from(dice.next_u32()) / f64::from(u32::MAX));
+    let mut times = 0;
+    for k in 0..stops {
+        let signal = if k % 3 == 2 { "TERM" } else { "KILL" };
+        let code = desk.stop("stopped", &resumed, signal, ("run.list", waits().mul_f64(0.7)));
+        assert!(matches!(code, None | Some(0 | 75)), "{code:?}");
+        if code == Some(0) {
+            fs::remove_dir_all(desk.at("stopped")).unwrap();
+        } else {
+            times += 1;
+        }
+    }
+    let (code, said) = desk.run("stopped", &resumed);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(times > 0, "{name}: never stopped in the midst");
+    let [whole, stopped] = ["whole", "stopped"].map(|folder| desk.left(folder));
+    assert!(whole.keys().eq(stopped.keys()), "{name}: {:?} {:?}", whole.keys(), stopped.keys());
+    whole.iter().for_each(|(file, bytes)| assert!(*bytes == stopped[file], "{name}: {file}"));
+    let [whole, stopped] = ["whole", "stopped"].map(|folder| desk.result(folder));
+    for key in ["counts", "expectations", "warnings", "error_bars", "step_error"] {
+        assert_eq!(whole[key], stopped[key], "{name}: {key}");
+    }
+}
+
+#[test]
+fn stages_go_on_where_they_were_stopped() {
+    stopped_and_whole("hung_and_shaken", &[], 6);
+    stopped_and_whole("protective_frame", &[], 6);
+}
+
+#[test]
+fn automatic_steps_go_on_where_they_were_stopped() {
+    stopped_and_whole("heavy_top", &["--set", "analysis.time_step=\"auto\""], 8);
+}
+
+#[test]
+fn fields_and_material_go_on_where_they_were_stopped() {
+    let fields = "output.fields={ format = \"vtu\", every = 7 }";
+    stopped_and_whole("plastic_collapse", &["--set", fields], 6);
+}
+
+/// A ball that flies for hours.
+const BALL: &str = "[analysis]\nkind = \"dynamic\"\nend_time = 1e6\ntime_step = 1e-3\n[[bodies]]\nname = \"ball\"\n\
+    center = [0.0, 0.0, 0.0]\nmass = 1.0\nvelocity = [1.0, 0.0, 0.0]\nshape = { kind = \"sphere\", radius = 0.1 }\n\
+    [output]\nevery = 100\n";
+
+#[test]
+fn what_cannot_be_resumed_is_said() {
+    let desk = Desk::new(BALL);
+    let at_once = Duration::from_millis(50);
+    assert_eq!(desk.stop("out", &["--resume"], "TERM", ("nodes.csv", at_once)), Some(75));
+    let checkpoint = desk.at("out/run.checkpoint");
+    let whole = fs::read(&checkpoint).unwrap();
+    let refused = |more: &[&str], code: i32, words: &[&str]| {
+        let (ended, said) = desk.run("out", &[&["--resume"], more].concat());
+        assert_eq!(ended, Some(code), "{said}");
+        words.iter().for_each(|word| assert!(said.contains(word), "`{word}` is not in {said}"));
+    };
+    refused(&["--set", "analysis.time_step=2e-3"], 2, &["its --set are none, and now `analysis.time_step=2e-3`"]);
+    refused(&["--set", "analysis.end_time=2e6"], 2, &["to `end_time` = 1000000, which it has not come to"]);
+    refused(&["--mesh-error"], 2, &["without --mesh-error"]);
+    refused(&["--overwrite"], 2, &["--overwrite", "--resume"]);
+    fs::write(&desk.deck, BALL.replace("1.0, 0.0, 0.0]\nshape", "2.0, 0.0, 0.0]\nshape")).unwrap();
+    refused(&[], 2, &["is not of this run: the deck has changed since", "--overwrite in place of --resume"]);
+    fs::write(&desk.deck, BALL).unwrap();
+    fs::write(&checkpoint, &whole[..whole.len() - 1]).unwrap();
+    refused(&[], 6, &["run.checkpoint: this is no whole checkpoint"]);
+    fs::write(&checkpoint, &whole).unwrap();
+    let table = fs::read(desk.at("out/bodies.csv")).unwrap();
+    fs::write(desk.at("out/bodies.csv"), &table[..100]).unwrap();
+    refused(&[], 6, &["bodies.csv: the table is shorter than it was at the checkpoint"]);
+    // All is as it was: the run goes on.
+    fs::write(desk.at("out/bodies.csv"), &table).unwrap();
+    let before = desk.result("out")["counts"]["steps"].as_u64().unwrap();
+    assert_eq!(desk.stop("out", &["--resume"], "TERM", ("nodes.csv", at_once)), Some(75));
+    assert!(desk.result("out")["counts"]["steps"].as_u64().unwrap() >= before);
+    // Without its checkpoint it has ended.
+    fs::remove_file(&checkpoint).unwrap();
+    refused(&[], 2, &["was stopped, and its checkpoint is gone"]);
+}
+
+#[test]
+fn without_a_checkpoint_a_run_begins() {
+    let desk = Desk::new(&BALL.replace("1e6", "1.0"));
+    let (code, said) = desk.run("out", &["--resume"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("there is no checkpoint") && said.contains("begins at t = 0"), "{said}");
+    assert!(!desk.at("out/run.checkpoint").exists(), "a run that is done leaves none");
+    let (code, said) = desk.run("out", &["--resume"]);
+    assert!(code == Some(0) && said.contains("has come to its end"), "{said}");
+    let (code, said) = desk.run("out", &["--resume", "--set", "analysis.time_step=2e-3"]);
+    assert!(code == Some(2) && said.contains("those of another deck"), "{said}");
+    // A run that was killed before its first checkpoint.
+    fs::remove_file(desk.at("out/result.json")).unwrap();
+    let rows = fs::read(desk.at("out/bodies.csv")).unwrap();
+    fs::write(desk.at("out/bodies.csv"), &rows[..rows.len() / 2]).unwrap();
+    let (code, said) = desk.run("out", &["--resume"]);
+    assert!(code == Some(0) && said.contains("begins at t = 0"), "{said}");
+    assert_eq!(fs::read(desk.at("out/bodies.csv")).unwrap(), rows);
+    // Another deck, and a folder of somebody else.
+    fs::remove_file(desk.at("out/result.json")).unwrap();
+    let (code, said) = desk.run("out", &["--resume", "--set", "analysis.time_step=2e-3"]);
+    assert!(code == Some(2) && said.contains("those of another deck"), "{said}");
+    fs::create_dir(desk.at("mine")).unwrap();
+    fs::write(desk.at("mine/letter"), "").unwrap();
+    let (code, said) = desk.run("mine", &["--resume"]);
+    assert!(code == Some(2) && said.contains("holds files already"), "{said}");
+}
+
+/// A heavy top made longer goes where one goes that was as long from the beginning; steps begin anew at its end, which rounds differently.
+#[test]
+fn a_run_that_is_over_can_be_made_longer() {
+    let desk = Desk::new(&fs::read_to_string(decks().join("heavy_top/deck.toml")).unwrap());
+    let to = |end: &str| format!("analysis.end_time={end}");
+    let common = ["--quiet", "--set", "output.checkpoint=600"];
+    let run =
+        |folder: &str, end: &str, more: &[&str]| desk.run(folder, &[&common[..], &["--set", &to(end)], more].concat());
+    let text = fs::read_to_string(&desk.deck).unwrap();
+    fs::write(&desk.deck, &text[..text.find("[[expect]]").unwrap_or(text.len())]).unwrap();
+    assert_eq!(run("whole", "0.2", &[]).0, Some(0));
+    assert_eq!(run("longer", "0.1", &[]).0, Some(0));
+    let (code, said) = run("longer", "0.1", &["--resume"]);
+    assert!(code == Some(0) && said.contains("the run there has come to its end"), "{said}");
+    let (code, said) = run("longer", "0.05", &["--resume"]);
+    assert!(code == Some(2) && said.contains("to `end_time` = 0.1"), "{said}");
+    let (code, said) = run("longer", "0.2", &["--resume"]);
+    assert_eq!(code, Some(0), "{said}");
+    let last = |folder: &str| -> Vec<f64> {
+        let table = fs::read_to_string(desk.at(folder).join("bodies.csv")).unwrap();
+        table.lines().last().unwrap().split(',').filter_map(|word| word.parse().ok()).collect()
+    };
+    let [whole, longer] = ["whole", "longer"].map(last);
+    let largest = whole.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    assert!(whole.len() > 10 && whole.len() == longer.len());
+    for (a, b) in whole.iter().zip(&longer) {
+        // Rounding of step lengths, some hundred steps long.
+        assert!((a - b).abs() < 1e-9 * largest, "{whole:?} {longer:?}");
+    }
 }

@@ -16,12 +16,14 @@ pub struct Checkpoints {
     due: Arc<AtomicBool>,
     /// True once the first has been written, or was there.
     any: bool,
+    /// True where one is kept at the end of a run, which may then be made longer.
+    keeps_last: bool,
 }
 
 impl Checkpoints {
     /// Checkpoints of a run of this origin: so many seconds apart, or only where the run is stopped.
     pub fn new(folder: &Path, origin: CheckpointOrigin, apart: Option<f64>) -> Checkpoints {
-        let due = Arc::new(AtomicBool::new(false));
+        let (due, keeps_last) = (Arc::new(AtomicBool::new(false)), apart.is_some());
         // A thread looks at the clock: to look at it before every step would cost a small scene a twentieth.
         if let Some(apart) = apart.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()) {
             let due = Arc::downgrade(&due);
@@ -35,7 +37,8 @@ impl Checkpoints {
                 }
             });
         }
-        Checkpoints { folder: folder.to_owned(), next: Checkpoint { origin, ..Checkpoint::default() }, due, any: false }
+        let next = Checkpoint { origin, ..Checkpoint::default() };
+        Checkpoints { folder: folder.to_owned(), next, due, any: false, keeps_last }
     }
 
     /// The same where there is one in the folder already.
@@ -44,9 +47,14 @@ impl Checkpoints {
         Checkpoints { any, ..self }
     }
 
-    /// True where a checkpoint is due.
-    pub fn is_due(&self) -> bool {
-        self.due.load(Ordering::Relaxed)
+    /// True where a checkpoint is due, between two steps or at the end of the run.
+    pub fn is_due(&self, at_end: bool) -> bool {
+        if at_end { self.keeps_last } else { self.due.load(Ordering::Relaxed) }
+    }
+
+    /// True where the last was that of the end of the run.
+    pub fn is_over(&self) -> bool {
+        self.next.origin.is_over
     }
 
     /// Notes what the stages before the one under way have left.
@@ -58,7 +66,8 @@ impl Checkpoints {
     ///
     /// # Errors
     /// It cannot be written; the one before then stands.
-    pub fn write(&mut self, watchers: Vec<u8>, run: &[u8]) -> io::Result<()> {
+    pub fn write(&mut self, watchers: Vec<u8>, (run, at_end): (&[u8], bool)) -> io::Result<()> {
+        self.next.origin.is_over = at_end;
         self.next.watchers = watchers;
         self.next.run.clear();
         self.next.run.extend_from_slice(run);

@@ -34,20 +34,32 @@ pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin 
     let origin = &loaded.model.origin;
     let mesh = origin.mesh.iter().map(|mesh| (mesh.path.clone(), hex(&mesh.digest)));
     let records = origin.records.iter().map(|record| (record.path.clone(), hex(&record.digest)));
+    let is_end_time = |set: &&String| set.split('=').next().is_some_and(|key| key.trim() == "analysis.end_time");
     CheckpointOrigin {
         version: VERSION.to_owned(),
-        deck: hex(&Sha256::digest(&loaded.source.text)),
-        sets: loaded.sets.clone(),
+        deck: hex(&Sha256::digest(without_end_time(&loaded.source.text))),
+        sets: loaded.sets.iter().filter(|set| !is_end_time(set)).cloned().collect(),
+        end_time: loaded.models().last().map_or(0.0, |model| model.analysis.end_time),
+        is_over: false,
         files: mesh.chain(records).collect(),
         mesh_error,
     }
 }
 
+/// What a deck says, but for the end of the run: words and spaces between do not count.
+fn without_end_time(text: &str) -> String {
+    let Ok(mut deck) = text.parse::<toml::Table>() else { return text.to_owned() };
+    if let Some(analysis) = deck.get_mut("analysis").and_then(toml::Value::as_table_mut) {
+        analysis.remove("end_time");
+    }
+    deck.to_string()
+}
+
 /// Finds the checkpoint in a folder from which a run of this origin, and of a deck with this hash, is to go on.
 ///
 /// # Errors
-/// [`Exit::Usage`] where the folder holds something else; [`Exit::Done`] where the run has come to its end, or the code with which it did;
-/// [`Exit::InputOutput`] where it cannot be read. The reason has been shown.
+/// [`Exit::Usage`] where the folder holds something else, [`Exit::InputOutput`] where it cannot be read, and the code with which the run
+/// ended where it has come to its end, [`Exit::Done`] among them. The reason has been shown.
 pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Begins, Exit> {
     let place = folder.display();
     let checkpoint = Checkpoint::read(folder).map_err(|error| {
@@ -61,12 +73,14 @@ pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Be
             say("  help: --overwrite in place of --resume runs the deck from the beginning; -o DIR writes elsewhere");
             return Err(Exit::Usage);
         }
-        return Ok(Begins::At(Box::new(checkpoint)));
+        // A run that is over may still have to write its result.
+        let is_done = checkpoint.origin.is_over && checkpoint.origin.end_time == origin.end_time;
+        if !is_done || !folder.join(result_json::NAME).exists() {
+            return Ok(Begins::At(Box::new(checkpoint)));
+        }
     }
-    if folder.join(result_json::NAME).exists() {
-        complain(&format!("there is nothing to resume in `{place}`: the run there has come to its end"));
-        say("  help: --overwrite in place of --resume runs the deck again; -o DIR writes elsewhere");
-        return Err(Exit::Usage);
+    if let Some(ended) = ended(folder, (hash, origin)) {
+        return Err(ended);
     }
     let log = std::fs::read_to_string(folder.join(log::NAME)).unwrap_or_default();
     if !log.is_empty() && !log.lines().any(|line| line.strip_prefix("deck hash ") == Some(hash)) {
@@ -79,4 +93,31 @@ pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Be
     }
     say(&format!("there is no checkpoint in `{place}` yet: the run begins at t = 0"));
     Ok(Begins::Anew)
+}
+
+/// Says of a run that has come to its end what it has said then; `None` where there is no result.
+fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exit> {
+    let (place, text) = (folder.display(), std::fs::read_to_string(folder.join(result_json::NAME)).ok()?);
+    let result: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    let said = |key: &str| result[key].as_str().unwrap_or_default().to_owned();
+    if said("deck_hash") != hash || said("version") != origin.version {
+        complain(&format!("the results in `{place}` are those of another deck, other --set or another version"));
+        say("  help: --overwrite in place of --resume replaces them; -o DIR writes elsewhere");
+        return Some(Exit::Usage);
+    }
+    let exit = match said("status").as_str() {
+        "done" => Exit::Done,
+        "not-converged" => Exit::NotConverged,
+        "expectation-missed" => Exit::CheckFailed,
+        _ => {
+            complain(&format!("the run in `{place}` was stopped, and its checkpoint is gone"));
+            say("  help: --overwrite in place of --resume runs the deck from the beginning");
+            return Some(Exit::Usage);
+        }
+    };
+    say(&format!("there is nothing to resume in `{place}`: the run there has come to its end"));
+    if exit != Exit::Done {
+        complain(&said("reason"));
+    }
+    Some(exit)
 }

@@ -260,7 +260,8 @@ impl Job<'_> {
             expectations,
         };
         result.write(self.folder)?;
-        if end.status != Status::Stopped && self.checkpoints.is_some() {
+        let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
+        if self.checkpoints.is_some() && !serves {
             Checkpoint::remove(self.folder)?;
         }
         Ok((end, result, energy))

@@ -124,11 +124,11 @@ impl Observer for Watchers {
         self.files.on_modes(frame)
     }
 
-    fn wants_checkpoint(&mut self) -> bool {
-        self.checkpoints.as_ref().is_some_and(Checkpoints::is_due)
+    fn wants_checkpoint(&mut self, at_end: bool) -> bool {
+        self.checkpoints.as_ref().is_some_and(|checkpoints| checkpoints.is_due(at_end))
     }
 
-    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
+    fn on_checkpoint(&mut self, run: &[u8], at_end: bool) -> io::Result<()> {
         if self.checkpoints.is_none() {
             return Ok(());
         }
@@ -136,7 +136,7 @@ impl Observer for Watchers {
         self.files.mark()?.keep(&mut snapshot);
         self.keep_rest(&mut snapshot);
         match &mut self.checkpoints {
-            Some(checkpoints) => checkpoints.write(snapshot.into_bytes(), run),
+            Some(checkpoints) => checkpoints.write(snapshot.into_bytes(), (run, at_end)),
             None => Ok(()),
         }
     }

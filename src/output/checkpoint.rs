@@ -16,21 +16,25 @@ const HEAD: &[u8] = b"rdsolve checkpoint 1\n";
 const DIGEST: usize = 32;
 
 /// The program, the deck and the options that a checkpoint belongs to.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct CheckpointOrigin {
     /// The version of the program, with its commit.
     pub version: String,
-    /// The digest of the text of the deck.
+    /// The digest of the deck, without `end_time` of `[analysis]`.
     pub deck: String,
-    /// The overrides, as they were given.
+    /// The overrides, as they were given, without that of `end_time`.
     pub sets: Vec<String>,
+    /// The end of the run.
+    pub end_time: f64,
+    /// True where the run has come to it.
+    pub is_over: bool,
     /// The names and digests of the mesh and the records that the deck names.
     pub files: Vec<(String, String)>,
     /// True with `--mesh-error`.
     pub mesh_error: bool,
 }
 
-keep!(CheckpointOrigin: Default { version, deck, sets, files, mesh_error });
+keep!(CheckpointOrigin: Default { version, deck, sets, end_time, is_over, files, mesh_error });
 
 impl CheckpointOrigin {
     /// What differs from the checkpoint in what is to be run now, in words; `None` where nothing does.
@@ -50,6 +54,10 @@ impl CheckpointOrigin {
         }
         if self.mesh_error != now.mesh_error {
             return Some(format!("it was {} --mesh-error", if self.mesh_error { "with" } else { "without" }));
+        }
+        if self.end_time != now.end_time && !(self.is_over && self.end_time < now.end_time) {
+            let then = if self.is_over { "" } else { ", which it has not come to: let it come there first" };
+            return Some(format!("it is one of a run to `end_time` = {}{then}", self.end_time));
         }
         let changed = now.files.iter().find(|file| !self.files.contains(file));
         changed.map(|(name, _)| format!("`{name}` has changed since"))
@@ -192,5 +200,10 @@ mod tests {
         assert!(differs(&|now| now.sets = vec!["a=1".into()]).contains("its --set are none, and now `a=1`"));
         assert!(differs(&|now| now.files = vec![("m.msh".into(), "0".into())]).contains("`m.msh` has changed"));
         assert!(differs(&|now| now.mesh_error = true).contains("without --mesh-error"));
+        assert!(differs(&|now| now.end_time = 2.0).contains("to `end_time` = 0, which it has not come to"));
+        let over = CheckpointOrigin { end_time: 1.0, is_over: true, ..was.clone() };
+        let to = |end_time: f64| over.difference(&CheckpointOrigin { end_time, ..was.clone() });
+        assert_eq!((to(2.0), to(1.0)), (None, None));
+        assert!(to(0.5).unwrap().contains("to `end_time` = 1"));
     }
 }

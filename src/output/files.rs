@@ -202,6 +202,7 @@ pub fn listed(model: &Model, plan: &Plan) -> String {
     let open = if chosen { ", as all would be large and `[output]` has neither `every` nor `interval`" } else { "" };
     let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
     groups.extend(output.fields.map(|cadence| format!("fields ({})", in_words(cadence))));
+    groups.extend(output.checkpoint.map(|apart| format!("a checkpoint every {apart} s of run time")));
     groups.push(size_in_words(model, plan));
     groups.join("; ")
 }

@@ -75,13 +75,14 @@ pub trait Observer {
     /// Takes note of the run that tells the errors of what has been received; of `None` where none does.
     fn on_other_run(&mut self, _: Option<OtherRun>) {}
 
-    /// True where a checkpoint is due. It is asked before every step.
-    fn wants_checkpoint(&mut self) -> bool {
+    /// True where a checkpoint is due. It is asked before every step, and at the end of a run that can be made longer.
+    fn wants_checkpoint(&mut self, _at_end: bool) -> bool {
         false
     }
 
-    /// Receives all that the run needs to go on from the last accepted step. An error is one of input/output.
-    fn on_checkpoint(&mut self, _: &[u8]) -> std::io::Result<()> {
+    /// Receives all that the run needs to go on from the last accepted step, or, at its end, to be made longer. An error is one of
+    /// input/output.
+    fn on_checkpoint(&mut self, _run: &[u8], _at_end: bool) -> std::io::Result<()> {
         Ok(())
     }
 

@@ -42,6 +42,8 @@ pub struct March<'r, 'a> {
 /// The place of a run between the events that steps end at.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Place {
+    /// The end of a run that has been made longer: its intervals begin there.
+    pub begin: f64,
     /// The interval that is being covered, from 0.
     pub interval: usize,
     /// Number of its steps that are done, where their length is given.
@@ -50,7 +52,7 @@ pub struct Place {
     pub cuts: usize,
 }
 
-keep!(Place { interval, step, cuts });
+keep!(Place { begin, interval, step, cuts });
 
 impl March<'_, '_> {
     /// Between two steps that `controller` leads: shows a checkpoint where one is due, and ends the run where the stop flag is raised, with
@@ -60,15 +62,30 @@ impl March<'_, '_> {
     /// [`Outcome::Stopped`] where the run is to end, [`Outcome::Io`] where the observer cannot write.
     pub fn pause(&mut self, controller: &mut dyn Keep) -> Result<(), Outcome> {
         let stops = self.stop.load(Ordering::Relaxed);
-        if !stops && !self.observer.wants_checkpoint() {
-            return Ok(());
+        if stops || self.observer.wants_checkpoint(false) {
+            self.show_checkpoint(controller, false)?;
         }
+        if stops { Err(Outcome::Stopped { time: self.state.time }) } else { Ok(()) }
+    }
+
+    /// At the end of a run that `controller` has led: shows a checkpoint from which the run may be made longer, where one is wanted.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write.
+    pub fn end(&mut self, controller: &mut dyn Keep) -> Result<(), Outcome> {
+        if self.cx.model.analysis.can_be_longer() && self.observer.wants_checkpoint(true) {
+            self.place = Place { begin: self.state.time, ..Place::default() };
+            self.show_checkpoint(controller, true)?;
+        }
+        Ok(())
+    }
+
+    fn show_checkpoint(&mut self, controller: &mut dyn Keep, at_end: bool) -> Result<(), Outcome> {
         let mut snapshot = Snapshot::taken();
         self.search.keep(&mut snapshot);
         self.recorder.keep(&mut snapshot);
         self.keep_rest(controller, &mut snapshot);
-        self.observer.on_checkpoint(&snapshot.into_bytes()).map_err(Outcome::Io)?;
-        if stops { Err(Outcome::Stopped { time: self.state.time }) } else { Ok(()) }
+        self.observer.on_checkpoint(&snapshot.into_bytes(), at_end).map_err(Outcome::Io)
     }
 
     /// Keeps what comes behind the search and the recorder, or takes it back.

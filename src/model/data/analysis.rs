@@ -60,6 +60,12 @@ impl Analysis {
         self.stage.as_ref().is_some_and(|stage| stage.loads_alone_change)
     }
 
+    /// True where a longer `end_time` changes nothing of what has been computed: steps of given length in motion, in a deck without stages.
+    pub fn can_be_longer(&self) -> bool {
+        let steps_are_given = matches!(self.step_length, StepLength::Fixed { .. });
+        self.kind == AnalysisKind::Dynamic && steps_are_given && self.stage.is_none() && self.modes.is_none()
+    }
+
     /// How long it lasts.
     pub fn duration(&self) -> f64 {
         self.end_time - self.begin

@@ -18,6 +18,8 @@ use crate::solve::start;
 use crate::solve::time_stepper::TimeStepper;
 use crate::solve::workspace::Workspace;
 
+use std::borrow::Cow;
+
 /// The controller of a run, one variant for each way of [`StepLength`].
 pub enum Controller<'a> {
     /// Steps of given length.
@@ -122,14 +124,26 @@ fn through_intervals(
             watch.begin(march.cx, march.ws, march.state);
         }
     }
-    for interval in &intervals[march.place.interval..] {
+    let rest = rest(march, intervals);
+    for interval in &rest[march.place.interval.min(rest.len())..] {
         controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {
             start::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
             controller.restart(march.cx, march.ws, march.state);
             initial_transient::pass_over(march.cx, march.ws, march.state);
         }
-        march.place = Place { interval: march.place.interval + 1, ..Place::default() };
+        march.place = Place { begin: march.place.begin, interval: march.place.interval + 1, ..Place::default() };
     }
-    Ok(())
+    march.end(controller)
+}
+
+/// The intervals of a run, or those that are left of it where it has been made longer.
+fn rest<'i>(march: &March, intervals: &'i [Interval]) -> Cow<'i, [Interval]> {
+    let begin = march.place.begin;
+    if begin == 0.0 {
+        return Cow::Borrowed(intervals);
+    }
+    let analysis = &march.cx.model.analysis;
+    let left = intervals.iter().copied().filter(|interval| interval.to > begin + 1e-9 * analysis.end_time);
+    Cow::Owned(left.map(|interval| interval.after(begin, analysis.nominal_step())).collect())
 }

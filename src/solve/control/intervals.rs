@@ -43,6 +43,14 @@ impl Interval {
     pub fn time(&self, k: usize) -> f64 {
         if k == self.steps { self.to } else { self.from + (self.to - self.from) * (k as f64 / self.steps as f64) }
     }
+
+    /// What is left of it after a time, in steps no longer than `dt`.
+    pub fn after(self, begin: f64, dt: f64) -> Interval {
+        if begin <= self.from {
+            return self;
+        }
+        Interval { from: begin, steps: steps_between([begin, self.to], dt), ..self }
+    }
 }
 
 /// What a run must look at, and where its steps must end.
@@ -204,13 +212,17 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
     let mut intervals: Vec<Interval> = events.iter().filter(|event| event.ends).map(|event| event.ending).collect();
     let mut from = begin;
     for interval in &mut intervals {
-        // A rounding error beyond a whole number of steps needs no extra step.
-        let steps = (interval.to - from) / dt - 1e-9 * (interval.to / dt).max(1.0);
-        interval.steps = steps.ceil().max(1.0) as usize;
+        interval.steps = steps_between([from, interval.to], dt);
         interval.from = from;
         from = interval.to;
     }
     Schedule { intervals, samples }
+}
+
+/// The number of steps no longer than `dt`. A rounding error beyond a whole number needs no extra step.
+fn steps_between([from, to]: [f64; 2], dt: f64) -> usize {
+    let steps = (to - from) / dt - 1e-9 * (to / dt).max(1.0);
+    steps.ceil().max(1.0) as usize
 }
 
 /// The k-th multiple of the output interval, rounded once where the interval is one over a whole number: 0.009, not

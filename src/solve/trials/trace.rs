@@ -64,12 +64,12 @@ impl Observer for Unseen<'_> {
         if frame.compared { self.0.on_trial(frame) } else { Ok(()) }
     }
 
-    fn wants_checkpoint(&mut self) -> bool {
-        self.0.wants_checkpoint()
+    fn wants_checkpoint(&mut self, at_end: bool) -> bool {
+        self.0.wants_checkpoint(at_end)
     }
 
-    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
-        self.0.on_checkpoint(run)
+    fn on_checkpoint(&mut self, run: &[u8], at_end: bool) -> io::Result<()> {
+        self.0.on_checkpoint(run, at_end)
     }
 }
 
@@ -83,12 +83,12 @@ impl Observer for Trace<'_> {
         self.observer.on_step(frame)
     }
 
-    fn wants_checkpoint(&mut self) -> bool {
-        self.observer.wants_checkpoint()
+    fn wants_checkpoint(&mut self, at_end: bool) -> bool {
+        self.observer.wants_checkpoint(at_end)
     }
 
-    fn on_checkpoint(&mut self, run: &[u8]) -> io::Result<()> {
-        self.observer.on_checkpoint(run)
+    fn on_checkpoint(&mut self, run: &[u8], at_end: bool) -> io::Result<()> {
+        self.observer.on_checkpoint(run, at_end)
     }
 
     fn keep_seen(&mut self, snapshot: &mut Snapshot) {
