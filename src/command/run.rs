@@ -28,7 +28,7 @@ use crate::output::result_json::{
     ReportedCounts, ReportedErrors, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes, Status, Timings,
     peak_memory_bytes,
 };
-use crate::output::{claim, listed, take_up, wanted};
+use crate::output::{FolderLock, claim, listed, wanted};
 use crate::plan::Plan;
 use crate::plan::explain::explain;
 use crate::solve::{Counts, Outcome, Run, StepError};
@@ -199,19 +199,7 @@ impl Job<'_> {
     /// Runs the scene, or what is left of it after a checkpoint, and writes its files; an error is one of input/output.
     fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Option<String>)> {
         let resumes = checkpoint.is_some();
-        let _lock = match resumes {
-            true => take_up(self.folder)?,
-            false => claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?,
-        };
-        let mut log = Log::open(self.folder, resumes)?;
-        let origin = self.origin();
-        match resumes {
-            true => log.say("the run goes on from its checkpoint")?,
-            false => {
-                log.say(&[&origin.lines()[..], &self.plan].concat().join("\n"))?;
-                self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
-            }
-        }
+        let (_lock, log) = self.begin(resumes)?;
         let mut watchers = self.watchers(log, resumes)?;
         let looping = Instant::now();
         let mut told = StagesTold::default();
@@ -247,7 +235,7 @@ impl Job<'_> {
             exit_code: end.status.exit_code(),
             reason: end.reason.clone(),
             valid_until: end.valid_until,
-            origin,
+            origin: self.origin(),
             plan: self.plan.clone(),
             sizes: self.sizes,
             counts: counts(told.counts),
@@ -265,6 +253,21 @@ impl Job<'_> {
             Checkpoint::remove(self.folder)?;
         }
         Ok((end, result, energy))
+    }
+
+    /// Takes the folder, and says in the log what is run, or that it goes on.
+    fn begin(&self, resumes: bool) -> io::Result<(FolderLock, Log)> {
+        if resumes {
+            let lock = FolderLock::take(self.folder)?;
+            let mut log = Log::open(self.folder, true)?;
+            log.say("the run goes on from its checkpoint")?;
+            return Ok((lock, log));
+        }
+        let lock = claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;
+        let mut log = Log::open(self.folder, false)?;
+        log.say(&[&self.origin().lines()[..], &self.plan].concat().join("\n"))?;
+        self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
+        Ok((lock, log))
     }
 
     /// Who watches the run.

@@ -3,6 +3,7 @@
 use super::disk::at;
 use super::expect::needs;
 use super::fields::{Fields, FieldsMark, LISTS};
+use super::result_json;
 use super::table::{TableKind, WriteRows};
 use super::table_file::{EmptyFields, TableFile, TableMark};
 use super::table_size::size_in_words;
@@ -89,7 +90,12 @@ impl Files {
             fields.go_on(mark)?;
             self.fields = Some(fields);
         }
-        Ok(())
+        // The result is that of the part before.
+        let result = self.dir.join(result_json::NAME);
+        match fs::remove_file(&result) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&result, error)),
+            _ => Ok(()),
+        }
     }
 
     /// How far all files have come, with their rows safe on the disk.

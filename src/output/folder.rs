@@ -48,19 +48,6 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     Ok(lock)
 }
 
-/// Locks a folder in which a run is to go on from its checkpoint. The result goes, for it is that of the part before.
-///
-/// # Errors
-/// Another run writes there, or the result cannot be removed.
-pub fn take_up(dir: &Path) -> io::Result<FolderLock> {
-    let lock = FolderLock::take(dir)?;
-    let result = dir.join(result_json::NAME);
-    match fs::remove_file(&result) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&result, error)),
-        _ => Ok(lock),
-    }
-}
-
 /// The names of all that is in a folder.
 fn entries(dir: &Path) -> io::Result<Vec<String>> {
     let entries = fs::read_dir(dir).map_err(|e| at(dir, e))?;

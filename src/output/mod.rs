@@ -28,7 +28,7 @@ mod vtu;
 
 pub(crate) use disk::{at, replace};
 pub use files::{Files, FilesMark, listed, wanted};
-pub use folder::{claim, take_up};
+pub use folder::claim;
 pub(crate) use folder::{holds_run, remove, remove_empty, remove_run};
 pub use lock::FolderLock;
 pub use table_size::{expected_sizes, settle_cadence};

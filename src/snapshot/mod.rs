@@ -7,20 +7,7 @@
 
 mod bytes;
 mod shapes;
+mod values;
 
-pub use bytes::Snapshot;
+pub use bytes::{Keep, Snapshot};
 pub(crate) use shapes::{keep, keep_either};
-
-/// What a snapshot can hold.
-pub trait Keep {
-    /// Writes what has to be kept into a snapshot, or takes it from one.
-    fn keep(&mut self, snapshot: &mut Snapshot);
-
-    /// A value to be overwritten, where a snapshot holds one more than there are; `None` for what only a deck can build.
-    fn blank() -> Option<Self>
-    where
-        Self: Sized,
-    {
-        None
-    }
-}

@@ -32,7 +32,7 @@ pub struct March<'r, 'a> {
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
     /// Where between its events the run is.
-    pub place: Place,
+    pub place: RunPosition,
     /// True where it does not begin, but goes on from a checkpoint.
     pub resumes: bool,
     /// What leads to further runs of the scene.
@@ -41,7 +41,7 @@ pub struct March<'r, 'a> {
 
 /// The place of a run between the events that steps end at.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Place {
+pub struct RunPosition {
     /// The end of a run that has been made longer: its intervals begin there.
     pub begin: f64,
     /// The interval that is being covered, from 0.
@@ -52,7 +52,7 @@ pub struct Place {
     pub cuts: usize,
 }
 
-keep!(Place { begin, interval, step, cuts });
+keep!(RunPosition { begin, interval, step, cuts });
 
 impl March<'_, '_> {
     /// Between two steps that `controller` leads: shows a checkpoint where one is due, and ends the run where the stop flag is raised, with
@@ -74,7 +74,7 @@ impl March<'_, '_> {
     /// [`Outcome::Io`] where the observer cannot write.
     pub fn end(&mut self, controller: &mut dyn Keep) -> Result<(), Outcome> {
         if self.cx.model.analysis.can_be_longer() && self.observer.wants_checkpoint(true) {
-            self.place = Place { begin: self.state.time, ..Place::default() };
+            self.place = RunPosition { begin: self.state.time, ..RunPosition::default() };
             self.show_checkpoint(controller, true)?;
         }
         Ok(())

@@ -6,7 +6,7 @@ use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::{Observer, OtherRun};
 use super::handover::{EndedStage, Handover, hand_over};
-use super::march::{March, Place};
+use super::march::{March, RunPosition};
 use super::modes;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
@@ -175,7 +175,7 @@ impl<'a> Run<'a> {
         }
         let samples = Samples::new(&schedule.samples);
         let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_trial);
-        let (place, resumes) = (Place::default(), checkpoint.is_some());
+        let (place, resumes) = (RunPosition::default(), checkpoint.is_some());
         let state_at = &mut state;
         let mut march =
             March { cx, ws, state: state_at, recorder, observer, samples, stop_watch, stop, place, resumes, search };

@@ -12,7 +12,7 @@ use crate::model::StepLength;
 use crate::snapshot::{Keep, Snapshot};
 use crate::solve::context::Context;
 use crate::solve::initial_transient;
-use crate::solve::march::{March, Place};
+use crate::solve::march::{March, RunPosition};
 use crate::solve::outcome::Outcome;
 use crate::solve::start;
 use crate::solve::time_stepper::TimeStepper;
@@ -132,7 +132,8 @@ fn through_intervals(
             controller.restart(march.cx, march.ws, march.state);
             initial_transient::pass_over(march.cx, march.ws, march.state);
         }
-        march.place = Place { begin: march.place.begin, interval: march.place.interval + 1, ..Place::default() };
+        march.place =
+            RunPosition { begin: march.place.begin, interval: march.place.interval + 1, ..RunPosition::default() };
     }
     march.end(controller)
 }
