@@ -62,6 +62,8 @@ keep_either!(ModesFault {
     7 => NoLoads,
     8 => NoBuckling,
     9 => TooLarge(needed),
+    10 => NothingExcites,
+    11 => Stopped,
 });
 
 impl From<TooLarge> for ModesFault {

@@ -25,7 +25,7 @@ pub struct ErrorMeasure {
     drives: Vec<usize>,
 }
 
-keep!(ErrorMeasure { ahead, begun } without { extent, end_time, bodies });
+keep!(ErrorMeasure { ahead, begun } without { extent, end_time, bodies, drives });
 
 impl ErrorMeasure {
     /// A measure for this model; `extent` is its length.

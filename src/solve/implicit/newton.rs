@@ -77,7 +77,7 @@ keep!(Newton {
     massless,
     stability,
     grows,
-});
+} without { ahead });
 
 /// The progress of the iteration of a step.
 struct Progress {
