@@ -10,6 +10,9 @@ use crate::output::{holds_run, log, result_json};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
+/// Entries of a deck on which a checkpoint does not depend; the end of the run is compared by itself.
+const FREE: [[&str; 2]; 2] = [["analysis", "end_time"], ["output", "checkpoint"]];
+
 /// Where a run begins.
 pub enum Begins {
     /// At t = 0.
@@ -34,11 +37,13 @@ pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin 
     let origin = &loaded.model.origin;
     let mesh = origin.mesh.iter().map(|mesh| (mesh.path.clone(), hex(&mesh.digest)));
     let records = origin.records.iter().map(|record| (record.path.clone(), hex(&record.digest)));
-    let is_end_time = |set: &&String| set.split('=').next().is_some_and(|key| key.trim() == "analysis.end_time");
+    let is_free = |set: &&String| {
+        set.split('=').next().is_some_and(|key| FREE.map(|of| of.join(".")).contains(&key.trim().to_owned()))
+    };
     CheckpointOrigin {
         version: VERSION.to_owned(),
-        deck: hex(&Sha256::digest(without_end_time(&loaded.source.text))),
-        sets: loaded.sets.iter().filter(|set| !is_end_time(set)).cloned().collect(),
+        deck: hex(&Sha256::digest(what_must_stay(&loaded.source.text))),
+        sets: loaded.sets.iter().filter(|set| !is_free(set)).cloned().collect(),
         end_time: loaded.models().last().map_or(0.0, |model| model.analysis.end_time),
         is_over: false,
         files: mesh.chain(records).collect(),
@@ -46,11 +51,13 @@ pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin 
     }
 }
 
-/// What a deck says, but for the end of the run: words and spaces between do not count.
-fn without_end_time(text: &str) -> String {
+/// What a deck says that a checkpoint depends on: comments and spaces between do not count.
+fn what_must_stay(text: &str) -> String {
     let Ok(mut deck) = text.parse::<toml::Table>() else { return text.to_owned() };
-    if let Some(analysis) = deck.get_mut("analysis").and_then(toml::Value::as_table_mut) {
-        analysis.remove("end_time");
+    for [table, key] in FREE {
+        if let Some(table) = deck.get_mut(table).and_then(toml::Value::as_table_mut) {
+            table.remove(key);
+        }
     }
     deck.to_string()
 }

@@ -20,9 +20,9 @@ const DIGEST: usize = 32;
 pub struct CheckpointOrigin {
     /// The version of the program, with its commit.
     pub version: String,
-    /// The digest of the deck, without `end_time` of `[analysis]`.
+    /// The digest of what the deck says, but for what may change.
     pub deck: String,
-    /// The overrides, as they were given, without that of `end_time`.
+    /// The overrides, as they were given, without those of what may change.
     pub sets: Vec<String>,
     /// The end of the run.
     pub end_time: f64,

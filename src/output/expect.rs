@@ -289,6 +289,21 @@ impl Watch {
         (answers.value)(self.expect.at, index, frame)
     }
 
+    /// How far a value is from what is expected, or beyond its bound.
+    fn difference(&self, value: f64) -> f64 {
+        let Expect { quantity, value: expected, tolerance, .. } = &self.expect;
+        match tolerance {
+            Tolerance::AtLeast => (expected - value).max(0.0),
+            Tolerance::AtMost => (value - expected).max(0.0),
+            // A phase is the same after a full turn.
+            _ if quantity.ends_with("_phase") => {
+                let apart = (value - expected).rem_euclid(360.0);
+                apart.min(360.0 - apart)
+            }
+            _ => (value - expected).abs(),
+        }
+    }
+
     /// Judges the value taken.
     /// The time of a sample in words; nothing of modes and of responses, which have none.
     fn moment(&self, sample: Sample) -> String {
@@ -305,16 +320,7 @@ impl Watch {
             Tolerance::Absolute(tolerance) => (tolerance, 1.0, false),
             Tolerance::AtLeast | Tolerance::AtMost => (0.0, 1.0, false),
         };
-        let difference = self.sample.map(|sample| match tolerance {
-            Tolerance::AtLeast => (expected - sample.value).max(0.0),
-            Tolerance::AtMost => (sample.value - expected).max(0.0),
-            // A phase is the same after a full turn.
-            _ if quantity.ends_with("_phase") => {
-                let apart = (sample.value - expected).rem_euclid(360.0);
-                apart.min(360.0 - apart)
-            }
-            _ => (sample.value - expected).abs(),
-        });
+        let difference = self.sample.map(|sample| self.difference(sample.value));
         let bound = match tolerance {
             Tolerance::AtLeast => Some("at least"),
             Tolerance::AtMost => Some("at most"),

@@ -12,6 +12,13 @@ const NEW: f64 = 1e-8;
 /// Largest number of operations for the search; larger sets of joints are not searched.
 const MOST: f64 = 5e7;
 
+/// The largest distance of a node from the center of all; 1 where they are at one place.
+fn size(nodes: &[Node]) -> f64 {
+    let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
+    let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max);
+    if length > 0.0 { length } else { 1.0 }
+}
+
 /// Numbers of the multipliers whose equations depend linearly on those before them; `None` where there are too many to
 /// search.
 pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
@@ -20,10 +27,8 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
     let independent_nodes = dependents::independent_nodes(&system.rigid_links, nodes.len());
     let projections = dependents::projections(&system.rigid_links, &nodes, &independent_nodes);
-    let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
     // The size of the scene makes rotations comparable with translations.
-    let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max);
-    let length = if length > 0.0 { length } else { 1.0 };
+    let length = size(&nodes);
 
     // The columns are the degrees of freedom on which joints act, numbered as they are met.
     let mut column = vec![None; directions];

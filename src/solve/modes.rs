@@ -44,7 +44,13 @@ pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule)
     }
     march.place.interval = AT_ITS_END;
     march.pause(controller)?;
-    show(march)
+    show(march).or_else(|ended| {
+        // A signal leaves a checkpoint here too.
+        if matches!(ended, Outcome::Stopped { .. }) {
+            march.pause(controller)?;
+        }
+        Err(ended)
+    })
 }
 
 /// The loads in the state, and those of which buckling seeks the factor: all that act, or in a stage those that first act there.

@@ -71,9 +71,11 @@ struct Judged {
     recorder: Recorder,
     warnings: Warnings,
     seen: [f64; 2],
+    /// True where it came to the value at which the stage stops.
+    stopped: bool,
 }
 
-keep!(Judged { run, state, recorder, warnings, seen });
+keep!(Judged { run, state, recorder, warnings, seen, stopped });
 
 /// No search: the run is the only one.
 struct NoSearch;
@@ -223,6 +225,7 @@ impl<'a> Run<'a> {
                 recorder: Recorder::new(model, self.wanted),
                 warnings: Warnings::default(),
                 seen: [0.0; 2],
+                stopped: false,
             },
         };
         self.follow(asked, None);
@@ -230,6 +233,7 @@ impl<'a> Run<'a> {
             search.keep(snapshot);
             if search.under_way == UnderWay::Trial {
                 self.recorder = Recorder::new(model, self.wanted.where_due());
+                self.stop_watch.iter_mut().for_each(|watch| watch.recall(search.judged.stopped));
             }
         }
         search
@@ -340,6 +344,7 @@ impl<'a> Run<'a> {
         self.recorder.is_trial = true;
         judged.warnings = std::mem::take(&mut self.workspace.warnings);
         judged.seen = [self.workspace.rotation_drift, self.workspace.joint_violation];
+        judged.stopped = self.stop_watch.as_ref().is_some_and(StopWatch::is_reached);
         self.follow(error.tolerance * LOOSER, Some(2.0 * judged.run.longest()));
         self.recorder.most_steps = 2 * judged.recorder.own().steps + FEW;
         search.compared = if self.controller.looks_inside() { observer.times_to_compare() } else { Vec::new() };
@@ -352,10 +357,9 @@ impl<'a> Run<'a> {
     fn trial(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
         let times = comparison_times(&model.analysis).chain(search.compared.iter().copied());
-        let schedule = Schedule::of_trial(model, times, self.controller.looks_inside());
         // A stage that has stopped is compared up to there.
-        let reached = if self.has_stopped() == Some(true) { search.judged.run.end() } else { f64::INFINITY };
-        let schedule = schedule.until(reached);
+        let until = if search.judged.stopped { search.judged.run.end() } else { f64::INFINITY };
+        let schedule = Schedule::of_trial(model, times, self.controller.looks_inside()).until(until);
         let mut unseen = Unseen(observer);
         let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1);
         let (outcome, _) = self.once(&mut trace, &schedule, search);

@@ -97,6 +97,11 @@ impl StopWatch {
         self.reached
     }
 
+    /// Recalls how a run has ended.
+    pub fn recall(&mut self, reached: bool) {
+        self.reached = reached;
+    }
+
     /// Begins with the state at the beginning of the stage.
     pub fn begin(&mut self, cx: &Context, ws: &Workspace, state: &State) {
         (self.work, self.reached) = (0.0, false);
