@@ -41,7 +41,7 @@ pub struct Analysis {
     /// anywhere.
     pub plane: Maybe<Plane>,
     /// With "modal" and "buckling": number of modes, the lowest, 1 or more. Default: 10. With "frequency-response" and method = "modal":
-    /// number of those that answer with their inertia. Default: all up to twice the highest frequency.
+    /// number of those that answer with their inertia. Default: all up to four times the highest frequency.
     pub modes: Maybe<u64>,
     /// With "modal" and "frequency-response", instead of `modes`: all modes up to this frequency, above 0.
     pub up_to: Maybe<f64>,

@@ -107,7 +107,7 @@ const ELSEWHERE: &[(&[&str], &str)] = &[
     (&["gravity"], "gravity stands in [environment]"),
     (&["rayleigh"], "Rayleigh damping is [damping] with `alpha` (mass_factor) and `beta` (stiffness_factor)"),
     (&["extends", "include", "import", "base"], "a deck is one file; variants of it are made with --set KEY=VALUE"),
-    (&["file"], "values stand in the deck itself; only [mesh] and [study] name a file"),
+    (&["file"], "values stand in the deck itself; only [mesh], [amplitudes] and [study] name a file"),
     (&["elements"], "elements are [[beams]], [[bars]] and [[shells]]"),
     (
         &["modes", "eigenvalues", "modal"],

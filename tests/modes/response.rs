@@ -141,7 +141,7 @@ fn receptance_of_a_clamped_beam() {
     let of = |keys: &str, elements: usize| relative(&motion(&modes(&text(keys, elements)), 1, 2));
     let direct = of(keys, 16);
     assert!(direct.iter().all(|off| *off < 3e-4), "{direct:?}");
-    // By the modes up to twice the highest frequency; (ω/ω_6)⁴ of what the others answer is left out.
+    // By the modes up to four times the highest frequency; (ω/ω_6)⁴ of what the others answer is left out.
     let direct = motion(&modes(&text(keys, 16)), 1, 2);
     let modal = motion(&modes(&text(&(keys.to_owned() + "\nmethod = \"modal\""), 16)), 1, 2);
     for ((_, a), (_, b)) in direct.iter().zip(&modal) {
