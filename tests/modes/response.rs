@@ -374,3 +374,17 @@ fn a_tuned_absorber_is_no_resonance() {
     // The answer is that of a frequency 1e-9 beside.
     assert!(a.norm() < 1e-8 && (b + 10.0 / tuned).norm() < 1e-6 * 10.0 / tuned, "{a} {b}");
 }
+
+/// A pendulum upside down, on a joint: no steady motion about it lasts, and a direct response says so; hanging, it says nothing.
+#[test]
+fn a_response_about_an_unstable_state_is_doubted() {
+    for (height, unstable) in [(0.7, true), (-0.7, false)] {
+        let text = analysis("frequencies = [0.5]")
+            + "[environment]\ngravity = [0.0, 0.0, -9.81]\n[[bodies]]\nname = \"bob\"\nmass = 2.0\ninertia = [0.05, 0.05, 0.05]\n"
+            + &format!("center = [0.0, 0.0, {height:?}]\n")
+            + "[[joints]]\nname = \"hinge\"\nkind = \"revolute\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { body = \"bob\" }\n\
+               axis = [0.0, 1.0, 0.0]\n[[loads]]\nat = \"bob\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"shake\"\n";
+        let doubts = modes(&shaken(text)).doubts;
+        assert_eq!(doubts.iter().any(|doubt| doubt.contains("unstable")), unstable, "{height}: {doubts:?}");
+    }
+}

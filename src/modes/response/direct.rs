@@ -23,6 +23,8 @@ const DOUBTFUL: f64 = 1e-8;
 /// Penalties of joints are those of the stiffness and of the inertia at this multiple of the highest frequency, which no inertia below
 /// it cancels.
 const BEYOND: f64 = 2.0;
+/// Part of the least ratio of stiffness and inertia below which a motion without stiffness counts as one.
+const NEXT_TO_ZERO: f64 = 1e-6;
 /// Solutions after which gaps of joints, of which each leaves a small part, have closed.
 const CLOSINGS: usize = 3;
 
@@ -57,7 +59,9 @@ pub fn response(
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
-    let unstable = if unsymmetric { 0 } else { pencil.factor(0.0).unwrap_or(0) };
+    // Next to zero, where what is only held by joints has no pivot that vanishes.
+    let shift = -NEXT_TO_ZERO * pencil.least_ratio();
+    let unstable = if unsymmetric { 0 } else { pencil.factor(shift).unwrap_or(0) };
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
