@@ -423,6 +423,24 @@ pub const PLASTIC_STRAIN: Column = Column::scalar("plastic_strain", "largest acc
 /// The stress of a layer of a shell; `[[expect]]` asks for the largest of a whole shell.
 pub const VON_MISES: Column = Column::scalar("von_mises", "von Mises stress", Unit::Stress).kind("stress");
 
+/// Forces and moments in a section of a beam.
+pub const SECTION_FORCES: [Column; 6] = [
+    section_force("N", "normal force", "tension"),
+    section_force("Vy", "shear force along y", "along +y").formerly("Qy"),
+    section_force("Vz", "shear force along z", "along +z").formerly("Qz"),
+    section_moment("T", "torsional moment", "right-handed about the beam axis"),
+    section_moment("My", "bending moment about y", "tension on the side of +z"),
+    section_moment("Mz", "bending moment about z", "tension on the side of −y"),
+];
+
+const fn section_force(name: &'static str, meaning: &'static str, sign: &'static str) -> Column {
+    Column::scalar(name, meaning, Unit::Force).kind("section force").in_axes(Axes::Section).positive(sign)
+}
+
+const fn section_moment(name: &'static str, meaning: &'static str, sign: &'static str) -> Column {
+    Column::scalar(name, meaning, Unit::Moment).kind("section moment").in_axes(Axes::Section).positive(sign)
+}
+
 /// Global components of a force and a moment.
 const fn wrench(force: &'static str, moment: &'static str) -> [Column; 6] {
     let [fx, fy, fz] = vector(["fx", "fy", "fz"], force, Unit::Force);

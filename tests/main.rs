@@ -25,6 +25,7 @@ mod joint_coordinates;
 mod joint_forces;
 mod joints;
 mod left_out;
+mod line_loads;
 mod linear;
 mod massless;
 mod materials;

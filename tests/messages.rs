@@ -711,6 +711,21 @@ fn shells() {
         "line_load_that_follows",
         load("at = \"flap.edge2\"\nforce_per_length = [1.0, 0.0, 0.0]\nfollower = true")
     );
+    let both =
+        "at = \"flap\"\npart = \"flap\"\nlocal = [0.0, 0.0, 1.0]\nforce_per_length = [0.0, 0.0, 1.0]\nprojected = true";
+    assert_snapshot!("line_load_said_twice", load(both));
+    assert_snapshot!(
+        "part_of_a_nodal_load",
+        load("part = \"flap\"\nforce = [0.0, 0.0, 1.0]\nprofile = [[0.0, 1.0], [1.0, 1.0]]")
+    );
+    assert_snapshot!("local_load_on_an_edge", load("at = \"flap.edge2\"\nlocal = [0.0, 0.0, 1.0]"));
+    let on_beam = |keys: &str| portal_and(&format!("[[loads]]\npart = \"portal\"\n{keys}\n"));
+    assert_snapshot!("line_load_profile_falls", on_beam("local = [0.0, 0.0, 1.0]\nprofile = [[0.5, 1.0], [0.2, 1.0]]"));
+    assert_snapshot!(
+        "line_load_profile_outside",
+        on_beam("force_per_length = [0.0, 0.0, 1.0]\nprofile = [[0.0, 1.0], [6.0, 1.0]]")
+    );
+    assert_snapshot!("pressure_on_a_beam", on_beam("pressure = 3.0"));
     assert_snapshot!("pressure_with_a_force", load("at = \"flap\"\npressure = 1e3\nforce = [1.0, 0.0, 0.0]"));
     let expect = |quantity: &str| {
         said(

@@ -3,28 +3,38 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Vector};
+use super::words::{Maybe, Names, Numbers, Vector};
+use crate::diagnostic::At;
 
 /// A force or moment on points or bodies, or spread over shells.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Names of points, bodies, shells, edges or sets; each node gets the whole load, unless it is one per length or area.
-    #[schemars(required)]
     pub at: Maybe<Names>,
+    /// Instead of `at`, for loads per length or area: names of beams, bars, shells, groups of the mesh or sets of them.
+    pub part: Maybe<Names>,
     /// Force, global components.
     pub force: Maybe<Vector>,
     /// Moment, global components.
     pub moment: Maybe<Vector>,
-    /// Force per length along edges of shells, global components; `at` then names edges, such as "roof.edge2",
+    /// Force per length that beams, bars or edges of shells have at t = 0, global components. Edges are those such as "roof.edge2",
     /// groups of segments of the mesh, or sets of nodes between which edges of shells lie.
     pub force_per_length: Maybe<Vector>,
+    /// Force per length of beams in their section axes x (along the beam), y, z at t = 0.
+    pub local: Maybe<Vector>,
+    /// The `force_per_length` of beams and bars is one per length seen along the force, such as that of snow on a slope. Default: false.
+    pub projected: Maybe<bool>,
+    /// Factors of a load per length along a beam or bar: pairs [fraction of its length, factor], straight between them and zero
+    /// before the first and after the last. Default: [[0, 1], [1, 1]].
+    pub profile: Maybe<Vec<At<Numbers<2>>>>,
     /// Force per area that shells have at t = 0, global components; `at` then names shells.
     pub force_per_area: Maybe<Vector>,
     /// Pressure on shells, against their normals, which see the corners go round counter-clockwise; `at` then
     /// names shells. Area and normals are those of t = 0, with `follower` the current ones.
     pub pressure: Maybe<f64>,
-    /// A force or moment turns with its node, a pressure follows the surface. Default: false.
+    /// A force or moment turns with its node, a load per length with the sections of its beam, a pressure follows the surface. Default:
+    /// false.
     pub follower: Maybe<bool>,
     /// Name, by which a stage that stops finds the load. Default: none.
     pub name: Maybe<String>,

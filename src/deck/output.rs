@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Table};
+use super::words::{FlagOrTable, Maybe, Names, Table};
 
 /// What is written, and how often. t = 0 and the end are always written.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -27,8 +27,8 @@ pub struct Output {
     pub contacts: Maybe<bool>,
     /// Write reactions.csv: reactions of supports and joints. Default: false.
     pub reactions: Maybe<bool>,
-    /// Write sections.csv for beams and shells.csv for shells: stress resultants. Default: false.
-    pub sections: Maybe<bool>,
+    /// Write sections.csv for beams and shells.csv for shells: stress resultants. `true` is { at = "points" }. Default: false.
+    pub sections: Maybe<FlagOrTable<Sections>>,
     /// Write layers.csv: stress through the thickness of shells. Default: false.
     pub layers: Maybe<bool>,
     /// Write parts.csv: the elastic energy of each beam, bar and shell. Default: false.
@@ -38,6 +38,27 @@ pub struct Output {
     /// Seconds of run time between two checkpoints, above 0, from which `--resume` goes on. Default: none but the one that is
     /// written when a signal stops the run.
     pub checkpoint: Maybe<f64>,
+}
+
+/// The places of beams that sections.csv is about.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sections {
+    /// The places.
+    #[schemars(required)]
+    pub at: Maybe<SectionPlaces>,
+}
+
+/// Places along the elements of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SectionPlaces {
+    /// Integration points, where strains and stresses belong together.
+    Points,
+    /// Both ends of each element: member end forces, in balance with what acts at the nodes.
+    Ends,
+    /// Integration points and ends.
+    Both,
 }
 
 /// Field files.

@@ -54,6 +54,10 @@ pub trait ElementBlock: Send + Sync {
     fn damping_power(&self, _now: &Configuration) -> f64 {
         0.0
     }
+    /// Internal forces of element `e`, a line from its first node to its last, on these two; `None` for what is no such line.
+    fn end_forces(&self, _e: usize, _now: &Configuration) -> Option<[Force; 2]> {
+        None
+    }
     /// The number of integration points of an element at which [`ElementBlock::point`] gives results.
     fn points(&self) -> usize {
         0

@@ -151,6 +151,12 @@ pub fn lobatto(n: usize) -> (&'static [f64], &'static [f64]) {
     }
 }
 
+/// The values at ξ of the polynomials that are one at one of the `nodes` and zero at the others.
+pub fn lagrange(nodes: &[f64], xi: f64) -> Vec<f64> {
+    let others = |a: usize| (0..nodes.len()).filter(move |&b| b != a);
+    (0..nodes.len()).map(|a| others(a).map(|b| (xi - nodes[b]) / (nodes[a] - nodes[b])).product()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

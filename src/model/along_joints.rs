@@ -312,6 +312,7 @@ impl ActsAlong {
                 moment: sign * moment,
                 follower: true,
                 amplitude: effort.amplitude,
+                along: None,
             };
             efforts.extend([load(from, -1.0), load(to, 1.0)]);
         }

@@ -118,7 +118,7 @@ fn of_points_or_file<'d>(
     let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
     report.reject_unused("a table without a file", &of_file);
     let points = report.require(owner, "points", &a.points)?;
-    let points = report.rising("time", points)?;
+    let points = report.rising("points", "time", points)?;
     table(a, points, report)
 }
 

@@ -1,6 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
-use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, Tolerance, When, quantities_of};
+use super::data::{
+    DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, PartKind, Tolerance, When, quantities_of,
+};
 use super::displacement_targets::displacement_target;
 use super::nodes::Topology;
 use super::place::Place;
@@ -72,7 +74,7 @@ impl<'d> Expects<'_, 'd> {
         let mut column = None;
         if let (Some((at, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
             let strain = quantity.value == PLASTIC_STRAIN.name && !columns.contains(&PLASTIC_STRAIN);
-            if strain && matches!(at, ExpectAt::Shells(..)) {
+            if strain && matches!(at, ExpectAt::Shells(..) | ExpectAt::Beam(_)) {
                 let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
                 return self.report.error(&quantity.span, message);
             }
@@ -245,6 +247,7 @@ impl<'d> Expects<'_, 'd> {
                 Some((ExpectAt::Joint(joint), columns))
             }
             Some(Place::Part(part)) if part.kind.is_surface() => self.expect_stress(part, name),
+            Some(Place::Part(part)) if part.kind == PartKind::Beam => self.expect_forces(part, name),
             Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
             Some(Place::Part(part)) => Some((ExpectAt::Part(part), quantities_of(part.kind))),
             Some(place) => {
@@ -280,7 +283,20 @@ impl<'d> Expects<'_, 'd> {
         Some((ExpectAt::Shells(start, end), columns))
     }
 
-    /// A line that yields; counted as [`ExpectAt::Elements`] counts.
+    /// A beam; one with errors, which have been reported, has no part.
+    fn expect_forces(&mut self, at: PartIndex, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
+        let part = self.scene.parts.entry(at)?.range.start;
+        let beam = self.scene.parts.of(at).first()?;
+        if beam.elements() == 0 {
+            let message = format!("`{}` is rigid, so it has no section forces and no plastic strain", name.value);
+            return self.report.error(&name.span, message);
+        }
+        let mut columns = quantities_of(at.kind);
+        columns.retain(|column| beam.yields() || *column != PLASTIC_STRAIN);
+        Some((ExpectAt::Beam(part), columns))
+    }
+
+    /// A bar that yields; counted as [`ExpectAt::Elements`] counts.
     fn expect_strain(&mut self, at: PartIndex, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
         // A part with errors, which have been reported, would put the count off.
         let mut lines = self.scene.parts.entries().filter(|(part, _)| !part.kind.is_surface());

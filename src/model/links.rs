@@ -110,7 +110,7 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
         words::LinkLaw::Table => {
             report.reject_unused("the law \"table\"", &[stiffness, gap, preload]);
             let points = report.require(owner, "points", &link.points)?;
-            report.rising("elongation", points).map(|points| LinkLaw::Table { points })
+            report.rising("points", "elongation", points).map(|points| LinkLaw::Table { points })
         }
         words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {
             let one_sided = "a law that acts one way only";

@@ -33,7 +33,7 @@ pub(super) fn loads<'d>(
     for load in &scene.deck.loads {
         let first = [loads.nodal.len(), loads.pressures.len()];
         let amplitude = amplitude(scene, load, report);
-        if load.force_per_length.is_some() || load.force_per_area.is_some() || load.pressure.is_some() {
+        if is_spread(load) {
             let (nodal, pressure) = spread_load(scene, load, amplitude, topology, report);
             loads.nodal.extend(nodal);
             loads.pressures.extend(pressure);
@@ -50,6 +50,12 @@ pub(super) fn loads<'d>(
     loads
 }
 
+/// True for a load that is spread over parts or edges.
+fn is_spread(load: &words::Load) -> bool {
+    let over_lines = load.force_per_length.is_some() || load.local.is_some();
+    over_lines || load.force_per_area.is_some() || load.pressure.is_some()
+}
+
 fn nodal_load<'d>(
     scene: &Scene<'d>,
     load: &'d At<Table<words::Load>>,
@@ -58,16 +64,21 @@ fn nodal_load<'d>(
     report: &mut Report<'d>,
 ) -> Vec<Load> {
     let owner = Owner::new("`[[loads]]`", &load.span);
-    let spots = scene.spots(&owner, "at", &load.at, Reach::Nodes, report);
+    // Of a load that names a part in place of nodes this alone is said.
+    let names_part = load.part.is_some() && load.at.is_none();
+    let spots = if names_part { Vec::new() } else { scene.spots(&owner, "at", &load.at, Reach::Nodes, report) };
     let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
-    let keys = ["force", "moment", "force_per_length", "force_per_area", "pressure"];
+    let keys = ["force", "moment", "force_per_length", "local", "force_per_area", "pressure"];
+    let unused = [("part", span(&load.part)), ("projected", span(&load.projected)), ("profile", span(&load.profile))];
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
     if load.force.is_none() && load.moment.is_none() && !unread {
         report.error_with::<()>(
             owner.span,
             "this load is empty",
-            "give it `force` or `moment`; of shells also `pressure`, `force_per_area` or `force_per_length`",
+            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`",
         );
+    } else if !unread {
+        report.reject_unused("a load at nodes", &unused);
     }
     let follower = flag(&load.follower, false);
     let mut loads = Vec::new();
@@ -83,7 +94,7 @@ fn nodal_load<'d>(
                 report.error_with::<()>(place, message, "bars, springs and point masses have no rotations");
             }
         }
-        loads.push(Load { node: spot.node, force, moment, follower, amplitude });
+        loads.push(Load { node: spot.node, force, moment, follower, amplitude, along: None });
     }
     loads
 }

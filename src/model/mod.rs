@@ -33,6 +33,7 @@ mod groups;
 mod initial;
 mod initial_given;
 mod joints;
+mod line_loads;
 mod links;
 mod loads;
 mod masses;

@@ -5,7 +5,7 @@ use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::flag;
 use crate::deck::output as words;
-use crate::deck::words::Table;
+use crate::deck::words::{FlagOrTable, Table};
 use crate::diagnostic::At;
 
 /// Files of fields at most, unless the deck says how many.
@@ -36,6 +36,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             contacts: false,
             reactions: false,
             sections: false,
+            section_places: words::SectionPlaces::Points,
             layers: false,
             parts: false,
             joints: false,
@@ -61,6 +62,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             None => Cadence::at_most(MOST_FIELDS, end_time, &scene.analysis.step_length),
         }
     });
+    let (sections, section_places) = sections(table, report);
     let output = Output {
         units,
         nodes,
@@ -70,7 +72,8 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         links: flag(&table.links, false),
         contacts: flag(&table.contacts, false),
         reactions: flag(&table.reactions, false),
-        sections: flag(&table.sections, false),
+        sections,
+        section_places,
         layers: flag(&table.layers, false),
         parts: flag(&table.parts, false),
         joints: flag(&table.joints, false),
@@ -107,6 +110,19 @@ fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, repo
     let mut nodes: Vec<usize> = spots.iter().map(|spot| spot.node).filter(|&node| !is_body(scene, node)).collect();
     nodes.sort_unstable();
     nodes
+}
+
+/// Whether stress resultants are written, and where in beams.
+fn sections<'d>(table: &'d words::Output, report: &mut Report<'d>) -> (bool, words::SectionPlaces) {
+    let Some(sections) = &table.sections else { return (false, words::SectionPlaces::Points) };
+    match &sections.value {
+        FlagOrTable::Flag(flag) => (*flag, words::SectionPlaces::Points),
+        FlagOrTable::Table(places) => {
+            let owner = Owner::new("`sections`", &sections.span);
+            let places = report.require(&owner, "at", &places.at);
+            (true, places.map_or(words::SectionPlaces::Points, |places| places.value))
+        }
+    }
 }
 
 fn cadence(table: &words::Output, end_time: f64, is_arc_length: bool, report: &mut Report) -> Cadence {

@@ -180,13 +180,13 @@ impl<'d> Report<'d> {
         unit.or_else(|| self.error(&value.span, format!("`{key}` must not be zero")))
     }
 
-    /// A table of two points or more whose first numbers, of the quantity `what`, increase.
-    pub fn rising(&mut self, what: &str, points: &At<Vec<At<Numbers<2>>>>) -> Option<Vec<[f64; 2]>> {
+    /// The table `key` of two points or more whose first numbers, of the quantity `what`, increase.
+    pub fn rising(&mut self, key: &str, what: &str, points: &At<Vec<At<Numbers<2>>>>) -> Option<Vec<[f64; 2]>> {
         if points.len() < 2 {
-            return self.error(&points.span, "`points` needs two points or more");
+            return self.error(&points.span, format!("`{key}` needs two points or more"));
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[1].0[0] <= pair[0].0[0]) {
-            let message = format!("`points` must increase in {what}");
+            let message = format!("`{key}` must increase in {what}");
             return self.error_with(&pair[1].span, message, format!("the one before is at {}", pair[0].0[0]));
         }
         Some(points.iter().map(|point| point.0).collect())

@@ -1,13 +1,14 @@
-//! `[[loads]]` spread over shells and along their edges.
+//! `[[loads]]` spread over shells, along their edges, and along beams and bars.
 
-use super::data::{Load, Pressure};
+use super::data::{Load, Part, PartKind, Pressure};
+use super::line_loads::{LineLoad, is_chain};
 use super::nodes::Topology;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::shell_edges::{Edge, edges_of_shells};
 use super::spot::Spot;
-use super::values::{span, vec3_or_zero};
+use super::values::{flag, span, vec3, vec3_or_zero};
 use crate::deck::loads as words;
 use crate::deck::parts::PartIndex;
 use crate::deck::words::Table;
@@ -17,7 +18,7 @@ use crate::elements::shell;
 use crate::math::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// A load spread over edges or shells, as forces on their nodes; a pressure that follows, as one on their faces.
+/// A load spread over shells, edges or lines, as forces on their nodes; a pressure that follows, as one on their faces.
 pub(super) fn spread_load<'d>(
     scene: &Scene<'d>,
     load: &'d At<Table<words::Load>>,
@@ -27,29 +28,38 @@ pub(super) fn spread_load<'d>(
 ) -> (Vec<Load>, Option<Pressure>) {
     let owner = Owner::new("`[[loads]]`", &load.span);
     let unused = [("force", span(&load.force)), ("moment", span(&load.moment))];
-    report.reject_unused("a load spread over shells", &unused);
+    report.reject_unused("a spread load", &unused);
     let follower = load.follower.as_ref().filter(|follower| follower.value);
     if let Some(at) = follower
-        && (load.force_per_length.is_some() || load.force_per_area.is_some())
+        && load.force_per_area.is_some()
     {
         let hint = "give the load that keeps its direction a `[[loads]]` of its own";
         report.error_with::<()>(&at.span, "of loads spread over shells only `pressure` can follow", hint);
     }
-    let Some(names) = report.require_nodes(&owner, "at", &load.at) else { return (Vec::new(), None) };
+    let key = if load.part.is_some() { "part" } else { "at" };
+    if let (Some(_), Some(part)) = (&load.at, &load.part) {
+        report.error::<()>(&part.span, "a load takes `at` or `part`, not both");
+    }
+    let names = if load.part.is_some() { &load.part } else { &load.at };
+    let Some(names) = report.require_nodes(&owner, key, names) else { return (Vec::new(), None) };
     if names.values.is_empty() {
-        report.error::<()>(&names.span, "`at` is empty");
+        report.error::<()>(&names.span, format!("`{key}` is empty"));
     }
     let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
+    let line = line_load(load, amplitude, report);
     let mut spread = Spread {
-        line: load.force_per_length.as_ref().map(|_| vec3_or_zero(&load.force_per_length)),
+        words: load,
+        lines: if line.is_some() { elements_by_ends(&scene.parts.list) } else { HashMap::new() },
+        edges: if line.is_some() { edges_of_shells(&scene.parts.list) } else { HashMap::new() },
+        line,
         area: vec3_or_zero(&load.force_per_area),
         pressure,
         follows: follower.is_some(),
         scene,
         topology,
-        edges: if load.force_per_length.is_some() { edges_of_shells(&scene.parts.list) } else { HashMap::new() },
         forces: BTreeMap::new(),
         faces: Vec::new(),
+        shares: Vec::new(),
     };
     // A part named twice is loaded once, like nodes.
     let mut seen = HashSet::new();
@@ -59,15 +69,75 @@ pub(super) fn spread_load<'d>(
             spread.over(place, name, report);
         }
     }
-    let load = |(node, [force, moment]): (usize, [Vec3; 2])| Load { node, force, moment, follower: false, amplitude };
+    let load = |(node, [force, moment]): (usize, [Vec3; 2])| Load {
+        node,
+        force,
+        moment,
+        follower: false,
+        amplitude,
+        along: None,
+    };
     let faces = spread.faces;
     let pressure = if faces.is_empty() { None } else { Some(Pressure { faces, pressure, amplitude }) };
-    (spread.forces.into_iter().map(load).collect(), pressure)
+    (spread.forces.into_iter().map(load).chain(spread.shares).collect(), pressure)
+}
+
+/// Reads a load per length; `None` where it is one over areas.
+fn line_load(load: &words::Load, amplitude: Option<usize>, report: &mut Report) -> Option<LineLoad> {
+    let given = load.force_per_length.as_ref().or(load.local.as_ref());
+    let keys = [("projected", span(&load.projected)), ("profile", span(&load.profile))];
+    if given.is_none() {
+        report.reject_unused("a load over areas", &keys);
+    } else if let Some(at) = [span(&load.pressure), span(&load.force_per_area)].into_iter().flatten().next() {
+        report.error::<()>(at, "a load acts per length or per area, not both: give each a `[[loads]]` of its own");
+    }
+    if let (Some(_), Some(local)) = (&load.force_per_length, &load.local) {
+        report.error::<()>(&local.span, "a load takes `force_per_length` or `local`, not both");
+    }
+    if let (Some(_), Some(projected)) = (&load.local, &load.projected) {
+        report.error::<()>(&projected.span, "a load in section axes has no projected length");
+    }
+    let profile = load.profile.as_ref().and_then(|points| report.rising("profile", "fractions of the length", points));
+    let outside = |points: &&Vec<[f64; 2]>| points.iter().any(|point| !(0.0..=1.0).contains(&point[0]));
+    if let (Some(at), Some(_)) = (&load.profile, profile.as_ref().filter(outside)) {
+        report.error::<()>(&at.span, "the fractions of `profile` lie between 0, the start of the part, and 1, its end");
+    }
+    given.map(|given| LineLoad {
+        force: vec3(given),
+        local: load.local.is_some(),
+        projected: flag(&load.projected, false),
+        follower: flag(&load.follower, false),
+        profile: profile.unwrap_or_else(|| vec![[0.0, 1.0], [1.0, 1.0]]),
+        amplitude,
+    })
+}
+
+/// The elements of beams and bars by their end nodes, in ascending order.
+fn elements_by_ends(parts: &[Part]) -> HashMap<[usize; 2], (usize, usize)> {
+    let is_line = |part: &&Part| matches!(part, Part::Beam(_) | Part::Bar(_));
+    let mut found = HashMap::new();
+    for (index, part) in parts.iter().enumerate().filter(|(_, part)| is_line(part)) {
+        for element in 0..part.elements() {
+            if let [a, .., b] = *part.nodes(element) {
+                found.entry([a.min(b), a.max(b)]).or_insert((index, element));
+            }
+        }
+    }
+    found
+}
+
+/// True for a beam or a bar.
+fn is_line(part: PartIndex) -> bool {
+    part.kind.is_deformable() && !part.kind.is_surface()
 }
 
 struct Spread<'a, 'd> {
-    /// Force per length; `None` for a load over areas.
-    line: Option<Vec3>,
+    /// The load as the deck gives it.
+    words: &'d words::Load,
+    /// A load per length; `None` for one over areas.
+    line: Option<LineLoad>,
+    /// Elements of beams and bars by their ends, for a load per length.
+    lines: HashMap<[usize; 2], (usize, usize)>,
     /// Force per area.
     area: Vec3,
     pressure: f64,
@@ -80,31 +150,44 @@ struct Spread<'a, 'd> {
     /// Force and moment by node.
     forces: BTreeMap<usize, [Vec3; 2]>,
     faces: Vec<Face>,
+    /// Shares on the nodes of beams and bars.
+    shares: Vec<Load>,
 }
 
 impl<'d> Spread<'_, 'd> {
     fn over(&mut self, place: Place, name: &'d At<String>, report: &mut Report<'d>) {
-        match (place, self.line) {
-            (Place::Edge(surface, edge), Some(line)) => {
+        match (place, &self.line) {
+            (Place::Edge(surface, edge), Some(_)) => {
                 let entry = self.scene.parts.entry(surface);
                 let nodes = entry.and_then(|entry| entry.edges.get(edge)).map_or(&[][..], |nodes| nodes);
-                nodes.windows(2).for_each(|pair| self.along([pair[0], pair[1]], line));
+                if self.acts_on_edges(name, report) {
+                    nodes.windows(2).for_each(|pair| self.along([pair[0], pair[1]]));
+                }
             }
-            (Place::Group(_) | Place::Set(_), Some(line)) => {
-                for pair in line_of(self.scene, place, name, self.topology, report) {
-                    if !self.is_loose(pair, name, report) {
-                        self.along(pair, line);
+            (Place::Part(part), Some(_)) if is_line(part) => self.along_part(part, name, report),
+            (Place::Set(_), Some(_)) if self.is_of_lines(place) => {
+                for leaf in self.scene.names.leaves(place) {
+                    if let Place::Part(part) = leaf {
+                        self.along_part(part, name, report);
                     }
                 }
+            }
+            (Place::Group(_) | Place::Set(_), Some(_)) => {
+                let pairs = line_of(self.scene, place, name, self.topology, report);
+                self.along_segments(&pairs, name, report);
             }
             _ => match self.scene.names.surface_of(place) {
                 Some(surface) if self.line.is_none() => self.over_surface(surface),
                 _ => {
-                    let what = if self.line.is_some() { "edges of shells" } else { "shells" };
+                    let what = if self.line.is_some() { "beams, bars and edges of shells" } else { "shells" };
                     let message = format!("this load acts on {what}, and `{}` is {}", name.value, place.kind());
                     match place {
-                        Place::Part(part) if part.kind.is_deformable() && !part.kind.is_surface() => {
-                            let hint = "beams and bars take forces at points along them; gravity acts by itself";
+                        Place::Part(part) if is_line(part) => {
+                            let hint = "beams and bars take `force_per_length`; gravity acts by itself";
+                            report.error_with::<()>(&name.span, message, hint);
+                        }
+                        Place::Body(_) => {
+                            let hint = "a rigid part takes the `force` and `moment` of the whole load";
                             report.error_with::<()>(&name.span, message, hint);
                         }
                         _ => {
@@ -116,6 +199,77 @@ impl<'d> Spread<'_, 'd> {
         }
     }
 
+    /// True where a set is one of beams and bars alone.
+    fn is_of_lines(&self, set: Place) -> bool {
+        let leaves = self.scene.names.leaves(set);
+        !leaves.is_empty() && leaves.iter().all(|leaf| matches!(leaf, Place::Part(part) if is_line(*part)))
+    }
+
+    /// Distributes a load per length over a beam or bar; over one that is rigid in equal halves to the ends of its elements.
+    fn along_part(&mut self, at: PartIndex, name: &'d At<String>, report: &mut Report<'d>) {
+        let Some(line) = &self.line else { return };
+        let parts = &self.scene.parts;
+        let Some(entry) = parts.entry(at) else { return };
+        if entry.rigid_elements.is_some() {
+            if self.acts_on_edges(name, report) {
+                parts.elements(at).iter().for_each(|nodes| self.along([nodes[0], nodes[nodes.len() - 1]]));
+            }
+            return;
+        }
+        if at.kind == PartKind::Bar {
+            let without = [("local", span(&self.words.local)), ("follower", span(&self.words.follower))];
+            report.reject_unused("a load on a bar, which has no axes", &without);
+        }
+        for index in entry.range.clone() {
+            let part = &parts.list[index];
+            if let Some(at) = self.words.profile.as_ref().filter(|_| !is_chain(part)) {
+                let hint = "its elements come from a group of the mesh in an order of their own";
+                let message = format!("`profile` goes along a line, and the elements of `{}` are none", name.value);
+                report.error_with::<()>(&at.span, message, hint);
+            }
+            self.shares.extend(line.over_part(part, index, (self.topology, &parts.stiffnesses)));
+        }
+    }
+
+    /// Distributes a load per length over segments of a group: elements of beams and bars, edges of shells.
+    fn along_segments(&mut self, pairs: &[[usize; 2]], name: &'d At<String>, report: &mut Report<'d>) {
+        let Some(line) = &self.line else { return };
+        let parts = &self.scene.parts;
+        let scene = (self.topology, &parts.stiffnesses[..]);
+        let mut edges = Vec::new();
+        for &[a, b] in pairs {
+            let ends = [a.min(b), a.max(b)];
+            match self.lines.get(&ends).filter(|_| !self.edges.contains_key(&ends)) {
+                Some(&along) => self.shares.extend(line.over_element(&parts.list[along.0], along, scene)),
+                None => edges.push([a, b]),
+            }
+        }
+        let without = [("profile", span(&self.words.profile))];
+        report.reject_unused("a load on segments of a group", &without);
+        if edges.is_empty() || !self.acts_on_edges(name, report) {
+            return;
+        }
+        for pair in edges {
+            if !self.is_loose(pair, name, report) {
+                self.along(pair);
+            }
+        }
+    }
+
+    /// False where the load takes what only beams have, which is said.
+    fn acts_on_edges(&self, name: &'d At<String>, report: &mut Report<'d>) -> bool {
+        let words = self.words;
+        let follower = words.follower.as_ref().filter(|follower| follower.value).map(|at| &at.span);
+        let keys =
+            [("local", span(&words.local)), ("projected", span(&words.projected)), ("profile", span(&words.profile))];
+        let wrong = keys.into_iter().chain([("follower", follower)]).find_map(|(key, at)| Some((key, at?)));
+        let Some((key, at)) = wrong else { return true };
+        let message =
+            format!("`{key}` of a load per length is for beams, and `{}` holds edges or rigid parts", name.value);
+        report.error_with::<()>(at, message, "give the load of the edges a `[[loads]]` of its own");
+        false
+    }
+
     /// True where one of two nodes, which a list brought in under a name, is loose.
     fn is_loose(&self, pair: [usize; 2], name: &'d At<String>, report: &mut Report<'d>) -> bool {
         let spot = |node| Spot { node, name: self.scene.label(node, name), span: &name.span, direct: false };
@@ -124,7 +278,8 @@ impl<'d> Spread<'_, 'd> {
 
     /// Distributes the force on a segment to its ends in equal halves. The edge of a shell bulges by ½ r (1 − r) L (θ_a − θ_b) in
     /// its surface, on which the load does work too: moments about the normal at the ends, opposite to each other.
-    fn along(&mut self, pair: [usize; 2], line: Vec3) {
+    fn along(&mut self, pair: [usize; 2]) {
+        let Some(line) = self.line.as_ref().map(|line| line.force) else { return };
         let along = self.topology.x(pair[1]) - self.topology.x(pair[0]);
         let edge = self.edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]);
         let moment = edge.map_or_else(Vec3::zeros, |edge| {
@@ -196,7 +351,11 @@ fn line_of(
         report.error_with::<()>(&name.span, message, "name the nodes along one line");
     } else if edges.is_empty() && topology.is_complete() {
         let message = format!("no edge of a shell lies between two nodes of `{}`", name.value);
-        report.error_with::<()>(&name.span, message, "a load per length acts along edges of shells or segments");
+        report.error_with::<()>(
+            &name.span,
+            message,
+            "a load per length acts along beams, bars, edges of shells or segments",
+        );
     }
     edges.into_iter().map(|edge| edge.0).collect()
 }

@@ -1,7 +1,7 @@
 //! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
 //! names the parts that the grids number.
 //!
-//! Cells carry the number of their part, the largest plastic strain where anything yields, and where there are shells their
+//! Points of beams carry section forces and moments, which are zero at other points. Cells carry the number of their part, the largest plastic strain where anything yields, and where there are shells their
 //! stress resultants with axis 1, zero on other cells.
 //!
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
@@ -11,7 +11,7 @@ use super::disk::{at, create, replace};
 use super::run_list::RunList;
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
-use crate::model::{Drawing, Model, Part};
+use crate::model::{Drawing, Model, Part, PartKind};
 use crate::snapshot::keep;
 use crate::solids::outline::OutlineCell;
 use crate::solve::{Frame, ShellState};
@@ -134,8 +134,9 @@ pub fn bytes(model: &Model) -> usize {
     let Grid { places, connectivity, offsets, .. } = Grid::of(model);
     let cells = offsets.len();
     let of_shells = if model.has_surfaces() { 13 } else { 0 };
-    let numbers = 21 * places.len() + connectivity.len() + cells * (2 + of_shells + usize::from(model.yields()));
-    let arrays = if model.has_surfaces() { 18 } else { 12 };
+    let of_points = if model.has(PartKind::Beam) { 27 } else { 21 };
+    let numbers = of_points * places.len() + connectivity.len() + cells * (2 + of_shells + usize::from(model.yields()));
+    let arrays = if model.has_surfaces() { 18 } else { 12 } + if model.has(PartKind::Beam) { 2 } else { 0 };
     (8 * numbers + cells) * 4 / 3 + arrays * ARRAY + ENDS
 }
 
@@ -368,21 +369,7 @@ impl Fields {
         text.push_str("</FieldData>\n");
         text.push_str(&self.piece);
 
-        let (places, start, now) = (&self.places, &frame.model.nodes, &frame.state.nodes);
-        let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
-            vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
-        };
-        let arm = |p: &Place| now[p.node].R() * p.arm;
-        text.push_str("<PointData>\n");
-        vectors(text, "displacement", &|p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
-        vectors(text, "velocity", &|p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
-        vectors(text, "rotation", &|p| rotation::log(&now[p.node].rotation));
-        for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
-            vectors(text, name, &|p| now[p.node].R() * p.axes.column(axis));
-        }
-        text.push_str("</PointData>\n<Points>\n");
-        vectors(text, "Points", &|p| now[p.node].x + arm(p));
-        text.push_str("</Points>\n");
+        write_points(text, bytes, &self.places, frame);
         text.push_str("<CellData>\n");
         text.push_str(&self.parts);
         if !frame.derived.plastic_strains.is_empty() {
@@ -423,6 +410,35 @@ impl Fields {
         let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.marked.listed);
         replace(&self.dir.join("fields.pvd"), list.as_bytes())
     }
+}
+
+/// Writes the points of a grid, and what they carry.
+fn write_points(text: &mut String, bytes: &mut Vec<u8>, places: &[Place], frame: &Frame) {
+    let (start, now) = (&frame.model.nodes, &frame.state.nodes);
+    let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
+        vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
+    };
+    let arm = |p: &Place| now[p.node].R() * p.arm;
+    text.push_str("<PointData>\n");
+    vectors(text, "displacement", &|p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
+    vectors(text, "velocity", &|p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
+    vectors(text, "rotation", &|p| rotation::log(&now[p.node].rotation));
+    for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
+        vectors(text, name, &|p| now[p.node].R() * p.axes.column(axis));
+    }
+    // Points of beams come first.
+    let resultants = &frame.derived.nodal_resultants;
+    for (first, name) in [(0, "section_force"), (3, "section_moment")].into_iter().filter(|_| !resultants.is_empty()) {
+        let zeros = std::iter::repeat_n(0.0, 3 * places.len().saturating_sub(resultants.len()));
+        let values = resultants.iter().flat_map(|all| all[first..first + 3].iter().copied()).chain(zeros);
+        vtu::array(text, bytes, name, 3, values.take(3 * places.len()));
+    }
+    let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
+        vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
+    };
+    text.push_str("</PointData>\n<Points>\n");
+    vectors(text, "Points", &|p| now[p.node].x + arm(p));
+    text.push_str("</Points>\n");
 }
 
 /// The beginning of fields.pvd.

@@ -8,7 +8,7 @@ use super::table::{TableKind, WriteRows};
 use super::table_file::{EmptyFields, TableFile, TableMark};
 use super::table_size::size_in_words;
 use super::tables::TABLES;
-use crate::model::{Cadence, Model, When};
+use crate::model::{Cadence, Model, PartKind, When};
 use crate::names::instant;
 use crate::plan::Plan;
 use crate::snapshot::keep;
@@ -225,7 +225,7 @@ fn in_words(cadence: Cadence) -> String {
 /// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
-    let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS);
+    let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS);
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
         When::Max | When::Min | When::Abs => needs(expect.at).at_every_step(),
@@ -233,5 +233,6 @@ pub fn wanted(model: &Model) -> Wanted {
     });
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
+    let all = if model.has(PartKind::Beam) { all } else { all.without(Wanted::NODAL_RESULTANTS) };
     if model.has_surfaces() { all } else { all.without(Wanted::SHELLS) }
 }

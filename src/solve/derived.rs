@@ -6,7 +6,9 @@ use crate::model::Model;
 use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::energy::{self, Energy, PartEnergy};
-use crate::system::{ContactState, JointState, LinkState, SectionPoint, ShellState, System, results};
+use crate::system::{
+    ContactState, Excitation, JointState, LinkState, Loading, SectionPoint, ShellState, Side, System, results,
+};
 use std::ops::BitOr;
 
 /// A set of derived quantities, those that the observer needs; others are not computed. The upper half of the bits has
@@ -38,8 +40,10 @@ impl Wanted {
     pub const SHELLS: Wanted = Wanted(1 << 8);
     /// Modes about the state at the end of the run.
     pub const MODES: Wanted = Wanted(1 << 9);
+    /// Stress resultants at the nodes of beams, for fields.
+    pub const NODAL_RESULTANTS: Wanted = Wanted(1 << 10);
     /// All quantities.
-    pub const ALL: Wanted = Wanted((1 << 10) - 1);
+    pub const ALL: Wanted = Wanted((1 << 11) - 1);
 
     /// True where all of `what` is in the set.
     pub const fn has(self, what: Wanted) -> bool {
@@ -102,15 +106,21 @@ pub struct Derived {
     /// Stress resultants of all shell elements in deck order. They are computed for fields too, when tables are not
     /// due.
     pub shells: Vec<ShellState>,
-    /// Stress resultants at all integration points of all beams in deck order.
+    /// N, V_y, V_z, T, M_y, M_z at each node of each element of all beams in deck order, for fields alone.
+    pub nodal_resultants: Vec<[f64; 6]>,
+    /// Stress resultants of all beams in deck order.
     pub sections: Vec<SectionPoint>,
     /// Elastic energies of all beams, bars and shells in deck order.
     pub parts: Vec<PartEnergy>,
+    /// The loads at the instant, by which ends of beams are in balance.
+    pub loading: Loading,
     /// What all steps took since tables were due before, this one included.
     pub effort: Effort,
 }
 
-keep!(Derived { effort } without { energy, links, joints, contacts, plastic_strains, shells, sections, parts });
+keep!(Derived { effort } without {
+    energy, links, joints, contacts, plastic_strains, shells, nodal_resultants, sections, parts, loading,
+});
 
 /// The request for the derived quantities of one accepted step.
 pub struct Request<'a> {
@@ -118,8 +128,12 @@ pub struct Request<'a> {
     pub model: &'a Model,
     /// The system of equations.
     pub system: &'a System,
+    /// Loads as functions of time.
+    pub excitation: &'a Excitation<'a>,
     /// The state at the end of the step.
     pub state: &'a State,
+    /// True for the state at the beginning of a run or stage.
+    pub begins: bool,
     /// True where tables are due.
     pub due: bool,
     /// True where fields are drawn.
@@ -142,7 +156,7 @@ impl Derived {
     /// Computes what is wanted of this step and empties the rest.
     pub fn compute(&mut self, wanted: Wanted, request: &Request) {
         self.clear();
-        let &Request { model, system, state, due, drawn, balance, threads } = request;
+        let &Request { model, system, excitation, state, begins, due, drawn, balance, threads } = request;
         let now = &state.configuration();
         let is_wanted = |what| wanted.has_now(what, due);
         let is_drawn = |what| wanted.has_now(what, due || drawn);
@@ -151,6 +165,9 @@ impl Derived {
         }
         if is_drawn(Wanted::SHELLS) {
             results::shell_states(system, model, now, &mut self.shells);
+        }
+        if drawn && wanted.has(Wanted::NODAL_RESULTANTS) {
+            results::nodal_resultants(system, model, now, &mut self.nodal_resultants);
         }
         if is_wanted(Wanted::ENERGY) {
             self.energy = Some(Energy::of(system, state, balance, threads));
@@ -165,7 +182,9 @@ impl Derived {
             system.contact_states(model, now, &mut self.contacts);
         }
         if is_wanted(Wanted::SECTIONS) {
-            results::section_points(system, model, now, &mut self.sections);
+            // What begins acts already at the beginning, and jumps at the end of a step come after it.
+            excitation.loading(state.time, if begins { Side::After } else { Side::Before }, &mut self.loading);
+            results::section_points(system, model, (now, &self.loading), &mut self.sections);
         }
         if is_wanted(Wanted::PARTS) {
             energy::part_energies(system, model, now, &mut self.parts);
@@ -179,6 +198,7 @@ impl Derived {
         self.contacts.clear();
         self.plastic_strains.clear();
         self.shells.clear();
+        self.nodal_resultants.clear();
         self.sections.clear();
         self.parts.clear();
     }

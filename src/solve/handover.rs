@@ -314,6 +314,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
         moment: -Vec3::new(of[3], of[4], of[5]),
         follower: false,
         amplitude: Some(amplitude),
+        along: None,
     }));
     let ends = [[state.time, 1.0], [model.analysis.end_time, 0.0]];
     model.loading.amplitudes.push(Amplitude::Table(StraightLines::new(ends.to_vec())));

@@ -43,7 +43,7 @@ mod work;
 mod workspace;
 
 pub use crate::system::{ContactState, JointState};
-pub use crate::system::{LinkState, SectionPoint, ShellState};
+pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState};
 pub use contacts::settling_energy;
 pub use derived::{Derived, Wanted};
 pub use effort::Effort;

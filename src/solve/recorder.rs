@@ -192,6 +192,7 @@ impl Recorder {
         // Reading the clock twice costs a twentieth of a step of two bodies.
         let began = (due || drawn).then(Instant::now);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
+        let (excitation, begins) = (&cx.excitation, step.dt == 0.0);
         // The balance is that of the ends of steps, wherever tables are due.
         let instead = std::mem::take(&mut self.looked_inside) && self.wanted.has(Wanted::ENERGY);
         let watched = match () {
@@ -200,7 +201,7 @@ impl Recorder {
             () => Wanted::NOTHING,
         };
         let shown = due || step.compared;
-        let request = Request { model, system, state, due: shown, drawn, balance, threads };
+        let request = Request { model, system, excitation, state, begins, due: shown, drawn, balance, threads };
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
@@ -233,7 +234,9 @@ impl Recorder {
         let step = &AcceptedStep { dt, report, cuts: 0, due, compared, last: false, passed: &[] };
         self.spend(step);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
-        let request = Request { model, system, state, due: due || compared, drawn: false, balance, threads };
+        let (excitation, begins) = (&cx.excitation, step.dt == 0.0);
+        let request =
+            Request { model, system, excitation, state, begins, due: due || compared, drawn: false, balance, threads };
         self.derived.compute(self.wanted, &request);
         self.looked_inside = true;
         let frame = self.frame(cx, ws, state, step, [due, false]);
@@ -262,7 +265,8 @@ impl Recorder {
         let report = &StepReport::begin(0.0);
         let step = &AcceptedStep { dt, report, cuts: 0, due: true, compared: false, last: false, passed: &[] };
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
-        let request = Request { model, system, state, due: true, drawn: false, balance, threads };
+        let (excitation, begins) = (&cx.excitation, step.dt == 0.0);
+        let request = Request { model, system, excitation, state, begins, due: true, drawn: false, balance, threads };
         self.derived.compute(self.wanted, &request);
         observer.on_step(&self.frame(cx, ws, state, step, [true, false])).map_err(Outcome::Io)
     }

@@ -4,6 +4,7 @@ use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::loads::{Loading, load_on};
 use super::multipliers::Multipliers;
+use super::parts::beam_ends::BeamEnds;
 use super::parts::links::{self, LinkElement};
 use super::scale::Scale;
 use super::thread_partition::Partition;
@@ -43,6 +44,8 @@ pub struct System {
     pub(super) loads: Vec<model::Load>,
     /// The follower pressures on faces.
     pub(super) pressures: Vec<model::Pressure>,
+    /// The ends of the elements of beams, where results are wanted there.
+    pub(super) beam_ends: Option<BeamEnds>,
     /// The dampers between nodes and the ground.
     pub(super) nodal_damping: Vec<model::NodalDamping>,
     /// The Rayleigh factor on the mass (per time).
@@ -137,6 +140,7 @@ impl System {
             gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
             plane,
             links: links::elements(model, &x),
+            beam_ends: BeamEnds::wanted(model).then(|| BeamEnds::new(model, &x)),
             loads: model.loading.nodal.clone(),
             pressures: model.loading.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
@@ -158,6 +162,7 @@ impl System {
             rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),
             links: Vec::new(),
+            beam_ends: None,
             loads: Vec::new(),
             pressures: Vec::new(),
             nodal_damping: Vec::new(),

@@ -148,10 +148,10 @@ impl ConsistentMass {
         let n = nodes.len();
         let (at, _) = quadrature::lobatto(n);
         let (points, weights) = quadrature::gauss(n);
-        let shape =
-            |a: usize, xi: f64| -> f64 { (0..n).filter(|&b| b != a).map(|b| (xi - at[b]) / (at[a] - at[b])).product() };
-        let entry =
-            |a, b| points.iter().zip(weights).map(|(&xi, w)| 0.5 * w * shape(a, xi) * shape(b, xi)).sum::<f64>();
+        let shapes: Vec<Vec<f64>> = points.iter().map(|&xi| quadrature::lagrange(at, xi)).collect();
+        let entry = |a: usize, b: usize| {
+            shapes.iter().zip(weights).map(|(shape, w)| 0.5 * w * shape[a] * shape[b]).sum::<f64>()
+        };
         let m = (0..n * n).map(|i| mass * entry(i / n, i % n)).collect();
         ConsistentMass { nodes: nodes.to_vec(), m }
     }

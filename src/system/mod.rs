@@ -38,7 +38,7 @@ pub use inertia::Inertia;
 pub use joints::JointState;
 pub use loads::Loading;
 pub use multipliers::Multipliers;
-pub use parts::beams::SectionPoint;
+pub use parts::beams::{SectionPlace, SectionPoint};
 pub use parts::links::LinkState;
 pub use parts::shells::ShellState;
 pub use scale::Scale;

@@ -1,7 +1,8 @@
 //! The results of elements for output: forces of links, stress resultants of beams and shells.
 
 use super::equations::System;
-use super::parts::beams::{self, SectionPoint};
+use super::loads::Loading;
+use super::parts::beams::{self, EndForces, SectionPoint};
 use super::parts::links::{self, LinkState};
 use super::parts::shells::{self, ShellState};
 use crate::model::Model;
@@ -38,7 +39,19 @@ pub fn shell_states(system: &System, model: &Model, now: &Configuration, out: &m
     shells::shell_states(&system.groups, model, now, out);
 }
 
-/// Writes the stress resultants at all integration points of all beams into `out`, in deck order.
-pub fn section_points(system: &System, model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
-    beams::section_points(&system.groups, model, now, out);
+/// Writes the stress resultants at each node of each element of all beams into `out`, in deck order.
+pub fn nodal_resultants(system: &System, model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
+    beams::nodal_resultants(&system.groups, model, now, out);
+}
+
+/// Writes the stress resultants of all beams into `out`, in deck order, at integration points, and at ends where these are wanted;
+/// `loading` are the loads at the instant.
+pub fn section_points(
+    system: &System,
+    model: &Model,
+    (now, loading): (&Configuration, &Loading),
+    out: &mut Vec<SectionPoint>,
+) {
+    let acting = system.beam_ends.as_ref().map(|ends| EndForces { ends, loads: &system.loads, loading });
+    beams::section_points(&system.groups, model, now, acting, out);
 }

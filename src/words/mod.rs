@@ -3,6 +3,7 @@
 
 mod column_name;
 mod directions;
+mod flag_or_table;
 mod frequencies;
 pub mod kinds;
 mod ladder;
@@ -14,6 +15,7 @@ mod table;
 
 pub use column_name::ColumnName;
 pub use directions::Directions;
+pub use flag_or_table::FlagOrTable;
 pub use frequencies::{Frequencies, FrequencyRange, Spacing};
 pub use ladder::{Ladder, PER_DECADE, Rungs, rungs};
 pub use named::Named;

@@ -81,6 +81,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             contacts: false,
             reactions: true,
             sections: false,
+            section_places: SectionPlaces::Points,
             layers: false,
             parts: false,
             joints: false,
@@ -230,7 +231,7 @@ pub fn fix(m: &mut Model, node: usize, dofs: impl IntoIterator<Item = usize>) {
 }
 
 pub fn push(m: &mut Model, node: usize, force: Vec3, moment: Vec3, follower: bool, amplitude: Option<usize>) {
-    m.loading.nodal.push(Load { node, force, moment, follower, amplitude });
+    m.loading.nodal.push(Load { node, force, moment, follower, amplitude, along: None });
 }
 
 pub fn sine_squared(m: &mut Model, angular_frequency: f64) -> usize {

@@ -11,7 +11,7 @@ use rdsolve::solids::SolidShape;
 use rdsolve::solids::cuboid::SolidCuboid;
 use rdsolve::solids::hollow::HollowCylinder;
 use rdsolve::solids::sphere::SolidSphere;
-use rdsolve::solve::{ContactState, Derived, Effort, Frame, LinkState, SectionPoint};
+use rdsolve::solve::{ContactState, Derived, Effort, Frame, LinkState, SectionPlace, SectionPoint};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
 use std::sync::Arc;
@@ -129,6 +129,7 @@ pub fn model() -> Model {
             contacts: true,
             reactions: true,
             sections: true,
+            section_places: SectionPlaces::Points,
             layers: true,
             parts: false,
             joints: false,
@@ -177,7 +178,7 @@ impl Extras {
         let point = |point| SectionPoint {
             part: 1,
             element: 0,
-            point,
+            place: SectionPlace::Point(point),
             at: IntegrationPoint { s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0], plastic_strain: 0.25 },
         };
         let derived = Derived {

@@ -162,7 +162,8 @@ fn cap(kind: &str, n: usize, plastic: bool, step: f64) -> Model {
             }
         }
     }
-    let load = |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude: None };
+    let load =
+        |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude: None, along: None };
     model.loading.nodal = forces.into_iter().enumerate().map(load).collect();
     model
 }

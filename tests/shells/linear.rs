@@ -94,6 +94,7 @@ fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
         moment: Vec3::zeros(),
         follower: false,
         amplitude: None,
+        along: None,
     };
     model.loading.nodal = forces.iter().enumerate().map(as_load).collect();
     let end = support::node(&model, "end");

@@ -90,7 +90,14 @@ fn straight(kind: &str, shape: &str, [n, across]: [usize; 2], row: &str) -> f64 
             let corner = y.min(0.2 - y) < 1e-9;
             let share = P / across as f64 * if corner { 0.5 } else { 1.0 };
             let (force, moment) = (share * force, share * moment);
-            model.loading.nodal.push(Load { node: index, force, moment, follower: false, amplitude: None });
+            model.loading.nodal.push(Load {
+                node: index,
+                force,
+                moment,
+                follower: false,
+                amplitude: None,
+                along: None,
+            });
         }
         // Bilinear in each published element.
         let k = (x.floor() as usize).min(5);

@@ -1,6 +1,6 @@
 //! Forces, energies and results of beams.
 
-use super::kinematics::Beams;
+use super::kinematics::{Beam, Beams};
 use super::quaternion::{left, right, times_conjugate};
 use super::section::BeamSection;
 use super::tangent::tangent;
@@ -9,6 +9,45 @@ use crate::elements::results::IntegrationPoint;
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node};
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// Internal forces and moments on the nodes of an element, global components.
+    #[inline(always)]
+    fn nodal_forces(&self, element: &Beam<N, S>, now: &Configuration) -> ([Vec3; N], [Vec3; N]) {
+        let nodes = now.nodes;
+        let motion = self.gather(element, nodes);
+        let q = &motion.0;
+        let mut gradient = [[0.0; 4]; N]; // ∂U/∂q_a
+        let mut force = [Vec3::zeros(); N];
+        for g in 0..self.integration_points() {
+            let point = self.interpolate(element, g, &motion);
+            let (mut n, mut m) = element.section.stress(g, &point.gamma, &point.kappa, now);
+            if self.damping > 0.0 {
+                let (gamma_rate, kappa_rate, _) = self.rates(element, g, &point, q, nodes);
+                let (nd, md) = element.section.elastic().stress(&gamma_rate, &kappa_rate);
+                n += self.damping * nd;
+                m += self.damping * md;
+            }
+            // σ·∂ε/∂p = −2 (r′ p n + p′ m + (σ·e) p)/|p|², σ·∂ε/∂p′ = 2 p m/|p|².
+            let sigma_e = n.dot(&(point.gamma + element.tangent)) + m.dot(&point.kappa);
+            let rpn = right(&left(&point.dr, &point.p), &n);
+            let dpm = right(&point.dp, &m);
+            let pm = right(&point.p, &m);
+            let w = self.shape.weight[g] * element.jacobian;
+            let w2 = 2.0 * point.inv * w;
+            let n_global = point.R * n;
+            for a in 0..N {
+                let value = -w2 * self.shape.value[g][a];
+                let slope = w2 * self.shape.slope[g][a] / element.jacobian;
+                for k in 0..4 {
+                    gradient[a][k] += value * (rpn[k] + dpm[k] + sigma_e * point.p[k]) + slope * pm[k];
+                }
+                force[a] += (self.shape.weight[g] * self.shape.slope[g][a]) * n_global;
+            }
+        }
+        (force, std::array::from_fn(|a| 0.5 * times_conjugate(&gradient[a], &q[a]).1))
+    }
+}
 
 impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     fn len(&self) -> usize {
@@ -32,44 +71,22 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        let nodes = now.nodes;
         for element in &self.elements {
-            let motion = self.gather(element, nodes);
-            let q = &motion.0;
-            let mut gradient = [[0.0; 4]; N]; // ∂U/∂q_a
-            let mut force = [Vec3::zeros(); N];
-            for g in 0..self.integration_points() {
-                let point = self.interpolate(element, g, &motion);
-                let (mut n, mut m) = element.section.stress(g, &point.gamma, &point.kappa, now);
-                if self.damping > 0.0 {
-                    let (gamma_rate, kappa_rate, _) = self.rates(element, g, &point, q, nodes);
-                    let (nd, md) = element.section.elastic().stress(&gamma_rate, &kappa_rate);
-                    n += self.damping * nd;
-                    m += self.damping * md;
-                }
-                // σ·∂ε/∂p = −2 (r′ p n + p′ m + (σ·e) p)/|p|², σ·∂ε/∂p′ = 2 p m/|p|².
-                let sigma_e = n.dot(&(point.gamma + element.tangent)) + m.dot(&point.kappa);
-                let rpn = right(&left(&point.dr, &point.p), &n);
-                let dpm = right(&point.dp, &m);
-                let pm = right(&point.p, &m);
-                let w = self.shape.weight[g] * element.jacobian;
-                let w2 = 2.0 * point.inv * w;
-                let n_global = point.R * n;
-                for a in 0..N {
-                    let value = -w2 * self.shape.value[g][a];
-                    let slope = w2 * self.shape.slope[g][a] / element.jacobian;
-                    for k in 0..4 {
-                        gradient[a][k] += value * (rpn[k] + dpm[k] + sigma_e * point.p[k]) + slope * pm[k];
-                    }
-                    force[a] += (self.shape.weight[g] * self.shape.slope[g][a]) * n_global;
-                }
-            }
+            let (force, moment) = self.nodal_forces(element, now);
             for a in 0..N {
                 let f = &mut F[element.nodes[a]];
                 subtract(f, 0, &force[a]);
-                subtract(f, 3, &(0.5 * times_conjugate(&gradient[a], &q[a]).1));
+                subtract(f, 3, &moment[a]);
             }
         }
+    }
+
+    fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {
+        let (force, moment) = self.nodal_forces(&self.elements[e], now);
+        Some([0, N - 1].map(|a| {
+            let (f, m) = (force[a], moment[a]);
+            [f.x, f.y, f.z, m.x, m.y, m.z]
+        }))
     }
 
     fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {

@@ -25,7 +25,7 @@ mod tangent;
 pub use build::{BeamGeometry, FibreModel};
 pub use kinematics::Beams;
 pub use section::BeamStiffness;
-pub use shape::{IntegrationRule, MOST_POINTS};
+pub use shape::{IntegrationRule, MOST_POINTS, cubic_deflection};
 
 /// Polynomial order of the elements where the deck does not give it. `scripts/speed.py --orders` measures it: orders 3 and 4
 /// reach a given error in about the same time, within a factor of two either way; below an error of 1e-2, orders 1 and 2 take

@@ -28,6 +28,14 @@ impl IntegrationRule {
     }
 }
 
+/// The deflection of a beam between two nodes less the straight line between them, at a fraction s of its length: for each node per
+/// displacement across the axis, and per rotation and length. `phi` is 12EI/(GA h²), the part of shear (Timoshenko's beam).
+pub fn cubic_deflection(s: f64, phi: f64) -> [[f64; 2]; 2] {
+    let (r, bulge) = (1.0 - s, s * (1.0 - s) * (1.0 - 2.0 * s));
+    let shear = 0.5 * phi * s * r;
+    [[bulge, s * r * r + shear], [-bulge, -s * s * r - shear]].map(|of_node| of_node.map(|value| value / (1.0 + phi)))
+}
+
 /// The Lagrange polynomials of the N nodes, which are Lobatto points, at the integration points.
 #[derive(Debug, Clone)]
 pub(super) struct ShapeFunctions<const N: usize> {

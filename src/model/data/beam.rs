@@ -6,7 +6,7 @@ use super::part_answers::{Drawing, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::elements::beam::FibreModel;
 use crate::math::{Mat3, Vec3, quadrature};
-use crate::quantities::{Column, PLASTIC_STRAIN};
+use crate::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES};
 use crate::sections::Stiffness;
 
 /// A line of nodes, cut into elements with one or more inner nodes.
@@ -41,7 +41,7 @@ pub struct BeamElement {
 }
 
 impl PartAnswers for Beam {
-    const QUANTITIES: &'static [&'static [Column]] = &[&[PLASTIC_STRAIN]];
+    const QUANTITIES: &'static [&'static [Column]] = &[&SECTION_FORCES, &[PLASTIC_STRAIN]];
 
     fn name(&self) -> &str {
         &self.name
@@ -99,7 +99,9 @@ impl PartAnswers for Beam {
         for element in &self.elements {
             let nodes = &element.nodes[..=self.order];
             places.extend(
-                between.iter().map(|&xi| nodes.iter().copied().zip(lagrange(at_nodes, xi)).collect::<NodeWeights>()),
+                between
+                    .iter()
+                    .map(|&xi| nodes.iter().copied().zip(quadrature::lagrange(at_nodes, xi)).collect::<NodeWeights>()),
             );
         }
         places
@@ -133,10 +135,4 @@ impl BeamElement {
     pub fn ends(&self, order: usize) -> [usize; 2] {
         [self.nodes[0], self.nodes[order]]
     }
-}
-
-/// The polynomials of nodes at ξ.
-fn lagrange(nodes: &[f64], xi: f64) -> Vec<f64> {
-    let others = |a: usize| (0..nodes.len()).filter(move |&b| b != a);
-    (0..nodes.len()).map(|a| others(a).map(|b| (xi - nodes[b]) / (nodes[a] - nodes[b])).product()).collect()
 }

@@ -43,6 +43,9 @@ pub enum ExpectAt {
     Joint(usize),
     /// Largest values over the shells from one place in [`Model::parts`] to before another: of von Mises stress and plastic strain.
     Shells(usize, usize),
+    /// A beam by its place in [`super::Model::parts`]: of forces and moments in its sections those of the largest magnitude, and its largest
+    /// plastic strain.
+    Beam(usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),
 }

@@ -47,6 +47,8 @@ pub struct Load {
     pub follower: bool,
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
+    /// The part, by its index in [`super::Model::parts`], and its element, along which the load that this is a share of is spread.
+    pub along: Option<(usize, usize)>,
 }
 
 /// Follower pressure: it acts on the current area of faces, against their current normals.

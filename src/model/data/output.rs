@@ -1,6 +1,7 @@
 //! The output of a run.
 
 use super::step_length::StepLength;
+use crate::deck::output::SectionPlaces;
 
 /// The tables and fields that the run writes.
 #[derive(Debug, Clone)]
@@ -23,6 +24,8 @@ pub struct Output {
     pub reactions: bool,
     /// True where sections.csv is written.
     pub sections: bool,
+    /// The places of beams that it is about.
+    pub section_places: SectionPlaces,
     /// True where layers.csv is written.
     pub layers: bool,
     /// True where parts.csv is written.

@@ -1,6 +1,6 @@
 //! parts.csv: the elastic energy of each beam, bar and shell.
 
-use crate::model::ExpectAt;
+use crate::model::{ExpectAt, Part};
 use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Column, PLASTIC_STRAIN, Unit};
@@ -30,13 +30,18 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Elements(..) => vec![PLASTIC_STRAIN.name],
+        ExpectAt::Elements(..) | ExpectAt::Beam(_) => vec![PLASTIC_STRAIN.name],
         _ => Vec::new(),
     }
 }
 
 fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Elements(from, to) = at else { return None };
+    let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
+    let (from, to) = match at {
+        ExpectAt::Elements(from, to) => (from, to),
+        ExpectAt::Beam(part) => (elements(&frame.model.parts[..part]), elements(&frame.model.parts[..=part])),
+        _ => return None,
+    };
     frame.derived.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max)
 }
 

@@ -1,15 +1,17 @@
 //! Beams in the equation of motion: their masses and blocks, and the resultants in their sections.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::beam_ends::BeamEnds;
 use super::masses::NodalMasses;
 use crate::elements::beam::{BeamGeometry, Beams, FibreModel};
-use crate::elements::{ElementBlock, IntegrationPoint};
-use crate::math::{Mat3, quadrature};
-use crate::model::{Beam, MassKind, Model, PartType};
+use crate::elements::{ElementBlock, Force, IntegrationPoint};
+use crate::math::{Mat3, Vec3, quadrature};
+use crate::model::{Beam, Load, MassKind, Model, PartType};
 use crate::sections::{self, Stiffness};
 use crate::state::Configuration;
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
+use crate::system::loads::Loading;
 use crate::system::plane::{MotionPlane, SMALL};
 use std::ops::Range;
 
@@ -20,27 +22,44 @@ pub struct SectionPoint {
     pub part: usize,
     /// Number of the element within the beam.
     pub element: usize,
-    /// Number of the integration point within the element.
-    pub point: usize,
+    /// The place in the element.
+    pub place: SectionPlace,
     /// Resultants and strains at the arc length `s` from the beam's start.
     pub at: IntegrationPoint,
 }
 
+/// A place in an element of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectionPlace {
+    /// The first node of the element.
+    Start,
+    /// An integration point by its number.
+    Point(usize),
+    /// The last node of the element.
+    End,
+}
+
+/// What acts along beams, from which the resultants at the ends of their elements follow.
+pub struct EndForces<'a> {
+    /// The ends.
+    pub ends: &'a BeamEnds,
+    /// The loads of the model, ...
+    pub loads: &'a [Load],
+    /// ... and what they are at the instant.
+    pub loading: &'a Loading,
+}
+
 impl Assembled for Beam {
     fn add_masses(&self, stiffnesses: &[Stiffness], masses: &mut NodalMasses) {
-        let (_, weights) = quadrature::lobatto(self.order + 1);
-        for element in &self.elements {
+        for (index, element) in self.elements.iter().enumerate() {
             let nodes = &element.nodes[..=self.order];
-            let section = &stiffnesses[element.section];
-            let length = (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm();
-            let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
-            for (&node, w) in nodes.iter().zip(weights) {
-                let share = 0.5 * w * length;
-                let mass = if masses.has_mass(self.mass, node) { share * section.mass_per_length } else { 0.0 };
-                let keep = self.rotary_inertia && masses.has_rotary_inertia(self.mass, node);
-                masses.lumped.add(node, mass, &if keep { rotary * share } else { Mat3::zeros() });
+            for (a, &node) in nodes.iter().enumerate() {
+                let (mass, inertia) = masses.share_of_beam(self, index, a, stiffnesses);
+                masses.lumped.add(node, mass, &inertia);
             }
             if self.mass == MassKind::Consistent {
+                let section = &stiffnesses[element.section];
+                let length = (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm();
                 masses.consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
             }
         }
@@ -104,10 +123,55 @@ fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
     plane.decouples(&turn(&C.N)) && plane.decouples(&turn(&C.M)) && (!paired || plane.decouples_rotations(&rest))
 }
 
-/// Writes the stress resultants at all integration points of all beams into `out`, in deck order.
-pub fn section_points(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<SectionPoint>) {
+/// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order: polynomials through the
+/// integration points, or through both ends where there is one point.
+pub fn nodal_resultants(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
     out.clear();
-    let mut start = 0.0;
+    for group in groups {
+        let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
+        let now = group.configuration(now);
+        let (at, _) = quadrature::lobatto(beam.order + 1);
+        for e in 0..group.block.len() {
+            let spec = &beam.elements[group.first + e];
+            if beam.order == 1 {
+                let internal = group.block.end_forces(e, &now).unwrap_or_default();
+                out.extend([0, 1].map(|k| {
+                    let axes = now.nodes[spec.nodes[k]].R() * spec.frame;
+                    in_section(&internal[k], &axes, if k == 0 { -1.0 } else { 1.0 })
+                }));
+                continue;
+            }
+            let half = 0.5 * (model.nodes[spec.nodes[beam.order]].x - model.nodes[spec.nodes[0]].x).norm();
+            let points = (0..group.block.points()).filter_map(|point| group.block.point(e, point, &spec.frame, &now));
+            let points: Vec<IntegrationPoint> = points.collect();
+            let xi: Vec<f64> = points.iter().map(|point| point.s / half - 1.0).collect();
+            for &node in at {
+                let weights = quadrature::lagrange(&xi, node);
+                let value = |i: usize| points.iter().zip(&weights).map(|(point, w)| w * point.forces[i]).sum();
+                out.push(std::array::from_fn(value));
+            }
+        }
+    }
+}
+
+/// A force and a moment times `sign` in the axes of a section, columns.
+pub(super) fn in_section(sum: &Force, axes: &Mat3, sign: f64) -> [f64; 6] {
+    let n = axes.tr_mul(&Vec3::new(sum[0], sum[1], sum[2])) * sign;
+    let m = axes.tr_mul(&Vec3::new(sum[3], sum[4], sum[5])) * sign;
+    [n.x, n.y, n.z, m.x, m.y, m.z]
+}
+
+/// Writes the stress resultants of all beams into `out`, in deck order: those at their integration points, and with what acts along the
+/// beams those at the ends of their elements too.
+pub fn section_points(
+    groups: &[Group],
+    model: &Model,
+    now: &Configuration,
+    acting: Option<EndForces>,
+    out: &mut Vec<SectionPoint>,
+) {
+    out.clear();
+    let (mut start, mut count) = (0.0, 0);
     for group in groups {
         let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
         let now = group.configuration(now);
@@ -118,13 +182,26 @@ pub fn section_points(groups: &[Group], model: &Model, now: &Configuration, out:
             let element = group.first + e;
             let spec = &beam.elements[element];
             let frame: &Mat3 = &spec.frame;
-            for point in 0..group.block.points() {
-                let Some(mut at) = group.block.point(e, point, frame, &now) else { continue };
-                at.s += start;
-                out.push(SectionPoint { part: group.part, element, point, at });
+            let nodes = (spec.nodes[0], spec.nodes[beam.order]);
+            let end = start + (model.nodes[nodes.1].x - model.nodes[nodes.0].x).norm();
+            let ends = acting.as_ref().and_then(|acting| {
+                let internal = group.block.end_forces(e, &now)?;
+                Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), &now))
+            });
+            let mut push = |place, s: f64, at: IntegrationPoint| {
+                out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, ..at } });
+            };
+            if let Some([at, _]) = ends {
+                push(SectionPlace::Start, start, at);
             }
-            let ends = (spec.nodes[0], spec.nodes[beam.order]);
-            start += (model.nodes[ends.1].x - model.nodes[ends.0].x).norm();
+            for point in 0..group.block.points() {
+                let Some(at) = group.block.point(e, point, frame, &now) else { continue };
+                push(SectionPlace::Point(point), at.s + start, at);
+            }
+            if let Some([_, at]) = ends {
+                push(SectionPlace::End, end, at);
+            }
+            (start, count) = (end, count + 1);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod assembled;
 mod bars;
+pub mod beam_ends;
 pub mod beams;
 mod contacts;
 pub mod coordinate_springs;
