@@ -82,9 +82,7 @@ impl<'d> Along<'_, 'd> {
             }
             word => word.as_ref().map_or(own, |word| word.value),
         };
-        if self.scene.stage.is_some() {
-            self.reject_in_stages();
-        }
+        self.reject_if_later();
         let motion = self.motion();
         let effort = self.effort();
         let law = self.law(coordinate);
@@ -93,19 +91,27 @@ impl<'d> Along<'_, 'd> {
         Some(ActsAlong { coordinate, motion, effort, law, stick, counted })
     }
 
-    /// Reports keys about the coordinate in a deck of stages, which carry none of it from one to the next.
-    fn reject_in_stages(&mut self) {
+    /// True where the joint is not there from t = 0 on, or comes back: its coordinate has no beginning that the deck draws.
+    fn is_later(&self) -> bool {
+        self.scene.stage.is_some_and(|stage| !stage.is_carried(&self.joint.stages))
+    }
+
+    /// Reports keys about the coordinate of a joint that is not there from t = 0 on.
+    fn reject_if_later(&mut self) {
+        if !self.is_later() {
+            return;
+        }
         for (key, place) in keys(self.joint) {
             let Some(place) = place else { continue };
-            let message = format!("`{key}` of a joint does not go with `[[stages]]`");
-            let hint = "drives, motors and springs of joints take a deck of one analysis";
+            let message = format!("`{key}` needs a joint that is there from t = 0 on, without a break");
+            let hint = "leave out `stages`: a drive whose amplitude is zero holds the joint until it begins";
             self.report.error_with::<()>(place, message, hint);
         }
     }
 
-    /// True where results of the coordinate are asked for. Stages carry no turns from one to the next.
+    /// True where results of the coordinate are asked for; that of a joint that comes later has no turns that could be counted.
     fn is_counted(&self) -> bool {
-        if self.scene.stage.is_some() {
+        if self.is_later() {
             return false;
         }
         let deck = self.scene.deck;
@@ -130,8 +136,9 @@ impl<'d> Along<'_, 'd> {
         }
         let amplitude = self.amplitude(&motion.amplitude);
         let (scale, history) = self.quantity(motion)?;
+        // Stages that are static move on with time, by which a rate says where the joint is.
         let is_static = self.scene.analysis.kind == AnalysisKind::Static && self.scene.analysis.modes.is_none();
-        if is_static && history != History::Displacement {
+        if is_static && self.scene.stage.is_none() && history != History::Displacement {
             return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
         }
         let index = match (&motion.amplitude, history) {
@@ -148,7 +155,9 @@ impl<'d> Along<'_, 'd> {
             }
         };
         let starts = scale.value * self.amplitudes[index].value(0.0);
-        if history == History::Displacement && self.scene.analysis.kind == AnalysisKind::Dynamic && starts != 0.0 {
+        let begins = self.scene.stage.is_none_or(|stage| stage.is_first());
+        let moves = self.scene.analysis.kind == AnalysisKind::Dynamic && begins;
+        if history == History::Displacement && moves && starts != 0.0 {
             let (what, starts) = (&self.owner.what, short(starts));
             let message = format!("the motion of {what} begins at {starts}, but the coordinate is zero at t = 0");
             return self.report.error_with(&motion.span, message, "let the amplitude begin at zero");
@@ -192,11 +201,17 @@ impl<'d> Along<'_, 'd> {
     }
 
     fn effort(&mut self) -> Option<JointEffort> {
+        let joint = self.joint;
         let effort: &'d words::Effort = &self.joint.effort.as_ref()?.value;
         let span = &self.joint.effort.as_ref()?.span;
         let owner = Owner::new(format!("the effort of {}", self.owner.what), span);
         let value = self.report.require(&owner, "value", &effort.value).map(|value| value.value);
-        let amplitude = self.amplitude(&effort.amplitude);
+        let amplitude = match self.scene.stage.filter(|_| effort.amplitude.is_none()) {
+            Some(stage) => {
+                return Some(JointEffort { value: value?, amplitude: Some(stage.own_amplitude(&joint.stages)) });
+            }
+            None => self.amplitude(&effort.amplitude),
+        };
         (effort.amplitude.is_none() || amplitude.is_some()).then_some(JointEffort { value: value?, amplitude })
     }
 

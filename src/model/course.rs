@@ -426,6 +426,17 @@ impl<'d> CurrentStage<'d> {
         self.course.before(self.course.first(stages)).is_some()
     }
 
+    /// True where a table with these `stages` is there at t = 0, and in all stages from there to its last.
+    pub fn is_carried(&self, stages: &Maybe<Names>) -> bool {
+        let held: Vec<bool> = self.course.in_time().map(|index| self.course.holds(index, stages)).collect();
+        held.is_sorted_by(|before, after| before >= after) && !self.comes_later(stages)
+    }
+
+    /// True where no time has passed before the stage.
+    pub fn is_first(&self) -> bool {
+        self.course.before(self.index).is_none()
+    }
+
     /// True where a table with these `stages` is not there in the stage before.
     pub fn is_new(&self, stages: &Maybe<Names>) -> bool {
         self.course.before(self.index).is_none_or(|before| !self.course.holds(before, stages))

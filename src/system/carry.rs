@@ -1,8 +1,9 @@
 //! History variables from one system to another of the same scene, of which some parts have come or gone.
 
 use super::equations::System;
-use super::parts::links::{is_shared, turning_links};
-use crate::model::{Model, PartKind};
+use super::parts::links::{RememberingLink, is_shared, remembering_links};
+use crate::elements::coordinate_law::{IMPACT_POWER, IMPACT_SPEED, RATE};
+use crate::model::{AnalysisKind, Model, PartKind};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -26,12 +27,16 @@ pub fn carry_history(from: Scene, old: &[f64], to: Scene, new: &mut [f64]) -> Re
         }
     }
     // Links share groups, so each is known by its name.
-    let turning =
-        |(model, system): Scene| -> Vec<(String, usize)> { turning_links(model, &system.links, &system.groups) };
-    let turns: HashMap<String, usize> = turning(from).into_iter().collect();
-    for (name, slot) in turning(to) {
-        if let Some(&of) = turns.get(&name) {
-            new[slot] = old[of];
+    let remembering = |(model, system): Scene| remembering_links(model, &system.links, &system.groups);
+    let known: HashMap<String, RememberingLink> =
+        remembering(from).into_iter().map(|link| (link.name.clone(), link)).collect();
+    let rests = to.0.analysis.kind == AnalysisKind::Static;
+    for link in remembering(to) {
+        let Some(of) = known.get(&link.name).filter(|of| of.slots.len() == link.slots.len()) else { continue };
+        for (k, (&slot, &of)) in link.slots.iter().zip(&of.slots).enumerate() {
+            // A static stage has no rates, by which turns would be counted, and no impacts.
+            let is_rate = link.is_joint && [RATE, IMPACT_SPEED, IMPACT_POWER].contains(&k);
+            new[slot] = if rests && is_rate { 0.0 } else { old[of] };
         }
     }
     Ok(fresh)

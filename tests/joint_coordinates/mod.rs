@@ -6,6 +6,7 @@ mod drives;
 mod motors;
 mod robot_arm;
 mod springs;
+mod stages;
 mod turns;
 
 use crate::support::run_to_the_end;

@@ -119,12 +119,29 @@ pub fn is_shared(group: &Group) -> bool {
     group.kind == PartKind::Link
 }
 
-/// The names of the links that count turns, each with the place of its history variable. `links` and `groups` are those of the whole system.
-pub fn turning_links(model: &Model, links: &[LinkElement], groups: &[Group]) -> Vec<(String, usize)> {
-    let slots = groups.iter().filter(|group| is_shared(group)).flat_map(|group| group.history.clone());
-    let counts = |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.spring.counts_turns());
-    let turning = model.each::<Link>().zip(links).filter(|(_, link)| counts(link));
-    turning.map(|(link, _)| link.name.clone()).zip(slots).collect()
+/// A link that remembers something.
+pub struct RememberingLink {
+    /// The name of the link, or of the joint along which it acts.
+    pub name: String,
+    /// The places of its history variables.
+    pub slots: Vec<usize>,
+    /// True for what acts along a joint.
+    pub is_joint: bool,
+}
+
+/// The links that remember something, such as full turns. `links` and `groups` are those of the whole system.
+pub fn remembering_links(model: &Model, links: &[LinkElement], groups: &[Group]) -> Vec<RememberingLink> {
+    let mut slots = groups.iter().filter(|group| is_shared(group)).flat_map(|group| group.history.clone());
+    let mut found = Vec::new();
+    for (link, element) in model.each::<Link>().zip(links) {
+        let (count, is_joint) = match element {
+            LinkElement::Bushing(bushing) if bushing.spring.counts_turns() => (1, false),
+            LinkElement::Joint(_) => (MEMORY, true),
+            LinkElement::Bushing(_) | LinkElement::Line(_) => continue,
+        };
+        found.push(RememberingLink { name: link.name.clone(), slots: slots.by_ref().take(count).collect(), is_joint });
+    }
+    found
 }
 
 /// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
