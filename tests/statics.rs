@@ -1,7 +1,7 @@
 //! Statics does not answer where it has no answer: mechanisms, buckling, equilibria that jump, elements turned over.
 
 use crate::support::truss::TRUSS;
-use crate::support::{node, read_deck};
+use crate::support::{Row, node, read_deck, tables_of};
 use rdsolve::model::Model;
 use rdsolve::output::wanted;
 use rdsolve::plan::Plan;
@@ -491,3 +491,52 @@ fn limit_loads_are_told_how_to_be_passed() {
     let failure = failure(&truss(60.0, 0.1));
     assert!(failure.to_string().contains("arc-length"), "{failure}");
 }
+
+/// A rigid body that nothing but a joint to the ground holds: no stiffness is there at all, and the joint bears weight and moment.
+#[test]
+fn joints_alone_hold_a_rigid_body() {
+    for (kind, soft) in [("fixed", ""), ("fixed", SOFT_SPRING), ("revolute", ""), ("revolute", SOFT_SPRING)] {
+        let along = if kind == "fixed" {
+            ""
+        } else {
+            "axis = [0.0, 0.0, 1.0]\nmotion = { position = 0.0, amplitude = \"none\" }"
+        };
+        let deck = format!(
+            r#"
+            analysis = {{ kind = "static", end_time = 1.0, time_step = 0.5 }}
+            environment = {{ gravity = [0.0, 0.0, -10.0] }}
+            output = {{ reactions = true }}
+            amplitudes.none = {{ kind = "ramp", end = 1.0 }}
+            {soft}
+            [[bodies]]
+            name = "jib"
+            center = [2.0, 0.5, 3.0]
+            mass = 100.0
+            inertia = [10.0, 130.0, 130.0]
+            [[joints]]
+            name = "post"
+            kind = "{kind}"
+            from = {{ ground = [0.0, 0.0, 3.0] }}
+            to = {{ body = "jib", point = [0.0, 0.0, 3.0] }}
+            {along}
+            "#
+        );
+        let rows = tables_of(&read_deck(&deck)).rows("reactions.csv");
+        for (direction, force) in
+            [("ux", 0.0), ("uy", 0.0), ("uz", -1000.0), ("rx", -500.0), ("ry", 2000.0), ("rz", 0.0)]
+        {
+            let of_post = |row: &&Row| row.text("node").starts_with("post") && row.text("direction") == direction;
+            let value = rows.iter().rev().find(of_post).expect("a reaction").number("value");
+            // What the body exerts on the ground. The iteration leaves 1e-8 of the largest moment.
+            assert!((value - force).abs() < 1e-4, "{kind} {direction}: {value} for {force}");
+        }
+    }
+}
+
+/// A spring elsewhere, too soft to tell anything of the weight.
+const SOFT_SPRING: &str = r#"
+            masses = [{ at = "aside", mass = 1e-6 }]
+            points.aside = [9.0, 0.0, 0.0]
+            supports = [{ at = "aside", fix = ["uy", "uz"] }]
+            links = [{ name = "soft", from = { ground = [8.0, 0.0, 0.0] }, to = { node = "aside" }, stiffness = 1e-3 }]
+"#;

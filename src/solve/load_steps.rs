@@ -21,7 +21,8 @@ const ROUNDING: f64 = 0.1;
 pub struct Peak {
     /// Gravity, the factors of loads, pressures, prescribed displacements and rotations.
     acting: [f64; 4],
-    forces: Scale,
+    /// The terms that forces are summed from.
+    pub forces: Scale,
     /// The forces of the residual evaluated last.
     last: Scale,
     /// True where nothing acts any more in the step at hand.

@@ -479,7 +479,9 @@ impl<'a> Run<'a> {
         let (missed, energy) = self.balance().missed_in_statics();
         // Loads that act at once do work before they are in equilibrium.
         let beyond = (missed.abs() - ws.load_steps.works.sudden).max(0.0);
-        Some((beyond.copysign(missed), energy.max(ws.load_steps.works.largest)))
+        // Where nothing gives way, what is done is that of the displacements which the iteration leaves.
+        let left = cx.model.solution.iteration.tolerance * cx.length * ws.load_steps.peak.forces.force;
+        Some((beyond.copysign(missed), energy.max(ws.load_steps.works.largest).max(left)))
     }
 
     /// What was not judged.

@@ -9,7 +9,7 @@
 
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
-use super::multipliers::{Multipliers, REGULARIZATION};
+use super::multipliers::Multipliers;
 use super::scale::Scale;
 use super::tangent_weights::TangentWeights;
 use crate::constraints::joint::{ConstraintEquation, Joint, MOST_EQUATIONS};
@@ -195,19 +195,42 @@ impl Diagonal {
         [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
 
+    /// The penalty factors for translations and rotations of a joint that holds weights by itself: where nothing else at its ends is as stiff as
+    /// its own forces, no other stiffness tells what these would overturn. `None` where something is. `forces` are its multipliers, `values`
+    /// the matrix.
+    fn firm(
+        &self,
+        joint: &Joint,
+        nodes: &[Node],
+        projections: &[Vec<Mat6>],
+        (forces, values): (&[f64], &[f64]),
+    ) -> Option<[f64; 2]> {
+        let [moment, arm] = self.moment(joint, nodes, projections, forces);
+        let slots = self.0.iter().flat_map(|(.., slots)| slots.iter().enumerate());
+        let stiff = slots.filter_map(|(dof, slot)| {
+            let K = values[(*slot)? as usize].abs();
+            Some(if dof < 3 { K * arm * arm } else { K })
+        });
+        let is_bare = moment > 0.0 && stiff.fold(0.0, f64::max) <= moment;
+        // Without an arm translations turn nothing over.
+        let of_translations = if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM };
+        is_bare.then_some([of_translations, FIRM * moment])
+    }
+
     /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
-    /// signs, that its equations exert on independent nodes.
-    fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> f64 {
+    /// signs, that its equations exert on independent nodes. And the longest of these arms.
+    fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
+        let longest = self.0.iter().map(|(_, node, k, _)| arm(*node, *k)).fold(0.0, f64::max);
         let of = |(row, lambda): (&ConstraintEquation, &f64)| {
             let G = row.gradient(a, b);
             let on = |(end, node, k, _): &(usize, usize, usize, _)| {
-                let arm = projections[*node][*k].fixed_view::<3, 3>(0, 3).amax();
-                arm * linear(&G[*end]).amax() + angular(&G[*end]).amax()
+                arm(*node, *k) * linear(&G[*end]).amax() + angular(&G[*end]).amax()
             };
             lambda.abs() * self.0.iter().map(on).fold(0.0, f64::max)
         };
-        joint.equations.iter().zip(values).map(of).sum()
+        [joint.equations.iter().zip(values).map(of).sum(), longest]
     }
 }
 
@@ -219,22 +242,28 @@ const MODERATE: f64 = 1e4;
 /// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
 /// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
 /// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
-/// An equation on which nothing acts has the largest factor.
+/// An equation on which nothing acts has the largest factor. `at_rest`: no inertia is in the matrix.
 fn set_penalties(
     system: &System,
     nodes: &[Node],
     (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
     multipliers: &mut Multipliers,
     values: &[f64],
+    at_rest: bool,
 ) {
     let mut largest = [0.0f64; 2];
     let mut first = 0;
     for (joint, diagonal) in system.joints.iter().zip(diagonals) {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.equations.iter().enumerate() {
+            if at_rest && diagonal.firm(joint, nodes, projections, (&multipliers.values[first..], values)).is_some() {
+                continue;
+            }
             let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
             let s = match joint.is_driven(k) {
-                true => drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])),
+                true => {
+                    drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])[0])
+                }
                 false => s,
             };
             multipliers.penalties[first + k] = s;
@@ -243,17 +272,30 @@ fn set_penalties(
         }
         first += joint.equations.len();
     }
-    let rows = system.joints.iter().flat_map(|joint| &joint.equations);
-    for (s, row) in multipliers.penalties.iter_mut().zip(rows) {
-        let heaviest = largest[usize::from(row.is_rotational())];
-        *s = match heaviest > 0.0 {
-            _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
-            _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
-            true => heaviest,
-            false => 1.0,
-        };
+    let mut first = 0;
+    for (joint, diagonal) in system.joints.iter().zip(diagonals) {
+        let forces = (&multipliers.values[first..first + joint.equations.len()], values);
+        let firm = diagonal.firm(joint, nodes, projections, forces).filter(|_| at_rest);
+        for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
+            let heaviest = largest[usize::from(row.is_rotational())];
+            if let Some(firm) = firm {
+                *s = firm[usize::from(row.is_rotational())];
+                continue;
+            }
+            *s = match heaviest > 0.0 {
+                _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
+                _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
+                true => heaviest,
+                false => 1.0,
+            };
+        }
+        first += joint.equations.len();
     }
 }
+
+/// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
+/// and directions make less of the factor.
+const FIRM: f64 = 100.0;
 
 /// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
 /// cancel it to zero, and no simple ratio of masses makes this factor 1.
@@ -305,7 +347,8 @@ pub(super) fn tangents(
     values: &mut [f64],
     mut add: impl FnMut(usize, &mut [f64], &mut [f64]),
 ) {
-    set_penalties(system, nodes, (diagonals, projections), multipliers, values);
+    let at_rest = weights.acceleration == 0.0;
+    set_penalties(system, nodes, (diagonals, projections), multipliers, values, at_rest);
     if weights.acceleration < 0.0 {
         multipliers.penalties.iter_mut().for_each(|s| *s *= INDEFINITE);
     }
@@ -328,7 +371,7 @@ pub(super) fn tangents(
                 K[i * WIDTH + 12 + k] = s * G[i];
                 K[(12 + k) * WIDTH + i] = s * G[i];
             }
-            K[(12 + k) * (WIDTH + 1)] = -REGULARIZATION * s;
+            K[(12 + k) * (WIDTH + 1)] = -system.regularization * s;
         }
         add(j, &mut K, values);
         first += joint.equations.len();
