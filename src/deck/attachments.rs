@@ -27,7 +27,7 @@ pub struct Attachment {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AttachmentMethod {
-    /// Elimination, and Lagrange multipliers only where a node is attached a second time.
+    /// Elimination, and Lagrange multipliers only where a node is attached a second time or more than 24 hinges hang one on the other.
     Auto,
     /// The dependent degrees of freedom are eliminated.
     Elimination,

@@ -2,6 +2,7 @@
 
 use super::data::Joint;
 use super::joints::equations;
+use super::long_chains::hold_long_chains;
 use super::nearest_nodes::NodesAlongAxis;
 use super::nodes::Nodes;
 use super::place::Place;
@@ -20,7 +21,7 @@ const SAME: f64 = 1e-9;
 
 /// Attaches nodes to bodies and beams; returns the joints for those that elimination cannot attach.
 pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Joint> {
-    let mut joints = Vec::new();
+    let (mut joints, mut open, clean) = (Vec::new(), HashSet::new(), report.mark());
     for attachment in &scene.deck.attachments {
         let owner = Owner::new("`[[attachments]]`", &attachment.span);
         if let (Some(name), Some(_)) = (&attachment.beam, &attachment.body) {
@@ -38,6 +39,9 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
             report.error::<()>(&at.span, "`dofs` is empty, so nothing is attached");
         }
         let method = attachment.method.as_ref().map(|method| method.value);
+        if !matches!(method, Some(AttachmentMethod::Elimination | AttachmentMethod::Multipliers)) {
+            open.extend(spots.iter().map(|spot| spot.node));
+        }
         let mut link = Attacher { dofs, method, scene, nodes: &mut *nodes, joints: &mut joints, report: &mut *report };
         match target {
             Some(Target::Part(name, beam)) => link.attach_to_beam(name, beam, &spots),
@@ -46,6 +50,9 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
         }
     }
     check_cycles(nodes, report);
+    if report.is_clean_since(clean) {
+        hold_long_chains(nodes, &open, &mut joints);
+    }
     joints
 }
 

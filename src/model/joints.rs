@@ -91,9 +91,13 @@ fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &
     const MOST: f64 = 1e-4;
     /// Coordinates that are computed rather than written are off by no more than this part of the size of the scene.
     const COMPUTED: f64 = 1e-9;
+    let (gap, rounding) = ((a - b).amax(), 4.0 * f64::EPSILON * a.amax());
+    // Most ends meet; the size of the scene costs a look at all nodes.
+    if gap <= rounding {
+        return Some(false);
+    }
     let far = |reach: f64, node: &Node| reach.max((node.x - a).amax());
     let size = nodes.list.iter().fold(0.0, far);
-    let (gap, rounding) = ((a - b).amax(), 4.0 * f64::EPSILON * a.amax());
     let written = (SIX_DIGITS * a.amax().max(b.amax())).clamp(1e-6 * size, MOST * size);
     if gap > written.max(rounding) {
         let message = format!("the ends of {} must lie at the same place", owner.what);

@@ -36,6 +36,7 @@ mod joints;
 mod line_loads;
 mod links;
 mod loads;
+mod long_chains;
 mod masses;
 mod materials;
 mod merge_diagnostics;

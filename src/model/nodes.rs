@@ -56,6 +56,21 @@ impl Nodes {
         self.dependents.push(DependentNode { node, master, dofs, place: Some([place.start, place.end]) });
     }
 
+    /// Frees the nodes of the attachments that `frees` says; returns these with their places in the deck.
+    pub fn detach(&mut self, frees: impl Fn(&DependentNode) -> bool) -> Vec<(DependentNode, Span)> {
+        let (freed, kept): (Vec<_>, Vec<_>) = std::mem::take(&mut self.dependents).into_iter().partition(frees);
+        let places = &mut self.attachments;
+        let mut place = |link: &DependentNode| places.remove(&link.node).map_or(0..0, |(_, place)| place);
+        let freed = freed.into_iter().map(|link| (link.clone(), place(&link))).collect();
+        for (index, link) in kept.iter().enumerate() {
+            if let Some((known, _)) = places.get_mut(&link.node) {
+                *known = index;
+            }
+        }
+        self.dependents = kept;
+        freed
+    }
+
     /// Notes that something acts on a node, on its translations or also on its rotations.
     pub fn connect(&mut self, node: usize, rotations: bool) {
         self.connected[node][..3].fill(true);

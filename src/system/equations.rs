@@ -3,13 +3,13 @@
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::loads::{Loading, load_on};
-use super::multipliers::Multipliers;
+use super::multipliers::{Multipliers, REGULARIZATION, REGULARIZATION_OF_TREES};
 use super::parts::beam_ends::BeamEnds;
 use super::parts::links::{self, LinkElement};
 use super::scale::Scale;
 use super::thread_partition::Partition;
 use super::turning_body::TurningBody;
-use super::{build, plane_motion, thread_partition};
+use super::{build, joint_tree, plane_motion, thread_partition};
 use crate::constraints::joint::Joint;
 use crate::constraints::rigid_link::{self, RigidLink};
 use crate::elements::Force;
@@ -36,6 +36,8 @@ pub struct System {
     pub rigid_links: Vec<RigidLink>,
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
     pub joints: Vec<Joint>,
+    /// ε of the constraint equations.
+    pub(super) regularization: f64,
     /// The links one by one, from which their results are computed.
     pub(super) links: Vec<LinkElement>,
     /// Index of the first group of contacts; these stand last.
@@ -80,7 +82,7 @@ impl Forces {
         Forces {
             on_nodes: vec![[0.0; 6]; nodes],
             on_dependents: vec![Vec3::zeros(); system.rigid_links.len()],
-            multipliers: Multipliers::new(system.multipliers()),
+            multipliers: Multipliers::new(system.multipliers(), system.regularization),
             partitions: thread_partition::partition(&system.groups),
             threads: false,
         }
@@ -135,6 +137,10 @@ impl System {
             inertias,
             turning_bodies,
             consistent,
+            regularization: match joint_tree::is_tree(model, &joints, &rigid_links) {
+                true => REGULARIZATION_OF_TREES,
+                false => REGULARIZATION,
+            },
             rigid_links,
             joints,
             gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
@@ -161,6 +167,7 @@ impl System {
             consistent: self.consistent.clone(),
             rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),
+            regularization: self.regularization,
             links: Vec::new(),
             beam_ends: None,
             loads: Vec::new(),

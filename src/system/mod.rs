@@ -15,6 +15,7 @@ mod excitation;
 mod free_rotation;
 mod group;
 mod inertia;
+mod joint_tree;
 pub mod joints;
 mod loads;
 pub mod masses;

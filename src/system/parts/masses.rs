@@ -20,12 +20,10 @@ pub struct NodalMasses<'s> {
 impl<'s> NodalMasses<'s> {
     /// No mass yet.
     pub fn new(model: &Model, x: &'s [Vec3]) -> NodalMasses<'s> {
-        let mut attached = vec![false; x.len()];
-        for body in &model.bodies {
-            let dependents = model.constraints.dependents.iter();
-            let of_body = dependents.filter(|dependent| dependent.master == body.node);
-            of_body.for_each(|dependent| attached[dependent.node] = true);
-        }
+        let (mut is_body, mut attached) = (vec![false; x.len()], vec![false; x.len()]);
+        model.bodies.iter().for_each(|body| is_body[body.node] = true);
+        let dependents = model.constraints.dependents.iter();
+        dependents.filter(|of| is_body[of.master]).for_each(|of| attached[of.node] = true);
         NodalMasses { x, attached, lumped: Lumped::new(x.len()), consistent: Vec::new() }
     }
 
