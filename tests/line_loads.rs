@@ -119,11 +119,9 @@ fn member_end_forces_are_those_of_the_clamped_beam() {
 #[test]
 fn ends_are_in_balance_in_motion() {
     for (order, mass) in [(1, "lumped"), (2, "consistent"), (3, "lumped"), (3, "consistent"), (4, "free-nodes")] {
-        let rest = format!(
-            "damping = {{ mass_factor = 3.0, stiffness_factor = 1e-3 }}\nenvironment.gravity = [1.0, 2.0, -9.81]\n\
-             amplitudes.pulse = {{ kind = \"sine\", angular_frequency = 40.0 }}\namplitudes.shake = {{ kind = \"sine\", angular_frequency = 25.0 }}\n\
-             environment.base_acceleration = [{{ amplitude = \"shake\", direction = [0.5, 3.0, 1.0] }}]\n"
-        );
+        let rest = "damping = { mass_factor = 3.0, stiffness_factor = 1e-3 }\nenvironment.gravity = [1.0, 2.0, -9.81]\n\
+             amplitudes.pulse = { kind = \"sine\", angular_frequency = 40.0 }\namplitudes.shake = { kind = \"sine\", angular_frequency = 25.0 }\n\
+             environment.base_acceleration = [{ amplitude = \"shake\", direction = [0.5, 3.0, 1.0] }]\n";
         let loads = "[[loads]]\npart = \"rod\"\nlocal = [40.0, 500.0, -2000.0]\nfollower = true\namplitude = \"pulse\"\n\
                      profile = [[0.1, 1.0], [0.9, 0.3]]\n";
         let deck = beam(order, 3, loads)

@@ -243,7 +243,7 @@ fn the_rest_is_taken_as_written() {
     assert_eq!(expect.label, "ux of c at t = 0.3");
     assert_eq!(model.expects[1].at, ExpectAt::Part(PartIndex { kind: PartKind::Link, index: 0 }));
     // After the frame, the leg and the arm.
-    assert_eq!(model.expects[2].at, ExpectAt::Beam(3));
+    assert_eq!(model.expects[2].at, ExpectAt::Sections(3));
     assert_eq!(model.expects[3].tolerance, Tolerance::Absolute(1e-3));
     assert_eq!(model.output.nodes, [node(&model, "a"), node(&model, "c"), node(&model, "d")]);
     assert_eq!((model.output.cadence, model.output.fields), (Cadence::Interval(0.01), Some(Cadence::Steps(20))));

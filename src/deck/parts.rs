@@ -123,6 +123,11 @@ impl PartKind {
         }
     }
 
+    /// True for parts whose elements have sections with forces and moments.
+    pub fn has_sections(self) -> bool {
+        self == PartKind::Beam
+    }
+
     /// True for parts whose elements are faces: they take loads per area, and per length along edges.
     pub fn is_surface(self) -> bool {
         self == PartKind::Shell

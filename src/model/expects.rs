@@ -1,8 +1,6 @@
 //! `[[expect]]`: values that a run must reach.
 
-use super::data::{
-    DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, PartKind, Tolerance, When, quantities_of,
-};
+use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, Tolerance, When, quantities_of};
 use super::displacement_targets::displacement_target;
 use super::nodes::Topology;
 use super::place::Place;
@@ -74,7 +72,7 @@ impl<'d> Expects<'_, 'd> {
         let mut column = None;
         if let (Some((at, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
             let strain = quantity.value == PLASTIC_STRAIN.name && !columns.contains(&PLASTIC_STRAIN);
-            if strain && matches!(at, ExpectAt::Shells(..) | ExpectAt::Beam(_)) {
+            if strain && matches!(at, ExpectAt::Shells(..) | ExpectAt::Sections(_)) {
                 let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
                 return self.report.error(&quantity.span, message);
             }
@@ -247,7 +245,7 @@ impl<'d> Expects<'_, 'd> {
                 Some((ExpectAt::Joint(joint), columns))
             }
             Some(Place::Part(part)) if part.kind.is_surface() => self.expect_stress(part, name),
-            Some(Place::Part(part)) if part.kind == PartKind::Beam => self.expect_forces(part, name),
+            Some(Place::Part(part)) if part.kind.has_sections() => self.expect_forces(part, name),
             Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
             Some(Place::Part(part)) => Some((ExpectAt::Part(part), quantities_of(part.kind))),
             Some(place) => {
@@ -293,7 +291,7 @@ impl<'d> Expects<'_, 'd> {
         }
         let mut columns = quantities_of(at.kind);
         columns.retain(|column| beam.yields() || *column != PLASTIC_STRAIN);
-        Some((ExpectAt::Beam(part), columns))
+        Some((ExpectAt::Sections(part), columns))
     }
 
     /// A bar that yields; counted as [`ExpectAt::Elements`] counts.

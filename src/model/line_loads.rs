@@ -1,9 +1,9 @@
 //! `[[loads]]` per length of beams and bars, as forces and moments on the nodes of their elements that do the same work.
 
-use super::data::{Load, Part};
+use super::data::{LineElement, Load, Part};
 use super::nodes::Topology;
 use crate::elements::beam;
-use crate::math::{Mat3, Vec3, quadrature};
+use crate::math::{Vec3, quadrature};
 use crate::sections::Stiffness;
 
 /// Gauss points of an element, or of the part of it over which the load is linear: products of it with polynomials of the highest order
@@ -30,31 +30,16 @@ pub(super) struct LineLoad {
 struct Line<'p> {
     nodes: &'p [usize],
     ends: [Vec3; 2],
-    /// Axes of its section (columns, global at t = 0); a bar has none.
-    frame: Option<&'p Mat3>,
-    /// Of a two-node beam, which bends like the exact one: the parts of shear in deflections along y and z. Loads do work on these.
-    shear: Option<[f64; 2]>,
+    element: LineElement,
 }
 
 impl<'p> Line<'p> {
-    /// The element of a beam or bar; `None` for other parts.
+    /// The element of a part; `None` for parts without lines.
     fn of(part: &'p Part, element: usize, (topology, stiffnesses): (&Topology, &[Stiffness])) -> Option<Line<'p>> {
         let nodes = part.nodes(element);
         let ends = [nodes[0], *nodes.last()?].map(|node| topology.x(node));
-        match part {
-            Part::Beam(beam) => {
-                let spec = &beam.elements[element];
-                let (section, length) = (&stiffnesses[spec.section], (ends[1] - ends[0]).norm());
-                let shear = |along: usize| {
-                    let about = 3 - along;
-                    12.0 * section.M[(about, about)] / (section.N[(along, along)] * length * length)
-                };
-                let bends = beam.order == 1 && beam.yielding.is_none();
-                Some(Line { nodes, ends, frame: Some(&spec.frame), shear: bends.then(|| [shear(1), shear(2)]) })
-            }
-            Part::Bar(_) => Some(Line { nodes, ends, frame: None, shear: None }),
-            _ => None,
-        }
+        let element = part.line(element, (ends[1] - ends[0]).norm(), stiffnesses)?;
+        Some(Line { nodes, ends, element })
     }
 
     fn length(&self) -> f64 {
@@ -120,8 +105,8 @@ impl LineLoad {
 
     /// Force per length of an element, global components.
     fn force_on(&self, line: &Line, tangent: &Vec3) -> Vec3 {
-        let force = match line.frame.filter(|_| self.local) {
-            Some(frame) => frame * self.force,
+        let force = match line.element.axes.filter(|_| self.local) {
+            Some(axes) => axes * self.force,
             None => self.force,
         };
         if self.projected { force * tangent.cross(&force.normalize()).norm() } else { force }
@@ -135,9 +120,9 @@ impl Line<'_> {
         for (share, weight) in shares.iter_mut().zip(quadrature::lagrange(lobatto, 2.0 * at - 1.0)) {
             share[0] += weight * force;
         }
-        let (Some(frame), Some(shear)) = (self.frame, self.shear) else { return };
+        let (Some(axes), Some(shear)) = (self.element.axes, self.element.shear) else { return };
         for (axis, phi) in [1, 2].into_iter().zip(shear) {
-            let along = frame.column(axis);
+            let along = axes.column(axis);
             let across = along.dot(force) * along;
             for (share, [more, arm]) in shares.iter_mut().zip(beam::cubic_deflection(at, phi)) {
                 share[0] += more * across;

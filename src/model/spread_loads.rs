@@ -1,6 +1,6 @@
 //! `[[loads]]` spread over shells, along their edges, and along beams and bars.
 
-use super::data::{Load, Part, PartKind, Pressure};
+use super::data::{Load, Part, Pressure};
 use super::line_loads::{LineLoad, is_chain};
 use super::nodes::Topology;
 use super::place::Place;
@@ -11,7 +11,7 @@ use super::spot::Spot;
 use super::values::{flag, span, vec3, vec3_or_zero};
 use crate::deck::loads as words;
 use crate::deck::parts::PartIndex;
-use crate::deck::words::Table;
+use crate::deck::words::{Names, Table};
 use crate::diagnostic::At;
 use crate::elements::pressure::Face;
 use crate::elements::shell;
@@ -36,15 +36,7 @@ pub(super) fn spread_load<'d>(
         let hint = "give the load that keeps its direction a `[[loads]]` of its own";
         report.error_with::<()>(&at.span, "of loads spread over shells only `pressure` can follow", hint);
     }
-    let key = if load.part.is_some() { "part" } else { "at" };
-    if let (Some(_), Some(part)) = (&load.at, &load.part) {
-        report.error::<()>(&part.span, "a load takes `at` or `part`, not both");
-    }
-    let names = if load.part.is_some() { &load.part } else { &load.at };
-    let Some(names) = report.require_nodes(&owner, key, names) else { return (Vec::new(), None) };
-    if names.values.is_empty() {
-        report.error::<()>(&names.span, format!("`{key}` is empty"));
-    }
+    let Some(names) = names_of(load, &owner, report) else { return (Vec::new(), None) };
     let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
     let line = line_load(load, amplitude, report);
     let mut spread = Spread {
@@ -82,6 +74,19 @@ pub(super) fn spread_load<'d>(
     (spread.forces.into_iter().map(load).chain(spread.shares).collect(), pressure)
 }
 
+/// What the load is spread over, by `at` or `part`.
+fn names_of<'d>(load: &'d words::Load, owner: &Owner, report: &mut Report<'d>) -> Option<&'d At<Names>> {
+    let (key, names) = if load.part.is_some() { ("part", &load.part) } else { ("at", &load.at) };
+    if let (Some(_), Some(part)) = (&load.at, &load.part) {
+        report.error::<()>(&part.span, "a load takes `at` or `part`, not both");
+    }
+    let names = report.require_nodes(owner, key, names)?;
+    if names.values.is_empty() {
+        report.error::<()>(&names.span, format!("`{key}` is empty"));
+    }
+    Some(names)
+}
+
 /// Reads a load per length; `None` where it is one over areas.
 fn line_load(load: &words::Load, amplitude: Option<usize>, report: &mut Report) -> Option<LineLoad> {
     let given = load.force_per_length.as_ref().or(load.local.as_ref());
@@ -114,7 +119,7 @@ fn line_load(load: &words::Load, amplitude: Option<usize>, report: &mut Report) 
 
 /// The elements of beams and bars by their end nodes, in ascending order.
 fn elements_by_ends(parts: &[Part]) -> HashMap<[usize; 2], (usize, usize)> {
-    let is_line = |part: &&Part| matches!(part, Part::Beam(_) | Part::Bar(_));
+    let is_line = |part: &Part| part.kind().is_deformable() && !part.kind().is_surface();
     let mut found = HashMap::new();
     for (index, part) in parts.iter().enumerate().filter(|(_, part)| is_line(part)) {
         for element in 0..part.elements() {
@@ -216,7 +221,8 @@ impl<'d> Spread<'_, 'd> {
             }
             return;
         }
-        if at.kind == PartKind::Bar {
+        let has_axes = |part: &Part| part.line(0, 1.0, &parts.stiffnesses).is_some_and(|line| line.axes.is_some());
+        if !parts.of(at).iter().all(has_axes) {
             let without = [("local", span(&self.words.local)), ("follower", span(&self.words.follower))];
             report.reject_unused("a load on a bar, which has no axes", &without);
         }

@@ -11,7 +11,7 @@ use super::disk::{at, create, replace};
 use super::run_list::RunList;
 use super::vtu::{self, Cell};
 use crate::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
-use crate::model::{Drawing, Model, Part, PartKind};
+use crate::model::{Drawing, Model, Part};
 use crate::snapshot::keep;
 use crate::solids::outline::OutlineCell;
 use crate::solve::{Frame, ShellState};
@@ -134,9 +134,9 @@ pub fn bytes(model: &Model) -> usize {
     let Grid { places, connectivity, offsets, .. } = Grid::of(model);
     let cells = offsets.len();
     let of_shells = if model.has_surfaces() { 13 } else { 0 };
-    let of_points = if model.has(PartKind::Beam) { 27 } else { 21 };
+    let of_points = if model.has_sections() { 27 } else { 21 };
     let numbers = of_points * places.len() + connectivity.len() + cells * (2 + of_shells + usize::from(model.yields()));
-    let arrays = if model.has_surfaces() { 18 } else { 12 } + if model.has(PartKind::Beam) { 2 } else { 0 };
+    let arrays = if model.has_surfaces() { 18 } else { 12 } + if model.has_sections() { 2 } else { 0 };
     (8 * numbers + cells) * 4 / 3 + arrays * ARRAY + ENDS
 }
 

@@ -8,7 +8,7 @@ use super::table::{TableKind, WriteRows};
 use super::table_file::{EmptyFields, TableFile, TableMark};
 use super::table_size::size_in_words;
 use super::tables::TABLES;
-use crate::model::{Cadence, Model, PartKind, When};
+use crate::model::{Cadence, Model, When};
 use crate::names::instant;
 use crate::plan::Plan;
 use crate::snapshot::keep;
@@ -233,6 +233,6 @@ pub fn wanted(model: &Model) -> Wanted {
     });
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
-    let all = if model.has(PartKind::Beam) { all } else { all.without(Wanted::NODAL_RESULTANTS) };
+    let all = if model.has_sections() { all } else { all.without(Wanted::NODAL_RESULTANTS) };
     if model.has_surfaces() { all } else { all.without(Wanted::SHELLS) }
 }

@@ -37,7 +37,7 @@ pub struct System {
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
     pub joints: Vec<Joint>,
     /// ε of the constraint equations.
-    pub(super) regularization: f64,
+    regularization: f64,
     /// The links one by one, from which their results are computed.
     pub(super) links: Vec<LinkElement>,
     /// Index of the first group of contacts; these stand last.
@@ -47,7 +47,7 @@ pub struct System {
     /// The follower pressures on faces.
     pub(super) pressures: Vec<model::Pressure>,
     /// The ends of the elements of beams, where results are wanted there.
-    pub(super) beam_ends: Option<BeamEnds>,
+    beam_ends: Option<BeamEnds>,
     /// The dampers between nodes and the ground.
     pub(super) nodal_damping: Vec<model::NodalDamping>,
     /// The Rayleigh factor on the mass (per time).
@@ -95,6 +95,16 @@ impl Forces {
 }
 
 impl System {
+    /// ε of the constraint equations.
+    pub(super) fn regularization(&self) -> f64 {
+        self.regularization
+    }
+
+    /// The ends of the elements of beams, where results are wanted there.
+    pub(super) fn beam_ends(&self) -> Option<&BeamEnds> {
+        self.beam_ends.as_ref()
+    }
+
     /// The bodies that turn by their angular momentum in implicit schemes, in ascending order of nodes.
     pub fn turning_bodies(&self) -> &[TurningBody] {
         &self.turning_bodies

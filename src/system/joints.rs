@@ -371,7 +371,7 @@ pub(super) fn tangents(
                 K[i * WIDTH + 12 + k] = s * G[i];
                 K[(12 + k) * WIDTH + i] = s * G[i];
             }
-            K[(12 + k) * (WIDTH + 1)] = -system.regularization * s;
+            K[(12 + k) * (WIDTH + 1)] = -system.regularization() * s;
         }
         add(j, &mut K, values);
         first += joint.equations.len();

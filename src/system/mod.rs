@@ -39,7 +39,7 @@ pub use inertia::Inertia;
 pub use joints::JointState;
 pub use loads::Loading;
 pub use multipliers::Multipliers;
-pub use parts::beams::{SectionPlace, SectionPoint};
+pub use parts::beam_sections::{SectionPlace, SectionPoint};
 pub use parts::links::LinkState;
 pub use parts::shells::ShellState;
 pub use scale::Scale;

@@ -2,7 +2,8 @@
 
 use super::equations::System;
 use super::loads::Loading;
-use super::parts::beams::{self, EndForces, SectionPoint};
+use super::parts::beam_sections::{self, EndForces, SectionPoint};
+use super::parts::beams;
 use super::parts::links::{self, LinkState};
 use super::parts::shells::{self, ShellState};
 use crate::model::Model;
@@ -52,6 +53,6 @@ pub fn section_points(
     (now, loading): (&Configuration, &Loading),
     out: &mut Vec<SectionPoint>,
 ) {
-    let acting = system.beam_ends.as_ref().map(|ends| EndForces { ends, loads: &system.loads, loading });
-    beams::section_points(&system.groups, model, now, acting, out);
+    let acting = system.beam_ends().map(|ends| EndForces { ends, loads: &system.loads, loading });
+    beam_sections::section_points(&system.groups, model, now, acting, out);
 }

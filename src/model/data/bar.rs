@@ -2,7 +2,7 @@
 
 use super::integrals::{MassIntegrals, along};
 use super::node::Node;
-use super::part_answers::{Drawing, NodeWeights, PartAnswers, extent};
+use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::materials::MaterialLaw;
 use crate::math::{Mat3, Vec3};
@@ -55,6 +55,10 @@ impl PartAnswers for Bar {
 
     fn mass_kind(&self) -> Option<MassKind> {
         Some(self.mass)
+    }
+
+    fn line(&self, _: usize, _: f64, _: &[Stiffness]) -> Option<LineElement> {
+        Some(LineElement { axes: None, shear: None })
     }
 
     fn element_mass(&self, element: usize, nodes: &[Node], _: &[Stiffness]) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::integrals::{MassIntegrals, along};
 use super::node::Node;
-use super::part_answers::{Drawing, NodeWeights, PartAnswers, extent};
+use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::elements::beam::FibreModel;
 use crate::math::{Mat3, Vec3, quadrature};
@@ -66,6 +66,18 @@ impl PartAnswers for Beam {
 
     fn mass_kind(&self) -> Option<MassKind> {
         Some(self.mass)
+    }
+
+    fn line(&self, element: usize, length: f64, stiffnesses: &[Stiffness]) -> Option<LineElement> {
+        let spec = &self.elements[element];
+        let section = &stiffnesses[spec.section];
+        // Along y the beam bends about z, and along z about y.
+        let shear = |along: usize| {
+            let about = 3 - along;
+            12.0 * section.M[(about, about)] / (section.N[(along, along)] * length * length)
+        };
+        let bends = self.order == 1 && self.yielding.is_none();
+        Some(LineElement { axes: Some(spec.frame), shear: bends.then(|| [shear(1), shear(2)]) })
     }
 
     fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {

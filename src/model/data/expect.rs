@@ -45,7 +45,7 @@ pub enum ExpectAt {
     Shells(usize, usize),
     /// A beam by its place in [`super::Model::parts`]: of forces and moments in its sections those of the largest magnitude, and its largest
     /// plastic strain.
-    Beam(usize),
+    Sections(usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),
 }

@@ -44,7 +44,7 @@ pub use modes::{ModeExtent, ModeKind, ModesAsked};
 pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Output};
 pub use part::{Part, PartType, quantities_of};
-pub use part_answers::{Drawing, LinearSpring, NodeWeights};
+pub use part_answers::{Drawing, LineElement, LinearSpring, NodeWeights};
 pub use response::{AroundResonances, ResponseAsked, ResponseMethod};
 pub use shell::{Shell, ShellElement};
 pub use stage::{Actors, RunStage, Stop, StopQuantity};

@@ -76,6 +76,11 @@ impl Model {
         self.count(kind) > 0
     }
 
+    /// True where any part has sections with forces and moments.
+    pub fn has_sections(&self) -> bool {
+        self.parts.iter().any(|part| part.kind().has_sections())
+    }
+
     /// True where any part is a surface.
     pub fn has_surfaces(&self) -> bool {
         self.parts.iter().any(|part| part.kind().is_surface())

@@ -7,7 +7,7 @@ use super::contact::Contact;
 use super::integrals::MassIntegrals;
 use super::link::Link;
 use super::node::Node;
-use super::part_answers::{Drawing, LinearSpring, NodeWeights, PartAnswers};
+use super::part_answers::{Drawing, LineElement, LinearSpring, NodeWeights, PartAnswers};
 use super::shell::Shell;
 use crate::deck::part_table::MassKind;
 use crate::deck::parts::PartKind;
@@ -113,6 +113,11 @@ impl Part {
     /// The mass of an element at t = 0, whether or not the deck asks to keep it.
     pub fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {
         ask!(self, element_mass element, nodes, stiffnesses)
+    }
+
+    /// An element of this length as a load along it sees it; `None` for what has no length.
+    pub fn line(&self, element: usize, length: f64, stiffnesses: &[Stiffness]) -> Option<LineElement> {
+        ask!(self, line element, length, stiffnesses)
     }
 
     /// The part as a linear spring along a line; `None` for all that is not just that.

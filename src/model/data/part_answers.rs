@@ -33,6 +33,14 @@ pub struct LinearSpring {
     pub damping: f64,
 }
 
+/// An element along a line, as a load per length sees it.
+pub struct LineElement {
+    /// Axes of its section (columns, global at t = 0); `None` where it has none.
+    pub axes: Option<Mat3>,
+    /// Of an element of two nodes that bends like the exact beam: 12 EI/(GA h²), the parts of shear in deflections along y and z.
+    pub shear: Option<[f64; 2]>,
+}
+
 /// A place on an element: its nodes, each with its weight.
 pub type NodeWeights = Vec<(usize, f64)>;
 
@@ -71,6 +79,10 @@ pub trait PartAnswers {
 
     fn element_mass(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> f64 {
         0.0
+    }
+
+    fn line(&self, _element: usize, _length: f64, _stiffnesses: &[Stiffness]) -> Option<LineElement> {
+        None
     }
 
     fn linear_spring(&self) -> Option<LinearSpring> {

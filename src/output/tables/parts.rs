@@ -30,7 +30,7 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Elements(..) | ExpectAt::Beam(_) => vec![PLASTIC_STRAIN.name],
+        ExpectAt::Elements(..) | ExpectAt::Sections(_) => vec![PLASTIC_STRAIN.name],
         _ => Vec::new(),
     }
 }
@@ -39,7 +39,7 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
     let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
     let (from, to) = match at {
         ExpectAt::Elements(from, to) => (from, to),
-        ExpectAt::Beam(part) => (elements(&frame.model.parts[..part]), elements(&frame.model.parts[..=part])),
+        ExpectAt::Sections(part) => (elements(&frame.model.parts[..part]), elements(&frame.model.parts[..=part])),
         _ => return None,
     };
     frame.derived.plastic_strains.get(from..to)?.iter().copied().reduce(f64::max)

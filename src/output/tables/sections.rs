@@ -48,14 +48,14 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Beam(_) => SECTION_FORCES.iter().map(|column| column.name).collect(),
+        ExpectAt::Sections(_) => SECTION_FORCES.iter().map(|column| column.name).collect(),
         _ => Vec::new(),
     }
 }
 
 /// The value of the largest magnitude over the beam, at ends of elements and at points between, with its sign.
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Beam(part) = at else { return None };
+    let ExpectAt::Sections(part) = at else { return None };
     let points = frame.derived.sections.iter().filter(|point| point.part == part);
     points.map(|point| point.at.forces[index]).reduce(|most, force| if force.abs() > most.abs() { force } else { most })
 }

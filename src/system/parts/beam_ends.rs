@@ -1,7 +1,7 @@
 //! Resultants at both ends of each element of the beams, by its equilibrium: internal forces on its end nodes, less the shares there of
 //! loads along it, of weight and of inertia. They balance joints, supports and what else acts at the node to what the iteration leaves.
 
-use super::beams::in_section;
+use super::beams::{in_section, share};
 use super::masses::NodalMasses;
 use crate::elements::{Force, IntegrationPoint, subtract};
 use crate::math::{Mat3, Vec3};
@@ -36,7 +36,7 @@ impl BeamEnds {
     /// True where a table or an expected value asks for resultants at ends.
     pub fn wanted(model: &Model) -> bool {
         let listed = model.output.sections && model.output.section_places != SectionPlaces::Points;
-        listed || model.expects.iter().any(|expect| matches!(expect.at, ExpectAt::Beam(_)))
+        listed || model.expects.iter().any(|expect| matches!(expect.at, ExpectAt::Sections(_)))
     }
 
     /// The ends of the beams of a model at its initial positions.
@@ -57,7 +57,7 @@ impl BeamEnds {
                     ConsistentMass::new(nodes, length * model.stiffnesses[spec.section].mass_per_length)
                 });
                 ends.push([0, beam.order].map(|a| {
-                    let (mass, J0) = masses.share_of_beam(beam, element, a, &model.stiffnesses);
+                    let (mass, J0) = share(beam, (element, a), &model.stiffnesses, &masses);
                     let node = nodes[a];
                     let row = consistent.iter().flat_map(ConsistentMass::pairs).filter(|&(row, ..)| row == node);
                     BeamEnd {

@@ -1,60 +1,24 @@
 //! Beams in the equation of motion: their masses and blocks, and the resultants in their sections.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
-use super::beam_ends::BeamEnds;
 use super::masses::NodalMasses;
 use crate::elements::beam::{BeamGeometry, Beams, FibreModel};
 use crate::elements::{ElementBlock, Force, IntegrationPoint};
 use crate::math::{Mat3, Vec3, quadrature};
-use crate::model::{Beam, Load, MassKind, Model, PartType};
+use crate::model::{Beam, MassKind, Model, PartType};
 use crate::sections::{self, Stiffness};
 use crate::state::Configuration;
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
-use crate::system::loads::Loading;
 use crate::system::plane::{MotionPlane, SMALL};
 use std::ops::Range;
-
-/// The state of an integration point of a beam.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SectionPoint {
-    /// The beam's index in [`Model::parts`].
-    pub part: usize,
-    /// Number of the element within the beam.
-    pub element: usize,
-    /// The place in the element.
-    pub place: SectionPlace,
-    /// Resultants and strains at the arc length `s` from the beam's start.
-    pub at: IntegrationPoint,
-}
-
-/// A place in an element of a beam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SectionPlace {
-    /// The first node of the element.
-    Start,
-    /// An integration point by its number.
-    Point(usize),
-    /// The last node of the element.
-    End,
-}
-
-/// What acts along beams, from which the resultants at the ends of their elements follow.
-pub struct EndForces<'a> {
-    /// The ends.
-    pub ends: &'a BeamEnds,
-    /// The loads of the model, ...
-    pub loads: &'a [Load],
-    /// ... and what they are at the instant.
-    pub loading: &'a Loading,
-}
 
 impl Assembled for Beam {
     fn add_masses(&self, stiffnesses: &[Stiffness], masses: &mut NodalMasses) {
         for (index, element) in self.elements.iter().enumerate() {
             let nodes = &element.nodes[..=self.order];
             for (a, &node) in nodes.iter().enumerate() {
-                let (mass, inertia) = masses.share_of_beam(self, index, a, stiffnesses);
+                let (mass, inertia) = share(self, (index, a), stiffnesses, masses);
                 masses.lumped.add(node, mass, &inertia);
             }
             if self.mass == MassKind::Consistent {
@@ -123,6 +87,24 @@ fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
     plane.decouples(&turn(&C.N)) && plane.decouples(&turn(&C.M)) && (!paired || plane.decouples_rotations(&rest))
 }
 
+/// Lumped mass and inertia tensor (global components at t = 0) of an element at its `a`-th node.
+pub(super) fn share(
+    beam: &Beam,
+    (element, a): (usize, usize),
+    stiffnesses: &[Stiffness],
+    masses: &NodalMasses,
+) -> (f64, Mat3) {
+    let (_, weights) = quadrature::lobatto(beam.order + 1);
+    let element = &beam.elements[element];
+    let (node, section) = (element.nodes[a], &stiffnesses[element.section]);
+    let length = (masses.x[element.nodes[beam.order]] - masses.x[element.nodes[0]]).norm();
+    let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
+    let share = 0.5 * weights[a] * length;
+    let mass = if masses.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
+    let keep = beam.rotary_inertia && masses.has_rotary_inertia(beam.mass, node);
+    (mass, if keep { rotary * share } else { Mat3::zeros() })
+}
+
 /// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order: polynomials through the
 /// integration points, or through both ends where there is one point.
 pub fn nodal_resultants(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
@@ -159,49 +141,4 @@ pub(super) fn in_section(sum: &Force, axes: &Mat3, sign: f64) -> [f64; 6] {
     let n = axes.tr_mul(&Vec3::new(sum[0], sum[1], sum[2])) * sign;
     let m = axes.tr_mul(&Vec3::new(sum[3], sum[4], sum[5])) * sign;
     [n.x, n.y, n.z, m.x, m.y, m.z]
-}
-
-/// Writes the stress resultants of all beams into `out`, in deck order: those at their integration points, and with what acts along the
-/// beams those at the ends of their elements too.
-pub fn section_points(
-    groups: &[Group],
-    model: &Model,
-    now: &Configuration,
-    acting: Option<EndForces>,
-    out: &mut Vec<SectionPoint>,
-) {
-    out.clear();
-    let (mut start, mut count) = (0.0, 0);
-    for group in groups {
-        let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
-        let now = group.configuration(now);
-        if group.first == 0 {
-            start = 0.0;
-        }
-        for e in 0..group.block.len() {
-            let element = group.first + e;
-            let spec = &beam.elements[element];
-            let frame: &Mat3 = &spec.frame;
-            let nodes = (spec.nodes[0], spec.nodes[beam.order]);
-            let end = start + (model.nodes[nodes.1].x - model.nodes[nodes.0].x).norm();
-            let ends = acting.as_ref().and_then(|acting| {
-                let internal = group.block.end_forces(e, &now)?;
-                Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), &now))
-            });
-            let mut push = |place, s: f64, at: IntegrationPoint| {
-                out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, ..at } });
-            };
-            if let Some([at, _]) = ends {
-                push(SectionPlace::Start, start, at);
-            }
-            for point in 0..group.block.points() {
-                let Some(at) = group.block.point(e, point, frame, &now) else { continue };
-                push(SectionPlace::Point(point), at.s + start, at);
-            }
-            if let Some([_, at]) = ends {
-                push(SectionPlace::End, end, at);
-            }
-            (start, count) = (end, count + 1);
-        }
-    }
 }

@@ -1,8 +1,7 @@
 //! The masses of nodes and elements while they are summed.
 
-use crate::math::{Mat3, Vec3, quadrature};
-use crate::model::{Beam, MassKind, Model};
-use crate::sections::Stiffness;
+use crate::math::Vec3;
+use crate::model::{MassKind, Model};
 use crate::system::inertia::{ConsistentMass, Lumped};
 
 /// The masses of a scene while they are summed.
@@ -25,19 +24,6 @@ impl<'s> NodalMasses<'s> {
         let dependents = model.constraints.dependents.iter();
         dependents.filter(|of| is_body[of.master]).for_each(|of| attached[of.node] = true);
         NodalMasses { x, attached, lumped: Lumped::new(x.len()), consistent: Vec::new() }
-    }
-
-    /// Lumped mass and inertia tensor (global components at t = 0) of an element of a beam at its `a`-th node.
-    pub fn share_of_beam(&self, beam: &Beam, element: usize, a: usize, stiffnesses: &[Stiffness]) -> (f64, Mat3) {
-        let (_, weights) = quadrature::lobatto(beam.order + 1);
-        let element = &beam.elements[element];
-        let (node, section) = (element.nodes[a], &stiffnesses[element.section]);
-        let length = (self.x[element.nodes[beam.order]] - self.x[element.nodes[0]]).norm();
-        let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
-        let share = 0.5 * weights[a] * length;
-        let mass = if self.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
-        let keep = beam.rotary_inertia && self.has_rotary_inertia(beam.mass, node);
-        (mass, if keep { rotary * share } else { Mat3::zeros() })
     }
 
     /// True where a deformable part has mass at a node of its own.

@@ -3,6 +3,7 @@
 mod assembled;
 mod bars;
 pub mod beam_ends;
+pub mod beam_sections;
 pub mod beams;
 mod contacts;
 pub mod coordinate_springs;
