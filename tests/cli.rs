@@ -139,6 +139,10 @@ fn the_schema_is_a_schema_of_the_deck() {
     assert_eq!(beam["rotary_inertia"]["type"], "boolean");
     assert!(beam["orientation"]["description"].is_string());
     assert!(!schema.to_string().contains("null"));
+    let sweep = rdsolve(folder.path(), &["schema", "--sweep"]).code(0);
+    let sweep: serde_json::Value = serde_json::from_slice(&sweep.get_output().stdout).unwrap();
+    assert_eq!(sweep["title"], "Sweep");
+    assert!(sweep["properties"]["vary"]["description"].is_string());
 }
 
 /// A truss behind a spring snaps back; with steps that may not be cut its path is lost on the way.

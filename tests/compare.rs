@@ -220,6 +220,44 @@ fn a_path_that_turns_is_matched_by_step() {
     assert!(said.contains("time") && said.contains("DIFFERS"), "{said}");
 }
 
+/// Rows of a response belong together by their frequency, response by response, wherever they stand in the file.
+#[test]
+fn a_response_is_matched_by_frequency_and_point() {
+    let root = folders();
+    let response = |frequencies: [&[f64]; 2], shift: f64| {
+        let mut text = String::from("step,time,stage,frequency,node,ux\n");
+        for (stage, frequencies) in ["first", "second"].iter().zip(frequencies) {
+            for f in frequencies {
+                let of = |scale: f64| scale / (4.1 - f * f).abs() + shift;
+                text += &format!("2,1.0,{stage},{f:?},tip,{:?}\n2,1.0,{stage},{f:?},foot,{:?}\n", of(1.0), of(2.0));
+            }
+        }
+        text
+    };
+    let write = |side: &str, text: String| fs::write(root.path().join(side).join("response.csv"), text).unwrap();
+    let coarse: &[f64] = &[1.0, 2.0, 3.0, 4.0];
+    let fine: &[f64] = &[1.0, 1.5, 2.0, 2.0 + 1e-12, 3.0, 3.5, 4.0];
+    write("a", response([coarse, fine], 0.0));
+    write("b", response([fine, coarse], 0.0));
+    let said = both_ways(&root, 0, &["--columns", "response.csv"]);
+    assert!(said.contains("response.csv: 16 rows matched at 8 frequencies"), "{said}");
+    assert!(said.contains("response.csv: b has 3 more frequencies, 6 rows"), "{said}");
+    // Another order of the points of a frequency.
+    let swap = |text: String| {
+        let mut lines: Vec<&str> = text.lines().collect();
+        lines[1..].chunks_mut(2).for_each(|pair| pair.reverse());
+        lines.join("\n") + "\n"
+    };
+    write("b", swap(response([coarse, fine], 0.0)));
+    assert!(both_ways(&root, 0, &["--columns", "response.csv"]).contains("22 rows matched at 11 frequencies"));
+    write("b", response([coarse, fine], 0.1));
+    let said = both_ways(&root, 5, &["--columns", "response.csv:ux"]);
+    assert!(said.contains("DIFFERS") && said.contains("frequency 2, first foot"), "{said}");
+    write("b", response([coarse, &fine[..3]], 0.0));
+    let said = both_ways(&root, 5, &["--columns", "response.csv"]);
+    assert!(said.contains("ends at frequency 4 in a and frequency 2 in b"), "{said}");
+}
+
 #[test]
 fn a_line_torn_off_is_no_agreement() {
     let root = folders();

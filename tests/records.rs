@@ -194,6 +194,42 @@ fn bad_records_are_errors_with_their_place() {
     assert!(code == 3 && found.contains("`file` does not apply to a sine"), "{found}");
 }
 
+/// A record of a data base: its values in g, row by row, at the step of its header. The same bytes as from columns.
+#[test]
+fn a_record_of_a_data_base_is_read_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let values: Vec<String> = (0..=400).map(|k| format!("{:15.7E}", pulse(k))).collect();
+    let rows: String = values.chunks(5).map(|row| row.concat() + "\n").collect();
+    let at2 =
+        format!("DATA BASE\nSomewhere\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=    401, DT=   .0050 SEC\n{rows}");
+    fs::write(folder.join("RSN6_180.AT2"), &at2).unwrap();
+    let deck = |keys: &str| format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\n{keys}\nscale = 9.81\n");
+    let columns = deck("file = \"record.csv\"\ntime_step = 0.005");
+    assert_eq!(run(folder, &columns, &values.join("\n"), "columns"), (0, String::new()));
+    let found = run(folder, &deck("file = \"RSN6_180.AT2\""), "", "at2");
+    assert_eq!(found, (0, String::new()));
+    let bodies = |out: &str| fs::read(folder.join(out).join("bodies.csv")).unwrap();
+    assert!(bodies("columns") == bodies("at2"));
+    // What has no meaning with such a file, what is missing, and where the file is wrong.
+    for (keys, spoil, said) in [
+        ("time_step = 0.005", "", &["`time_step` does not apply to an .AT2 file", "deck.toml:"][..]),
+        ("columns = 1", "", &["`columns` does not apply to an .AT2 file"]),
+        ("", "NPTS=    402", &["there are 401 values, and NPTS = 402 says more", "RSN6_180.AT2:85"]),
+        ("", "NPTS=    400", &["there are more values than NPTS = 400", "RSN6_180.AT2:85:3"]),
+        ("", "NPTS=   none", &["NPTS is the number of values, 2 or more, not `NONE`", "RSN6_180.AT2:4"]),
+    ] {
+        let text = if spoil.is_empty() { at2.clone() } else { at2.replace("NPTS=    401", spoil) };
+        fs::write(folder.join("RSN6_180.AT2"), text).unwrap();
+        let (code, found) = run(folder, &deck(&format!("file = \"RSN6_180.AT2\"\n{keys}")), "", "out");
+        assert_eq!(code, 3, "{keys}{spoil}: {found}");
+        said.iter().for_each(|said| assert!(found.contains(said), "{keys}{spoil}: {found}"));
+    }
+    fs::write(folder.join("RSN6_180.AT2"), at2).unwrap();
+    let (code, found) = run(folder, &deck("file = \"RSN6_180.AT2\"").replace("scale = 9.81", ""), "", "out");
+    assert!(code == 0 && found.contains("is in g, and nothing says how much that is"), "{found}");
+}
+
 /// The hash of a run is that of its records too: other numbers, another hash.
 #[test]
 fn a_record_is_part_of_the_hash() {

@@ -155,6 +155,70 @@ fn it_does_not_matter_who_ran_what() {
     assert!(alone == shared && alone == killed);
 }
 
+/// A node died with a case of its own: its lock binds nobody once it has given no sign of life for long enough, and the case is run.
+#[test]
+fn a_case_of_a_host_that_died_is_taken_over() {
+    let folder = files(&SWEEP.replace("steps = 5", "steps = 1").replace("[1.0, 2.0, 4.0]", "[1.0, 2.0]"));
+    let folder = folder.path();
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "alone"]).status.success());
+    let name = rows(folder, "alone/cases.csv")[1][1].clone();
+    let case = folder.join("shared").join(name);
+    fs::create_dir_all(&case).unwrap();
+    let lock = case.join("run.lock");
+    fs::write(&lock, "host elsewhere\nprocess 7\nbegan 1795424821 (then)\nboot x\nrenewed every 30 s\n").unwrap();
+    fs::write(case.join("bodies.csv"), "step,time\n0,0.0\n").unwrap();
+    fs::write(case.join("run.list"), "# written by this run; --overwrite takes it away\nbodies.csv\n").unwrap();
+    let output = rdsolve(folder, &["sweep", "s.toml", "-o", "shared"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("2 cases: 1 done, 1 are still to be run"), "{}", text(&output.stdout));
+    // Six minutes later.
+    let ago = std::time::SystemTime::now() - Duration::from_secs(360);
+    fs::OpenOptions::new().write(true).open(&lock).unwrap().set_modified(ago).unwrap();
+    let output = rdsolve(folder, &["sweep", "s.toml", "-o", "shared"]);
+    assert!(text(&output.stdout).contains("2 cases: 2 done;"), "{}", text(&output.stdout));
+    let summary = |out: &str| fs::read(folder.join(out).join("summary.csv")).unwrap();
+    assert!(summary("alone") == summary("shared") && !lock.exists());
+}
+
+/// Where the deck has checkpoints a case that was killed goes on from its last; one that is damaged is of no harm.
+#[test]
+fn a_killed_case_goes_on_from_its_checkpoint() {
+    let folder = files(&SWEEP.replace("steps = 5", "steps = 1").replace("[1.0, 2.0, 4.0]", "[1.0]"));
+    let folder = folder.path();
+    let long = DECK
+        .replace("end_time = 1.0", "end_time = 40.0")
+        .replace("[output]", "[output]\nevery = 500\ncheckpoint = 0.01");
+    fs::write(folder.join("deck.toml"), long).unwrap();
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "alone"]).status.success());
+    let case = rows(folder, "alone/cases.csv")[1][1].clone();
+    assert!(!folder.join("alone").join(&case).join("run.checkpoint").exists(), "a case that is done leaves none");
+    let program = assert_cmd::cargo::cargo_bin("rdsolve");
+    let case = folder.join("killed").join(case);
+    for damaged in [false, true] {
+        let _ = fs::remove_dir_all(folder.join("killed"));
+        let mut command = std::process::Command::new(&program);
+        command.current_dir(folder).args(["sweep", "s.toml", "-o", "killed"]).stdout(Stdio::null());
+        let mut process = command.spawn().unwrap();
+        let checkpoint = case.join("run.checkpoint");
+        while !checkpoint.exists() {
+            assert!(process.try_wait().unwrap().is_none(), "it came to its end without a checkpoint");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        process.kill().unwrap();
+        process.wait().unwrap();
+        if damaged {
+            fs::write(case.join("bodies.csv"), "step").unwrap();
+        }
+        assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "killed"]).status.success());
+        let log = fs::read_to_string(case.join("run.log")).unwrap();
+        assert_eq!(log.contains("the run goes on from its checkpoint"), !damaged, "{log}");
+        let left = |out: &str, file: &str| fs::read(folder.join(out).join(file)).unwrap();
+        assert!(left("alone", "summary.csv") == left("killed", "summary.csv"));
+        let of_case = |out: &str| left(out, &format!("{}/bodies.csv", case.file_name().unwrap().to_str().unwrap()));
+        assert!(of_case("alone") == of_case("killed") && !checkpoint.exists());
+    }
+}
+
 /// Cases that fail are told with their reasons and leave the others alone; they can be run again by themselves.
 #[test]
 fn failures_are_listed_and_run_again() {

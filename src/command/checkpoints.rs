@@ -5,7 +5,19 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
+
+/// The checkpoints that a run is to write.
+#[derive(Debug, Clone)]
+pub struct CheckpointsWanted {
+    /// What they belong to.
+    pub origin: CheckpointOrigin,
+    /// The seconds between two; `None` where only a signal asks for one.
+    pub apart: Option<f64>,
+    /// True where one is kept at the end of the run, which may then be made longer.
+    pub keeps_last: bool,
+}
 
 /// Writes checkpoints into the folder of a run.
 pub struct Checkpoints {
@@ -14,6 +26,8 @@ pub struct Checkpoints {
     next: Checkpoint,
     /// Raised by the clock.
     due: Arc<AtomicBool>,
+    /// The clock runs as long as this is there.
+    _clock: Option<Sender<()>>,
     /// True once the first has been written, or was there.
     any: bool,
     /// True where one is kept at the end of a run, which may then be made longer.
@@ -21,24 +35,23 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Checkpoints of a run of this origin: so many seconds apart, or only where the run is stopped.
-    pub fn new(folder: &Path, origin: CheckpointOrigin, apart: Option<f64>) -> Checkpoints {
-        let (due, keeps_last) = (Arc::new(AtomicBool::new(false)), apart.is_some());
+    /// The checkpoints of a run that writes into this folder.
+    pub fn new(folder: &Path, wanted: CheckpointsWanted) -> Checkpoints {
+        let CheckpointsWanted { origin, apart, keeps_last } = wanted;
+        let due = Arc::new(AtomicBool::new(false));
         // A thread looks at the clock: to look at it before every step would cost a small scene a twentieth.
-        if let Some(apart) = apart.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()) {
-            let due = Arc::downgrade(&due);
+        let clock = apart.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).map(|apart| {
+            let (alive, ended) = channel::<()>();
+            let due = due.clone();
             std::thread::spawn(move || {
-                loop {
-                    std::thread::sleep(apart);
-                    match due.upgrade() {
-                        Some(due) => due.store(true, Ordering::Relaxed),
-                        None => return,
-                    }
+                while ended.recv_timeout(apart) == Err(RecvTimeoutError::Timeout) {
+                    due.store(true, Ordering::Relaxed);
                 }
             });
-        }
+            alive
+        });
         let next = Checkpoint { origin, ..Checkpoint::default() };
-        Checkpoints { folder: folder.to_owned(), next, due, any: false, keeps_last }
+        Checkpoints { folder: folder.to_owned(), next, due, _clock: clock, any: false, keeps_last }
     }
 
     /// The same where there is one in the folder already.

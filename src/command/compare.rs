@@ -8,8 +8,8 @@ use super::console::{complain, counted, print, say};
 use super::exit::Exit;
 use crate::names::{nearest, short};
 use crate::output::compare::{
-    Alone, ColumnTolerance, ComparedColumn, ComparedTable, Comparison, Selector, Settings, compare as compared, shown,
-    size,
+    Alone, ColumnTolerance, ComparedColumn, ComparedTable, Comparison, Matched, Selector, Settings,
+    compare as compared, shown, size,
 };
 
 #[derive(Debug, Args)]
@@ -146,17 +146,35 @@ fn line(table: &ComparedTable, column: &ComparedColumn) -> [String; 7] {
         ["no number".to_string(), "on one side, or NaN".to_string()]
     };
     let [relative, absolute] = numbers;
-    let place = place(column.worst.time, &column.worst.key);
+    let place = place(table.by, column.worst.time, &column.worst.key);
     let tolerance = short(column.tolerance);
     [table.name.clone(), column.name.clone(), relative, absolute, place, tolerance, verdict.into()]
 }
 
-/// The time of a row and the name of the thing that it is about.
-fn place(time: f64, key: &[u8]) -> String {
+/// The time, or frequency, of a row and the name of the thing that it is about.
+fn place(by: Matched, time: f64, key: &[u8]) -> String {
     let name = shown(key);
     // A time is a sum of steps, whose last digits are rounding and say nothing.
     let time: f64 = format!("{time:.9e}").parse().unwrap_or(time);
-    if name.is_empty() { format!("t = {time}") } else { format!("t = {time}, {name}") }
+    let what = if by == Matched::Frequency { "frequency" } else { "t =" };
+    if name.is_empty() { format!("{what} {time}") } else { format!("{what} {time}, {name}") }
+}
+
+/// What rows are matched by, in a word.
+fn word(by: Matched) -> &'static str {
+    match by {
+        Matched::Time => "time",
+        Matched::Step => "step",
+        Matched::Frequency => "frequency",
+    }
+}
+
+/// So many of them.
+fn frames(by: Matched, count: u64, more: &str) -> String {
+    match (by, count) {
+        (Matched::Frequency, 2..) | (Matched::Frequency, 0) => format!("{count} {more}frequencies"),
+        _ => counted(count as usize, &format!("{more}{}", word(by))),
+    }
 }
 
 /// Lines on what a table of columns does not show: how many rows were matched, and what only one side has.
@@ -167,12 +185,12 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
         let name = &table.name;
         if !quiet {
             let rows = counted(table.rows as usize, "row");
-            let times = counted(table.frames as usize, if table.by_step { "step" } else { "time" });
+            let times = frames(table.by, table.frames, "");
             say(format!("{name}: {rows} matched at {times}"));
         }
         for (side, Alone { frames, all_rows, .. }) in table.alone.iter().enumerate() {
             if *frames > 0 && !quiet {
-                let times = counted(*frames as usize, if table.by_step { "more step" } else { "more time" });
+                let times = self::frames(table.by, *frames, "more ");
                 say(format!("{name}: {} has {times}, {}", names[side], counted(*all_rows as usize, "row")));
             }
         }
@@ -194,11 +212,15 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
         for (side, alone) in table.alone.iter().enumerate() {
             if let Some((time, key)) = &alone.first {
                 let rows = counted(alone.rows as usize, "row");
-                say(format!("MISSING {name}: {rows} only in {}, the first at {}", names[side], place(*time, key)));
+                say(format!(
+                    "MISSING {name}: {rows} only in {}, the first at {}",
+                    names[side],
+                    place(table.by, *time, key)
+                ));
             }
         }
         if let Some([a, b]) = table.ends {
-            let what = if table.by_step { "step" } else { "t =" };
+            let what = if table.by == Matched::Time { "t =" } else { word(table.by) };
             say(format!("DIFFERS {name}: ends at {what} {a} in {} and {what} {b} in {}", names[0], names[1]));
         }
         if table.nothing_matched() {
@@ -208,15 +230,19 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
     for (side, files) in comparison.only.iter().enumerate() {
         files.iter().for_each(|file| say(format!("MISSING {file}: only in {}", names[side])));
     }
+    text + &of_status(comparison, names, quiet)
+}
+
+/// A line about how the two runs ended; none where that is as it should be and nobody asks.
+fn of_status(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String {
     match &comparison.status {
         Some([a, b]) if a != b => {
-            say(format!("DIFFERS result.json: status `{a}` in {} and `{b}` in {}", names[0], names[1]))
+            format!("DIFFERS result.json: status `{a}` in {} and `{b}` in {}\n", names[0], names[1])
         }
-        Some([a, _]) if !quiet => say(format!("result.json: status `{a}` in both")),
+        Some([a, _]) if !quiet => format!("result.json: status `{a}` in both\n"),
         None if comparison.without_status && !quiet => {
-            say("result.json: in neither folder, so neither run is known to have come to its end".into());
+            "result.json: in neither folder, so neither run is known to have come to its end\n".to_owned()
         }
-        _ => {}
+        _ => String::new(),
     }
-    text
 }

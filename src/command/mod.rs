@@ -76,8 +76,8 @@ enum Command {
     Summary(summary::SummaryArgs),
     /// Print a commented deck that runs, to begin with: `rdsolve init frame > deck.toml`
     Init(init::InitArgs),
-    /// Print the JSON Schema of the deck, for completion and checks in editors
-    Schema,
+    /// Print the JSON Schema of the deck, or of a sweep, for completion and checks in editors
+    Schema(schema::SchemaArgs),
     /// Print a script that lets a shell complete commands and options
     Completions(shell_completions::CompletionsArgs),
     /// Print the manual page
@@ -118,7 +118,7 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Command::Sweep(args)), _) => sweep::sweep(&args),
         (Some(Command::Summary(args)), _) => summary::summary(&args),
         (Some(Command::Init(args)), _) => init::init(&args),
-        (Some(Command::Schema), _) => schema::schema(),
+        (Some(Command::Schema(args)), _) => schema::schema(&args),
         (Some(Command::Completions(args)), _) => shell_completions::completions(&args, Cli::command()),
         (Some(Command::Man), _) => shell_completions::man(Cli::command()),
         // Clap asks for a deck before it lets this happen.

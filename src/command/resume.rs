@@ -35,8 +35,11 @@ impl Begins {
 pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin {
     let hex = |digest: &[u8]| digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>();
     let origin = &loaded.model.origin;
-    let mesh = origin.mesh.iter().map(|mesh| (mesh.path.clone(), hex(&mesh.digest)));
-    let records = origin.records.iter().map(|record| (record.path.clone(), hex(&record.digest)));
+    // As the deck names them, wherever it is run from.
+    let folder = Path::new(&loaded.source.path).parent().unwrap_or(Path::new(""));
+    let name = |path: &str| Path::new(path).strip_prefix(folder).unwrap_or(Path::new(path)).display().to_string();
+    let mesh = origin.mesh.iter().map(|mesh| (name(&mesh.path), hex(&mesh.digest)));
+    let records = origin.records.iter().map(|record| (name(&record.path), hex(&record.digest)));
     let is_free = |set: &&String| {
         set.split('=').next().is_some_and(|key| FREE.map(|of| of.join(".")).contains(&key.trim().to_owned()))
     };

@@ -1,13 +1,13 @@
 //! `rdsolve run deck.toml`: reads a deck, plans the computation, steps through it and writes the results.
 
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::arguments::{MAX_THREADS, RunArgs};
-use super::checkpoints::Checkpoints;
+use super::checkpoints::{Checkpoints, CheckpointsWanted};
 use super::console::{complain, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
@@ -69,11 +69,13 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     loaded.warnings.extend(warnings);
     let stop = Arc::new(AtomicBool::new(false));
     let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &stop).map_err(too_large)?;
+    let apart = loaded.model.output.checkpoint;
+    let checkpoints = CheckpointsWanted { origin, apart, keeps_last: apart.is_some() };
     let job = Job {
         loaded: &loaded,
         folder: &folder,
         overwrite: args.overwrite || args.resume,
-        checkpoints: Some((origin, loaded.model.output.checkpoint)),
+        checkpoints: Some(checkpoints),
         quiet: args.quiet,
         mesh_error: args.mesh_error,
         threads,
@@ -94,7 +96,8 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     job.conclude(&end, &result, energy)
 }
 
-/// Runs a variant of a deck on one thread, without a word, into a folder of its own.
+/// Runs a variant of a deck on one thread, without a word, into a folder of its own. Where the deck asks for checkpoints, it goes on from the
+/// one that a run which was stopped or killed has left.
 ///
 /// # Errors
 /// What has kept it from running: errors of the deck as text, or one of input/output.
@@ -112,13 +115,17 @@ pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBoo
         Unfit::Deck(problems) => faults(&problems, &loaded.source),
     })?;
     loaded.warnings.extend(warnings);
-    let made = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), stop);
-    let mut run = made.map_err(|error| CaseFault::Deck(error.to_string()))?;
+    let made = || Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), stop);
+    let made = || made().map_err(|error| CaseFault::Deck(error.to_string()));
     let job = Job {
         loaded: &loaded,
         folder,
         overwrite: true,
-        checkpoints: None,
+        checkpoints: loaded.model.output.checkpoint.map(|apart| CheckpointsWanted {
+            origin: checkpoint_origin(&loaded, false),
+            apart: Some(apart),
+            keeps_last: false,
+        }),
         quiet: true,
         mesh_error: false,
         threads: 1,
@@ -128,8 +135,21 @@ pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBoo
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
-    let (end, ..) = job.compute(&mut run, None).map_err(CaseFault::Io)?;
+    if let Some(checkpoint) = job.checkpoints.as_ref().and_then(|wanted| left_over(folder, &wanted.origin)) {
+        match job.compute(&mut made()?, Some(checkpoint)) {
+            Err(error) if [ErrorKind::InvalidData, ErrorKind::NotFound].contains(&error.kind()) => {
+                Checkpoint::remove(folder).map_err(CaseFault::Io)?;
+            }
+            done => return done.map(|(end, ..)| end.status).map_err(CaseFault::Io),
+        }
+    }
+    let (end, ..) = job.compute(&mut made()?, None).map_err(CaseFault::Io)?;
     Ok(end.status)
+}
+
+/// The checkpoint of this origin in the folder of a case, if there is a whole one.
+fn left_over(folder: &Path, origin: &CheckpointOrigin) -> Option<Checkpoint> {
+    Checkpoint::read(folder).ok().flatten().filter(|found| found.origin.difference(origin).is_none())
 }
 
 /// What keeps a case of a sweep from running.
@@ -170,8 +190,8 @@ struct Job<'a> {
     loaded: &'a Loaded,
     folder: &'a Path,
     overwrite: bool,
-    /// What checkpoints belong to, and the seconds between two of them; `None` where none are written.
-    checkpoints: Option<(CheckpointOrigin, Option<f64>)>,
+    /// The checkpoints; `None` where none are written.
+    checkpoints: Option<CheckpointsWanted>,
     quiet: bool,
     mesh_error: bool,
     threads: usize,
@@ -280,10 +300,8 @@ impl Job<'_> {
             true => Watchers::waiting(log, self.folder, model, options),
             false => Watchers::new(log, self.folder, model, options)?,
         };
-        watchers.checkpoints = self
-            .checkpoints
-            .clone()
-            .map(|(origin, apart)| Checkpoints::new(self.folder, origin, apart).after_another(resumes));
+        watchers.checkpoints =
+            self.checkpoints.clone().map(|wanted| Checkpoints::new(self.folder, wanted).after_another(resumes));
         Ok(watchers)
     }
 

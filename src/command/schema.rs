@@ -1,16 +1,28 @@
-//! `rdsolve schema`: the JSON Schema of the deck, for completion and checks in editors.
+//! `rdsolve schema`: the JSON Schema of the deck, or of the file of a sweep, for completion and checks in editors.
 
+use clap::Args;
 use serde_json::Value;
 
 use super::console::print;
 use super::exit::Exit;
 use crate::deck::{Deck, aliases};
+use crate::sweep::file::SCHEMA;
 
-/// Prints the JSON Schema of the deck on standard output.
+#[derive(Debug, Args)]
+pub struct SchemaArgs {
+    /// The schema of the file that `rdsolve sweep` reads
+    #[arg(long)]
+    sweep: bool,
+}
+
+/// Prints a JSON Schema on standard output.
 ///
 /// # Errors
 /// [`Exit::InputOutput`] where standard output cannot be written.
-pub fn schema() -> Result<(), Exit> {
+pub fn schema(args: &SchemaArgs) -> Result<(), Exit> {
+    if args.sweep {
+        return print(SCHEMA);
+    }
     let mut schema = schemars::schema_for!(Deck).to_value();
     aliases::describe(&mut schema);
     without_null(&mut schema);

@@ -97,12 +97,15 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
         return list(&folder, &cases, &chosen);
     }
     fs::create_dir_all(&folder.path).map_err(|error| cannot_write(&folder.path, &error))?;
+    let jobs = args.jobs.map_or_else(cores, usize::from);
+    // The summary is gathered on as many threads.
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
     folder.write_cases(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
     let stop = Arc::new(AtomicBool::new(false));
     let sweep = Sweep { deck: &deck, text: &deck_text, cases: &cases, folder: &folder, stop: &stop, quiet: args.quiet };
     if !args.collect {
         stop_on_signals(&stop).map_err(|error| cannot_write(&folder.path, &error))?;
-        sweep.run(&chosen, args.case == Some(Choice::Failed), args.jobs.map_or_else(cores, usize::from))?;
+        sweep.run(&chosen, args.case == Some(Choice::Failed), jobs)?;
     }
     let states = folder.write_summary(&cases, &file.collect).map_err(|error| cannot_write(&folder.path, &error))?;
     sweep.conclude(&chosen, &states)

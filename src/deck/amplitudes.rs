@@ -16,7 +16,8 @@ pub struct Amplitude {
     /// [[time, value], ...], two or more, times increasing; straight lines between them, the first and last value held
     /// before and after unless `before` and `after` say otherwise. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
-    /// A file with the points instead, in columns between commas, semicolons or blanks; the path is relative to the deck. (table)
+    /// A file with the points instead, in columns between commas, semicolons or blanks; the path is relative to the deck. A name that ends
+    /// with .AT2 is that of a record of the PEER data bases: accelerations in g, with their number and time step in the fourth line. (table)
     pub file: Maybe<String>,
     /// The columns of time and value in the file, by name or by number from 1; with `time_step` that of the value alone. Default: the only
     /// ones. (table)

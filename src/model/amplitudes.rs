@@ -9,6 +9,7 @@ use crate::deck::Deck;
 use crate::deck::amplitudes as words;
 use crate::deck::words::{Maybe, Table};
 use crate::diagnostic::At;
+use crate::record::is_at2;
 
 /// Reads `[amplitudes]`, with the records that have been read for them. Each gives one, also those with errors, since others refer to them
 /// by their index.
@@ -111,11 +112,14 @@ fn of_points_or_file<'d>(
     record: Option<&Record>,
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
-    if a.file.is_some() {
+    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
+    if let Some(file) = &a.file {
         report.reject_unused("a table from a file", &[("points", span(&a.points))]);
+        if is_at2(&file.value) {
+            report.reject_unused("an .AT2 file, which says itself how far apart its values are", &of_file);
+        }
         return table(a, record?.points.clone(), report);
     }
-    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
     report.reject_unused("a table without a file", &of_file);
     let points = report.require(owner, "points", &a.points)?;
     let points = report.rising("points", "time", points)?;

@@ -4,7 +4,7 @@ use super::data::RecordFile;
 use crate::deck::Deck;
 use crate::deck::amplitudes::Amplitude;
 use crate::deck::words::ColumnName;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::record::{self, RecordColumn, RecordSelection};
 use crate::text_file::read_regular;
 use sha2::{Digest, Sha256};
@@ -52,6 +52,10 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<Record>, Vec<Diag
         let message = format!("cannot read the record `{path}`: {error}");
         vec![Diagnostic::error(message).at(&file.span).hint("the path is relative to the deck's folder")]
     })?;
+    if record::is_at2(&path) {
+        let points = record::read_at2(&path, &bytes).map_err(|found| at_file(found, &file.span))?;
+        return Ok(Some(Record { path, points, digest: Sha256::digest(&bytes).into() }));
+    }
     let column = |name: &ColumnName| match name {
         ColumnName::Name(name) => RecordColumn::Name(name.clone()),
         ColumnName::Number(number) => RecordColumn::Number(*number),
@@ -60,6 +64,11 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<Record>, Vec<Diag
     let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value) };
     match record::read(&path, &bytes, &selection) {
         Ok(points) => Ok(Some(Record { path, points, digest: Sha256::digest(&bytes).into() })),
-        Err(found) => Err(found.into_iter().map(|problem| problem.at(&file.span)).collect()),
+        Err(found) => Err(at_file(found, &file.span)),
     }
+}
+
+/// Errors of a file, with the place of its name in the deck.
+fn at_file(found: Vec<Diagnostic>, place: &Span) -> Vec<Diagnostic> {
+    found.into_iter().map(|problem| problem.at(place)).collect()
 }

@@ -107,7 +107,8 @@ impl Checkpoint {
             file.write_all(&body)?;
             file.write_all(&digest(&body))?;
             file.sync_all()?;
-            fs::rename(&unfinished, &path)
+            fs::rename(&unfinished, &path)?;
+            sync_folder(dir)
         };
         write().map_err(|error| {
             let _ = fs::remove_file(&unfinished);
@@ -151,6 +152,12 @@ impl Checkpoint {
             removed => removed.map_err(|error| at(&path, error)),
         }
     }
+}
+
+/// Has the names in a folder safe on the disk: those of the tables that a checkpoint is about, and its own.
+fn sync_folder(dir: &Path) -> io::Result<()> {
+    // Elsewhere folders cannot be opened, and names are safe with their files.
+    if cfg!(unix) { fs::File::open(dir)?.sync_all() } else { Ok(()) }
 }
 
 fn digest(bytes: &[u8]) -> [u8; DIGEST] {

@@ -345,7 +345,7 @@ impl Fields {
                 None => format!("mode_{number:04}.vtu"),
             };
             let path = self.dir.join(&name);
-            self.list.note(&name)?;
+            self.list.note([name.as_str()])?;
             create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
             self.marked.modes += 1;
             let _ = writeln!(
@@ -355,7 +355,7 @@ impl Fields {
             );
         }
         let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.marked.listed_modes);
-        self.list.note(MODES)?;
+        self.list.note([MODES])?;
         replace(&self.dir.join(MODES), list.as_bytes())
     }
 
@@ -399,7 +399,7 @@ impl Fields {
 
         let name = format!("fields_{:06}.vtu", frame.step);
         let path = self.dir.join(&name);
-        self.list.note(&name)?;
+        self.list.note([name.as_str()])?;
         create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
         let _ = writeln!(self.marked.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
         self.write_list()

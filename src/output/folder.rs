@@ -44,7 +44,7 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     }
     take_away(dir, &files, &older)?;
     let mut list = RunList::open(dir)?;
-    written.iter().try_for_each(|name| list.note(name))?;
+    list.note(written)?;
     Ok(lock)
 }
 

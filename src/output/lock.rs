@@ -1,21 +1,76 @@
 //! run.lock: the mark of the process that writes into a folder. The operating system holds it as long as the process lives, so
 //! the one that a killed run leaves binds nobody on the same host; its text says who it is, for people and for other hosts.
+//!
+//! Of a process of another host nobody here can tell whether it lives, so each renews its lock every [`RENEWED`]: one that has not been
+//! renewed for [`GIVEN_UP`], by the clock of the file system, is that of a host that died, and is taken over.
 
-use super::disk::{at, is_same};
+use super::disk::{UNFINISHED, at, is_same};
 use std::fmt;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::sync::{Arc, Mutex, Once, OnceLock, Weak};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// The name of the lock in the output folder.
 pub const NAME: &str = "run.lock";
+/// The time between two signs of life of who holds a lock.
+const RENEWED: Duration = Duration::from_secs(30);
+/// The time without one after which a lock of another host is taken over.
+const GIVEN_UP: Duration = Duration::from_secs(300);
+/// The time after which a lock that was taken over must still be ours: another host may have taken it over in the same moment.
+const SETTLED: Duration = Duration::from_secs(1);
 
 /// The right to write into a folder. It is held until it is dropped, which removes the file.
 #[derive(Debug)]
 pub struct FolderLock {
     path: PathBuf,
-    _file: File,
+    held: Arc<Held>,
+}
+
+/// An open lock with its text.
+#[derive(Debug)]
+struct Held {
+    file: File,
+    text: String,
+}
+
+impl Held {
+    /// Writes the text once more, so that the file system notes the time. Readers see the same bytes before and after. A lock that another
+    /// host has taken over, as after a long suspension, is left to it.
+    fn renew(&self) -> io::Result<()> {
+        let (mut file, mut text) = (&self.file, String::new());
+        file.rewind()?;
+        file.read_to_string(&mut text)?;
+        if text == self.text {
+            file.rewind()?;
+            file.write_all(text.as_bytes())?;
+            file.sync_data()?;
+        }
+        Ok(())
+    }
+}
+
+/// The locks that this process holds.
+static ALL_HELD: Mutex<Vec<Weak<Held>>> = Mutex::new(Vec::new());
+
+/// Has a lock renewed as long as it is held.
+fn keep_alive(held: &Arc<Held>) {
+    static BEGUN: Once = Once::new();
+    let Ok(mut all) = ALL_HELD.lock() else { return };
+    all.retain(|one| one.strong_count() > 0);
+    all.push(Arc::downgrade(held));
+    BEGUN.call_once(|| {
+        std::thread::spawn(|| {
+            loop {
+                std::thread::sleep(RENEWED);
+                let held: Vec<Arc<Held>> =
+                    ALL_HELD.lock().map(|all| all.iter().filter_map(Weak::upgrade).collect()).unwrap_or_default();
+                // A lock that cannot be renewed is given up by others in time; the run itself finds the disk as it is.
+                held.iter().for_each(|held| drop(held.renew()));
+            }
+        });
+    });
 }
 
 /// The process that writes into a folder.
@@ -27,25 +82,35 @@ pub struct Holder {
     began: u64,
     /// The identifier of the boot of the host; empty where the system does not tell.
     boot: String,
+    /// Whether it renews its lock, which older versions of this program do not.
+    renews: bool,
 }
 
 impl Holder {
     /// This process.
     fn this() -> Holder {
-        let line = |path: &str| fs::read_to_string(path).unwrap_or_default().trim().to_owned();
-        let host = [line("/proc/sys/kernel/hostname"), std::env::var("HOSTNAME").unwrap_or_default()];
+        // A sweep takes thousands of locks.
+        static HOST_AND_BOOT: OnceLock<(String, String)> = OnceLock::new();
+        let (host, boot) = HOST_AND_BOOT.get_or_init(|| {
+            let line = |path: &str| fs::read_to_string(path).unwrap_or_default().trim().to_owned();
+            let host = [line("/proc/sys/kernel/hostname"), std::env::var("HOSTNAME").unwrap_or_default()];
+            let host = host.into_iter().find(|name| !name.is_empty()).unwrap_or_else(|| "this host".into());
+            (host, line("/proc/sys/kernel/random/boot_id"))
+        });
         Holder {
-            host: host.into_iter().find(|name| !name.is_empty()).unwrap_or_else(|| "this host".into()),
+            host: host.clone(),
             process: std::process::id(),
             began: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
-            boot: line("/proc/sys/kernel/random/boot_id"),
+            boot: boot.clone(),
+            renews: true,
         }
     }
 
     /// The text of the lock.
     fn text(&self) -> String {
-        let Holder { host, process, began, boot } = self;
-        format!("host {host}\nprocess {process}\nbegan {began} ({})\nboot {boot}\n", date(*began))
+        let Holder { host, process, began, boot, renews } = self;
+        let renewed = if *renews { format!("renewed every {} s\n", RENEWED.as_secs()) } else { String::new() };
+        format!("host {host}\nprocess {process}\nbegan {began} ({})\nboot {boot}\n{renewed}", date(*began))
     }
 
     /// Reads the text of a lock; `None` where it is not whole.
@@ -57,6 +122,7 @@ impl Holder {
             process: entry("process")?.parse().ok()?,
             began: entry("began")?.split(' ').next()?.parse().ok()?,
             boot: entry("boot").unwrap_or_default(),
+            renews: entry("renewed").is_some(),
         })
     }
 
@@ -103,24 +169,49 @@ impl FolderLock {
                 continue;
             }
             let older = holder(&mut file);
-            if let Some(older) =
-                older.filter(|older| if locked { older.host != this.host } else { older.may_live(&this) })
-            {
-                return Err(busy(dir, &path, Some(&older)));
+            let in_the_way = older.filter(|older| if locked { older.host != this.host } else { older.may_live(&this) });
+            if let Some(older) = in_the_way.as_ref().filter(|older| !is_given_up(older, &this, &file, dir)) {
+                return Err(busy(dir, &path, Some(older)));
             }
-            let write =
-                file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(this.text().as_bytes()));
+            let text = this.text();
+            let write = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(text.as_bytes()));
             write.map_err(|error| at(&path, error))?;
-            return Ok(FolderLock { path, _file: file });
+            if in_the_way.is_some() {
+                file.sync_data().map_err(|error| at(&path, error))?;
+                std::thread::sleep(SETTLED);
+                let now = fs::read_to_string(&path).unwrap_or_default();
+                if now != text {
+                    return Err(busy(dir, &path, Holder::read(&now).as_ref()));
+                }
+            }
+            let held = Arc::new(Held { file, text });
+            keep_alive(&held);
+            return Ok(FolderLock { path, held });
         }
     }
+}
+
+/// Whether the process of another host that holds a lock has died with its host: it has not renewed it for so long. Both times are those
+/// of the file system, for hosts may have clocks of their own.
+fn is_given_up(holder: &Holder, this: &Holder, file: &File, dir: &Path) -> bool {
+    if !holder.renews || holder.host == this.host {
+        return false;
+    }
+    let probe = dir.join(format!("{NAME}.{}{UNFINISHED}", std::process::id()));
+    let now = File::create(&probe).and_then(|mut file| {
+        file.write_all(b"\n")?;
+        file.sync_data()?;
+        file.metadata()?.modified()
+    });
+    let _ = fs::remove_file(&probe);
+    let renewed = file.metadata().and_then(|found| found.modified());
+    matches!((now, renewed), (Ok(now), Ok(renewed)) if now.duration_since(renewed).is_ok_and(|since| since > GIVEN_UP))
 }
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
         // Only the lock of this process is removed: a folder that was removed and made anew may have another.
-        let text = fs::read_to_string(&self.path).unwrap_or_default();
-        if Holder::read(&text).is_some_and(|holder| holder.process == std::process::id()) {
+        if fs::read_to_string(&self.path).is_ok_and(|text| text == self.held.text) {
             let _ = fs::remove_file(&self.path);
         }
     }
@@ -136,15 +227,18 @@ fn holder(file: &mut File) -> Option<Holder> {
 /// The error that another process writes into the folder.
 fn busy(dir: &Path, path: &Path, holder: Option<&Holder>) -> io::Error {
     let who = holder.map_or_else(|| "another process".to_owned(), Holder::to_string);
-    io::Error::new(
-        io::ErrorKind::ResourceBusy,
-        format!(
-            "{}: another run writes there: {who}\n  help: wait for it, or name another folder with -o; if that process is gone, \
-             remove `{}`",
-            dir.display(),
-            path.display()
-        ),
-    )
+    let elsewhere = holder.is_some_and(|holder| holder.renews && holder.host != Holder::this().host);
+    let gone = match elsewhere {
+        true => {
+            format!("if its host died, its lock is taken over {} s after its last sign of life", GIVEN_UP.as_secs())
+        }
+        false => format!("if that process is gone, remove `{}`", path.display()),
+    };
+    let text = format!(
+        "{}: another run writes there: {who}\n  help: wait for it, or name another folder with -o; {gone}",
+        dir.display()
+    );
+    io::Error::new(io::ErrorKind::ResourceBusy, text)
 }
 
 /// Seconds since 1970 as a date: 2026-01-31 23:59:59 UTC. Days become civil dates as in H. Hinnant, "chrono-compatible low-level
@@ -181,10 +275,47 @@ mod tests {
             fs::write(dir.path().join(NAME), left).unwrap();
             drop(FolderLock::take(dir.path()).unwrap());
         }
-        // Of a process of another host nobody here can tell whether it runs.
-        fs::write(dir.path().join(NAME), Holder { host: "elsewhere".into(), ..this }.text()).unwrap();
+        // Of a process of another host nobody here can tell whether it runs, unless it gives signs of life.
+        let elsewhere = Holder { host: "elsewhere".into(), renews: false, ..this };
+        fs::write(dir.path().join(NAME), elsewhere.text()).unwrap();
+        age(&dir.path().join(NAME), 100 * GIVEN_UP);
         let error = FolderLock::take(dir.path()).unwrap_err().to_string();
         assert!(error.contains("on elsewhere") && error.contains("remove `"), "{error}");
+    }
+
+    /// Sets back the time at which a lock was renewed last.
+    fn age(path: &Path, by: Duration) {
+        OpenOptions::new().write(true).open(path).unwrap().set_modified(SystemTime::now() - by).unwrap();
+    }
+
+    #[test]
+    fn the_lock_of_a_host_that_died_is_taken_over() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join(NAME);
+        fs::write(&path, Holder { host: "elsewhere".into(), ..Holder::this() }.text()).unwrap();
+        for sign_of_life in [Duration::ZERO, RENEWED, GIVEN_UP - RENEWED] {
+            age(&path, sign_of_life);
+            let error = FolderLock::take(dir.path()).unwrap_err().to_string();
+            assert!(error.contains("on elsewhere") && error.contains("300 s after its last sign of life"), "{error}");
+        }
+        age(&path, GIVEN_UP + RENEWED);
+        let lock = FolderLock::take(dir.path()).unwrap();
+        assert!(fs::read_to_string(&path).unwrap().contains(&format!("process {}\n", std::process::id())));
+        // Who holds it renews it, and the text stays as it was.
+        let text = fs::read_to_string(&path).unwrap();
+        age(&path, GIVEN_UP);
+        lock.held.renew().unwrap();
+        let since = fs::metadata(&path).unwrap().modified().unwrap().elapsed().unwrap_or_default();
+        assert!(since < RENEWED && fs::read_to_string(&path).unwrap() == text, "{since:?}");
+        drop(lock);
+        // The lock that somebody else has put in its place meanwhile is not ours to remove.
+        let lock = FolderLock::take(dir.path()).unwrap();
+        let theirs = Holder { host: "elsewhere".into(), ..Holder::this() }.text();
+        fs::write(&path, &theirs).unwrap();
+        lock.held.renew().unwrap();
+        drop(lock);
+        assert_eq!(fs::read_to_string(&path).unwrap(), theirs);
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 
     #[test]

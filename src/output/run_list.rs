@@ -31,21 +31,23 @@ impl RunList {
         let is_new = listed.is_none();
         let mut list = RunList { path, file, noted: listed.into_iter().flatten().collect() };
         if is_new {
-            list.note(HEAD)?;
+            list.note([HEAD])?;
         }
         Ok(list)
     }
 
-    /// Notes a file that is about to be written, so that the list is whole however the run ends.
+    /// Notes files that are about to be written, so that the list is whole however the run ends.
     ///
     /// # Errors
     /// The list cannot be written; the error names it.
-    pub fn note(&mut self, name: &str) -> io::Result<()> {
-        if !self.noted.insert(name.to_owned()) {
+    pub fn note<'n>(&mut self, names: impl IntoIterator<Item = &'n str>) -> io::Result<()> {
+        let new = names.into_iter().filter(|name| self.noted.insert((*name).to_owned()));
+        let lines: String = new.map(|name| format!("{name}\n")).collect();
+        if lines.is_empty() {
             return Ok(());
         }
-        // The line is written at once, so that it is there whole or not at all.
-        self.file.write_all(format!("{name}\n").as_bytes()).map_err(|error| at(&self.path, error))
+        // The lines are written at once, so that each is there whole or not at all.
+        self.file.write_all(lines.as_bytes()).map_err(|error| at(&self.path, error))
     }
 }
 

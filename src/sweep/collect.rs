@@ -10,65 +10,109 @@ use std::path::Path;
 /// Times are those of a row within this part of it.
 const SAME_TIME: f64 = 1e-9;
 
-/// The number that is asked for; `None` where the tables do not have it.
+/// The numbers that are asked for, in their order; `None` where the tables do not have one. Each table is read once.
 ///
 /// # Errors
 /// A table cannot be read; the error names it.
-pub fn collect(folder: &Path, wanted: &Collected) -> io::Result<Option<f64>> {
+pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64>>> {
+    let mut found = vec![None; wanted.len()];
     // A response is asked for its own table, whose columns have the names of others.
-    let there = TABLES.iter().copied().filter(|table| !table.every_step && folder.join(table.file).exists());
-    let (first, others): (Vec<&TableKind>, Vec<&TableKind>) = there.partition(|table| table.file == "response.csv");
+    let (first, others): (Vec<&TableKind>, Vec<&TableKind>) =
+        TABLES.iter().copied().filter(|table| !table.every_step).partition(|table| table.file == "response.csv");
     for table in first.into_iter().chain(others) {
-        let has_it = table.columns().any(|column| !column.is_key() && column.answers_to(&wanted.quantity));
         let about_all = !table.columns().any(|column| column.is_key());
-        if !has_it || (wanted.at == "energy") != (about_all && table.file == "energy.csv") {
+        let has_it = |one: &Collected| {
+            let has_it = table.columns().any(|column| !column.is_key() && column.answers_to(&one.quantity));
+            has_it && (one.at == "energy") == (about_all && table.file == "energy.csv")
+        };
+        let asked: Vec<usize> =
+            (0..wanted.len()).filter(|&place| found[place].is_none() && has_it(&wanted[place])).collect();
+        let path = folder.join(table.file);
+        if asked.is_empty() || !path.exists() {
             continue;
         }
-        if let Some(value) = of_table(&folder.join(table.file), wanted)? {
-            return Ok(Some(value));
+        let asked_of_it: Vec<&Collected> = asked.iter().map(|&place| &wanted[place]).collect();
+        for (place, value) in asked.into_iter().zip(of_table(&path, &asked_of_it)?) {
+            found[place] = value;
         }
     }
-    Ok(None)
+    Ok(found)
 }
 
-fn of_table(path: &Path, wanted: &Collected) -> io::Result<Option<f64>> {
+/// A number that is looked for in a table whose rows go by.
+struct Search<'w> {
+    wanted: &'w Collected,
+    /// The place of its column.
+    column: usize,
+    best: Option<f64>,
+}
+
+fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> {
     let mut rows = TableReader::open(path)?;
-    let (Some(time), Some(place)) = (rows.column("time"), rows.column(&wanted.quantity)) else { return Ok(None) };
+    let Some(time) = rows.column("time") else { return Ok(vec![None; wanted.len()]) };
+    let mut searches: Vec<(usize, Search)> = Vec::new();
+    for (place, &wanted) in wanted.iter().enumerate() {
+        searches.extend(rows.column(&wanted.quantity).map(|column| (place, Search { wanted, column, best: None })));
+    }
     // The stage of a row says when it is, as its time does, not what it is about.
     let says_what = |&key: &usize| rows.is_key(key) && rows.header[key] != STAGE;
     let keys: Vec<usize> = (0..rows.header.len()).filter(says_what).collect();
     let stages = rows.column(STAGE);
-    let in_stage = |row: &[&[u8]]| match &wanted.stage {
-        Some(stage) => stages.and_then(|column| row.get(column)).is_some_and(|field| text(field) == *stage),
-        None => true,
-    };
-    let mut best: Option<f64> = None;
+    let looked_at = searches.iter().map(|(_, search)| search.column).chain([time]).chain(keys.iter().copied());
+    let last = looked_at.chain(stages).max().unwrap_or(0);
+    // The ends of the fields of a row, so far as they are looked at.
+    let mut ends: Vec<(usize, usize)> = Vec::new();
     while let Some(row) = rows.next()? {
-        let row: Vec<&[u8]> = fields(row).collect();
-        if row.len() <= place.max(time) || !in_stage(&row) || (!keys.is_empty() && !is_about(&row, &keys, &wanted.at)) {
-            continue;
+        let mut from = 0;
+        ends.clear();
+        ends.extend(fields(row).take(last + 1).map(|field| {
+            let end = (from, from + field.len());
+            from = end.1 + 1;
+            end
+        }));
+        let field = |place: usize| ends.get(place).map(|&(from, to)| &row[from..to]);
+        for (_, search) in &mut searches {
+            let Some(value) = field(search.column).filter(|_| search.is_about(&field, &keys, stages)) else { continue };
+            search.see(|| field(time).map_or(f64::NAN, number), number(value));
         }
-        let (t, value) = (number(row[time]), number(row[place]));
-        let takes = |best: f64| match wanted.when {
+    }
+    let mut found = vec![None; wanted.len()];
+    searches.into_iter().for_each(|(place, search)| found[place] = search.best);
+    Ok(found)
+}
+
+impl Search<'_> {
+    /// Takes the value of a row, if it is the one that is wanted so far.
+    fn see(&mut self, time: impl Fn() -> f64, value: f64) {
+        let takes = |best: f64| match self.wanted.when {
             CollectedWhen::Max => value > best,
             CollectedWhen::Min => value < best,
             CollectedWhen::Abs => value.abs() > best.abs(),
             CollectedWhen::End | CollectedWhen::Time(_) => true,
         };
-        let elsewhere =
-            matches!(wanted.when, CollectedWhen::Time(at) if (t - at).abs() > SAME_TIME * at.abs().max(t.abs()));
-        if value.is_finite() && !elsewhere && best.is_none_or(takes) {
-            best = Some(value);
+        let elsewhere = |at: f64| {
+            let t = time();
+            (t - at).abs() > SAME_TIME * at.abs().max(t.abs())
+        };
+        let elsewhere = matches!(self.wanted.when, CollectedWhen::Time(at) if elsewhere(at));
+        if value.is_finite() && !elsewhere && self.best.is_none_or(takes) {
+            self.best = Some(value);
         }
     }
-    Ok(best)
-}
 
-/// True where the first key of a row, or all of them with a space between, are this.
-fn is_about(row: &[&[u8]], keys: &[usize], at: &str) -> bool {
-    let first = keys.first().is_some_and(|&key| row.get(key).is_some_and(|field| text(field) == at));
-    first || {
-        let all: Vec<_> = keys.iter().filter_map(|&key| row.get(key)).map(|field| text(field)).collect();
-        all.join(" ") == at
+    /// True for a row about what is asked for, in the stage that is asked for.
+    fn is_about<'r>(&self, field: &impl Fn(usize) -> Option<&'r [u8]>, keys: &[usize], stages: Option<usize>) -> bool {
+        let says = |place: usize, name: &str| field(place).is_some_and(|found| text(found) == name);
+        let in_stage = match &self.wanted.stage {
+            Some(stage) => stages.is_some_and(|place| says(place, stage)),
+            None => true,
+        };
+        in_stage && (keys.is_empty() || says(keys[0], &self.wanted.at) || keys.len() > 1 && self.is_all(field, keys))
+    }
+
+    /// True where all keys of a row, with a space between, are what is asked for.
+    fn is_all<'r>(&self, field: &impl Fn(usize) -> Option<&'r [u8]>, keys: &[usize]) -> bool {
+        let all: Vec<_> = keys.iter().filter_map(|&key| field(key)).map(text).collect();
+        all.join(" ") == self.wanted.at
     }
 }

@@ -98,6 +98,15 @@ pub enum CollectedWhen {
     Time(f64),
 }
 
+/// The JSON Schema of the file. Which keys a deck has, and what stands in its tables, it leaves to the reader.
+pub const SCHEMA: &str = include_str!("schema.json");
+
+/// The keys of the file, of a range, of a sample and of a number that is collected.
+const KEYS: [&str; 3] = ["deck", "vary", "collect"];
+const RANGE: [&str; 3] = ["from", "to", "steps"];
+const SAMPLE: [&str; 3] = ["kind", "cases", "seed"];
+const COLLECTED: [&str; 5] = ["at", "quantity", "stage", "peak", "time"];
+
 /// The largest number of values of an axis, and of cases.
 pub const MOST_CASES: usize = 1_000_000;
 
@@ -142,7 +151,7 @@ impl Reader<'_> {
 
     fn file<'t>(&mut self, root: &'t DeTable<'t>) -> SweepFile {
         let mut file = SweepFile::default();
-        let entries = self.entries("a sweep", root, &["deck", "vary", "collect"]);
+        let entries = self.entries("a sweep", root, &KEYS);
         if !entries.iter().any(|(key, ..)| *key == "deck") {
             self.error(&(0..0), "`deck` is missing: the path of the deck that varies");
         }
@@ -201,9 +210,7 @@ impl Reader<'_> {
             DeValue::Array(list) => {
                 VariedValues::List(list.iter().map(|value| self.source.text[value.span()].to_owned()).collect())
             }
-            DeValue::Table(table)
-                if table.iter().any(|(key, _)| ["from", "to", "steps"].contains(&key.get_ref().as_ref())) =>
-            {
+            DeValue::Table(table) if table.iter().any(|(key, _)| RANGE.contains(&key.get_ref().as_ref())) => {
                 self.range(key, table, &value.span())?
             }
             DeValue::Table(_) => {
@@ -224,7 +231,7 @@ impl Reader<'_> {
     fn range<'t>(&mut self, key: &str, table: &'t DeTable<'t>, place: &Span) -> Option<VariedValues> {
         let before = self.problems.len();
         let (mut ends, mut steps) = ([None; 2], None);
-        for (name, _, value) in self.entries(&format!("the range of `{key}`"), table, &["from", "to", "steps"]) {
+        for (name, _, value) in self.entries(&format!("the range of `{key}`"), table, &RANGE) {
             match name {
                 "from" => ends[0] = self.number(name, value),
                 "to" => ends[1] = self.number(name, value),
@@ -243,7 +250,7 @@ impl Reader<'_> {
     fn sample<'t>(&mut self, table: &'t DeTable<'t>, place: &Span) -> Option<SampleOfCases> {
         let (mut kind, mut cases, mut seed) = (None, None, 0);
         let before = self.problems.len();
-        for (name, _, value) in self.entries("a sample", table, &["kind", "cases", "seed"]) {
+        for (name, _, value) in self.entries("a sample", table, &SAMPLE) {
             match (name, value.get_ref()) {
                 ("kind", DeValue::String(word)) if word.as_ref() == "sobol" => kind = Some(SampleKind::Sobol),
                 ("kind", DeValue::String(word)) if word.as_ref() == "latin-hypercube" => {
@@ -272,8 +279,7 @@ impl Reader<'_> {
         };
         let before = self.problems.len();
         let (mut at, mut quantity, mut stage, mut when) = (None, None, None, None);
-        let keys = ["at", "quantity", "stage", "peak", "time"];
-        for (key, place, value) in self.entries(&format!("`{name}`"), table, &keys) {
+        for (key, place, value) in self.entries(&format!("`{name}`"), table, &COLLECTED) {
             match (key, value.get_ref()) {
                 ("at", DeValue::String(text)) => at = Some(text.to_string()),
                 ("quantity", DeValue::String(text)) => quantity = Some(text.to_string()),
@@ -317,5 +323,48 @@ impl Reader<'_> {
             self.error(&value.span(), format!("`{name}` must be a whole number from {least} to {MOST_CASES}"));
         }
         count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+
+    /// The keys of an object of the schema, in their order.
+    fn keys(schema: &Value) -> Vec<&str> {
+        schema["properties"].as_object().unwrap().keys().map(String::as_str).collect()
+    }
+
+    fn sorted<const N: usize>(mut keys: [&str; N]) -> Vec<&str> {
+        keys.sort_unstable();
+        keys.to_vec()
+    }
+
+    /// What the reader takes and what the schema takes have the same keys and words; what neither takes is an error of the reader.
+    #[test]
+    fn the_schema_is_that_of_the_reader() {
+        let schema: Value = serde_json::from_str(SCHEMA).unwrap();
+        let of = |name: &str| &schema["$defs"][name];
+        assert_eq!(keys(&schema), sorted(KEYS));
+        assert_eq!(keys(of("Range")), sorted(RANGE));
+        assert_eq!(keys(of("Sample")), sorted(SAMPLE));
+        assert_eq!(keys(of("Collected")), sorted(COLLECTED));
+        let read = |text: &str| super::read(&Source::new("s.toml", text, &[])).1.len();
+        for kind in of("Sample")["properties"]["kind"]["enum"].as_array().unwrap() {
+            let text =
+                format!("deck = 'd'\n[vary]\nsample = {{ kind = {kind}, cases = 2 }}\na = {{ from = 0, to = 1 }}\n");
+            assert_eq!(read(&text), 0, "{kind}");
+        }
+        for peak in of("Collected")["properties"]["peak"]["enum"].as_array().unwrap() {
+            let of = |more: &str| {
+                let one = format!("at = 'b', quantity = 'ux', peak = {peak}{more}");
+                format!("deck = 'd'\n[vary]\na = [1]\n[collect]\nx = {{ {one} }}\n")
+            };
+            assert_eq!((read(&of("")), read(&of(", time = 'end'"))), (0, 1), "{peak}");
+        }
+        let least = of("Range")["properties"]["steps"]["maximum"].as_u64();
+        assert_eq!(least, Some(MOST_CASES as u64));
+        assert_eq!(schema["properties"]["collect"]["propertyNames"]["not"]["enum"][1], "status");
     }
 }

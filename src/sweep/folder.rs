@@ -10,6 +10,7 @@ use super::page::page;
 use crate::deck::Deck;
 use crate::diagnostic::Source;
 use crate::output::{at, result_json};
+use rayon::prelude::*;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -64,12 +65,8 @@ pub struct SweepFolder {
 impl SweepFolder {
     /// Finds the names of all cases: hashes of the version, the deck, the overrides and the files that the deck names.
     pub fn new(path: PathBuf, deck: (&str, &str), cases: &Cases, version: &str) -> SweepFolder {
-        let mut digests = HashMap::new();
-        let name = |case: usize| {
-            let source = Source::new(deck.0, deck.1, &cases.sets(case));
-            name(&source, version, &mut digests)
-        };
-        SweepFolder { path, names: (0..cases.values.len()).map(name).collect() }
+        let mut names = CaseNames::new(deck, &cases.keys, version);
+        SweepFolder { path, names: (0..cases.values.len()).map(|case| names.of(&cases.sets(case))).collect() }
     }
 
     /// The folder of a case, counted from 0.
@@ -107,31 +104,41 @@ impl SweepFolder {
         self.write("cases.csv", header.map(str::to_owned).collect(), cases.values.iter().enumerate().map(row))
     }
 
-    /// Writes `summary.csv`: what varies, what became of each case, and what is collected from it; and the page of it.
+    /// Writes `summary.csv`: what varies, what became of each case, and what is collected from it; and the page of it. What other processes
+    /// have brought to its end in the meantime is in it: whoever writes last writes of all cases that stand.
     ///
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
     pub fn write_summary(&self, cases: &Cases, wanted: &[Collected]) -> io::Result<Vec<CaseState>> {
-        let header = ["case".to_owned()]
+        loop {
+            let states = self.write_what_stands(cases, wanted)?;
+            let was_pending = |&case: &usize| states[case] == CaseState::Pending;
+            if !(0..states.len()).filter(was_pending).any(|case| self.state(case) != CaseState::Pending) {
+                return Ok(states);
+            }
+        }
+    }
+
+    /// Writes the summary of the cases that stand now.
+    fn write_what_stands(&self, cases: &Cases, wanted: &[Collected]) -> io::Result<Vec<CaseState>> {
+        let header: Vec<String> = ["case".to_owned()]
             .into_iter()
             .chain(cases.keys.iter().cloned())
             .chain(["status".to_owned()])
             .chain(wanted.iter().map(|one| one.name.clone()))
-            .chain(["reason".to_owned()]);
-        let (mut rows, mut states) = (Vec::new(), Vec::new());
-        for (case, values) in cases.values.iter().enumerate() {
+            .chain(["reason".to_owned()])
+            .collect();
+        let row = |(case, values): (usize, &Vec<String>)| {
             let state = self.state(case);
             let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
+            let numbers = if stands { collect(&self.case(case), wanted)? } else { vec![None; wanted.len()] };
             let mut row = [vec![(case + 1).to_string()], values.clone(), vec![state.word().to_owned()]].concat();
-            for one in wanted {
-                let number = if stands { collect(&self.case(case), one)? } else { None };
-                row.push(number.map_or(String::new(), |number| format!("{number:?}")));
-            }
+            row.extend(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))));
             row.push(state.reason().to_owned());
-            rows.push(row);
-            states.push(state);
-        }
-        let header: Vec<String> = header.collect();
+            Ok((row, state))
+        };
+        let all = cases.values.par_iter().enumerate().map(row).collect::<io::Result<Vec<_>>>()?;
+        let (rows, states): (Vec<Vec<String>>, Vec<CaseState>) = all.into_iter().unzip();
         let page = page(&header, &rows, &self.names, [cases.keys.len(), wanted.len()]);
         self.move_in("summary.html", page.as_bytes())?;
         self.write("summary.csv", header, rows.into_iter())?;
@@ -168,24 +175,52 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The name of a case: 16 hexadecimal digits of a SHA-256.
-fn name(source: &Source, version: &str, digests: &mut HashMap<PathBuf, Vec<u8>>) -> String {
-    let mut hasher = Sha256::new();
-    for part in [version, source.text.as_str()].into_iter().chain(source.sets.iter().map(|(_, set)| set.as_str())) {
-        hasher.update(part);
-        hasher.update([0]);
+/// What makes the names of cases: 16 hexadecimal digits of a SHA-256 each.
+struct CaseNames<'d> {
+    /// The path and the text of the deck.
+    deck: (&'d str, &'d str),
+    /// What has been hashed of all cases: the version and the deck.
+    begun: Sha256,
+    /// The files that all cases are computed from, besides the deck; `None` where they may differ from case to case.
+    files: Option<Vec<String>>,
+    /// The digests of files, empty of those that cannot be read.
+    digests: HashMap<PathBuf, Vec<u8>>,
+}
+
+impl<'d> CaseNames<'d> {
+    /// For cases that differ in these keys.
+    fn new(deck: (&'d str, &'d str), keys: &[String], version: &str) -> CaseNames<'d> {
+        let mut begun = Sha256::new();
+        [version, deck.1].into_iter().for_each(|part| add(&mut begun, part));
+        // To read the deck once more for each case would take a quarter of a millisecond.
+        let may_name_files = |key: &String| key.contains("mesh") || key.contains("amplitudes");
+        let files = match keys.iter().any(may_name_files) {
+            true => None,
+            false => crate::deck::read(&Source::new(deck.0, deck.1, &[])).0.map(|deck| files(&deck)),
+        };
+        CaseNames { deck, begun, files, digests: HashMap::new() }
     }
-    let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
-    if let (Some(deck), _) = crate::deck::read(source) {
-        for file in files(&deck) {
-            let path = folder.join(file);
-            let digest = digests.entry(path).or_insert_with_key(|path| {
+
+    /// The name of the case with these overrides.
+    fn of(&mut self, sets: &[String]) -> String {
+        let mut hasher = self.begun.clone();
+        sets.iter().for_each(|set| add(&mut hasher, set));
+        let own = || crate::deck::read(&Source::new(self.deck.0, self.deck.1, sets)).0.map(|deck| files(&deck));
+        let folder = Path::new(self.deck.0).parent().unwrap_or(Path::new(""));
+        for file in self.files.clone().or_else(own).unwrap_or_default() {
+            let digest = self.digests.entry(folder.join(file)).or_insert_with_key(|path| {
                 fs::read(path).map(|bytes| Sha256::digest(&bytes).to_vec()).unwrap_or_default()
             });
             hasher.update(digest);
         }
+        hasher.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
     }
-    hasher.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Hashes a text, apart from the one that follows.
+fn add(hasher: &mut Sha256, part: &str) {
+    hasher.update(part);
+    hasher.update([0]);
 }
 
 /// The files that a deck is computed from, besides itself.

@@ -9,6 +9,7 @@
 //! - every command in a ```sh block, every link.
 
 mod deck;
+mod examples;
 mod pages;
 mod results;
 mod validation;

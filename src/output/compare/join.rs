@@ -34,6 +34,24 @@ pub struct Alone {
     pub all_rows: u64,
 }
 
+/// What tells which frame of one table is which of the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Matched {
+    /// Their times.
+    Time,
+    /// Their steps: on a path whose load falls and rises, a time does not say where it is.
+    Step,
+    /// Their frequencies, in each of the responses of a run.
+    Frequency,
+}
+
+impl Matched {
+    /// The place in [`Cursor::when`] of what tells them apart.
+    fn place(self) -> usize {
+        usize::from(self != Matched::Step)
+    }
+}
+
 /// What two tables have in common, and what not.
 #[derive(Debug, Clone, Default)]
 pub struct Joined {
@@ -45,22 +63,21 @@ pub struct Joined {
     pub frames: u64,
     /// What each side has alone.
     pub alone: [Alone; 2],
-    /// Time (or step) of the last frame of each side and of the frame before; `None` where there is no frame.
+    /// Time, step or frequency of the last frame of each side and of the frame before; `None` where there is no frame.
     pub ends: [Option<(f64, f64)>; 2],
 }
 
-/// Goes through both tables once. With `by_step`, frames are matched by their step: on a path whose load falls and rises, a time
-/// does not say where it is.
+/// Goes through both tables once, frame by frame.
 ///
 /// # Errors
 /// A table cannot be read, or is no table.
-pub fn join(sides: &mut [Cursor; 2], columns: usize, by_step: bool) -> io::Result<Joined> {
+pub fn join(sides: &mut [Cursor; 2], columns: usize, by: Matched) -> io::Result<Joined> {
     let mut joined = Joined { worst: vec![Worst::default(); columns], ..Joined::default() };
     sides.iter_mut().try_for_each(Cursor::advance)?;
     let mut frame: Option<[usize; 2]> = None;
     while !(sides[0].done && sides[1].done) {
         let Some(both) = frame else {
-            match order(sides, by_step) {
+            match order(sides, by) {
                 Ordering::Equal => {
                     frame = Some([sides[0].frame, sides[1].frame]);
                     joined.frames += 1;
@@ -87,20 +104,21 @@ pub fn join(sides: &mut [Cursor; 2], columns: usize, by_step: bool) -> io::Resul
         }
     }
     for (end, side) in joined.ends.iter_mut().zip(&*sides) {
-        let place = |when: [f64; 2]| when[usize::from(!by_step)];
+        let place = |when: [f64; 2]| when[by.place()];
         *end = (side.frame > 0).then(|| (place(side.when), side.before.map_or(f64::NAN, place)));
     }
     Ok(joined)
 }
 
 /// Which side's frame comes first; a side at its end comes last.
-fn order([a, b]: &[Cursor; 2], by_step: bool) -> Ordering {
+fn order([a, b]: &[Cursor; 2], by: Matched) -> Ordering {
     match (a.done, b.done) {
         (true, _) => return Ordering::Greater,
         (_, true) => return Ordering::Less,
         _ => {}
     }
-    if by_step {
+    // A response that goes over its frequencies once more is another.
+    if by == Matched::Step || by == Matched::Frequency && a.when[0] != b.when[0] {
         return a.when[0].total_cmp(&b.when[0]);
     }
     let [s, t] = [a.when[1], b.when[1]];

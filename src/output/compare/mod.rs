@@ -8,7 +8,7 @@ mod prefetch;
 mod scale;
 mod select;
 
-pub use join::{Alone, Worst};
+pub use join::{Alone, Matched, Worst};
 pub use prefetch::shown;
 pub use select::{ColumnTolerance, Selector, size};
 
@@ -52,6 +52,10 @@ pub const TOLERANCE: f64 = 1e-6;
 /// The table with what a run costs, which may differ where the results agree.
 const COST: &str = "steps.csv";
 
+/// The table of frequency responses, whose rows have a frequency besides the time of the state.
+const RESPONSE: &str = "response.csv";
+const FREQUENCY: &str = "frequency";
+
 /// A column of both sides, compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedColumn {
@@ -93,12 +97,12 @@ pub struct ComparedTable {
     pub frames: u64,
     /// The number of all rows of each side.
     pub all_rows: [u64; 2],
-    /// The last times, or steps, where one side goes on without the other.
+    /// The last times, steps or frequencies, where one side goes on without the other.
     pub ends: Option<[f64; 2]>,
     /// Whether the last line of each side is torn.
     pub truncated: [bool; 2],
-    /// True where rows are matched by step instead of time.
-    pub by_step: bool,
+    /// What rows are matched by, besides their names.
+    pub by: Matched,
     /// True where rows without a partner are a fault too.
     pub judged: bool,
 }
@@ -235,13 +239,13 @@ fn table(
     let is_key = |column: &str| rows.iter().any(|rows| rows.column(column).is_some_and(|place| rows.is_key(place)));
     let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
     let has_time = shared.iter().any(|column| column == "time");
-    let by_step = by_step && shared.iter().any(|column| column == "step");
-    let [first, second] = rows.map(|rows| (pick(&rows, &shared, &values, has_time), rows));
+    let by = matched_by(name, &shared, by_step);
+    let [first, second] = rows.map(|rows| (pick(&rows, &shared, &values, has_time, by), rows));
     let (joined, summaries, all_rows) = std::thread::scope(|scope| {
         let (a, _) = read(scope, first.1, first.0);
         let (b, _) = read(scope, second.1, second.0);
         let mut sides = [a, b];
-        let joined = join::join(&mut sides, values.len(), by_step)?;
+        let joined = join::join(&mut sides, values.len(), by)?;
         let all_rows = [sides[0].rows, sides[1].rows];
         io::Result::Ok((joined, sides.map(|side| side.summary), all_rows))
     })?;
@@ -271,20 +275,31 @@ fn table(
         all_rows,
         ends: apart(joined.ends, truncated),
         truncated,
-        by_step,
+        by,
         columns,
         judged,
     })
 }
 
+/// What frames of a table are matched by.
+fn matched_by(name: &str, shared: &[String], by_step: bool) -> Matched {
+    match () {
+        () if name == RESPONSE && shared.iter().any(|column| column == FREQUENCY) => Matched::Frequency,
+        () if by_step && shared.iter().any(|column| column == "step") => Matched::Step,
+        () => Matched::Time,
+    }
+}
+
 /// The columns of one side that are read.
-fn pick(rows: &TableReader, shared: &[String], values: &[&str], has_time: bool) -> Pick {
+fn pick(rows: &TableReader, shared: &[String], values: &[&str], has_time: bool, by: Matched) -> Pick {
     let place = |column: &str| rows.column(column);
+    let frequency = place(FREQUENCY).filter(|_| by == Matched::Frequency);
+    let has_time = has_time && frequency.is_none();
     // A table without a time has no frames, whatever its column `step` counts.
     let (step, time) = (place("step").filter(|_| has_time), place("time").filter(|_| has_time));
     let is_value = |column: &String| matches!(column.as_str(), "step" | "time") || values.contains(&column.as_str());
     let keys = shared.iter().filter(|column| !is_value(column)).filter_map(|column| place(column)).collect();
-    Pick { step, time, keys, values: values.iter().filter_map(|column| place(column)).collect() }
+    Pick { step, time, frequency, keys, values: values.iter().filter_map(|column| place(column)).collect() }
 }
 
 /// The last times, where one side goes on for more than one and a half of the other's last step.

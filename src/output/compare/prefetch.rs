@@ -17,6 +17,8 @@ pub struct Pick {
     pub step: Option<usize>,
     /// The place of `time`; `None` where the table has no frames.
     pub time: Option<usize>,
+    /// The place of the frequency in a table whose frames are those of a response, which has neither of these.
+    pub frequency: Option<usize>,
     /// The places of the columns that say what a row is about.
     pub keys: Vec<usize>,
     /// The places of the columns that are compared.
@@ -26,7 +28,7 @@ pub struct Pick {
 /// Some rows, one after the other.
 #[derive(Default)]
 struct Block {
-    /// Step and time of each row; 0 where a table has none.
+    /// Step and time of each row; 0 where a table has none. Of a response, which one of the run it is, and the frequency.
     when: Vec<[f64; 2]>,
     /// The picked values, row by row.
     values: Vec<f64>,
@@ -121,6 +123,7 @@ pub fn read<'s>(scope: &'s Scope<'s, '_>, mut rows: TableReader, pick: Pick) -> 
 enum Role {
     Step,
     Time(Option<usize>),
+    Frequency(Option<usize>),
     Key,
     Value(usize),
     Nothing,
@@ -139,6 +142,9 @@ fn roles(pick: &Pick, columns: usize) -> Vec<Role> {
     if let Some(column) = pick.time {
         roles[column] = Role::Time(pick.values.iter().position(|&value| value == column));
     }
+    if let Some(column) = pick.frequency {
+        roles[column] = Role::Frequency(pick.values.iter().position(|&value| value == column));
+    }
     roles
 }
 
@@ -148,6 +154,7 @@ fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io
     let roles = roles(pick, columns);
     let mut ranges = vec![Range::NONE; width];
     let mut block = Block::default();
+    let mut before = [0.0, f64::NEG_INFINITY];
     while let Some(row) = rows.next()? {
         let (mut when, first, mut count) = ([0.0; 2], block.values.len(), 0);
         block.values.resize(first + width, f64::NAN);
@@ -159,6 +166,14 @@ fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io
                     when[1] = number(field);
                     if let Some(place) = place {
                         block.values[first + place] = when[1];
+                    }
+                }
+                Role::Frequency(place) => {
+                    let frequency = number(field);
+                    before = [before[0] + f64::from(u8::from(frequency < before[1])), frequency];
+                    when = before;
+                    if let Some(place) = place {
+                        block.values[first + place] = frequency;
                     }
                 }
                 Role::Key => {

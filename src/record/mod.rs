@@ -3,6 +3,10 @@
 //! Columns stand between semicolons, commas, tabs or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are
 //! comments; one line of names may come before the numbers.
 
+mod at2;
+
+pub use at2::{is_at2, read_at2};
+
 use crate::diagnostic::Diagnostic;
 use crate::names::{nearest, quoted};
 use crate::text_file::{Fault, Text, TextLine, Word};
