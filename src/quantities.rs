@@ -255,7 +255,7 @@ pub const JOINT_REACTION: [Column; 6] = wrench(
 );
 
 /// Elongation, its rate and force of a link, then force and moment on its first end.
-pub const LINK: [Column; 9] = {
+pub const LINK: [Column; 10] = {
     let [fx, fy, fz, mx, my, mz] =
         wrench("force of the link on its first end", "moment of the link on its first end (bushings only)");
     [
@@ -275,6 +275,7 @@ pub const LINK: [Column; 9] = {
         mx,
         my,
         mz,
+        Column::scalar("failed", "1 where the link has failed, else 0", Unit::One),
     ]
 };
 
@@ -301,7 +302,7 @@ pub const CONTACT_FORCE: Column =
     Column::scalar("force", "magnitude of the force on the surface", Unit::Force).kind("force");
 
 /// The energies of the scene and their balance, then linear and angular momentum.
-pub const ENERGY: [Column; 18] = {
+pub const ENERGY: [Column; 19] = {
     let [px, py, pz] = vector(["px", "py", "pz"], "linear momentum", Unit::Momentum);
     let [lx, ly, lz] = vector(["lx", "ly", "lz"], "angular momentum about the origin", Unit::AngularMomentum);
     [
@@ -329,6 +330,7 @@ pub const ENERGY: [Column; 18] = {
         lx,
         ly,
         lz,
+        energy("eroded", "stored by what has failed, and lost with it").positive("lost"),
     ]
 };
 

@@ -293,9 +293,9 @@ fn a_path_of_a_roof() {
 fn bits(state: &State) -> Vec<u64> {
     let State { time, nodes, history, jerk, reactions, multipliers, algorithmic_accelerations, work } = state;
     let Work { external, damping, damping_power, material, verlet_energy_offset, accelerations, step } = *work;
-    let Dissipation { plastic, viscous, stored, friction, impact } = material;
+    let Dissipation { plastic, viscous, stored, friction, impact, eroded } = material;
     let mut numbers = vec![*time, external, damping, damping_power, verlet_energy_offset, accelerations, step];
-    numbers.extend([plastic, viscous, stored, friction, impact]);
+    numbers.extend([plastic, viscous, stored, friction, impact, eroded]);
     for Node { x, low, rotation, v, omega, a, alpha } in nodes {
         numbers.extend([x, low, v, omega, a, alpha].into_iter().flatten());
         numbers.extend(rotation.coords.iter());
@@ -318,9 +318,10 @@ struct Step {
 
 /// All energies and momenta of a state.
 fn numbers_of(energy: &Energy) -> Vec<f64> {
-    let &Energy { kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact, .. } = energy;
+    let &Energy { kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact, eroded, .. } =
+        energy;
     let &Energy { external, numerical, mechanical, p, l, verlet_energy_offset, .. } = energy;
-    let stored = [kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact];
+    let stored = [kinetic, strain, plastic, viscoplastic, damping, links, contact, friction, impact, eroded];
     let sums = [external, numerical, mechanical, verlet_energy_offset];
     stored
         .into_iter()

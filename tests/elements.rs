@@ -96,10 +96,10 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     let link = |law, direction| Link::new([0, 1], law, 0.7, direction, 1.2, [ends[0], ends[1]]);
     let linear = LinkLaw::Linear { stiffness: 20.0, preload: 1.0 };
     let d = frame.column(1).into_owned();
-    add("link", Box::new(Links(vec![link(linear.clone(), None)])), &ends);
-    add("link along a direction", Box::new(Links(vec![link(linear, Some(d))])), &ends);
+    add("link", Box::new(Links::new(vec![link(linear.clone(), None)])), &ends);
+    add("link along a direction", Box::new(Links::new(vec![link(linear, Some(d))])), &ends);
     let table = LinkLaw::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
-    add("table link", Box::new(Links(vec![link(table, None)])), &ends);
+    add("table link", Box::new(Links::new(vec![link(table, None)])), &ends);
     add("bar", Box::new(rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, 1.0, &ends, 0.2)), &ends);
     let moments = [
         ("bushing", Vec3::new(4.0, 5.0, 6.0)),
@@ -114,8 +114,9 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
             spring: RotationalSpring::new(stiffness),
             damping: [1.0, 0.5, 0.2, 0.1, 0.3, 0.2],
             offset: frame.tr_mul(&(ends[1] - ends[0])),
+            failure: None,
         };
-        add(name, Box::new(Bushings(vec![bushing])), &ends);
+        add(name, Box::new(Bushings::new(vec![bushing])), &ends);
     }
     for (name, block, x) in shells() {
         add(name, block, &x);

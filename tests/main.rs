@@ -4,6 +4,7 @@
 
 mod allocations;
 mod auto_step;
+mod breaking;
 mod chains;
 mod cli;
 mod commands;

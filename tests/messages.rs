@@ -293,6 +293,9 @@ fn materials_that_yield() {
     );
     assert_snapshot!("softening", plastic("yield_stress = 275e6\nhardening_modulus = -1e9"));
     assert_snapshot!("kinematic_share", plastic("yield_stress = 275e6\nkinematic_share = 2.0"));
+    assert_snapshot!("failure_strain", plastic("yield_stress = 275e6\nfailure_strain = 0.0"));
+    assert_snapshot!("failure_in_per_cent", plastic("yield_stress = 275e6\nfailure_strain = 25.0"));
+    assert_snapshot!("failure_when_elastic", yielding("elastic", "failure_strain = 0.2", ""));
     assert_snapshot!("overstress_exponent", viscous(&format!("{stress}\n{}", viscosity.replace("5.0", "0.5"))));
     assert_snapshot!(
         "overstress_without_exponent",
@@ -412,6 +415,27 @@ fn explicit_schemes() {
     assert_snapshot!("explicit_consistent", portal(&[("orientation = [0.0, 1.0, 0.0]", heavy)]));
 }
 
+#[test]
+fn links_that_fail() {
+    let link = |failure: &str, more: &str| {
+        format!(
+            "[[links]]\nname = \"{more}{failure}\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [1.5, 0.0, 3.0] }}\n{more}\n\
+             failure = {{ {failure} }}\n"
+        )
+        .replacen(&format!("\"{more}{failure}\""), &format!("\"of {} and {}\"", more.len(), failure.len()), 1)
+    };
+    let bushing = "bushing = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3]";
+    let links = [
+        link("normal = 3e3, shear = 2e3", "stiffness = 1e5"),
+        link("normal = -3e3", "stiffness = 1e5"),
+        link("exponents = [2.0, 2.0]", bushing),
+        link("shear = 2e3, exponents = [2.0, 0.0]", bushing),
+        link("normal = 2e3, force = 2e3", bushing),
+    ];
+    assert_snapshot!("links_that_fail", portal_and(&links.join("\n")));
+    assert_eq!(portal_and(&link("normal = 3e3", "stiffness = 1e5")).trim(), "");
+}
+
 /// Joints with what acts along their coordinates; everything that is wrong is said at once.
 #[test]
 fn joint_coordinates() {
@@ -451,6 +475,20 @@ fn joint_coordinates() {
             ["cylindrical", "friction_moment = 3.0\nstiffness = -1.0"],
             ["screw", "lead = 0.0\nfriction_moment = -3.0"],
             ["screw", "torque = 3.0"],
+        ])
+    );
+    assert_snapshot!(
+        "joint_yields",
+        all(&[
+            ["revolute", "yield_moment = 3.0"],
+            ["revolute", "yield_moment = -3.0\nstiffness = 10.0\nrest = 0.1"],
+            ["revolute", "yield_force = 3.0\nstiffness = 10.0"],
+            ["revolute", "yield_moment = 3.0\nstiffness = 10.0\npost_yield_stiffness = 20.0"],
+            ["revolute", "post_yield_stiffness = 20.0"],
+            ["revolute", "backbone = [[0.1, 3.0], [0.05, 4.0]]\nstiffness = 1.0"],
+            ["prismatic", "backbone = [[0.1, 3.0], [0.2, 7.0]]"],
+            ["prismatic", "backbone = []"],
+            ["spherical", "yield_moment = 3.0"],
         ])
     );
     let drive = |velocity: &str| {

@@ -39,7 +39,7 @@ fn headers_are_those_of_the_interface() {
         ("bodies.csv", "step,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,alphax,alphay,alphaz"),
         (
             "energy.csv",
-            "step,time,kinetic,strain,plastic,viscoplastic,damping,links,contact,friction,impact,external,numerical,mechanical,px,py,pz,lx,ly,lz",
+            "step,time,kinetic,strain,plastic,viscoplastic,damping,links,contact,friction,impact,external,numerical,mechanical,px,py,pz,lx,ly,lz,eroded",
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
         ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),

@@ -262,6 +262,7 @@ impl Job<'_> {
             timings: self.timings_of(told.observing, whole),
             errors,
             joint_violation: told.joint_violation,
+            failed: told.failed,
             rotation_drift: (told.rotation_drift > 0.0).then_some(told.rotation_drift),
             peak_memory_bytes: peak_memory_bytes(),
             warnings,

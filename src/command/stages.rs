@@ -34,6 +34,8 @@ pub struct StagesTold {
     pub rotation_drift: f64,
     /// Largest gap of a joint; `None` without joints.
     pub joint_violation: Option<f64>,
+    /// The number of elements and links that have failed; `None` where none can.
+    pub failed: Option<usize>,
     /// The error of automatic steps, in the last stage that has them.
     pub step_error: Option<StepError>,
     /// Says of a path that it ended before its `stop`.
@@ -41,7 +43,7 @@ pub struct StagesTold {
 }
 
 keep!(StagesTold {
-    warnings, remarks, energy, counts, rotation_drift, joint_violation, step_error, short,
+    warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, short,
 } without { observing });
 
 /// A stage that has come to its end before a checkpoint.
@@ -125,6 +127,7 @@ impl StagesTold {
         self.observing += run.observing();
         self.rotation_drift = self.rotation_drift.max(run.rotation_drift());
         self.joint_violation = self.joint_violation.into_iter().chain(run.joint_violation()).reduce(f64::max);
+        self.failed = run.broken().or(self.failed);
         self.step_error = run.step_error().or(self.step_error);
         self.short = end_time.and_then(|time| short_of_stop(model, run, time));
     }

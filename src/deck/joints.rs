@@ -8,6 +8,7 @@ use super::words::kinds::Kinds;
 use super::words::{Maybe, Names, Numbers, Table};
 use crate::constraints::joints::kind::{Coordinate, MakeJoint};
 use crate::constraints::joints::{JOINTS, JointKind};
+use crate::diagnostic::At;
 
 /// Two ends that may move against each other only as the kind of joint allows; Lagrange multipliers hold them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -49,6 +50,17 @@ pub struct Joint {
     pub friction_moment: Maybe<f64>,
     /// Dry friction against a distance: the force at which it slips, 0 or more, whatever the joint carries. Default: 0.
     pub friction_force: Maybe<f64>,
+    /// The moment at which a hinge yields, above 0: `stiffness`, which it needs, is its slope up to there, `post_yield_stiffness` beyond,
+    /// with kinematic hardening.
+    pub yield_moment: Maybe<f64>,
+    /// The force at which a joint along a distance yields, likewise.
+    pub yield_force: Maybe<f64>,
+    /// Slope of moment or force beyond yielding, 0 or more, below `stiffness`. Default: 0. (with `yield_moment`, `yield_force`)
+    pub post_yield_stiffness: Maybe<f64>,
+    /// [[coordinate, moment or force], ...], up to 6, from the first yielding on, instead of `stiffness` and what yields: the curve of
+    /// first loading, the same either way, of lines each less steep than the one before, constant after the last. Unloading
+    /// and reloading follow it twice as large.
+    pub backbone: Maybe<Vec<At<Numbers<2>>>>,
     /// By how much the joint gives before friction slips, above 0: what sticks is held by a stiff spring, and comes back. Default:
     /// 1e-4 radians, or 1e-5 of the size of the scene.
     pub stick: Maybe<f64>,

@@ -43,6 +43,8 @@ pub struct Link {
     pub bushing: Maybe<Numbers<6>>,
     /// Six damping values of the bushing, force per velocity and moment per angular velocity. Default: 0.
     pub bushing_damping: Maybe<Numbers<6>>,
+    /// The forces at which the link fails: from then on it carries nothing. Default: it does not.
+    pub failure: Maybe<Table<Failure>>,
     /// Names of the stages in which it is there. Default: all.
     pub stages: Maybe<Names>,
     /// Axes of the bushing, global at t = 0: its x, and a vector in its x-y plane. Default: global axes.
@@ -57,6 +59,19 @@ impl PartTable for Link {
     fn members(&self) -> Vec<&At<String>> {
         [&self.from, &self.to].into_iter().flatten().filter_map(|end| end.node.as_ref()).collect()
     }
+}
+
+/// A link fails where (normal force/`normal`)^a + (shear force/`shear`)^b reaches 1. The normal force is the tension of the link, of a
+/// bushing along its first axis; compression does not count. The shear force is that of a bushing along its other axes.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Failure {
+    /// Normal force at which it fails without shear, above 0. Default: tension does not harm it.
+    pub normal: Maybe<f64>,
+    /// Shear force at which it fails without tension, above 0. Default: shear does not harm it. (bushing)
+    pub shear: Maybe<f64>,
+    /// The exponents [a, b], above 0. Default: [2.0, 2.0].
+    pub exponents: Maybe<Numbers<2>>,
 }
 
 /// `{ node = "name" }`, `{ body = "name", point = [x, y, z] }` or `{ ground = [x, y, z] }`.

@@ -3,7 +3,7 @@
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
 use super::link::{Link, LinkLaw, Links};
-use crate::materials::{Dissipation, MaterialLaw, Uniaxial};
+use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, Uniaxial};
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node, elongation, stretch};
 
@@ -27,7 +27,7 @@ pub fn elastic_bars(
         };
         Link::new(nodes, law, damping * stiffness, None, length, start)
     };
-    Links(elements.iter().map(link).collect())
+    Links::new(elements.iter().map(link).collect())
 }
 
 /// Bars whose material yields. A tension-only bar goes slack where its elastic strain would be compressive, and keeps its
@@ -114,6 +114,9 @@ impl YieldingBars {
     fn tension(&self, at: &BarStrain, dt: f64, old: &[f64], moduli: Moduli) -> Tension {
         if self.is_slack(at.strain, old) {
             return Tension::default();
+        }
+        if self.law.has_failed(Uniaxial, old) {
+            return Tension { modulus: FAILED_STIFFNESS * self.law.elastic().E, ..Tension::default() };
         }
         let ([stress], [[modulus]]) = self.law.stress_and_tangent(Uniaxial, &[at.strain], dt, old);
         let viscosity = self.damping * self.law.elastic().E;
@@ -254,5 +257,13 @@ impl ElementBlock for YieldingBars {
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
         self.law.accumulated(Uniaxial, &history[self.history_range(e)])
+    }
+
+    fn can_fail(&self) -> bool {
+        self.law.can_fail()
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        self.law.has_failed(Uniaxial, &history[self.history_range(e)])
     }
 }

@@ -3,6 +3,7 @@
 use super::results::{IntegrationPoint, ShellResultants};
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
+use crate::names::short;
 use crate::state::{Configuration, Node};
 use std::any::Any;
 
@@ -74,6 +75,18 @@ pub trait ElementBlock: Send + Sync {
     /// Largest accumulated plastic strain in element `e`, by the history variables of the group.
     fn plastic_strain(&self, _e: usize, _history: &[f64]) -> f64 {
         0.0
+    }
+    /// True for elements that may fail: such as carry nothing any more from some state on.
+    fn can_fail(&self) -> bool {
+        false
+    }
+    /// True where element `e` has failed, by the history variables of the group.
+    fn has_failed(&self, _e: usize, _history: &[f64]) -> bool {
+        false
+    }
+    /// Why element `e` has failed.
+    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
+        format!("its plastic strain is {}", short(self.plastic_strain(e, history)))
     }
     /// True where the tangent is the same in every configuration.
     fn is_linear(&self) -> bool {

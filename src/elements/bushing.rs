@@ -2,14 +2,17 @@
 //!
 //! d = Bᵀ(x₂ − x₁) − d₀ and Q = Bᵀ R₂ A, with B = R₁ A the frame. The force of the energy ½ d·k d is B k d, the moment B m(Q) that
 //! of [`super::relative_rotation`]; dampers act on ḋ and on the relative angular velocity in the frame. Where full turns count,
-//! the angle of twist at the end of the last step is the history of a bushing.
+//! the angle of twist at the end of the last step is part of the history of a bushing; what may fail remembers whether it has.
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::link_failure::{self, LinkFailure, has_failed};
+use super::memories::places;
 use super::relative_rotation::{ElasticMoment, RotationalSpring};
-use crate::materials::Dissipation;
+use crate::materials::{Dissipation, FAILED_STIFFNESS};
 use crate::math::{Mat3, Vec3, skew};
 use crate::state::{Configuration, Node};
 use nalgebra::Quaternion;
+use std::ops::Range;
 
 /// One bushing between two nodes.
 #[derive(Debug, Clone)]
@@ -26,6 +29,8 @@ pub struct Bushing {
     pub damping: [f64; 6],
     /// Aᵀ(x₂ − x₁) at t = 0.
     pub offset: Vec3,
+    /// The forces at which it fails, the normal one along its first axis; none for one that does not.
+    pub failure: Option<LinkFailure>,
 }
 
 /// Motion of the second node relative to the first.
@@ -89,6 +94,12 @@ impl Bushing {
         self.spring.step_angle(&rotations, &spun) > LIMIT
     }
 
+    /// The energy of its springs; `last`: the twist at the end of the last step.
+    fn energy(&self, motion: &RelativeMotion, last: f64) -> f64 {
+        let d = &motion.d;
+        0.5 * self.stiffness.component_mul(d).dot(d) + self.spring.moment(&motion.Q, last).energy
+    }
+
     /// The coefficients of translation and of rotation.
     fn coefficients(values: &[f64; 6]) -> (Vec3, Vec3) {
         let [a, b, c, d, e, f] = *values;
@@ -104,45 +115,77 @@ impl Bushing {
         (motion.B * f, motion.B * m)
     }
 
-    /// d, its rate along the first axis, force and moment on the second node; components in the frame. `last`: the twist at the
-    /// end of the last step.
-    pub fn state(&self, nodes: &[Node], last: f64) -> (Vec3, f64, Vec3, Vec3) {
+    /// The number of its history variables: the twist at the end of the last step where full turns count, and the forces of a failure.
+    pub fn memory(&self) -> usize {
+        usize::from(self.spring.counts_turns()) + if self.failure.is_some() { link_failure::MEMORY } else { 0 }
+    }
+
+    /// The twist at the end of the last step and the forces of a failure, of its history variables.
+    fn remembered<'a>(&self, memory: &'a [f64]) -> (f64, &'a [f64]) {
+        match (self.spring.counts_turns(), memory) {
+            (true, [last, failed @ ..]) => (*last, failed),
+            (_, failed) => (0.0, failed),
+        }
+    }
+
+    /// True where it has failed by its history variables.
+    pub fn has_failed(&self, memory: &[f64]) -> bool {
+        has_failed(self.remembered(memory).1)
+    }
+
+    /// d, its rate along the first axis, force and moment on the second node; components in the frame. `memory`: its history variables.
+    pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (Vec3, f64, Vec3, Vec3) {
         let motion = self.motion(nodes);
+        let (last, failed) = self.remembered(memory);
+        if has_failed(failed) {
+            return (motion.d, motion.B.column(0).dot(&motion.u), Vec3::zeros(), Vec3::zeros());
+        }
         let (F, M) = self.forces(&motion, last);
         (motion.d, motion.B.column(0).dot(&motion.u), motion.B.tr_mul(&F), motion.B.tr_mul(&M))
     }
 }
 
 /// A group of bushings.
-pub struct Bushings(pub Vec<Bushing>);
+pub struct Bushings {
+    bushings: Vec<Bushing>,
+    /// The history variables of each.
+    memories: Vec<Range<usize>>,
+}
 
 impl Bushings {
-    /// Bushings with the twist of each at the end of the last step.
-    fn with_history<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Bushing, f64)> {
-        let mut history = history.iter();
-        self.0.iter().map(move |bushing| {
-            let last = if bushing.spring.counts_turns() { history.next().copied() } else { None };
-            (bushing, last.unwrap_or(0.0))
+    /// A group of these bushings.
+    pub fn new(bushings: Vec<Bushing>) -> Bushings {
+        let memories = places(bushings.iter().map(Bushing::memory));
+        Bushings { bushings, memories }
+    }
+
+    /// Bushings with the twist of each at the end of the last step, and the forces at which it has failed.
+    fn with_history<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Bushing, f64, &'a [f64])> {
+        self.bushings.iter().zip(&self.memories).map(|(bushing, memory)| {
+            let (last, failed) = bushing.remembered(history.get(memory.clone()).unwrap_or(&[]));
+            (bushing, last, failed)
         })
     }
 
-    fn last_twist(&self, e: usize, history: &[f64]) -> f64 {
-        let counts = |bushing: &Bushing| bushing.spring.counts_turns();
-        if !counts(&self.0[e]) {
-            return 0.0;
-        }
-        let place = self.0[..e].iter().filter(|bushing| counts(bushing)).count();
-        history.get(place).copied().unwrap_or(0.0)
+    /// Those that have not failed, with their twist at the end of the last step.
+    fn whole<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Bushing, f64)> {
+        self.with_history(history)
+            .filter(|(_, _, failed)| !has_failed(failed))
+            .map(|(bushing, last, _)| (bushing, last))
+    }
+
+    fn remembered<'a>(&self, e: usize, history: &'a [f64]) -> (f64, &'a [f64]) {
+        self.bushings[e].remembered(history.get(self.memories[e].clone()).unwrap_or(&[]))
     }
 }
 
 impl ElementBlock for Bushings {
     fn len(&self) -> usize {
-        self.0.len()
+        self.bushings.len()
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.0[e].nodes
+        &self.bushings[e].nodes
     }
 
     fn dofs(&self) -> usize {
@@ -150,24 +193,53 @@ impl ElementBlock for Bushings {
     }
 
     fn is_damped(&self) -> bool {
-        self.0.iter().any(|b| b.damping.iter().any(|&c| c > 0.0))
+        self.bushings.iter().any(|b| b.damping.iter().any(|&c| c > 0.0))
     }
 
     fn history(&self) -> usize {
-        self.0.iter().filter(|bushing| bushing.spring.counts_turns()).count()
+        self.memories.last().map_or(0, |last| last.end)
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
-        let counting = self.with_history(now.history).filter(|(bushing, _)| bushing.spring.counts_turns());
-        for ((bushing, last), new) in counting.zip(new) {
-            let twist = bushing.spring.moment(&bushing.relative_rotation(now.nodes), last).twist;
-            *new = last + part * (twist - last);
+        let mut lost = Dissipation::default();
+        for ((bushing, last, failed), memory) in self.with_history(now.history).zip(&self.memories) {
+            let Some(memory) = new.get_mut(memory.clone()).filter(|memory| !memory.is_empty()) else { continue };
+            let turns = usize::from(bushing.spring.counts_turns());
+            memory[..turns].fill(last);
+            memory[turns..].copy_from_slice(failed);
+            if has_failed(failed) {
+                continue;
+            }
+            if turns > 0 {
+                let twist = bushing.spring.moment(&bushing.relative_rotation(now.nodes), last).twist;
+                memory[0] = last + part * (twist - last);
+            }
+            let Some(failure) = bushing.failure else { continue };
+            let motion = bushing.motion(now.nodes);
+            let force = motion.B.tr_mul(&bushing.forces(&motion, last).0);
+            let shear = force.y.hypot(force.z);
+            if failure.is_reached(force.x, shear) {
+                memory[turns..].copy_from_slice(&[force.x, shear]);
+                lost.eroded += bushing.energy(&motion, last);
+            }
         }
-        Dissipation::default()
+        lost
+    }
+
+    fn can_fail(&self) -> bool {
+        self.bushings.iter().any(|bushing| bushing.failure.is_some())
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        has_failed(self.remembered(e, history).1)
+    }
+
+    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
+        link_failure::reason(self.remembered(e, history).1)
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for (bushing, last) in self.with_history(now.history) {
+        for (bushing, last) in self.whole(now.history) {
             let motion = bushing.motion(now.nodes);
             let (f, m) = bushing.forces(&motion, last);
             let [a, b] = bushing.nodes;
@@ -179,9 +251,9 @@ impl ElementBlock for Bushings {
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
-        let bushing = &self.0[e];
+        let bushing = &self.bushings[e];
         let motion = bushing.motion(now.nodes);
-        let last = self.last_twist(e, now.history);
+        let (last, failed) = self.remembered(e, now.history);
         let (F, M) = bushing.forces(&motion, last);
         let omega = now.nodes[bushing.nodes[0]].omega;
         let (c, c_phi) = Bushing::coefficients(&bushing.damping);
@@ -214,24 +286,23 @@ impl ElementBlock for Bushings {
                 }
             }
         }
+        if has_failed(failed) {
+            K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+        }
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        let energy = |(b, last): (&Bushing, f64)| {
-            let motion = b.motion(now.nodes);
-            0.5 * b.stiffness.component_mul(&motion.d).dot(&motion.d) + b.spring.moment(&motion.Q, last).energy
-        };
-        self.with_history(now.history).map(energy).sum()
+        self.whole(now.history).map(|(bushing, last)| bushing.energy(&bushing.motion(now.nodes), last)).sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
-        let power = |b: &Bushing| {
+        let power = |(b, _): (&Bushing, f64)| {
             let motion = b.motion(now.nodes);
             let (c, c_phi) = Bushing::coefficients(&b.damping);
             let (u, w) = (motion.B.tr_mul(&motion.u), motion.B.tr_mul(&motion.w));
             c.component_mul(&u).dot(&u) + c_phi.component_mul(&w).dot(&w)
         };
-        self.0.iter().map(power).sum()
+        self.whole(now.history).map(power).sum()
     }
 }
 
@@ -255,6 +326,7 @@ mod tests {
                 spring: RotationalSpring::new(stiffness),
                 damping: [0.0; 6],
                 offset: Vec3::zeros(),
+                failure: None,
             };
             bushing.is_turned_over(&nodes(angles[0]), &nodes(angles[1]))
         };

@@ -1,10 +1,11 @@
 //! What acts along the coordinate q of a joint: a spring, a damper, stops and dry friction, as an effort over q, q̇ and the past.
 //!
 //! Stops push back as contacts do, with the damping of a set restitution ([`super::contact::restitution`]). Friction is a spring that
-//! slips at its limit (return mapping), so what sticks does not creep. Efforts are forces, or moments where the coordinate is an angle;
+//! slips at its limit (return mapping), so what sticks does not creep; a hinge that yields is several of them ([`super::hysteresis`]). Efforts are forces, or moments where the coordinate is an angle;
 //! they are positive where they pull the second part back.
 
 use super::contact::restitution::{Loss, normal_force};
+use super::hysteresis::Hysteresis;
 
 /// The effort over a coordinate, its rate and its past.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +20,8 @@ pub struct CoordinateLaw {
     pub stops: Option<Stops>,
     /// Dry friction.
     pub friction: Option<DryFriction>,
+    /// What yields.
+    pub hysteresis: Option<Hysteresis>,
 }
 
 /// Stops at either end of the way of a coordinate.
@@ -41,8 +44,8 @@ pub struct DryFriction {
     pub stiffness: f64,
 }
 
-/// Numbers that a joint remembers: coordinate and rate at the end of the last step, the speed of the last landing on a stop, the
-/// power that the impact took, and the anchor of friction.
+/// Numbers that every joint remembers: coordinate and rate at the end of the last step, the speed of the last landing on a stop, the
+/// power that the impact took, and the anchor of friction. Anchors of what yields come after them.
 pub const MEMORY: usize = 5;
 /// Place of the rate.
 pub const RATE: usize = 1;
@@ -79,9 +82,14 @@ pub struct CoordinateState {
 impl CoordinateLaw {
     /// A joint on whose coordinate nothing acts: it counts turns.
     pub const FREE: CoordinateLaw =
-        CoordinateLaw { stiffness: 0.0, rest: 0.0, damping: 0.0, stops: None, friction: None };
+        CoordinateLaw { stiffness: 0.0, rest: 0.0, damping: 0.0, stops: None, friction: None, hysteresis: None };
 
-    /// Effort, derivatives and energy at a coordinate and its rate; `memory` is that of the last step, [`MEMORY`] numbers.
+    /// The number of history variables.
+    pub fn memory(&self) -> usize {
+        MEMORY + self.hysteresis.as_ref().map_or(0, Hysteresis::memory)
+    }
+
+    /// Effort, derivatives and energy at a coordinate and its rate; `memory` is that of the last step, [`CoordinateLaw::memory`] numbers.
     pub fn at(&self, q: f64, rate: f64, memory: &[f64]) -> CoordinateState {
         let stretch = q - self.rest;
         let mut state = CoordinateState {
@@ -99,7 +107,10 @@ impl CoordinateLaw {
             stops.add(memory, &mut state);
         }
         if let Some(friction) = &self.friction {
-            friction.add(memory[ANCHOR], &mut state);
+            state.slip = friction.add(memory[ANCHOR], &mut state);
+        }
+        if let Some(hysteresis) = &self.hysteresis {
+            hysteresis.add(&memory[MEMORY..], &mut state);
         }
         state
     }
@@ -130,15 +141,24 @@ impl Stops {
 }
 
 impl DryFriction {
-    fn add(&self, anchor: f64, state: &mut CoordinateState) {
-        let stretch = state.q - anchor;
-        let most = self.limit / self.stiffness;
+    /// What the spring is stretched by at `q`, and the way of its anchor; neither where there is no spring.
+    pub fn stretch(&self, q: f64, anchor: f64) -> (f64, f64) {
+        if self.stiffness == 0.0 {
+            return (0.0, 0.0);
+        }
+        let (stretch, most) = (q - anchor, self.limit / self.stiffness);
         let held = stretch.clamp(-most, most);
-        state.slip = stretch - held;
+        (held, stretch - held)
+    }
+
+    /// Adds effort, stiffness and energy at the coordinate of `state`; returns the way of the anchor.
+    pub fn add(&self, anchor: f64, state: &mut CoordinateState) -> f64 {
+        let (held, slip) = self.stretch(state.q, anchor);
         state.effort += self.stiffness * held;
-        if state.slip == 0.0 {
+        if slip == 0.0 {
             state.by_q += self.stiffness;
         }
         state.energy += 0.5 * self.stiffness * held * held;
+        slip
     }
 }

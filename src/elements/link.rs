@@ -1,8 +1,12 @@
 //! Springs and dampers between two points: a force N(δ) + c δ̇ along the line of the points or along a fixed direction.
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::link_failure::{self, LinkFailure, has_failed};
+use super::memories::places;
+use crate::materials::{Dissipation, FAILED_STIFFNESS};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node, elongation, stretch};
+use std::ops::Range;
 
 /// The force N over the elongation δ; tension and elongation are positive.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,6 +123,8 @@ pub struct Link {
     pub damping: f64,
     /// A unit vector fixed in space along which the link acts; none for the line of the nodes.
     pub direction: Option<Vec3>,
+    /// The force at which it fails; none for a link that does not.
+    failure: Option<LinkFailure>,
     /// Positions of its nodes at t = 0.
     start: [Vec3; 2],
     /// The vector from the first to the second then.
@@ -163,7 +169,7 @@ impl Link {
         };
         let rounding = 1e-12 * initial_length.abs().max(free_length.abs());
         let initial_elongation = touching.filter(|at| (elongation - at).abs() <= rounding).unwrap_or(elongation);
-        Link { nodes, law, damping, direction, start, span, initial_length, initial_elongation }
+        Link { nodes, law, damping, direction, failure: None, start, span, initial_length, initial_elongation }
     }
 
     #[inline]
@@ -184,10 +190,32 @@ impl Link {
         LinkAxis { e, length, delta: self.initial_elongation + more, rate: e.dot(&dv), dv }
     }
 
-    /// Elongation, its rate, and the force, damper included; tension is positive.
-    pub fn state(&self, nodes: &[Node]) -> (f64, f64, f64) {
+    /// Elongation, its rate, and the force, damper included; tension is positive. `memory`: its history variables.
+    pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (f64, f64, f64) {
         let line = self.line(nodes);
-        (line.delta, line.rate, self.law.damped_force(line.delta, line.rate, self.damping).force)
+        (line.delta, line.rate, self.force(&line, memory).force)
+    }
+
+    /// The same link, which fails as `failure` says.
+    pub fn failing(self, failure: Option<LinkFailure>) -> Link {
+        Link { failure, ..self }
+    }
+
+    /// The number of its history variables.
+    pub fn memory(&self) -> usize {
+        if self.failure.is_some() { link_failure::MEMORY } else { 0 }
+    }
+
+    /// The force at an elongation, none where the link has failed.
+    #[inline]
+    fn force(&self, line: &LinkAxis, memory: &[f64]) -> LinkForce {
+        let acting = self.law.damped_force(line.delta, line.rate, self.damping);
+        match has_failed(memory) {
+            true => {
+                LinkForce { force: 0.0, elastic: 0.0, stiffness: FAILED_STIFFNESS * acting.stiffness, damping: 0.0 }
+            }
+            false => acting,
+        }
     }
 
     /// Unit vector from the first node to the second, or the fixed direction; global components.
@@ -197,15 +225,40 @@ impl Link {
 }
 
 /// A group of links, and of elastic bars, which are links of stiffness EA/L.
-pub struct Links(pub Vec<Link>);
+pub struct Links {
+    links: Vec<Link>,
+    /// The history variables of each; none where no link has any.
+    memories: Vec<Range<usize>>,
+}
+
+impl Links {
+    /// A group of these links.
+    pub fn new(links: Vec<Link>) -> Links {
+        let remembers = links.iter().any(|link| link.memory() > 0);
+        let memories = if remembers { places(links.iter().map(Link::memory)) } else { Vec::new() };
+        Links { links, memories }
+    }
+
+    /// Each link with its history variables.
+    #[inline]
+    fn with_memory<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Link, &'a [f64])> {
+        self.links.iter().enumerate().map(|(e, link)| (link, self.memory(e, history)))
+    }
+
+    /// The history variables of a link.
+    #[inline]
+    fn memory<'a>(&self, e: usize, history: &'a [f64]) -> &'a [f64] {
+        self.memories.get(e).map_or(&[], |range| &history[range.clone()])
+    }
+}
 
 impl ElementBlock for Links {
     fn len(&self) -> usize {
-        self.0.len()
+        self.links.len()
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.0[e].nodes
+        &self.links[e].nodes
     }
 
     fn dofs(&self) -> usize {
@@ -213,25 +266,26 @@ impl ElementBlock for Links {
     }
 
     fn is_linear(&self) -> bool {
-        self.0.iter().all(|l| l.direction.is_some() && matches!(l.law, LinkLaw::Linear { .. }))
+        self.memories.is_empty()
+            && self.links.iter().all(|l| l.direction.is_some() && matches!(l.law, LinkLaw::Linear { .. }))
     }
 
     fn fixed_direction(&self, e: usize) -> Option<Vec3> {
-        self.0[e].direction
+        self.links[e].direction
     }
 
     fn is_damped(&self) -> bool {
-        self.0.iter().any(|l| l.damping > 0.0)
+        self.links.iter().any(|l| l.damping > 0.0)
     }
 
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
-        let link = &self.0[e];
+        let link = &self.links[e];
         let one_sided = matches!(link.law, LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. });
         one_sided && link.law.force(link.line(now.nodes).delta).1 == 0.0
     }
 
     fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
-        let link = &self.0[e];
+        let link = &self.links[e];
         let line = link.line(now);
         // A link that pulls at every length, or is slack, may pass through itself.
         let pushes = link.law.force(line.delta - line.length).0 < 0.0;
@@ -239,18 +293,18 @@ impl ElementBlock for Links {
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for link in &self.0 {
+        for (link, memory) in self.with_memory(now.history) {
             let line = link.line(now.nodes);
-            let f = link.law.damped_force(line.delta, line.rate, link.damping).force * line.e;
+            let f = link.force(&line, memory).force * line.e;
             subtract(&mut F[link.nodes[0]], 0, &-f);
             subtract(&mut F[link.nodes[1]], 0, &f);
         }
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
-        let link = &self.0[e];
+        let link = &self.links[e];
         let line = link.line(now.nodes);
-        let r = link.law.damped_force(line.delta, line.rate, link.damping);
+        let r = link.force(&line, self.memory(e, now.history));
         let along = line.e * line.e.transpose();
         let mut k = (r.stiffness + rate_weight * r.damping) * along;
         if link.direction.is_none() && line.length > 0.0 {
@@ -261,8 +315,11 @@ impl ElementBlock for Links {
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        let link = &self.0[e];
+        let link = &self.links[e];
         let line = link.line(now.nodes);
+        if has_failed(self.memory(e, now.history)) {
+            return self.tangent(e, now, 0.0, Moduli::Elastic, K);
+        }
         let mut k = link.law.force(line.delta).1 * line.e * line.e.transpose();
         if link.direction.is_none() && line.length > 0.0 {
             let across = (crate::math::Mat3::identity() - line.e * line.e.transpose()) / line.length;
@@ -272,16 +329,49 @@ impl ElementBlock for Links {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        self.0.iter().map(|link| link.law.energy(link.line(now.nodes).delta)).sum()
+        let whole = self.with_memory(now.history).filter(|(_, memory)| !has_failed(memory));
+        whole.map(|(link, _)| link.law.energy(link.line(now.nodes).delta)).sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
-        let power = |link: &Link| {
+        let power = |(link, memory): (&Link, &[f64])| {
             let line = link.line(now.nodes);
-            let r = link.law.damped_force(line.delta, line.rate, link.damping);
+            let r = link.force(&line, memory);
             (r.force - r.elastic) * line.rate
         };
-        self.0.iter().filter(|l| l.damping > 0.0).map(power).sum()
+        self.with_memory(now.history).filter(|(link, _)| link.damping > 0.0).map(power).sum()
+    }
+
+    fn history(&self) -> usize {
+        self.memories.last().map_or(0, |last| last.end)
+    }
+
+    fn update_history(&self, now: &Configuration, _: f64, new: &mut [f64]) -> Dissipation {
+        new.copy_from_slice(now.history);
+        let mut lost = Dissipation::default();
+        for (link, memory) in self.links.iter().zip(&self.memories) {
+            let memory = &mut new[memory.clone()];
+            let Some(failure) = link.failure.filter(|_| !has_failed(memory)) else { continue };
+            let line = link.line(now.nodes);
+            let force = link.force(&line, memory).force;
+            if failure.is_reached(force, 0.0) {
+                memory.copy_from_slice(&[force, 0.0]);
+                lost.eroded += link.law.energy(line.delta);
+            }
+        }
+        lost
+    }
+
+    fn can_fail(&self) -> bool {
+        !self.memories.is_empty()
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        has_failed(self.memory(e, history))
+    }
+
+    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
+        link_failure::reason(self.memory(e, history))
     }
 }
 

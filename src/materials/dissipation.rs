@@ -16,9 +16,11 @@ pub struct Dissipation {
     pub friction: f64,
     /// Dissipated in impacts.
     pub impact: f64,
+    /// Stored by what has failed, and lost with it.
+    pub eroded: f64,
 }
 
-keep!(Dissipation { plastic, viscous, stored, friction, impact });
+keep!(Dissipation { plastic, viscous, stored, friction, impact, eroded });
 
 impl AddAssign for Dissipation {
     fn add_assign(&mut self, more: Dissipation) {
@@ -27,6 +29,7 @@ impl AddAssign for Dissipation {
         self.stored += more.stored;
         self.friction += more.friction;
         self.impact += more.impact;
+        self.eroded += more.eroded;
     }
 }
 
@@ -40,6 +43,7 @@ impl Mul<f64> for Dissipation {
             stored: self.stored * by,
             friction: self.friction * by,
             impact: self.impact * by,
+            eroded: self.eroded * by,
         }
     }
 }

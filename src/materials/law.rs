@@ -14,7 +14,13 @@ use super::stress_state::StressState;
 pub struct MaterialLaw {
     elastic: ElasticConstants,
     yielding: Yielding,
+    /// Accumulated plastic strain from which on a point carries nothing; infinite for a material that does not fail.
+    failure_strain: f64,
 }
+
+/// Part of the elastic stiffness that the tangent keeps where a material has failed. Its stress is zero; a node that nothing else holds
+/// then still has a place in the equations, and the matrix of a structure that stands without it is not felt to change.
+pub const FAILED_STIFFNESS: f64 = 1e-8;
 
 /// Stress at the end of a step by modes: the trial, and the return if it yields.
 struct Answer<const N: usize> {
@@ -49,7 +55,24 @@ impl MaterialLaw {
         MaterialLaw {
             elastic: ElasticConstants::new(E, nu),
             yielding: Yielding { hardening, kinematic_share, viscosity },
+            failure_strain: f64::INFINITY,
         }
+    }
+
+    /// The same material, which fails where its accumulated plastic strain reaches `strain`, above 0.
+    pub fn failing_at(self, strain: f64) -> MaterialLaw {
+        MaterialLaw { failure_strain: strain, ..self }
+    }
+
+    /// True for a material whose points may fail.
+    pub fn can_fail(&self) -> bool {
+        self.failure_strain < f64::INFINITY
+    }
+
+    /// True where a point has failed by its history: its stress is zero from then on.
+    #[inline(always)]
+    pub fn has_failed<const N: usize, S: StressState<N>>(&self, _: S, history: &[f64]) -> bool {
+        history[N] >= self.failure_strain
     }
 
     /// The elastic constants.
@@ -65,7 +88,16 @@ impl MaterialLaw {
 
     /// Stress at `strain`, `dt` after the state in `old`. Not finite where the strain or its elastic stress is not.
     #[inline]
-    pub fn stress<const N: usize, S: StressState<N>>(&self, _: S, strain: &[f64; N], dt: f64, old: &[f64]) -> [f64; N] {
+    pub fn stress<const N: usize, S: StressState<N>>(
+        &self,
+        state: S,
+        strain: &[f64; N],
+        dt: f64,
+        old: &[f64],
+    ) -> [f64; N] {
+        if self.has_failed(state, old) {
+            return [0.0; N];
+        }
         S::modes(self.answer::<N, S>(strain, dt, old).stress())
     }
 
@@ -86,11 +118,14 @@ impl MaterialLaw {
     #[inline]
     pub fn linearise<const N: usize, S: StressState<N>>(
         &self,
-        _: S,
+        state: S,
         strain: &[f64; N],
         dt: f64,
         old: &[f64],
     ) -> ([f64; N], Option<[[f64; N]; N]>) {
+        if self.has_failed(state, old) {
+            return ([0.0; N], Some(self.stiffness(state).map(|row| row.map(|c| FAILED_STIFFNESS * c))));
+        }
         let answer = self.answer::<N, S>(strain, dt, old);
         let C = answer.yielding.as_ref().map(|y| {
             // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition keeps Σ bᵢ dεᵢ = slope ∂, and
@@ -124,12 +159,16 @@ impl MaterialLaw {
     #[inline]
     pub fn advance<const N: usize, S: StressState<N>>(
         &self,
-        _: S,
+        state: S,
         strain: &[f64; N],
         (dt, part): (f64, f64),
         old: &[f64],
         new: &mut [f64],
     ) -> ([f64; N], Dissipation) {
+        if self.has_failed(state, old) {
+            new.copy_from_slice(old);
+            return ([0.0; N], Dissipation::default());
+        }
         let answer = self.answer::<N, S>(strain, dt, old);
         let stress = S::modes(answer.stress());
         new.copy_from_slice(old);
@@ -160,7 +199,25 @@ impl MaterialLaw {
             let mean = |i: usize| answer.back[i] + 0.5 * back * direction[i];
             spent.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
         }
+        if self.has_failed(state, new) {
+            self.give_up(state, strain, new, &mut spent);
+        }
         (stress, spent)
+    }
+
+    /// Books what a point that fails has stored: its elastic energy, and what kinematic hardening has kept, ½ X·εᵖ, which is exact where
+    /// that is linear.
+    #[cold]
+    fn give_up<const N: usize, S: StressState<N>>(
+        &self,
+        _: S,
+        strain: &[f64; N],
+        new: &[f64],
+        spent: &mut Dissipation,
+    ) {
+        let kept = if self.is_kinematic() { 0.5 * (0..N).map(|i| new[N + 1 + i] * new[i]).sum::<f64>() } else { 0.0 };
+        spent.stored -= kept;
+        spent.eroded += kept + self.stored::<N, S>(strain, new);
     }
 
     /// Accumulated plastic strain ε̄ᵖ.
@@ -169,7 +226,17 @@ impl MaterialLaw {
     }
 
     /// ½ (ε − εᵖ)·C (ε − εᵖ), per volume.
-    pub fn elastic_energy<const N: usize, S: StressState<N>>(&self, _: S, strain: &[f64; N], history: &[f64]) -> f64 {
+    pub fn elastic_energy<const N: usize, S: StressState<N>>(
+        &self,
+        state: S,
+        strain: &[f64; N],
+        history: &[f64],
+    ) -> f64 {
+        if self.has_failed(state, history) { 0.0 } else { self.stored::<N, S>(strain, history) }
+    }
+
+    /// The elastic energy of a point, per volume, whether it has failed or not.
+    fn stored<const N: usize, S: StressState<N>>(&self, strain: &[f64; N], history: &[f64]) -> f64 {
         let e = S::moduli(&self.elastic);
         let elastic: [f64; N] = elastic_strain::<N, S>(strain, history);
         0.5 * (0..N).map(|i| e[i] * elastic[i] * elastic[i]).sum::<f64>()

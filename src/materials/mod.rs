@@ -16,6 +16,6 @@ pub mod stress_state;
 pub use constants::ElasticConstants;
 pub use dissipation::Dissipation;
 pub use hardening::Hardening;
-pub use law::MaterialLaw;
+pub use law::{FAILED_STIFFNESS, MaterialLaw};
 pub use overstress::{Overstress, Viscosity};
 pub use stress_state::{FibreStress, PlaneStress, StressState, Uniaxial};

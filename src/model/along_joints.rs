@@ -1,4 +1,4 @@
-//! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops and friction.
+//! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops, friction and what yields.
 
 use super::data::{AnalysisKind, History, Joint, JointCoordinate, JointEffort, Load, Node, PrescribedMotion};
 use super::links::ModelLinks;
@@ -14,6 +14,7 @@ use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
 use crate::elements::contact::restitution::{LEAST, Loss, number};
 use crate::elements::coordinate_law::{CoordinateLaw, DryFriction, Stops};
+use crate::elements::hysteresis::Hysteresis;
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
 use crate::words::kinds::{OneOf, Values};
@@ -196,6 +197,9 @@ impl<'d> Along<'_, 'd> {
             ("limits", span(&joint.limits)),
             ("friction_moment", span(&joint.friction_moment)),
             ("friction_force", span(&joint.friction_force)),
+            ("yield_moment", span(&joint.yield_moment)),
+            ("yield_force", span(&joint.yield_force)),
+            ("backbone", span(&joint.backbone)),
         ];
         keys.into_iter().filter_map(|(key, place)| Some((key, place?))).collect()
     }
@@ -226,12 +230,16 @@ impl<'d> Along<'_, 'd> {
                 "without a spring nothing rests there",
             );
         }
+        let hysteresis = self.hysteresis(coordinate);
+        // What yields has the stiffness in it.
+        let spring = self.report.not_negative("stiffness", &joint.stiffness, 0.0);
         CoordinateLaw {
-            stiffness: self.report.not_negative("stiffness", &joint.stiffness, 0.0),
+            stiffness: if hysteresis.is_some() { 0.0 } else { spring },
             rest: joint.rest.as_ref().map_or(0.0, |rest| rest.value),
             damping: self.report.not_negative("damping", &joint.damping, 0.0),
             stops: self.stops(),
             friction: self.friction(coordinate),
+            hysteresis,
         }
     }
 
@@ -267,6 +275,48 @@ impl<'d> Along<'_, 'd> {
             _ => Loss::None,
         };
         Some(Stops { limits: [low, high], stiffness: stiffness?, loss })
+    }
+
+    /// What yields, by its yield moment or force, or by its backbone.
+    fn hysteresis(&mut self, coordinate: Coordinate) -> Option<Hysteresis> {
+        let joint = self.joint;
+        let (moment, force) = (("yield_moment", &joint.yield_moment), ("yield_force", &joint.yield_force));
+        let ((key, value), other) = match coordinate {
+            Coordinate::Angle => (moment, force),
+            Coordinate::Distance => (force, moment),
+        };
+        let what = format!("a joint whose coordinate is its {}", coordinate.word());
+        self.report.reject_unused(&what, &[(other.0, span(other.1))]);
+        let after = ("post_yield_stiffness", span(&joint.post_yield_stiffness));
+        let rest = ("rest", span(&joint.rest));
+        if let Some(backbone) = &joint.backbone {
+            let others = [("stiffness", span(&joint.stiffness)), rest, (key, span(value)), after];
+            self.report.reject_unused("a joint with a `backbone`", &others);
+            let points: Vec<[f64; 2]> = backbone.value.iter().map(|point| point.value.0).collect();
+            return self.yielding(&backbone.span, &points, 0.0);
+        }
+        let Some(limit) = value else {
+            if !self.report.is_spoiled(self.owner.span, key) {
+                self.report.reject_unused("a joint that does not yield", &[after]);
+            }
+            return None;
+        };
+        self.report.reject_unused("a joint that yields", &[rest]);
+        let limit = self.report.positive(key, value).map(|value| (value, &limit.span));
+        let stiffness = self.report.require_positive(self.owner, "stiffness", &joint.stiffness);
+        let after = self.report.not_negative("post_yield_stiffness", &joint.post_yield_stiffness, 0.0);
+        let ((limit, place), stiffness) = (limit?, stiffness?);
+        if let (Some(given), false) = (&joint.post_yield_stiffness, after < stiffness) {
+            return self.report.error(&given.span, "`post_yield_stiffness` must be below `stiffness`");
+        }
+        self.yielding(place, &[[limit / stiffness, limit]], after)
+    }
+
+    fn yielding(&mut self, place: &'d Span, points: &[[f64; 2]], after: f64) -> Option<Hysteresis> {
+        match Hysteresis::new(points, after) {
+            Ok(hysteresis) => Some(hysteresis),
+            Err(reason) => self.report.error(place, format!("the backbone of {}: {reason}", self.owner.what)),
+        }
     }
 
     /// Friction, its stiffness yet to be found.
@@ -345,7 +395,7 @@ fn size(nodes: &Nodes) -> f64 {
 }
 
 /// The keys about the coordinate, with the places where they stand.
-fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 12] {
+fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 16] {
     [
         ("coordinate", span(&joint.coordinate)),
         ("motion", span(&joint.motion)),
@@ -359,5 +409,9 @@ fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 12] {
         ("friction_moment", span(&joint.friction_moment)),
         ("friction_force", span(&joint.friction_force)),
         ("stick", span(&joint.stick)),
+        ("yield_moment", span(&joint.yield_moment)),
+        ("yield_force", span(&joint.yield_force)),
+        ("post_yield_stiffness", span(&joint.post_yield_stiffness)),
+        ("backbone", span(&joint.backbone)),
     ]
 }

@@ -9,9 +9,11 @@ use super::scene::Scene;
 use super::values::span;
 use crate::constraints::joint::ConstraintEquation;
 use crate::deck::links as words;
-use crate::deck::words::{Maybe, Numbers};
+use crate::deck::words::{Maybe, Numbers, Table};
+use crate::diagnostic::At;
 use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::LinkLaw;
+use crate::elements::link_failure::LinkFailure;
 use crate::math::Mat3;
 
 /// The links of a model: those of the deck, then those along coordinates of joints.
@@ -25,7 +27,7 @@ impl ModelLinks {
         ends: [usize; 2],
         (lock, law): (ConstraintEquation, CoordinateLaw),
     ) -> usize {
-        self.0.push(Link { name: joint.to_owned(), ends, kind: LinkKind::Joint { lock, law } });
+        self.0.push(Link { name: joint.to_owned(), ends, kind: LinkKind::Joint { lock, law }, failure: None });
         self.0.len() - 1
     }
 }
@@ -50,8 +52,9 @@ pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repor
         {
             report.error::<()>(owner.span, format!("{} joins `{}` to itself", owner.what, nodes.label(from)));
         }
+        let failure = link.failure.as_ref().and_then(|table| failure(table, rotations, report));
         if let (Some(ends), Some(kind)) = (ends, kind) {
-            links.push(Link { name, ends, kind });
+            links.push(Link { name, ends, kind, failure });
         }
     }
     ModelLinks(links)
@@ -145,6 +148,34 @@ fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKin
         None => Mat3::identity(),
     };
     Some(LinkKind::Bushing { stiffness: stiffness?, damping: damping?, axes })
+}
+
+/// The forces at which a link fails. Along a line there is no shear.
+fn failure<'d>(
+    At { value: table, span }: &'d At<Table<words::Failure>>,
+    is_bushing: bool,
+    report: &mut Report<'d>,
+) -> Option<LinkFailure> {
+    let [normal, shear] = [("normal", &table.normal), ("shear", &table.shear)]
+        .map(|(key, force)| if force.is_some() { report.positive(key, force) } else { Some(f64::INFINITY) });
+    if let (Some(shear), false) = (&table.shear, is_bushing) {
+        let message = "`shear` of `failure` does not apply to a link without `bushing`: its force lies along the line of its ends";
+        return report.error_with(
+            &shear.span,
+            message,
+            "a `bushing` resists along three axes, of which the first is normal",
+        );
+    }
+    if table.normal.is_none() && table.shear.is_none() {
+        return report.error(span, "`failure` needs `normal`, `shear` or both");
+    }
+    let exponents = table.exponents.as_ref().map_or([2.0; 2], |exponents| exponents.0);
+    if let Some(given) = &table.exponents
+        && exponents.iter().any(|&exponent| exponent <= 0.0)
+    {
+        return report.error(&given.span, "the `exponents` of `failure` must be above 0");
+    }
+    Some(LinkFailure { normal: normal?, shear: shear?, exponents })
 }
 
 fn six(key: &str, values: &Maybe<Numbers<6>>, report: &mut Report) -> Option<[f64; 6]> {

@@ -1,7 +1,7 @@
 //! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
 //! names the parts that the grids number.
 //!
-//! Points of beams carry section forces and moments, which are zero at other points. Cells carry the number of their part, the largest plastic strain where anything yields, and where there are shells their
+//! Points of beams carry section forces and moments, which are zero at other points. Cells carry the number of their part, the largest plastic strain where anything yields, whether they have failed (1) where anything may, and where there are shells their
 //! stress resultants with axis 1, zero on other cells.
 //!
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
@@ -376,6 +376,10 @@ impl Fields {
             // Cells of beams, bars and shells come first; links and bodies do not yield.
             let strains = frame.derived.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
             vtu::array(text, bytes, "plastic_strain", 1, strains);
+        }
+        if !frame.derived.failed.is_empty() {
+            let failed = frame.derived.failed.iter().map(|failed| f64::from(u8::from(*failed)));
+            vtu::array(text, bytes, "failed", 1, failed.chain(std::iter::repeat(0.0)).take(self.count));
         }
         if let Some(before) = self.before {
             let (count, after) =

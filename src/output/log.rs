@@ -3,9 +3,9 @@
 
 use super::disk::{at, create};
 use crate::diagnostic::plain;
-use crate::names::instant;
+use crate::names::{instant, short};
 use crate::snapshot::keep;
-use crate::solve::{Frame, Observer};
+use crate::solve::{Broken, Frame, Observer};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -24,9 +24,10 @@ pub struct Log {
     path_before: Option<(usize, f64)>,
     cut: Events,
     passed: Events,
+    broken: Events,
 }
 
-keep!(Log { path_before, cut, passed } without { path, file });
+keep!(Log { path_before, cut, passed, broken } without { path, file });
 
 /// Lines of one kind.
 #[derive(Default)]
@@ -61,7 +62,8 @@ impl Log {
         let path = dir.join(NAME);
         let open = |()| if resume { OpenOptions::new().create(true).append(true).open(&path) } else { create(&path) };
         let file = std::fs::create_dir_all(dir).and_then(open).map_err(|e| at(&path, e))?;
-        Ok(Log { path, file, path_before: None, cut: Events::default(), passed: Events::default() })
+        let [cut, passed, broken] = [(); 3].map(|()| Events::default());
+        Ok(Log { path, file, path_before: None, cut, passed, broken })
     }
 
     /// Writes one or more lines; the last may do without its line break.
@@ -83,9 +85,10 @@ impl Log {
 }
 
 impl Observer for Log {
-    /// Notes the steps that took cutbacks, and what a path goes through.
+    /// Notes the steps that took cutbacks, what failed, and what a path goes through.
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.see_path(frame)?;
+        self.see_broken(frame)?;
         if frame.effort.cuts == 0 || !self.cut.count(frame.effort.cuts) {
             return Ok(());
         }
@@ -115,12 +118,23 @@ impl Log {
         self.say(&format!("step {step} to t = {time}: {what}"))
     }
 
+    /// Notes what failed, where and why.
+    fn see_broken(&mut self, frame: &Frame) -> io::Result<()> {
+        for Broken { what, reason, place } in frame.broken {
+            if self.broken.count(0) {
+                let (time, [x, y, z]) = (instant(frame.state.time), [place.x, place.y, place.z].map(short));
+                self.say(&format!("t = {time}: {what} failed at [{x}, {y}, {z}]: {reason}"))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Says how many steps had no line of their own, at the end of a run, and begins to count anew.
     ///
     /// # Errors
     /// The file cannot be written; the error names it.
     pub fn sum_up(&mut self) -> io::Result<()> {
-        let (cut, passed) = (std::mem::take(&mut self.cut), std::mem::take(&mut self.passed));
+        let [cut, passed, broken] = [&mut self.cut, &mut self.passed, &mut self.broken].map(std::mem::take);
         if cut.more > 0 {
             let steps = if cut.more == 1 { "step" } else { "steps" };
             let cutbacks = if cut.cutbacks == 1 { "cutback" } else { "cutbacks" };
@@ -128,6 +142,9 @@ impl Log {
         }
         if passed.more > 0 {
             self.say(&format!("and {} more limit points or bifurcations", passed.more))?;
+        }
+        if broken.more > 0 {
+            self.say(&format!("and {} more elements or links failed", broken.more))?;
         }
         Ok(())
     }

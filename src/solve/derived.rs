@@ -103,6 +103,8 @@ pub struct Derived {
     /// Largest accumulated plastic strain of each element of all beams, bars and shells in deck order. It is computed
     /// for fields too, when tables are not due.
     pub plastic_strains: Vec<f64>,
+    /// Whether each of these elements has failed, likewise; empty where none can.
+    pub failed: Vec<bool>,
     /// Stress resultants of all shell elements in deck order. They are computed for fields too, when tables are not
     /// due.
     pub shells: Vec<ShellState>,
@@ -119,7 +121,7 @@ pub struct Derived {
 }
 
 keep!(Derived { effort } without {
-    energy, links, joints, contacts, plastic_strains, shells, nodal_resultants, sections, parts, loading,
+    energy, links, joints, contacts, plastic_strains, failed, shells, nodal_resultants, sections, parts, loading,
 });
 
 /// The request for the derived quantities of one accepted step.
@@ -162,6 +164,7 @@ impl Derived {
         let is_drawn = |what| wanted.has_now(what, due || drawn);
         if is_drawn(Wanted::PLASTIC_STRAINS) {
             results::plastic_strains(system, now, &mut self.plastic_strains);
+            results::failed(system, now, &mut self.failed);
         }
         if is_drawn(Wanted::SHELLS) {
             results::shell_states(system, model, now, &mut self.shells);
@@ -197,6 +200,7 @@ impl Derived {
         self.joints.clear();
         self.contacts.clear();
         self.plastic_strains.clear();
+        self.failed.clear();
         self.shells.clear();
         self.nodal_resultants.clear();
         self.sections.clear();

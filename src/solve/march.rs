@@ -122,6 +122,12 @@ impl March<'_, '_> {
         stops
     }
 
+    /// True where something has failed since this was asked last, with what it had stored.
+    pub fn has_released(&mut self) -> bool {
+        let eroded = self.state.work.material.eroded;
+        std::mem::replace(&mut self.recorder.eroded, eroded) != eroded
+    }
+
     /// Shows an accepted step to the observer.
     ///
     /// # Errors

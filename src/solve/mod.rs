@@ -4,6 +4,7 @@
 //! plain data; the parts of a step that all schemes share; the implicit and the explicit schemes; the controllers of
 //! the step length; the run on top.
 
+mod breakage;
 mod commit;
 mod contacts;
 mod context;
@@ -44,6 +45,7 @@ mod workspace;
 
 pub use crate::system::{ContactState, JointState};
 pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState};
+pub use breakage::Broken;
 pub use contacts::settling_energy;
 pub use derived::{Derived, Wanted};
 pub use effort::Effort;

@@ -1,5 +1,6 @@
 //! The recorder of accepted steps: it counts them, checks their energies and shows them to the observer.
 
+use super::breakage::Breakage;
 use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
 use super::effort::Effort;
@@ -35,6 +36,10 @@ pub struct Recorder {
     pub growth: EnergyGrowth,
     /// Mechanical energy at t = 0, where energies are summed.
     initial_energy: Option<f64>,
+    /// What has failed.
+    breakage: Breakage,
+    /// The energy that what failed before the step at hand had stored.
+    pub eroded: f64,
     derived: Derived,
     tables: Pace,
     fields: Pace,
@@ -45,7 +50,7 @@ pub struct Recorder {
 }
 
 keep!(Recorder {
-    counts, before, is_trial, most_steps, growth, initial_energy, tables, fields, looked_inside, pending, derived,
+    counts, before, is_trial, most_steps, growth, initial_energy, breakage, eroded, tables, fields, looked_inside, pending, derived,
 } without { wanted, observing });
 
 /// The progress of a cadence.
@@ -112,6 +117,8 @@ impl Recorder {
             observing: Duration::ZERO,
             growth: EnergyGrowth::default(),
             initial_energy: None,
+            breakage: Breakage::default(),
+            eroded: 0.0,
             derived: Derived::new(model),
             tables: Pace::default(),
             fields: Pace::default(),
@@ -122,6 +129,8 @@ impl Recorder {
 
     /// Sums the energy at the start of the run, or of a stage. What comes or goes between stages is not counted as missed.
     pub fn begin(&mut self, cx: &Context, state: &State, handover: Option<&Handover>) {
+        self.breakage.begin(cx.system, state);
+        self.eroded = state.work.material.eroded;
         let sums = !cx.is_dynamic() || self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model);
         let sum = |initial: Option<f64>| Energy::of(cx.system, state, initial, cx.plan.threads);
         let mut energy = sums.then(|| sum(None));
@@ -142,6 +151,11 @@ impl Recorder {
     /// Mechanical energy from which the balance is drawn; `None` where no energy is summed.
     pub fn initial_energy(&self) -> Option<f64> {
         self.initial_energy
+    }
+
+    /// The number of elements and links that have failed; `None` where none can.
+    pub fn broken(&self) -> Option<usize> {
+        self.breakage.count()
     }
 
     /// The same, to be taken from a checkpoint.
@@ -188,6 +202,7 @@ impl Recorder {
         }
         let (due, drawn) = self.is_due(cx.model, step, state.time);
         self.spend(step);
+        self.breakage.look(cx, state);
         self.pending = (!due).then_some(step.dt);
         // Reading the clock twice costs a twentieth of a step of two bodies.
         let began = (due || drawn).then(Instant::now);
@@ -205,7 +220,8 @@ impl Recorder {
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
-        observer.on_step(&self.frame(cx, ws, state, step, [due, drawn])).map_err(Outcome::Io)?;
+        let frame = Frame { broken: self.breakage.new_ones(), ..self.frame(cx, ws, state, step, [due, drawn]) };
+        observer.on_step(&frame).map_err(Outcome::Io)?;
         if due {
             self.derived.effort = Effort::default();
         }
@@ -336,6 +352,7 @@ impl Recorder {
             compared,
             reactions: if self.wanted.has_now(Wanted::REACTIONS, due || compared) { &state.reactions } else { &[] },
             derived: &self.derived,
+            broken: &[],
             modes: None,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),

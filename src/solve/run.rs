@@ -457,6 +457,11 @@ impl<'a> Run<'a> {
         (!self.context.system.joints.is_empty()).then_some(self.workspace.joint_violation)
     }
 
+    /// The number of elements and links that have failed; `None` where none can.
+    pub fn broken(&self) -> Option<usize> {
+        self.recorder.broken()
+    }
+
     /// The error of steps that follow a tolerance; `None` for others.
     pub fn step_error(&self) -> Option<StepError> {
         self.step_error

@@ -191,22 +191,44 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     let before = ws.forces.on_nodes.clone();
-    jump_from(cx, ws, state, &before)
+    jump_from(cx, ws, state, &before, Side::After)
 }
 
-/// As [`jump`], from the forces out of balance on all nodes `before` it.
+/// Takes the state over the failure of material points or links in the step of length `dt` that was taken last, of which the history at its
+/// beginning is still at hand: their forces are gone, and accelerations and reactions jump as at a jump of the loads.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
-pub fn jump_from(cx: &Context, ws: &mut Workspace, state: &mut State, before: &[Force]) -> Result<(), Failure> {
+pub fn release(cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-    cx.excitation.loading(state.time, Side::After, &mut ws.loads.instant);
+    cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
+    let unbroken = Configuration { nodes: &state.nodes, history: &ws.history, dt, lead: None };
+    cx.system.residual(&unbroken, &ws.loads.instant, &mut ws.forces);
+    let before = ws.forces.on_nodes.clone();
+    jump_from(cx, ws, state, &before, Side::Before)
+}
+
+/// As [`jump`], from the forces out of balance on all nodes `before` it; `side`: the loads that act then.
+///
+/// # Errors
+/// [`Failure::Singular`] where a mass matrix cannot be inverted.
+pub fn jump_from(
+    cx: &Context,
+    ws: &mut Workspace,
+    state: &mut State,
+    before: &[Force],
+    side: Side,
+) -> Result<(), Failure> {
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    cx.excitation.loading(state.time, side, &mut ws.loads.instant);
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     for (after, before) in ws.forces.on_nodes.iter_mut().zip(before) {
         after.iter_mut().zip(before).for_each(|(after, before)| *after -= before);
     }
-    let massless = factor_mass(cx, ws, &state.configuration())?;
-    add_accelerations(cx, ws, state, &massless);
+    if cx.is_dynamic() {
+        let massless = factor_mass(cx, ws, &state.configuration())?;
+        add_accelerations(cx, ws, state, &massless);
+    }
     if cx.wants_forces {
         // Reactions jump by what the new accelerations leave of the new loads.
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);

@@ -30,7 +30,7 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
         state.algorithmic_accelerations = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
     }
     if let Some(before) = &handover.out_of_balance {
-        jump_from(cx, ws, &mut state, before)?;
+        jump_from(cx, ws, &mut state, before, Side::After)?;
     } else if !cx.model.analysis.goes_on() {
         balance(cx, ws, handover, &mut state)?;
     }

@@ -5,6 +5,7 @@ use super::explicit::{CentralDifferenceStepper, RungeKuttaStepper};
 use super::failure::Failure;
 use super::implicit::Implicit;
 use super::report::StepReport;
+use super::start;
 use super::workspace::Workspace;
 use crate::integrators::Stepping;
 use crate::linear::TooLarge;
@@ -53,6 +54,19 @@ impl<'a> TimeStepper<'a> {
             TimeStepper::CentralDifference(stepper) => stepper.restart(cx, ws, state),
             TimeStepper::RungeKutta(_) => {}
         }
+    }
+
+    /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last, as [`start::release`] does.
+    /// Explicit schemes find the accelerations anew in every step, which are so short that half of one is no matter.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where a mass matrix cannot be inverted.
+    pub fn release(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
+        if let TimeStepper::Implicit(stepper) = self {
+            start::release(cx, ws, state, dt)?;
+            stepper.restart(state);
+        }
+        Ok(())
     }
 
     /// Forgets the iterates of the step that was taken last, which is taken back.

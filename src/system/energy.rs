@@ -39,6 +39,8 @@ pub struct Energy {
     pub friction: f64,
     /// Energy dissipated so far in impacts.
     pub impact: f64,
+    /// Energy that what has failed had stored.
+    pub eroded: f64,
     /// Offset of the energies of velocity Verlet, [`crate::state::Work::verlet_energy_offset`]. It is not a column.
     pub verlet_energy_offset: f64,
 }
@@ -95,6 +97,7 @@ impl Energy {
                 - work.material.viscous
                 - work.material.friction
                 - work.material.impact
+                - work.material.eroded
                 - mechanical,
             mechanical,
             p,
@@ -102,6 +105,7 @@ impl Energy {
             contact,
             friction: work.material.friction,
             impact: work.material.impact,
+            eroded: work.material.eroded,
             verlet_energy_offset: work.verlet_energy_offset,
         }
     }

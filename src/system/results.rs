@@ -35,6 +35,18 @@ pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>)
     }
 }
 
+/// Writes whether each of the same elements has failed into `out`, which stays empty where none can.
+pub fn failed(system: &System, now: &Configuration, out: &mut Vec<bool>) {
+    out.clear();
+    let own = || system.groups.iter().filter(|group| group.kind.is_deformable());
+    if own().any(|group| group.block.can_fail()) {
+        for group in own() {
+            let history = group.configuration(now).history;
+            out.extend((0..group.block.len()).map(|e| group.block.has_failed(e, history)));
+        }
+    }
+}
+
 /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
 pub fn shell_states(system: &System, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
     shells::shell_states(&system.groups, model, now, out);

@@ -5,6 +5,7 @@ use rdsolve::constraints::angle::Angle;
 use rdsolve::constraints::joint::ConstraintEquation;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::coordinate_law::{CoordinateLaw, DryFriction, MEMORY, Stops};
+use rdsolve::elements::hysteresis::Hysteresis;
 use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
 use rdsolve::state::{Configuration, Node};
@@ -129,6 +130,10 @@ fn laws() -> Vec<CoordinateLaw> {
         spring,
         CoordinateLaw { stops: Some(Stops { limits: [-0.2, 0.3], stiffness: 2.0, loss }), ..spring },
         CoordinateLaw { friction: Some(DryFriction { limit: 0.8, stiffness: 1.1 }), ..CoordinateLaw::FREE },
+        CoordinateLaw {
+            hysteresis: Some(Hysteresis::new(&[[0.1, 0.2], [0.4, 0.3]], 0.1).expect("a backbone")),
+            ..spring
+        },
     ]
 }
 
@@ -139,13 +144,14 @@ fn what_acts_along_a_coordinate_against_differences() {
     let (h, tolerance) = (1e-5, 5e-8);
     for law in laws() {
         for lock in equations().into_iter().filter(|row| !matches!(row, ConstraintEquation::Screw { .. })) {
-            let block = CoordinateSprings(vec![CoordinateSpring { nodes: [0, 1], lock, law, drive: None }]);
+            let block = CoordinateSprings::new(vec![CoordinateSpring { nodes: [0, 1], lock, law, drive: None }]);
             for _ in 0..20 {
                 let nodes = random.pair(&axes().column(0).into_owned());
                 let q = lock.gap(&nodes[0], &nodes[1])[0];
                 // The state before: near the present one, with a landing on its way.
-                let history = [q + 0.1 * random.next(), random.next(), 1.5, 0.0, q + random.next()];
-                assert_eq!(history.len(), MEMORY);
+                let history: [f64; MEMORY] = [q + 0.1 * random.next(), random.next(), 1.5, 0.0, q + random.next()];
+                let mut anchors = || q + 0.3 * random.next();
+                let history = [&history[..], &[anchors(), anchors()]].concat()[..law.memory()].to_vec();
                 let now =
                     |nodes: &[Node]| forces(&block, &Configuration { nodes, history: &history, dt: 0.0, lead: None });
                 let f = now(&nodes);

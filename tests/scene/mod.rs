@@ -94,6 +94,7 @@ pub fn model() -> Model {
                 name: "bumper".into(),
                 ends: [2, 5],
                 kind: LinkKind::Line { law, damping: 0.0, direction: None, free_length: 1.0 },
+                failure: None,
             }),
             Part::Contact(Contact {
                 name: "seat".into(),
@@ -197,9 +198,17 @@ impl Extras {
                 contact: 0.5,
                 friction: 0.25,
                 impact: 0.125,
+                eroded: 0.0,
                 verlet_energy_offset: 0.0,
             }),
-            links: vec![LinkState { elongation: 0.1 - time, rate: -1.0, force: 7.0, f: p, m: Vec3::zeros() }],
+            links: vec![LinkState {
+                elongation: 0.1 - time,
+                rate: -1.0,
+                force: 7.0,
+                f: p,
+                m: Vec3::zeros(),
+                failed: false,
+            }],
             contacts: vec![ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
             sections: vec![point(0), point(1)],
             // That of two steps, of which the second is due.
@@ -225,6 +234,7 @@ impl Extras {
             reactions: &self.reactions,
             derived: &self.derived,
             passed: &[],
+            broken: &[],
             negative_pivots: None,
             modes: None,
         }

@@ -22,7 +22,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         for g in 0..self.integration_points() {
             let point = self.interpolate(element, g, &motion);
             let (mut n, mut m) = element.section.stress(g, &point.gamma, &point.kappa, now);
-            if self.damping > 0.0 {
+            if self.damping > 0.0 && !element.section.has_failed(now.history) {
                 let (gamma_rate, kappa_rate, _) = self.rates(element, g, &point, q, nodes);
                 let (nd, md) = element.section.elastic().stress(&gamma_rate, &kappa_rate);
                 n += self.damping * nd;
@@ -46,6 +46,19 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
             }
         }
         (force, std::array::from_fn(|a| 0.5 * times_conjugate(&gradient[a], &q[a]).1))
+    }
+}
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// The elastic energy that is left in an element that fails, in the sections that have not.
+    fn left_in(&self, element: &Beam<N, S>, now: &Configuration) -> f64 {
+        let motion = self.gather(element, now.nodes);
+        let at = |g: usize| {
+            let point = self.interpolate(element, g, &motion);
+            let energy = element.section.stored(g, (&point.gamma, &point.kappa), now);
+            self.shape.weight[g] * element.jacobian * energy
+        };
+        (0..self.integration_points()).map(at).sum()
     }
 }
 
@@ -120,6 +133,9 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
                 let dissipation = element.section.update_history(g, (&point.gamma, &point.kappa), now, part, new);
                 sum += dissipation * (self.shape.weight[g] * element.jacobian);
             }
+            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+                sum.eroded += self.left_in(element, &Configuration { history: new, ..*now });
+            }
         }
         sum
     }
@@ -158,13 +174,21 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
         (0..self.integration_points()).map(|g| self.elements[e].section.plastic_strain(g, history)).fold(0.0, f64::max)
     }
 
+    fn can_fail(&self) -> bool {
+        self.elements.first().is_some_and(|element| element.section.can_fail())
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        self.elements[e].section.has_failed(history)
+    }
+
     fn damping_power(&self, now: &Configuration) -> f64 {
         let nodes = now.nodes;
         if self.damping == 0.0 {
             return 0.0;
         }
         let mut sum = 0.0;
-        for element in &self.elements {
+        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
             let motion = self.gather(element, nodes);
             for g in 0..self.integration_points() {
                 let point = self.interpolate(element, g, &motion);

@@ -2,11 +2,12 @@
 //!
 //! The strains of a fibre are ε = Γ₁ + z κ₂ − y κ₃ and, where shear enters the yield condition, γ_a = s_a·(Γ₂, Γ₃, κ₁). The
 //! stiffness of the elastic section less that of the elastic fibres (all of shear and torsion where these stay elastic) acts
-//! beside them.
+//! beside them, in proportion to the area of the fibres that have not failed. An element of which one section has no fibres left is
+//! severed: it carries nothing.
 
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
-use crate::materials::{Dissipation, MaterialLaw, StressState};
+use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
 use crate::math::{Mat3, Mat6, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use crate::state::Configuration;
@@ -65,10 +66,32 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
         self.fibres.iter().zip(old.chunks_exact(self.variables))
     }
 
-    /// Stress resultants in section axes.
+    /// The part of the area of the fibres that has not failed.
     #[inline]
-    fn stress(&self, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3) {
+    fn intact(&self, history: &[f64]) -> f64 {
+        if !self.law.can_fail() {
+            return 1.0;
+        }
+        let (mut intact, mut all) = (0.0, 0.0);
+        for (fibre, old) in self.with_history(history) {
+            all += fibre.area;
+            if !self.law.has_failed(self.state, old) {
+                intact += fibre.area;
+            }
+        }
+        intact / all
+    }
+
+    /// Stress resultants in section axes, where this part of the fibres is intact.
+    #[inline]
+    fn stress(&self, (gamma, kappa): (&Vec3, &Vec3), intact: f64, now: &Configuration) -> (Vec3, Vec3) {
+        if intact == 0.0 {
+            return (Vec3::zeros(), Vec3::zeros());
+        }
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
+        if intact < 1.0 {
+            (n, m) = (intact * n, intact * m);
+        }
         for (fibre, old) in self.with_history(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
             let stress = self.law.stress(self.state, &strain, now.dt, old);
@@ -93,8 +116,19 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
     }
 
     /// Stress resultants and their algorithmic derivative in section axes: the elastic one less what yielding fibres lose.
-    fn linearise(&self, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> (Vec3, Vec3, BeamStiffness) {
+    fn linearise(
+        &self,
+        (gamma, kappa): (&Vec3, &Vec3),
+        intact: f64,
+        now: &Configuration,
+    ) -> (Vec3, Vec3, BeamStiffness) {
+        if intact == 0.0 {
+            return (Vec3::zeros(), Vec3::zeros(), self.whole.scaled(FAILED_STIFFNESS));
+        }
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
+        if intact < 1.0 {
+            (n, m) = (intact * n, intact * m);
+        }
         let mut loss = FibreSum::default();
         for (fibre, old) in self.with_history(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
@@ -104,7 +138,12 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
                 loss.add::<N>(fibre, &from_fn(|i| from_fn(|j| self.stiffness[i][j] - C[i][j])));
             }
         }
-        let (whole, loss) = (&self.whole, loss.section());
+        let loss = loss.section();
+        if intact < 1.0 {
+            let left = self.whole.less(&loss).less(&self.rest.scaled(1.0 - intact));
+            return (n, m, left);
+        }
+        let whole = &self.whole;
         let C = BeamStiffness { N: whole.N - loss.N, M: whole.M - loss.M, NM: whole.NM - loss.NM, coupled: true };
         (n, m, C)
     }
@@ -187,6 +226,16 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
         first..first + length
     }
 
+    /// The part of the fibres of point `g` that is intact; none where another section of the element has none left.
+    #[inline]
+    fn intact(&self, g: usize, history: &[f64]) -> f64 {
+        if !self.profile.law.can_fail() {
+            return 1.0;
+        }
+        let of = |g: usize| self.profile.intact(&history[self.history_range(g)]);
+        if (0..self.points).any(|g| of(g) == 0.0) { 0.0 } else { of(g) }
+    }
+
     /// The configuration with the history variables of point `g` alone.
     #[inline]
     fn at<'a>(&self, g: usize, now: &Configuration<'a>) -> Configuration<'a> {
@@ -205,7 +254,8 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
 
     fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3) {
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let (n, m) = self.profile.stress(&gamma, &kappa, &self.at(g, now));
+        let intact = self.intact(g, now.history);
+        let (n, m) = self.profile.stress((&gamma, &kappa), intact, &self.at(g, now));
         (self.frame * n, self.frame * m)
     }
 
@@ -217,24 +267,19 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         moduli: Moduli,
         tangent: &'a mut BeamStiffness,
     ) -> (Vec3, Vec3, &'a BeamStiffness) {
-        if moduli == Moduli::Elastic {
+        let intact = self.intact(g, now.history);
+        if moduli == Moduli::Elastic && intact > 0.0 {
             let (n, m) = self.stress(g, gamma, kappa, now);
             return (n, m, &self.elastic);
         }
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let (n, m, C) = self.profile.linearise((&gamma, &kappa), &self.at(g, now));
+        let (n, m, C) = self.profile.linearise((&gamma, &kappa), intact, &self.at(g, now));
         *tangent = C.rotated(&self.frame);
         (self.frame * n, self.frame * m, tangent)
     }
 
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64 {
-        let FibreProfile { law, state, rest, .. } = &*self.profile;
-        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let now = self.at(g, now);
-        let energy = |(fibre, old): (&Fibre, &[f64])| {
-            fibre.area * law.elastic_energy(*state, &FibreProfile::<S, N>::strain(fibre, &gamma, &kappa), old)
-        };
-        rest.energy(&gamma, &kappa) + self.profile.with_history(now.history).map(energy).sum::<f64>()
+        if self.has_failed(now.history) { 0.0 } else { self.stored(g, (gamma, kappa), now) }
     }
 
     fn update_history(
@@ -245,17 +290,44 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         part: f64,
         new: &mut [f64],
     ) -> Dissipation {
-        let FibreProfile { law, state, variables, .. } = &*self.profile;
+        let FibreProfile { law, state, variables, rest, .. } = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let before = self.intact(g, now.history);
         let now = self.at(g, now);
         let mut sum = Dissipation::default();
-        let new = new[self.history_range(g)].chunks_exact_mut(*variables);
-        for ((fibre, old), new) in self.profile.with_history(now.history).zip(new) {
+        let new = &mut new[self.history_range(g)];
+        if before == 0.0 {
+            new.copy_from_slice(now.history);
+            return sum;
+        }
+        for ((fibre, old), new) in self.profile.with_history(now.history).zip(new.chunks_exact_mut(*variables)) {
             let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
             let dissipation = law.advance(*state, &strain, (now.dt, part), old, new).1;
             sum += dissipation * fibre.area;
         }
+        if self.can_fail() {
+            sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
+        }
         sum
+    }
+
+    fn can_fail(&self) -> bool {
+        self.profile.law.can_fail()
+    }
+
+    fn has_failed(&self, history: &[f64]) -> bool {
+        self.intact(0, history) == 0.0
+    }
+
+    fn stored(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> f64 {
+        let FibreProfile { law, state, rest, .. } = &*self.profile;
+        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let now = self.at(g, now);
+        let energy = |(fibre, old): (&Fibre, &[f64])| {
+            fibre.area * law.elastic_energy(*state, &FibreProfile::<S, N>::strain(fibre, &gamma, &kappa), old)
+        };
+        let of_fibres = self.profile.with_history(now.history).map(energy).sum::<f64>();
+        self.profile.intact(now.history) * rest.energy(&gamma, &kappa) + of_fibres
     }
 
     fn plastic_strain(&self, g: usize, history: &[f64]) -> f64 {

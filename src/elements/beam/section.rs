@@ -43,6 +43,18 @@ pub trait BeamSection: Send + Sync {
     fn plastic_strain(&self, _g: usize, _history: &[f64]) -> f64 {
         0.0
     }
+    /// True for sections that may fail.
+    fn can_fail(&self) -> bool {
+        false
+    }
+    /// True where the element has failed, by the history variables of the group: there is no stress then, nor damping.
+    fn has_failed(&self, _history: &[f64]) -> bool {
+        false
+    }
+    /// Elastic energy per length at point `g` if the element had not failed, by the history variables of the group.
+    fn stored(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Configuration) -> f64 {
+        0.0
+    }
     /// The number of history variables of all points.
     fn history(&self) -> usize {
         0
@@ -73,6 +85,16 @@ impl BeamStiffness {
     pub fn new(section: &Stiffness, frame: &Mat3) -> Self {
         let Stiffness { N, M, NM, .. } = section;
         BeamStiffness { N: *N, M: *M, NM: *NM, coupled: *NM != Mat3::zeros() }.rotated(frame)
+    }
+
+    /// The stiffness times `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        BeamStiffness { N: factor * self.N, M: factor * self.M, NM: factor * self.NM, coupled: self.coupled }
+    }
+
+    /// The stiffness less another.
+    pub fn less(&self, other: &Self) -> Self {
+        BeamStiffness { N: self.N - other.N, M: self.M - other.M, NM: self.NM - other.NM, coupled: true }
     }
 
     /// The stiffness by other axes: the columns of `frame` are the present axes in the components of the new ones.

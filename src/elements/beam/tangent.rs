@@ -305,7 +305,7 @@ pub(super) fn tangent<const N: usize, S: BeamSection, const DAMPED: bool>(
         let w = beams.shape.weight[g] * element.jacobian;
         let value = &beams.shape.value[g];
         let slope = beams.shape.slope[g].map(|s| s * per_length);
-        if DAMPED {
+        if DAMPED && !element.section.has_failed(now.history) {
             let elastic = element.section.elastic();
             let CB = if std::ptr::eq(C, elastic) { CB } else { elastic.times(&B) };
             let c = if std::ptr::eq(C, elastic) { h } else { transpose_product(&B, &CB) };

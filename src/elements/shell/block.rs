@@ -7,7 +7,7 @@ use super::section::ShellSection;
 use super::tangent::tangent;
 use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::elements::results::ShellResultants;
-use crate::materials::Dissipation;
+use crate::materials::{Dissipation, FAILED_STIFFNESS};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
@@ -37,7 +37,7 @@ where
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for element in &self.elements {
+        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
             let motion = element.gather(now.nodes);
             let strains = element.strains::<K>(&motion);
             let shear = element.shear_stress(&strains.shear);
@@ -74,6 +74,9 @@ where
         } else {
             tangent::<_, N, V, P, E, _, false>(self, e, (now, None), rate_weight, moduli, K);
         }
+        if self.elements[e].section.has_failed(now.history) {
+            K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+        }
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
@@ -85,17 +88,20 @@ where
         for element in &self.elements {
             let strains = element.strains::<K>(&element.gather(now.nodes));
             dissipation += element.section.update_history(&strains.plane, now, part, new);
+            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+                // What the layers had stored is booked by then.
+                let left = element.elastic_energy(&strains, &Configuration { history: new, ..*now });
+                dissipation.eroded += left.into_iter().sum::<f64>();
+            }
         }
         dissipation
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
         let mut sum = 0.0;
-        for element in &self.elements {
+        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
             let strains = element.strains::<K>(&element.gather(now.nodes));
-            let shear = element.shear_stress(&strains.shear);
-            sum += element.section.energy(&strains.plane, now);
-            sum += 0.5 * shear.iter().zip(&strains.shear).map(|(a, b)| a * b).sum::<f64>();
+            element.elastic_energy(&strains, now).into_iter().for_each(|energy| sum += energy);
         }
         sum
     }
@@ -105,7 +111,7 @@ where
             return 0.0;
         }
         let mut sum = 0.0;
-        for element in &self.elements {
+        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
             let motion = element.gather(now.nodes);
             let rates = element.strain_rates::<K>(&motion, &element.rates(&motion, now.nodes));
             let stress = element.elastic_stress(&rates);
@@ -121,5 +127,13 @@ where
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
         self.elements[e].section.plastic_strain(history)
+    }
+
+    fn can_fail(&self) -> bool {
+        self.elements.first().is_some_and(|element| element.section.can_fail())
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        self.elements[e].section.has_failed(history)
     }
 }

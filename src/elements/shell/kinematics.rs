@@ -5,7 +5,7 @@ use super::edge::EdgeTangents;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::section::{InPlane, ShellSection, ShellStiffness};
 use crate::math::Vec3;
-use crate::state::Node;
+use crate::state::{Configuration, Node};
 use std::array::from_fn;
 use std::marker::PhantomData;
 
@@ -352,5 +352,12 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S: ShellSec
     pub fn elastic_stress(&self, strains: &Strains<N, P, E>) -> Strains<N, P, E> {
         let plane = self.section.elastic().stress(&strains.plane);
         Strains { plane, shear: self.shear_stress(&strains.shear) }
+    }
+
+    /// Elastic energy at a strain: in the plane, and of transverse shear.
+    pub fn elastic_energy(&self, strains: &Strains<N, P, E>, now: &Configuration) -> [f64; 2] {
+        let shear = self.shear_stress(&strains.shear);
+        let shear = 0.5 * shear.iter().zip(&strains.shear).map(|(a, b)| a * b).sum::<f64>();
+        [self.section.energy(&strains.plane, now), shear]
     }
 }

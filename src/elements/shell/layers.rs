@@ -1,4 +1,5 @@
-//! A shell of layers in plane stress, each with history variables of its own, that yields. Transverse shear stays elastic.
+//! A shell of layers in plane stress, each with history variables of its own, that yields. Transverse shear stays elastic until all layers
+//! have failed.
 
 use super::plane_strains::PointStrains;
 use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
@@ -224,6 +225,16 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
             }
         }
         (stress, if yields { tangent } else { &self.elastic })
+    }
+
+    fn can_fail(&self) -> bool {
+        self.layers.law.can_fail()
+    }
+
+    fn has_failed(&self, history: &[f64]) -> bool {
+        let Layers { law, variables, .. } = &*self.layers;
+        law.can_fail()
+            && history[self.history_range()].chunks_exact(*variables).all(|old| law.has_failed(PlaneStress, old))
     }
 
     fn energy(&self, strain: &InPlane<P, E>, now: &Configuration) -> f64 {

@@ -7,7 +7,7 @@
 
 use super::interpolation::Interpolation;
 use super::kinematics::{NodalVectors, Shell, Shells, Strains, sum};
-use super::section::ShellSection;
+use super::section::{InPlane, ShellSection};
 use crate::elements::pressure::Face;
 use crate::elements::results::{LayerStress, MOST_LAYERS, ShellResultants};
 use crate::math::{Mat3, Vec3};
@@ -52,7 +52,10 @@ where
     let motion = element.gather(now.nodes);
     let strains = element.strains::<K>(&motion);
     let shear = element.shear_stress(&strains.shear);
-    let stress = Strains { plane: element.section.stress(&strains.plane, now), shear };
+    let stress = match element.section.has_failed(now.history) {
+        true => Strains { plane: InPlane::ZERO, shear: [0.0; N] },
+        false => Strains { plane: element.section.stress(&strains.plane, now), shear },
+    };
     let start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
     // This mean stress is conjugate to the strain of a change of positions and directors.
     let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {

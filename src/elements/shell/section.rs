@@ -64,6 +64,14 @@ pub trait ShellSection<const P: usize, const E: usize>: Send + Sync {
     fn plastic_strain(&self, _history: &[f64]) -> f64 {
         0.0
     }
+    /// True for sections that may fail.
+    fn can_fail(&self) -> bool {
+        false
+    }
+    /// True where the element has failed as a whole, by the history variables of the group: there is no stress then, nor damping.
+    fn has_failed(&self, _history: &[f64]) -> bool {
+        false
+    }
     /// The number of history variables of the element.
     fn history(&self) -> usize {
         0

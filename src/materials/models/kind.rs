@@ -3,6 +3,7 @@
 use crate::materials::hardening::Hardening;
 use crate::materials::law::MaterialLaw;
 use crate::materials::overstress::Viscosity;
+use crate::names::short;
 use crate::words::kinds::{Form, Given, Key, Kind};
 
 /// A model of material that the deck can name.
@@ -23,7 +24,7 @@ pub struct MaterialModel {
 pub type MakeLaw = fn(&mut Given, [f64; 2], Option<Viscosity>) -> Option<MaterialLaw>;
 
 /// The keys of J2 plasticity.
-pub const PLASTICITY: [Key; 4] = [
+pub const PLASTICITY: [Key; 5] = [
     Key { name: "yield_stress", form: Form::Number, about: "Initial yield stress in tension, above 0." },
     Key {
         name: "hardening_modulus",
@@ -41,6 +42,12 @@ pub const PLASTICITY: [Key; 4] = [
         form: Form::Number,
         about: "Mixed-hardening ratio: the part of the hardening that is kinematic, 0 (isotropic) to 1. Default: 0.",
     },
+    Key {
+        name: "failure_strain",
+        form: Form::Number,
+        about: "Accumulated plastic strain, above 0, at which a point of the material fails: it carries nothing more, and an element goes \
+                when all its points have. Its mass stays with its nodes. Default: it does not fail.",
+    },
 ];
 
 /// J2 plasticity of the keys [`PLASTICITY`].
@@ -50,8 +57,20 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
     if share > 1.0 {
         given.error::<()>("kinematic_share", "`kinematic_share` must lie between 0 and 1");
     }
-    Some(MaterialLaw::new(E, nu, hardening?, share, viscosity))
+    let law = MaterialLaw::new(E, nu, hardening?, share, viscosity);
+    if !given.has("failure_strain") {
+        return Some(law);
+    }
+    let strain = given.positive("failure_strain")?;
+    if strain > MOST_LIKELY_FAILURE {
+        let message = format!("{} fails at a plastic strain of {} %", given.what(), short(100.0 * strain));
+        given.warn("failure_strain", message, "`failure_strain` is a strain, not per cent");
+    }
+    Some(law.failing_at(strain))
 }
+
+/// A failure strain above this was meant in per cent: no metal stretches to three times its length.
+const MOST_LIKELY_FAILURE: f64 = 2.0;
 
 fn hardening(given: &mut Given) -> Option<Hardening> {
     if given.is_unreadable("hardening") {

@@ -4,6 +4,7 @@ use super::part_answers::{Drawing, LinearSpring, PartAnswers};
 use crate::constraints::joint::ConstraintEquation;
 use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::LinkLaw;
+use crate::elements::link_failure::LinkFailure;
 use crate::math::{Mat3, Vec3};
 use crate::quantities::{Column, LINK};
 
@@ -16,6 +17,8 @@ pub struct Link {
     pub ends: [usize; 2],
     /// Its law.
     pub kind: LinkKind,
+    /// The forces at which it fails; none for one that does not.
+    pub failure: Option<LinkFailure>,
 }
 
 /// The law of a link.
@@ -85,17 +88,18 @@ impl PartAnswers for Link {
         match &self.kind {
             LinkKind::Line { law, .. } => !matches!(law, LinkLaw::Linear { .. }),
             LinkKind::Bushing { .. } => false,
-            LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some(),
+            LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some(),
         }
     }
 
     fn may_release(&self) -> bool {
         let releases = |law: &LinkLaw| matches!(law, LinkLaw::Table { .. }) || law.force(0.0).0 != 0.0;
-        matches!(&self.kind, LinkKind::Line { law, .. } if releases(law))
+        self.failure.is_some() || matches!(&self.kind, LinkKind::Line { law, .. } if releases(law))
     }
 
     fn linear_spring(&self) -> Option<LinearSpring> {
         match self.kind {
+            _ if self.failure.is_some() => None,
             LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, damping, .. } => {
                 Some(LinearSpring { ends: self.ends, stiffness, damping })
             }

@@ -47,7 +47,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 }
 
 /// The columns of one state, in the order of [`ENERGY`].
-fn values(e: &Energy) -> [f64; 18] {
+fn values(e: &Energy) -> [f64; 19] {
     let [p, l] = [e.p, e.l];
     [
         e.kinetic,
@@ -68,6 +68,7 @@ fn values(e: &Energy) -> [f64; 18] {
         l.x,
         l.y,
         l.z,
+        e.eroded,
     ]
 }
 

@@ -43,9 +43,9 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 }
 
 /// The columns of one link, in the order of [`LINK`].
-fn values(link: &LinkState) -> [f64; 9] {
-    let LinkState { elongation, rate, force, f, m } = *link;
-    [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z]
+fn values(link: &LinkState) -> [f64; 10] {
+    let LinkState { elongation, rate, force, f, m, failed } = *link;
+    [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z, f64::from(u8::from(failed))]
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {

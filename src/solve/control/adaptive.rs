@@ -16,6 +16,15 @@ pub trait StepController: Keep {
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
 
+    /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last. Nothing is done by controllers
+    /// of explicit schemes.
+    ///
+    /// # Errors
+    /// As for [`crate::solve::start::release`].
+    fn release(&mut self, _: &Context, _: &mut Workspace, _: &mut State, _dt: f64) -> Result<(), Failure> {
+        Ok(())
+    }
+
     /// The length of the next step; `left` is the time to the next event.
     ///
     /// # Errors
@@ -95,6 +104,10 @@ impl<C: StepController> CoverInterval for C {
                     march.notify(&AcceptedStep { dt, report: &report, cuts, due, compared, last, passed: &[] })?;
                     if stops {
                         return Err(Outcome::Done);
+                    }
+                    if march.has_released() {
+                        let released = self.release(march.cx, march.ws, march.state, dt);
+                        released.map_err(|failure| march.failed(failure))?;
                     }
                 }
                 Ok(None) => {}

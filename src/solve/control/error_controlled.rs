@@ -22,6 +22,7 @@ use crate::solve::implicit::{Implicit, Newton};
 use crate::solve::motion::Stage;
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
+use crate::solve::start;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
@@ -283,6 +284,12 @@ impl StepController for ErrorController<'_> {
         if self.looks_inside() {
             self.inside.clone_from(state);
         }
+    }
+
+    fn release(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
+        start::release(cx, ws, state, dt)?;
+        self.restart(cx, ws, state);
+        Ok(())
     }
 
     fn propose(&mut self, _: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {

@@ -91,6 +91,10 @@ impl<'a> FixedController<'a> {
                     }
                     self.step.count();
                     self.step.notify(march, &report, dt, [due, compared])?;
+                    if march.has_released() {
+                        let released = self.stepper.release(march.cx, march.ws, march.state, dt);
+                        released.map_err(|failure| march.failed(failure))?;
+                    }
                     self.check_substeps(march, dt)?;
                     self.step.grow();
                 }

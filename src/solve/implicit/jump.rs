@@ -77,8 +77,8 @@ pub fn check_work(
         _ => cx.system.stored_energy(&state.configuration(), cx.plan.threads),
     };
     let after = cx.system.stored_energy(&end, cx.plan.threads);
-    let Dissipation { plastic, viscous, stored, friction, impact } = *dissipated;
-    let taken = after - before + plastic + viscous + stored + friction + impact;
+    let Dissipation { plastic, viscous, stored, friction, impact, eroded } = *dissipated;
+    let taken = after - before + plastic + viscous + stored + friction + impact + eroded;
     let ([of_loads, of_supports], gross, spread) = work_of_step(cx, ws, state);
     let work = of_loads + of_supports;
     let rounding = ACCURACY * (gross + before.abs().min(after.abs()) * f64::EPSILON.sqrt());

@@ -10,10 +10,12 @@ use crate::elements::contact::restitution::Loss;
 use crate::elements::coordinate_law::{
     ANCHOR, CoordinateLaw, CoordinateState, IMPACT_POWER, IMPACT_SPEED, MEMORY, RATE,
 };
+use crate::elements::memories::places;
 use crate::elements::{ElementBlock, Force, Moduli, subtract};
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec6, angular, linear, stack};
 use crate::state::{Configuration, Node};
+use std::ops::Range;
 
 /// What acts along the coordinate of one joint.
 #[derive(Debug, Clone)]
@@ -49,25 +51,35 @@ impl CoordinateSpring {
 }
 
 /// A group of them.
-pub struct CoordinateSprings(pub Vec<CoordinateSpring>);
+pub struct CoordinateSprings {
+    springs: Vec<CoordinateSpring>,
+    /// The history variables of each.
+    memories: Vec<Range<usize>>,
+}
 
 impl CoordinateSprings {
+    /// A group of these.
+    pub fn new(springs: Vec<CoordinateSpring>) -> CoordinateSprings {
+        let memories = places(springs.iter().map(|spring| spring.law.memory()));
+        CoordinateSprings { springs, memories }
+    }
+
     fn states<'a>(
         &'a self,
         now: &'a Configuration,
     ) -> impl Iterator<Item = (&'a CoordinateSpring, CoordinateState)> + 'a {
-        let memories = now.history.chunks_exact(MEMORY);
-        self.0.iter().zip(memories).map(|(spring, memory)| (spring, spring.state(now.nodes, memory, now.dt)))
+        let memories = self.memories.iter().map(|memory| &now.history[memory.clone()]);
+        self.springs.iter().zip(memories).map(|(spring, memory)| (spring, spring.state(now.nodes, memory, now.dt)))
     }
 }
 
 impl ElementBlock for CoordinateSprings {
     fn len(&self) -> usize {
-        self.0.len()
+        self.springs.len()
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.0[e].nodes
+        &self.springs[e].nodes
     }
 
     fn dofs(&self) -> usize {
@@ -77,17 +89,17 @@ impl ElementBlock for CoordinateSprings {
     fn is_damped(&self) -> bool {
         // What an impact loses is lost over the rate.
         let loses = |law: &CoordinateLaw| law.stops.as_ref().is_some_and(|stops| stops.loss != Loss::None);
-        self.0.iter().any(|spring| spring.law.damping > 0.0 || loses(&spring.law))
+        self.springs.iter().any(|spring| spring.law.damping > 0.0 || loses(&spring.law))
     }
 
     fn history(&self) -> usize {
-        MEMORY * self.0.len()
+        self.memories.last().map_or(0, |last| last.end)
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut lost = Dissipation::default();
-        let old = now.history.chunks_exact(MEMORY);
-        for (((spring, at), old), new) in self.states(now).zip(old).zip(new.chunks_exact_mut(MEMORY)) {
+        for ((spring, at), memory) in self.states(now).zip(&self.memories) {
+            let (old, new) = (&now.history[memory.clone()], &mut new[memory.clone()]);
             let toward = |old: f64, now: f64| old + part * (now - old);
             new[0] = toward(old[0], at.q);
             new[RATE] = toward(old[RATE], at.rate);
@@ -97,6 +109,10 @@ impl ElementBlock for CoordinateSprings {
             lost.impact += 0.5 * part * now.dt * (old[IMPACT_POWER] + new[IMPACT_POWER]);
             if let Some(friction) = &spring.law.friction {
                 lost.friction += part * friction.limit * at.slip.abs();
+            }
+            if let Some(hysteresis) = &spring.law.hysteresis {
+                new[MEMORY..].copy_from_slice(&old[MEMORY..]);
+                lost.plastic += hysteresis.follow(at.q, part, &mut new[MEMORY..]);
             }
         }
         lost
@@ -112,8 +128,8 @@ impl ElementBlock for CoordinateSprings {
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
-        let spring = &self.0[e];
-        let at = spring.state(now.nodes, &now.history[MEMORY * e..MEMORY * (e + 1)], now.dt);
+        let spring = &self.springs[e];
+        let at = spring.state(now.nodes, &now.history[self.memories[e].clone()], now.dt);
         let [a, b] = spring.nodes.map(|n| &now.nodes[n]);
         let ([Ga, Gb], w) = (spring.gradient(now.nodes), [stack(&a.v, &a.omega), stack(&b.v, &b.omega)]);
         let G = |i: usize| if i < 6 { Ga[i] } else { Gb[i - 6] };

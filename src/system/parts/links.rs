@@ -4,8 +4,9 @@ use super::assembled::{Assembled, NumberedBlock, Setting};
 use super::coordinate_springs::{CoordinateSpring, CoordinateSprings};
 use crate::constraints::joint::Drive;
 use crate::elements::bushing::{Bushing, Bushings};
-use crate::elements::coordinate_law::{CoordinateLaw, MEMORY};
+use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::{self, Links};
+use crate::elements::link_failure;
 use crate::elements::relative_rotation::RotationalSpring;
 use crate::math::{Mat3, Vec3, angular, linear};
 use crate::model::{Link, LinkKind, Model, PartKind};
@@ -27,6 +28,8 @@ pub struct LinkState {
     pub f: Vec3,
     /// Moment that the link exerts on its first end, global components.
     pub m: Vec3,
+    /// True where it has failed.
+    pub failed: bool,
 }
 
 /// A link as the deck lists it; the blocks that integrate links hold copies.
@@ -54,7 +57,11 @@ impl Assembled for Link {
             }
         }
         // Links of joints come after those of the deck, and so does their history.
-        vec![(Box::new(Links(lines)), 0), (Box::new(Bushings(bushings)), 0), (Box::new(CoordinateSprings(joints)), 0)]
+        vec![
+            (Box::new(Links::new(lines)), 0),
+            (Box::new(Bushings::new(bushings)), 0),
+            (Box::new(CoordinateSprings::new(joints)), 0),
+        ]
     }
 
     fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
@@ -81,7 +88,8 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
     let element = |(index, part): (usize, &Link)| match &part.kind {
         LinkKind::Line { law, damping, direction, free_length } => {
             let start = part.ends.map(|node| x[node]);
-            LinkElement::Line(link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start))
+            let line = link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start);
+            LinkElement::Line(line.failing(part.failure))
         }
         LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
             nodes: part.ends,
@@ -90,6 +98,7 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
             spring: RotationalSpring::new(Vec3::from_column_slice(&stiffness[3..])),
             damping: *damping,
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
+            failure: part.failure,
         }),
         LinkKind::Joint { lock, law } => {
             LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law: *law, drive: drive(index) })
@@ -131,48 +140,91 @@ pub struct RememberingLink {
 
 /// The links that remember something, such as full turns. `links` and `groups` are those of the whole system.
 pub fn remembering_links(model: &Model, links: &[LinkElement], groups: &[Group]) -> Vec<RememberingLink> {
-    let mut slots = groups.iter().filter(|group| is_shared(group)).flat_map(|group| group.history.clone());
+    let all: Vec<usize> =
+        groups.iter().filter(|group| is_shared(group)).flat_map(|group| group.history.clone()).collect();
+    let mut next = Slots::before_kinds(links);
     let mut found = Vec::new();
     for (link, element) in model.each::<Link>().zip(links) {
-        let (count, is_joint) = match element {
-            LinkElement::Bushing(bushing) if bushing.spring.counts_turns() => (1, false),
-            LinkElement::Joint(_) => (MEMORY, true),
-            LinkElement::Bushing(_) | LinkElement::Line(_) => continue,
-        };
-        found.push(RememberingLink { name: link.name.clone(), slots: slots.by_ref().take(count).collect(), is_joint });
+        let slots = all[next.of(element)].to_vec();
+        if !slots.is_empty() {
+            let is_joint = matches!(element, LinkElement::Joint(_));
+            found.push(RememberingLink { name: link.name.clone(), slots, is_joint });
+        }
     }
     found
+}
+
+impl LinkElement {
+    /// The number of its history variables.
+    fn memory(&self) -> usize {
+        match self {
+            LinkElement::Line(line) => line.memory(),
+            LinkElement::Bushing(bushing) => bushing.memory(),
+            LinkElement::Joint(spring) => spring.law.memory(),
+        }
+    }
+
+    /// The place of its block among those of links.
+    fn kind(&self) -> usize {
+        match self {
+            LinkElement::Line(_) => 0,
+            LinkElement::Bushing(_) => 1,
+            LinkElement::Joint(_) => 2,
+        }
+    }
+}
+
+/// The next history variables of each kind of link, among those of all links: lines come first, then bushings, then joints.
+struct Slots([usize; 3]);
+
+impl Slots {
+    fn before_kinds(links: &[LinkElement]) -> Slots {
+        let mut slots = [0; 3];
+        for link in links {
+            slots[link.kind() + 1..].iter_mut().for_each(|slot| *slot += link.memory());
+        }
+        Slots(slots)
+    }
+
+    /// The slots of the next link.
+    fn of(&mut self, link: &LinkElement) -> std::ops::Range<usize> {
+        let next = &mut self.0[link.kind()];
+        let first = *next;
+        *next += link.memory();
+        first..*next
+    }
 }
 
 /// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
 pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration, out: &mut Vec<LinkState>) {
     out.clear();
     let nodes = now.nodes;
-    let own = groups.iter().filter(|group| group.kind == PartKind::Link);
-    let mut histories = own.flat_map(|group| group.configuration(now).history);
-    out.extend(links.iter().map(|link| match link {
+    let own = groups.iter().filter(|group| is_shared(group)).map(|group| &group.history);
+    // The blocks of links follow each other.
+    let history = own.cloned().reduce(|all, group| all.start..group.end).map_or(&[][..], |all| &now.history[all]);
+    let mut next = Slots::before_kinds(links);
+    out.extend(links.iter().map(|link| (link, &history[next.of(link)])).map(|(link, memory)| match link {
         LinkElement::Line(link) => {
-            let (elongation, rate, force) = link.state(nodes);
-            LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros() }
+            let (elongation, rate, force) = link.state(nodes, memory);
+            let failed = link_failure::has_failed(memory);
+            LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros(), failed }
         }
         LinkElement::Bushing(bushing) => {
-            let last = if bushing.spring.counts_turns() { histories.next() } else { None };
-            let (d, rate, f, m) = bushing.state(nodes, *last.unwrap_or(&0.0));
+            let (d, rate, f, m) = bushing.state(nodes, memory);
             let [first, second] = bushing.nodes.map(|n| &nodes[n]);
             let B = first.R() * bushing.axes;
             // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
             // the first.
             let f_global = B * f;
             let m = B * m + (second.x - first.x).cross(&f_global);
-            LinkState { elongation: d.x, rate, force: f.x, f: f_global, m }
+            let failed = bushing.has_failed(memory);
+            LinkState { elongation: d.x, rate, force: f.x, f: f_global, m, failed }
         }
         LinkElement::Joint(spring) => {
-            let mut memory = [0.0; MEMORY];
-            memory.iter_mut().zip(&mut histories).for_each(|(memory, value)| *memory = *value);
-            let at = spring.state(nodes, &memory, 0.0);
+            let at = spring.state(nodes, memory, 0.0);
             let [G, _] = spring.lock.gradient(&nodes[spring.nodes[0]], &nodes[spring.nodes[1]]);
             let [f, m] = [linear(&G), angular(&G)].map(|part| -at.effort * part);
-            LinkState { elongation: at.q, rate: at.rate, force: at.effort, f, m }
+            LinkState { elongation: at.q, rate: at.rate, force: at.effort, f, m, failed: false }
         }
     }));
 }
