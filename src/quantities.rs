@@ -275,7 +275,11 @@ pub const LINK: [Column; 10] = {
         mx,
         my,
         mz,
-        Column::scalar("failed", "1 where the link has failed, else 0", Unit::One),
+        Column::scalar(
+            "failed",
+            "1 where the link has failed, else 0; in decks alone in which something may fail",
+            Unit::One,
+        ),
     ]
 };
 
@@ -330,7 +334,8 @@ pub const ENERGY: [Column; 19] = {
         lx,
         ly,
         lz,
-        energy("eroded", "stored by what has failed, and lost with it").positive("lost"),
+        energy("eroded", "stored by what has failed, and lost with it; in decks alone in which something may fail")
+            .positive("lost"),
     ]
 };
 

@@ -41,6 +41,51 @@ fn a_sound_deck_passes() {
     assert_eq!(said(&done), "");
 }
 
+/// The matrices of a body on a spring, hinged to another: masses, stiffness, damping and the equations of the hinge.
+#[test]
+fn matrices_are_exported() {
+    let folder = folder(&format!(
+        "{DECK}\n[[bodies]]\nname = \"other\"\ncenter = [1.0, 0.0, 0.0]\nmass = 3.0\ninertia = [0.1, 0.2, 0.25]\n\
+         [[joints]]\nname = \"hinge\"\nkind = \"spherical\"\nfrom = {{ body = \"ball\", point = [0.5, 0.0, 0.0] }}\nto = {{ body = \"other\" }}\n\
+         [[links]]\nname = \"spring\"\nfrom = {{ ground = [-1.0, 0.0, 0.0] }}\nto = {{ body = \"ball\" }}\nstiffness = 40.0\ndamping = 7.0\n"
+    ));
+    let done = rdsolve(folder.path(), &["check", "ball.toml", "--export-matrices", "matrices"]).code(0);
+    let shown = String::from_utf8(done.get_output().stdout.clone()).unwrap();
+    assert!(shown.contains("K.mtx, M.mtx, C.mtx, G.mtx, dofs.csv in matrices"), "{shown}");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("matrices").join(name)).unwrap();
+    let dofs = read("dofs.csv");
+    let rows: Vec<Vec<&str>> = dofs.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let row = |node: &str, direction: &str| {
+        let place = rows.iter().position(|row| row[1] == node && row[2] == direction);
+        place.unwrap_or_else(|| panic!("{direction} of {node}")) + 1
+    };
+    let entries = |name: &str| -> Vec<(usize, usize, f64)> {
+        let text = read(name);
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some("%%MatrixMarket matrix coordinate real general"));
+        let of = |line: &str| -> Vec<f64> { line.split(' ').map(|word| word.parse().unwrap()).collect() };
+        let sizes = of(lines.next().unwrap());
+        let all: Vec<_> = lines.map(of).map(|entry| (entry[0] as usize, entry[1] as usize, entry[2])).collect();
+        assert_eq!(all.len(), sizes[2] as usize);
+        assert!(all.iter().all(|entry| entry.0 <= sizes[0] as usize && entry.1 <= sizes[1] as usize));
+        all
+    };
+    let entry = |name: &str, at: (usize, usize)| -> f64 {
+        entries(name).iter().filter(|entry| (entry.0, entry.1) == at).map(|entry| entry.2).sum()
+    };
+    let x = row("ball", "ux");
+    assert_eq!((entry("K.mtx", (x, x)), entry("C.mtx", (x, x)), entry("M.mtx", (x, x))), (40.0, 7.0, 1.0));
+    let turn = row("other", "rz");
+    assert_eq!((entry("M.mtx", (turn, turn)), entry("K.mtx", (turn, turn))), (0.25, 0.0));
+    // Three equations hold the hinge: a motion of both bodies along x leaves no gap, one of the ball alone a unit.
+    let along = |nodes: &[&str]| -> f64 {
+        let of =
+            |equation: usize| -> f64 { nodes.iter().map(|node| entry("G.mtx", (equation, row(node, "ux")))).sum() };
+        (1..=3).map(|equation| of(equation).powi(2)).sum::<f64>().sqrt()
+    };
+    assert!((along(&["ball"]) - 1.0).abs() < 1e-15 && along(&["ball", "other"]) < 1e-15);
+}
+
 #[test]
 fn usage_ends_with_2() {
     let folder = folder(DECK);

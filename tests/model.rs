@@ -127,7 +127,7 @@ fn shells_are_patches() {
     assert_eq!(follower.faces[0], Face::of(&roof.elements[0].nodes[..3]).unwrap());
     let at = model.parts.iter().position(|part| part.name() == "roof").unwrap();
     assert_eq!(model.expects[4].at, ExpectAt::Shells(at, at + 1));
-    assert!(model.output.sections && model.output.layers);
+    assert!(model.output.sections.is_some() && model.output.layers);
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn headers_are_those_of_the_interface() {
         ("bodies.csv", "step,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,alphax,alphay,alphaz"),
         (
             "energy.csv",
-            "step,time,kinetic,strain,plastic,viscoplastic,damping,links,contact,friction,impact,external,numerical,mechanical,px,py,pz,lx,ly,lz,eroded",
+            "step,time,kinetic,strain,plastic,viscoplastic,damping,links,contact,friction,impact,external,numerical,mechanical,px,py,pz,lx,ly,lz",
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
         ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),
@@ -127,7 +127,7 @@ fn only_what_is_asked_for_is_written() {
     model.bodies.clear();
     let output = &mut model.output;
     output.nodes.clear();
-    (output.energy, output.links, output.reactions, output.sections) = (false, false, false, false);
+    (output.energy, output.links, output.reactions, output.sections) = (false, false, false, None);
     output.contacts = false;
     run(dir.path(), &model);
     let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();

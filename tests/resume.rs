@@ -51,7 +51,8 @@ fn digest(frame: &Frame) -> u64 {
     bits(&frame.derived.energy.map_or([0.0; 2], |energy| [energy.numerical, energy.mechanical]));
     let effort = [frame.effort, frame.derived.effort].map(|of| (of.iterations, of.refactorizations, of.cuts));
     let flags = [frame.due, frame.drawn, frame.last, frame.inside, frame.compared];
-    (frame.step, effort, flags, frame.negative_pivots, frame.passed).hash(&mut hasher);
+    let broken: Vec<&str> = frame.broken.iter().map(|broken| broken.what.as_str()).collect();
+    (frame.step, effort, flags, frame.negative_pivots, frame.passed, broken).hash(&mut hasher);
     hasher.finish()
 }
 
@@ -108,7 +109,7 @@ fn watch(model: &Model, checkpoint: Option<&[u8]>, every: u64) -> (Witness, Stri
     let mut witness = Witness { every, ..Witness::default() };
     let (outcome, state) = run.run(&mut witness);
     let told = format!(
-        "{outcome:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{outcome:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         state.map(|state| state.time.to_bits()),
         run.counts(),
         run.balance(),
@@ -116,7 +117,8 @@ fn watch(model: &Model, checkpoint: Option<&[u8]>, every: u64) -> (Witness, Stri
         run.remarks(),
         run.step_error(),
         run.joint_violation(),
-        run.missed_work()
+        run.missed_work(),
+        run.broken()
     );
     assert!(!matches!(outcome, Outcome::Io(_)), "{told}");
     (witness, told)

@@ -17,6 +17,16 @@ pub struct DeckArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub deck: DeckArgs,
+    /// Write the matrices of the scene as the deck draws it, without loads, into this folder: K.mtx, M.mtx, C.mtx where anything damps,
+    /// G.mtx where there are joints (Matrix Market), and dofs.csv, the node and direction of each row
+    #[arg(long, value_name = "DIR")]
+    pub export_matrices: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
 pub struct RunArgs {
     // The entries of `DeckArgs` are repeated, for clap does not find a group within an optional group.
     /// The deck, a TOML file; - is standard input

@@ -1,30 +1,35 @@
 //! `rdsolve check deck.toml`: read, validate, print the plan; run nothing.
 
-use super::arguments::DeckArgs;
+use super::arguments::CheckArgs;
 use super::console::{complain, print, show};
 use super::exit::Exit;
 use super::load::{load, plan, too_large};
 use super::signals::EndAtOnce;
 use super::watchers::stage_begins;
 use crate::model::Model;
-use crate::output::{listed, settle_cadence};
+use crate::modes::Matrices;
+use crate::output::{listed, matrix_market, settle_cadence};
 use crate::plan::Plan;
 use crate::plan::explain::explain_costs;
 use crate::system::System;
+use std::path::Path;
 
 /// Prints the plan of a deck, with what it costs, on standard output; diagnostics go to standard error.
 ///
 /// # Errors
 /// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
-pub fn check(args: &DeckArgs) -> Result<(), Exit> {
+pub fn check(args: &CheckArgs) -> Result<(), Exit> {
     let _checking = EndAtOnce::on_signals();
-    let mut loaded = load(&args.deck, &args.sets, Vec::new())?;
+    let mut loaded = load(&args.deck.deck, &args.deck.sets, Vec::new())?;
     show(&loaded.warnings, &loaded.source);
     let (system, plan, warnings) = plan(&mut loaded, 1)?;
     show(&warnings, &loaded.source);
     let (solver, _) = plan.build(&system).map_err(too_large)?;
     let mut text = explain_costs(&plan, &loaded.model, &system, &solver);
     text.computed.push(("output", listed(&loaded.model, &plan)));
+    if let Some(folder) = &args.export_matrices {
+        text.computed.push(("matrices", export(folder, &loaded.model, &system, &plan)?));
+    }
     let path = &loaded.source.path;
     if loaded.model.analysis.stage.is_none() {
         return print(&format!("{path}: no errors\n{text}"));
@@ -38,6 +43,16 @@ pub fn check(args: &DeckArgs) -> Result<(), Exit> {
         all += &format!("{}\n{text}", stage_begins(model));
     }
     print(&all)
+}
+
+/// Writes the matrices of the scene; says what was written.
+fn export(folder: &Path, model: &Model, system: &System, plan: &Plan) -> Result<String, Exit> {
+    let matrices = Matrices::of(model, system, plan).map_err(too_large)?;
+    let written = matrix_market::write(folder, &matrices).map_err(|error| {
+        complain(&error.to_string());
+        Exit::InputOutput
+    })?;
+    Ok(format!("{} in {}", written.join(", "), folder.display()))
 }
 
 /// The system and the plan of a later stage, as far as they are known before the state that it begins with.

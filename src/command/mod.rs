@@ -11,6 +11,7 @@ mod hint;
 mod init;
 mod load;
 mod mesh_error;
+mod processor;
 mod recommend;
 mod report;
 mod resume;
@@ -28,7 +29,7 @@ mod watchers;
 
 pub use exit::Exit;
 
-use arguments::{DeckArgs, RunArgs};
+use arguments::{CheckArgs, RunArgs};
 use std::path::Path;
 
 use clap::error::ErrorKind;
@@ -40,6 +41,7 @@ use hint::command_hint;
 #[derive(Debug, Parser)]
 #[command(
     version = version::VERSION,
+    long_version = version::long(),
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     arg_required_else_help = true
@@ -63,7 +65,7 @@ enum Command {
     /// Run a deck: tables, field files and result.json go to a folder
     Run(RunArgs),
     /// Read and validate a deck, and print what would be computed, what is omitted and why; runs nothing
-    Check(DeckArgs),
+    Check(CheckArgs),
     /// Compare two folders of results within tolerances, for regression tests
     Compare(compare::CompareArgs),
     /// Make one HTML file of a folder of results: plots, energy balance, the moving scene
@@ -105,6 +107,14 @@ pub fn parse() -> Result<Cli, Exit> {
 
 /// Does what the command line asks for.
 pub fn execute(cli: Cli) -> Exit {
+    if let Some(missing) = processor::missing() {
+        let built = processor::BUILT_FOR;
+        complain(&format!(
+            "this program was built for {built}, and this processor has no {missing}\n  help: build it here, or anywhere with \
+             RUSTFLAGS=\"-C target-cpu=x86-64-v3\" or \"-C target-cpu=x86-64\""
+        ));
+        return Exit::Internal;
+    }
     signals::survive_file_limits();
     if cli.json {
         console::show_json();

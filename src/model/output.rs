@@ -35,8 +35,8 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             links: false,
             contacts: false,
             reactions: false,
-            sections: false,
-            section_places: words::SectionPlaces::Points,
+            sections: None,
+            failures: may_fail(scene),
             layers: false,
             parts: false,
             joints: false,
@@ -62,7 +62,6 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             None => Cadence::at_most(MOST_FIELDS, end_time, &scene.analysis.step_length),
         }
     });
-    let (sections, section_places) = sections(table, report);
     let output = Output {
         units,
         nodes,
@@ -72,8 +71,8 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         links: flag(&table.links, false),
         contacts: flag(&table.contacts, false),
         reactions: flag(&table.reactions, false),
-        sections,
-        section_places,
+        sections: sections(table, report),
+        failures: may_fail(scene),
         layers: flag(&table.layers, false),
         parts: flag(&table.parts, false),
         joints: flag(&table.joints, false),
@@ -113,14 +112,20 @@ fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, repo
 }
 
 /// Whether stress resultants are written, and where in beams.
-fn sections<'d>(table: &'d words::Output, report: &mut Report<'d>) -> (bool, words::SectionPlaces) {
-    let Some(sections) = &table.sections else { return (false, words::SectionPlaces::Points) };
+/// True where the deck, in whichever stage, has something that may fail.
+fn may_fail(scene: &Scene) -> bool {
+    scene.deck.links.iter().any(|link| link.failure.is_some())
+        || scene.deck.materials.0.iter().any(|(_, material)| material.value.values.place("failure_strain").is_some())
+}
+
+fn sections<'d>(table: &'d words::Output, report: &mut Report<'d>) -> Option<words::SectionPlaces> {
+    let sections = table.sections.as_ref()?;
     match &sections.value {
-        FlagOrTable::Flag(flag) => (*flag, words::SectionPlaces::Points),
+        FlagOrTable::Flag(flag) => flag.then_some(words::SectionPlaces::Points),
         FlagOrTable::Table(places) => {
             let owner = Owner::new("`sections`", &sections.span);
             let places = report.require(&owner, "at", &places.at);
-            (true, places.map_or(words::SectionPlaces::Points, |places| places.value))
+            Some(places.map_or(words::SectionPlaces::Points, |places| places.value))
         }
     }
 }

@@ -10,6 +10,7 @@ mod damped;
 mod fault;
 mod gyroscopic;
 mod linearized;
+mod matrices;
 mod modal;
 mod mode;
 mod pencil;
@@ -21,6 +22,7 @@ mod steady;
 
 pub use fault::ModesFault;
 pub use linearized::Linearized;
+pub use matrices::Matrices;
 pub use mode::{EigenMode, Modes, Share};
 pub use rest::multipliers_at_rest;
 pub use steady::{Response, ResponseRow};

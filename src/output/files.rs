@@ -32,7 +32,7 @@ struct OpenTable {
 impl OpenTable {
     fn open(dir: &Path, kind: &'static TableKind, model: &Model) -> io::Result<OpenTable> {
         let stage = model.analysis.stage.as_ref();
-        let mut file = TableFile::open(dir, kind.file, &kind.header(stage.is_some()))?;
+        let mut file = TableFile::open(dir, kind.file, &kind.header(model))?;
         if let Some(stage) = stage {
             file.begin_stage(&stage.name)?;
         }

@@ -14,6 +14,7 @@ mod files;
 mod folder;
 mod lock;
 pub mod log;
+pub mod matrix_market;
 pub mod progress;
 pub mod report;
 pub mod result_json;

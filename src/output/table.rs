@@ -49,6 +49,8 @@ pub struct TableKind {
     pub wanted: fn(&Model) -> bool,
     /// What the solver must compute for its rows.
     pub needs: Wanted,
+    /// True where its last column is for what may fail, and is not there in a deck in which nothing may.
+    pub tells_failures: bool,
     /// True where it is shown every accepted step, so that a row may tell of all since the one before.
     pub every_step: bool,
     /// What it has at one time, about.
@@ -76,10 +78,16 @@ impl TableKind {
         [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
     }
 
-    /// The header row, without a line break; with `stages`, each row says in which it is.
-    pub fn header(&self, stages: bool) -> String {
-        let mut names: Vec<&str> = self.columns().map(|column| column.name).collect();
-        if stages {
+    /// Those that a scene has.
+    pub fn columns_of(&self, model: &Model) -> impl Iterator<Item = Column> {
+        let left_out = usize::from(self.tells_failures && !model.output.failures);
+        self.columns().take(self.columns().count() - left_out)
+    }
+
+    /// The header row, without a line break; in a deck of stages, each row says in which it is.
+    pub fn header(&self, model: &Model) -> String {
+        let mut names: Vec<&str> = self.columns_of(model).map(|column| column.name).collect();
+        if model.analysis.stage.is_some() {
             names.insert(2, STAGE);
         }
         names.join(",")

@@ -25,8 +25,9 @@ const FEWEST: f64 = 200.0;
 const SMALL: f64 = 10e6;
 
 /// The number of bytes of the rows of a table.
-fn bytes(kind: &TableKind, rows: &Rows) -> usize {
-    let (keys, columns) = (kind.columns().filter(|column| column.is_key()).count(), kind.columns().count());
+fn bytes(kind: &TableKind, model: &Model, rows: &Rows) -> usize {
+    let columns = || kind.columns_of(model);
+    let (keys, columns) = (columns().filter(|column| column.is_key()).count(), columns().count());
     // Every key has a comma and, if it is not a name, a digit or two; step and time are not keys.
     let fixed = STEP + TIME + keys * COUNT;
     let zeros = (rows.rows * columns.saturating_sub(keys + 2)).saturating_sub(rows.numbers);
@@ -46,7 +47,7 @@ pub fn settle_cadence(model: &mut Model, plan: &Plan) {
 fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
     let extent = Extent::new(model, plan);
     let wanted = TABLES.iter().filter(|kind| (kind.wanted)(model));
-    wanted.map(|kind| (kind.file, bytes(kind, &(kind.extent)(&extent)))).collect()
+    wanted.map(|kind| (kind.file, bytes(kind, model, &(kind.extent)(&extent)))).collect()
 }
 
 /// About how many bytes each table takes in a whole run, and all grids of the fields; `None` where nobody knows how many steps

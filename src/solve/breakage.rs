@@ -28,7 +28,7 @@ pub struct Breakage {
     new: Vec<Broken>,
 }
 
-keep!(Breakage { failed } without { groups, new });
+keep!(Breakage { groups, failed } without { new });
 
 impl Breakage {
     /// Takes what has failed before the run, or the stage.

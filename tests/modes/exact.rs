@@ -133,19 +133,3 @@ fn without_mass() {
     let Outcome::Failed { failure: Failure::Modes(fault), .. } = outcome else { panic!("{outcome:?}") };
     assert_eq!(fault, rdsolve::modes::ModesFault::NoMass);
 }
-
-/// Writes K and M of the deck `MODES_DECK` as Matrix Market files into the folder `MODES_OUT`, for scripts/modes.py.
-#[test]
-#[ignore = "a helper of scripts/modes.py"]
-fn export_matrices() {
-    use std::io::Write;
-    let folder = std::path::PathBuf::from(std::env::var("MODES_OUT").expect("MODES_OUT"));
-    let model = read_deck(&std::fs::read_to_string(std::env::var("MODES_DECK").expect("MODES_DECK")).unwrap());
-    for (name, matrix) in ["K.mtx", "M.mtx"].into_iter().zip(matrices(&model)) {
-        let file = std::fs::File::create(folder.join(name)).unwrap();
-        let mut file = std::io::BufWriter::new(file);
-        let (rows, count) = (matrix.rows(), matrix.entries().count());
-        writeln!(file, "%%MatrixMarket matrix coordinate real general\n{rows} {rows} {count}").unwrap();
-        matrix.entries().for_each(|(i, j, value)| writeln!(file, "{} {} {value:e}", i + 1, j + 1).unwrap());
-    }
-}

@@ -142,7 +142,7 @@ fn even_curvature() {
 /// States of all elements at the end.
 fn last(model: &Model) -> Vec<ShellState> {
     let mut model = model.clone();
-    model.output.sections = true;
+    model.output.sections = Some(rdsolve::model::SectionPlaces::Points);
     let mut states = Vec::new();
     support::run_to_the_end(&model, &mut |frame| {
         states = frame.derived.shells.to_vec();

@@ -22,10 +22,10 @@ pub struct Output {
     pub contacts: bool,
     /// True where reactions.csv is written.
     pub reactions: bool,
-    /// True where sections.csv is written.
-    pub sections: bool,
-    /// The places of beams that it is about.
-    pub section_places: SectionPlaces,
+    /// The places of beams that sections.csv is about; `None`: it is not written.
+    pub sections: Option<SectionPlaces>,
+    /// True where something in the deck may fail, which tables have columns for.
+    pub failures: bool,
     /// True where layers.csv is written.
     pub layers: bool,
     /// True where parts.csv is written.

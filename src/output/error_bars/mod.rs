@@ -66,7 +66,7 @@ impl ErrorBars {
         let watch = |kind: &'static TableKind| WatchedTable {
             kind,
             write: (kind.rows)(model),
-            rows: CollectedRows::new(kind),
+            rows: CollectedRows::new(kind, model),
             seen: Account::default(),
             before: Account::default(),
             unseen: ComparedHistory::default(),

@@ -1,5 +1,6 @@
 //! The rows of one table at one time, as numbers.
 
+use crate::model::Model;
 use crate::output::table::{TableKind, WriteRow};
 use crate::quantities::Unit;
 use std::io;
@@ -21,9 +22,9 @@ pub struct CollectedRows {
 }
 
 impl CollectedRows {
-    /// No rows of this table.
-    pub fn new(kind: &TableKind) -> CollectedRows {
-        let is_key = kind.columns().skip(2).map(|column| column.unit == Unit::Label).collect();
+    /// No rows of this table of a scene.
+    pub fn new(kind: &TableKind, model: &Model) -> CollectedRows {
+        let is_key = kind.columns_of(model).skip(2).map(|column| column.unit == Unit::Label).collect();
         let by_element = kind.columns().any(|column| column.name == "element");
         CollectedRows { is_key, by_element, field: 0, numbers: Vec::new(), keys: String::new(), ends: Vec::new() }
     }

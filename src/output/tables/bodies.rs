@@ -24,6 +24,7 @@ pub static TABLE: TableKind = TableKind {
     ],
     wanted: |model| !model.bodies.is_empty(),
     needs: Wanted::NOTHING,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let bodies = &extent.model.bodies;

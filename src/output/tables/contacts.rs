@@ -14,6 +14,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("contact", "name of the contact")], &CONTACT],
     wanted: |model| model.output.contacts && model.has(PartKind::Contact),
     needs: Wanted::CONTACTS,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let contacts = || extent.model.each::<Contact>();

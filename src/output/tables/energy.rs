@@ -15,6 +15,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&ENERGY],
     wanted: |model| model.output.energy,
     needs: Wanted::ENERGY,
+    tells_failures: true,
     every_step: false,
     extent: |extent| {
         let model = extent.model;
@@ -29,7 +30,10 @@ pub static TABLE: TableKind = TableKind {
         let numbers = 3 + moves + deforms + yields + links + touches;
         Rows { rows: 1, letters: 0, numbers }
     },
-    rows: |_| Box::new(write),
+    rows: |model| {
+        let count = ENERGY.len() - usize::from(!model.output.failures);
+        Box::new(move |table, frame| write(table, frame, count))
+    },
     answers: Some(Answers { quantities, needs: Wanted::ENERGY, value }),
 };
 
@@ -72,7 +76,8 @@ fn values(e: &Energy) -> [f64; 19] {
     ]
 }
 
-fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+/// Writes the first `count` columns.
+fn write(table: &mut dyn WriteRow, frame: &Frame, count: usize) -> io::Result<()> {
     let Some(energy) = &frame.derived.energy else { return Ok(()) };
-    table.row(frame.step, frame.state.time).numbers(&values(energy)).end()
+    table.row(frame.step, frame.state.time).numbers(&values(energy)[..count]).end()
 }

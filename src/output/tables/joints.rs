@@ -15,6 +15,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),
     needs: NEEDS,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let [force, moment] = extent.components();

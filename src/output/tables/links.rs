@@ -13,6 +13,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("link", "name of the link")], &LINK],
     wanted: |model| model.output.links && of_deck(model).next().is_some(),
     needs: Wanted::LINKS,
+    tells_failures: true,
     every_step: false,
     extent: |extent| {
         // Elongation, rate and force, and the force as a vector; few resist moments.
@@ -20,7 +21,10 @@ pub static TABLE: TableKind = TableKind {
         let links = || of_deck(extent.model);
         Rows::named(links().map(|link| link.name.as_str()), (3 + force) * links().count())
     },
-    rows: |_| Box::new(write),
+    rows: |model| {
+        let count = LINK.len() - usize::from(!model.output.failures);
+        Box::new(move |table, frame| write(table, frame, count))
+    },
     answers: Some(Answers { quantities, needs: Wanted::LINKS, value }),
 };
 
@@ -48,8 +52,9 @@ fn values(link: &LinkState) -> [f64; 10] {
     [elongation, rate, force, f.x, f.y, f.z, m.x, m.y, m.z, f64::from(u8::from(failed))]
 }
 
-fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+/// Writes the first `count` columns of each link.
+fn write(table: &mut dyn WriteRow, frame: &Frame, count: usize) -> io::Result<()> {
     of_deck(frame.model).zip(&frame.derived.links).try_for_each(|(link, state)| {
-        table.row(frame.step, frame.state.time).text(&link.name).numbers(&values(state)).end()
+        table.row(frame.step, frame.state.time).text(&link.name).numbers(&values(state)[..count]).end()
     })
 }

@@ -27,6 +27,7 @@ pub static TABLE: TableKind = TableKind {
     ],
     wanted: |model| !model.output.nodes.is_empty(),
     needs: Wanted::NOTHING,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let (model, nodes) = (extent.model, &extent.model.output.nodes);

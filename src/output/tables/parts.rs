@@ -18,6 +18,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.output.parts,
     needs: Wanted::PARTS,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let parts = || extent.model.parts.iter().filter(|part| part.kind().is_deformable());

@@ -26,6 +26,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.output.reactions,
     needs: Wanted::REACTIONS,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let model = extent.model;

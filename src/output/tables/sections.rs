@@ -26,12 +26,13 @@ pub static TABLE: TableKind = TableKind {
         &SECTION_FORCES,
         &[PLASTIC_STRAIN],
     ],
-    wanted: |model| model.output.sections && model.has(PartKind::Beam),
+    wanted: |model| model.output.sections.is_some() && model.has(PartKind::Beam),
     needs: Wanted::SECTIONS,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let beams = || extent.model.each::<Beam>();
-        let places = |beam: &Beam| match extent.model.output.section_places {
+        let places = |beam: &Beam| match extent.model.output.sections.unwrap_or(SectionPlaces::Points) {
             SectionPlaces::Points => beam.order,
             SectionPlaces::Ends => 2,
             SectionPlaces::Both => beam.order + 2,
@@ -61,7 +62,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
-    let places = frame.model.output.section_places;
+    let Some(places) = frame.model.output.sections else { return Ok(()) };
     let is_listed = |point: &&SectionPoint| match point.place {
         SectionPlace::Point(_) => places != SectionPlaces::Ends,
         SectionPlace::Start | SectionPlace::End => places != SectionPlaces::Points,

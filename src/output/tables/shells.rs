@@ -52,8 +52,9 @@ pub static TABLE: TableKind = TableKind {
         surface_stress("von_mises_top", "von Mises stress in the highest layer; of an elastic shell, at the surface"),
         PLASTIC_STRAIN,
     ]],
-    wanted: |model| model.output.sections && model.has(PartKind::Shell),
+    wanted: |model| model.output.sections.is_some() && model.has(PartKind::Shell),
     needs: Wanted::SHELLS,
+    tells_failures: false,
     every_step: false,
     extent: |extent| {
         let shells = || extent.model.each::<Shell>();

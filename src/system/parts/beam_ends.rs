@@ -35,7 +35,7 @@ struct BeamEnd {
 impl BeamEnds {
     /// True where a table or an expected value asks for resultants at ends.
     pub fn wanted(model: &Model) -> bool {
-        let listed = model.output.sections && model.output.section_places != SectionPlaces::Points;
+        let listed = model.output.sections.is_some_and(|places| places != SectionPlaces::Points);
         listed || model.expects.iter().any(|expect| matches!(expect.at, ExpectAt::Sections(_)))
     }
 
