@@ -494,3 +494,71 @@ fn contacts_of_many_points() {
     let spent = state.work.material;
     assert!(spent.friction > 0.0 && spent.impact > 0.0, "{spent:?}");
 }
+
+/// A sheet falls on another, and a ball on both: their faces see each other.
+const SHEETS: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 0.005
+time_step = 2.5e-4
+
+[points]
+a = [0.0, 0.0, 0.0]
+b = [1.0, 0.0, 0.0]
+c = [1.0, 1.0, 0.0]
+d = [0.0, 1.0, 0.0]
+e = [0.1, 0.2, 0.0102]
+f = [1.2, 0.1, 0.0102]
+g = [1.1, 0.9, 0.0103]
+h = [0.2, 1.1, 0.0104]
+
+[[shells]]
+name = "lower"
+corners = ["a", "b", "c", "d"]
+elements = 12
+thickness = 0.01
+material = "steel"
+
+[[shells]]
+name = "upper"
+corners = ["e", "f", "g", "h"]
+elements = 10
+thickness = 0.01
+material = "steel"
+
+[[bodies]]
+name = "ball"
+center = [0.47, 0.52, 0.1163]
+mass = 20.0
+shape = { kind = "sphere", radius = 0.1 }
+velocity = [0.5, 0.0, -2.0]
+angular_velocity = [0.0, 3.0, 0.0]
+
+[[initial]]
+at = "upper"
+velocity = [0.3, 0.5, -0.5]
+
+[[contacts]]
+name = "sheets"
+surface = { part = "lower" }
+with = "upper"
+stiffness = 1e5
+restitution = 0.5
+friction = 0.3
+points = 2
+
+[[contacts]]
+name = "landing"
+surface = { part = "upper" }
+with = "ball"
+stiffness = 1e6
+friction = 0.2
+"#;
+
+#[test]
+fn contacts_of_faces() {
+    let (steps, state) = assert_same_bits(&format!("{SHEETS}{COMMON}"));
+    assert!((0..2).all(|contact| steps.iter().any(|step| step.touching[contact] > 0)), "a contact never touches");
+    let spent = state.work.material;
+    assert!(spent.friction > 0.0 && spent.impact > 0.0, "{spent:?}");
+}

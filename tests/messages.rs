@@ -914,6 +914,76 @@ fn contacts() {
     assert_snapshot!("expect_bounds", portal_and(bounds));
 }
 
+/// A sheet, a rod along its edge, and two bodies over it.
+const FACES: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 1.0
+time_step = 1e-6
+[materials.steel]
+model = "elastic"
+youngs_modulus = 2e11
+poisson_ratio = 0.3
+density = 7800.0
+[points]
+s1 = [10.0, 0.0, 0.0]
+s2 = [11.0, 0.0, 0.0]
+s3 = [11.0, 1.0, 0.0]
+s4 = [10.0, 1.0, 0.0]
+[[bars]]
+name = "rod"
+path = ["s1", "s2"]
+axial_stiffness = 1e6
+mass_per_length = 1.0
+[[shells]]
+name = "sheet"
+corners = ["s1", "s2", "s3", "s4"]
+elements = 2
+thickness = 0.01
+material = "steel"
+[[bodies]]
+name = "brick"
+center = [10.5, 0.5, 3.0]
+mass = 1.0
+shape = { kind = "box", size = [0.1, 0.1, 0.1] }
+[[bodies]]
+name = "marble"
+center = [10.5, 0.5, 4.0]
+mass = 1.0
+shape = { kind = "sphere", radius = 0.1 }
+"#;
+
+/// Contacts of faces and of balls among themselves.
+#[test]
+fn contacts_of_faces() {
+    let faces = |contact: &str| {
+        let contact = format!("[[contacts]]\nname = \"touch\"\n{contact}");
+        said(&format!("{FACES}\n{contact}\n"), &[])
+    };
+    assert_eq!(faces("surface = { part = \"sheet\" }\nwith = [\"brick\", \"marble\"]"), "");
+    assert_eq!(faces("surface = { part = \"sheet\" }\nwith = \"itself\""), "");
+    assert_snapshot!("faces_unknown", faces("surface = { part = \"sheat\" }\nwith = \"brick\""));
+    assert_snapshot!("faces_of_a_beam", faces("surface = { part = \"rod\" }\nwith = \"brick\""));
+    assert_snapshot!(
+        "faces_and_shape",
+        faces("surface = { part = \"sheet\", shape = \"plane\", body = \"brick\", radius = 0.1 }\nwith = \"brick\"")
+    );
+    assert_snapshot!("faces_of_their_own_part", faces("surface = { part = \"sheet\" }\nwith = \"sheet\""));
+    assert_snapshot!(
+        "faces_with_itself_and_more",
+        faces("surface = { part = \"sheet\" }\nwith = [\"itself\", \"brick\"]")
+    );
+    assert_snapshot!(
+        "itself_of_a_body",
+        faces("surface = { shape = \"sphere\", radius = 0.1, body = \"marble\" }\nwith = \"itself\"")
+    );
+    assert_snapshot!("among_without_spheres", faces("among = [\"marble\", \"brick\"]"));
+    assert_snapshot!("among_points_without_radius", faces("among = [\"marble\", \"s1\"]"));
+    assert_snapshot!("among_parts", faces("among = [\"marble\", \"sheet\"]"));
+    assert_snapshot!("among_one", faces("among = \"marble\""));
+    assert_snapshot!("among_and_with", faces("among = [\"marble\", \"brick\"]\nradius = 0.1\nwith = \"sheet\""));
+}
+
 #[test]
 fn modes() {
     let asked = |keys: &str| portal(&[("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys)]);

@@ -19,13 +19,15 @@ pub struct Contact {
     /// Name, for messages, results and `[[expect]]`.
     #[schemars(required)]
     pub name: Maybe<String>,
-    /// The surface that is touched.
-    #[schemars(required)]
+    /// The surface that is touched. Not with `among`.
     pub surface: Maybe<OneOf<Surface>>,
     /// What touches it, by name: points, bodies (corners of a box, on a box its edges and faces too; rims of a
-    /// cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells.
-    #[schemars(required)]
+    /// cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells; for faces of a part also
+    /// "itself". Not with `among`.
     pub with: Maybe<Names>,
+    /// In place of `surface` and `with`: bodies that are spheres, and points with a `radius`, of which each may
+    /// touch each.
+    pub among: Maybe<Names>,
     /// Names of the stages in which it is there. Default: all.
     pub stages: Maybe<Names>,
     /// Contact radius: the distance from a point at which it touches, 0 or more. Default: half the thickness of
@@ -52,22 +54,27 @@ impl PartTable for Contact {
     }
 
     fn members(&self) -> Vec<&At<String>> {
-        names(&self.with)
+        let part = self.surface.as_ref().and_then(|table| table.part.as_ref());
+        let with = names(&self.with).into_iter().filter(|at| part.is_none() || at.value != "itself");
+        with.chain(names(&self.among)).chain(part).collect()
     }
 }
 
-/// A surface on a body or on the ground, global coordinates at t = 0.
+/// A surface on a body or on the ground, global coordinates at t = 0, or the faces of a shell.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Surface {
     /// Name of the body that carries it. Default: the ground.
     pub body: Maybe<String>,
+    /// Name of a shell whose faces are the surface, in place of a shape: both sides, with its thickness, wherever it
+    /// bends.
+    pub part: Maybe<String>,
 }
 
 impl Kinds for Surface {
     const CHOOSER: &'static str = "shape";
     const ABOUT: &'static str = "The shape, on which the other keys depend.";
-    const REQUIRED: bool = true;
+    const REQUIRED: bool = false;
     type Make = MakeSurface<SurfaceShape>;
 
     fn list() -> &'static [&'static SurfaceKind<SurfaceShape>] {

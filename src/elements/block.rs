@@ -1,6 +1,7 @@
 //! The interface of a group of like elements to assembly.
 
 use super::results::{IntegrationPoint, ShellResultants};
+use super::wandering::Wandering;
 use crate::materials::Dissipation;
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
@@ -29,6 +30,14 @@ pub trait ElementBlock: Send + Sync {
     }
     /// Nodes of element `e`.
     fn nodes(&self, e: usize) -> &[usize];
+    /// Nodes on which elements may act besides their own, and whether they may turn them.
+    fn further_nodes(&self) -> (&[usize], bool) {
+        (&[], false)
+    }
+    /// The block as elements that act on nodes which change; `None` for all others.
+    fn wandering(&self) -> Option<&dyn Wandering> {
+        None
+    }
     /// Degrees of freedom of each node: 3, translations only, or 6, translations and rotations.
     fn dofs(&self) -> usize;
     /// The number of history variables of all material points.

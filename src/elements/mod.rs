@@ -15,7 +15,9 @@ pub mod pressure;
 pub mod relative_rotation;
 mod results;
 pub mod shell;
+mod wandering;
 
 pub(crate) use block::subtract;
 pub use block::{ElementBlock, Force, Moduli};
 pub use results::{IntegrationPoint, LayerStress, ShellResultants};
+pub use wandering::{Partners, Wandering};

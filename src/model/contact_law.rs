@@ -1,5 +1,6 @@
 //! The numbers of a contact law, from the deck and the masses that meet.
 
+use super::contact_opposite::Opposite;
 use super::contact_stiffness::{ChosenStiffness, Meets};
 use super::data::{AnalysisKind, Mass, StepLength};
 use super::nodes::Topology;
@@ -7,7 +8,7 @@ use super::report::{Owner, Report};
 use super::scene::Scene;
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution::{self, Loss};
-use crate::elements::contact::{ContactLaw, ContactPoint, MOST_NODES, Surface, TouchingBox};
+use crate::elements::contact::{ContactLaw, ContactPoint, MOST_NODES, TouchingBox};
 use crate::math::Vec3;
 use crate::names::short;
 use std::f64::consts::{PI, TAU};
@@ -31,6 +32,16 @@ pub(super) struct LawReader<'a, 'd> {
     pub topology: &'a Topology,
 }
 
+/// The masses that points meet.
+struct Other {
+    /// The largest.
+    mass: f64,
+    /// The least.
+    least: f64,
+    /// True where there are bodies, point masses and the ground alone.
+    rigid: bool,
+}
+
 /// The masses that meet at the points of a contact.
 struct Meeting {
     /// The largest mass that takes part in an impact.
@@ -47,7 +58,7 @@ impl LawReader<'_, '_> {
         &self,
         owner: &Owner,
         contact: &words::Contact,
-        (carrier, surface): (usize, &Surface),
+        opposite: Opposite,
         touching: (&[ContactPoint], &[TouchingBox]),
         report: &mut Report,
     ) -> Option<(ContactLaw, Option<String>)> {
@@ -55,10 +66,10 @@ impl LawReader<'_, '_> {
             return None;
         }
         let (points, levers) = with_boxes(touching);
-        let meeting = self.meeting(carrier, &points, &levers);
+        let meeting = self.meeting(opposite, &points, &levers);
         let chosen = match &contact.stiffness {
             Some(_) => None,
-            None => match self.chosen_stiffness(&meeting, (carrier, surface), &points) {
+            None => match self.chosen_stiffness(&meeting, opposite, &points) {
                 Ok(chosen) => Some(chosen),
                 Err(hint) => return report.error_with(owner.span, format!("{} needs `stiffness`", owner.what), hint),
             },
@@ -127,26 +138,31 @@ impl LawReader<'_, '_> {
     }
 
     /// The smallest dimension of bodies that touch and of what is touched.
-    pub fn size(&self, surface: (usize, &Surface), touching: (&[ContactPoint], &[TouchingBox])) -> f64 {
+    pub fn size(&self, opposite: Opposite, touching: (&[ContactPoint], &[TouchingBox])) -> f64 {
         let (points, _) = with_boxes(touching);
-        self.meets(surface, &points).size_of_bodies()
+        self.meets(opposite, &points).size_of_bodies()
     }
 
-    fn meets<'a>(&'a self, surface: (usize, &'a Surface), points: &'a [ContactPoint]) -> Meets<'a, 'a> {
-        Meets { scene: self.scene, topology: self.topology, gravity: self.gravity.norm(), surface, points }
+    fn meets<'a>(&'a self, opposite: Opposite<'a>, points: &'a [ContactPoint]) -> Meets<'a, 'a> {
+        Meets { scene: self.scene, topology: self.topology, gravity: self.gravity.norm(), opposite, points }
     }
 
     /// The penetration under gravity, where the largest mass in contact rests on one point.
-    pub fn depth_at_rest(&self, carrier: usize, touching: (&[ContactPoint], &[TouchingBox]), stiffness: f64) -> f64 {
+    pub fn depth_at_rest(
+        &self,
+        opposite: Opposite,
+        touching: (&[ContactPoint], &[TouchingBox]),
+        stiffness: f64,
+    ) -> f64 {
         let (points, levers) = with_boxes(touching);
-        self.gravity.norm() * self.meeting(carrier, &points, &levers).mean / stiffness
+        self.gravity.norm() * self.meeting(opposite, &points, &levers).mean / stiffness
     }
 
     /// The stiffness by what touches, or why none can be chosen.
     fn chosen_stiffness(
         &self,
         meeting: &Meeting,
-        surface: (usize, &Surface),
+        opposite: Opposite,
         points: &[ContactPoint],
     ) -> Result<ChosenStiffness, &'static str> {
         if !self.scene.analysis.has_inertia() {
@@ -157,7 +173,7 @@ impl LawReader<'_, '_> {
         if meeting.mean <= 0.0 {
             return Err("nothing that touches has a mass to choose it by");
         }
-        Ok(self.meets(surface, points).stiffness(meeting.mean))
+        Ok(self.meets(opposite, points).stiffness(meeting.mean))
     }
 
     /// The mass that resists a motion of a node. Dependent nodes have that of what they depend on.
@@ -167,21 +183,38 @@ impl LawReader<'_, '_> {
         if restrained { f64::INFINITY } else { self.at_nodes.get(root).copied().unwrap_or(0.0) }
     }
 
-    fn meeting(&self, carrier: usize, points: &[ContactPoint], levers: &[f64]) -> Meeting {
-        let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
-        let other = if on_ground { f64::INFINITY } else { self.mass(carrier) };
-        let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, true);
+    fn meeting(&self, opposite: Opposite, points: &[ContactPoint], levers: &[f64]) -> Meeting {
+        let Other { mass: other, least: least_other, rigid: other_is_rigid } = self.other(opposite);
+        let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, other_is_rigid);
         for (point, &lever) in points.iter().zip(levers) {
             let own: f64 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w.abs() * self.mass(node)).sum();
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
             let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
             rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
             // More than the node's own mass takes part in an impact of a body on a deformable part.
-            let taken = if is_body || !other.is_finite() { reduced } else { (own * other).sqrt() };
+            let taken = if is_body == other_is_rigid || !other.is_finite() { reduced } else { (own * other).sqrt() };
             mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
+            let reduced = 1.0 / (1.0 / own + 1.0 / least_other);
             least = if reduced > 0.0 { least.min(1.0 / (1.0 / reduced + self.ease(point, lever))) } else { least };
         }
         Meeting { mean, least, rigid }
+    }
+
+    /// What the points meet, as a mass.
+    fn other(&self, opposite: Opposite) -> Other {
+        let Opposite::Facets(_) = opposite else {
+            let carrier = opposite.node();
+            let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
+            let mass = if on_ground { f64::INFINITY } else { self.mass(carrier) };
+            return Other { mass, least: mass, rigid: true };
+        };
+        let nodes = opposite.nodes();
+        let masses = || nodes.iter().map(|&node| self.mass(node));
+        let rigid = nodes.iter().all(|&node| {
+            let root = self.topology.root(node);
+            self.is_lump(root) || self.is_weighted(root)
+        });
+        Other { mass: masses().fold(0.0, f64::max), least: masses().fold(f64::INFINITY, f64::min), rigid }
     }
 
     /// True where point masses are more than half of the mass at a node.

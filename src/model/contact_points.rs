@@ -211,7 +211,14 @@ impl<'d> Finder<'_, 'd> {
         self.sight.openings.push(Opening { width, radius, divides: between.is_some() });
     }
 
-    fn contact_radius(&self, part: PartIndex) -> f64 {
+    /// Nodes as points of this radius.
+    pub fn points_at(&self, nodes: &[usize], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
+        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        nodes.iter().map(|&node| self.contact_point(Touch::node(node, radius), Some(radius), friction)).collect()
+    }
+
+    /// Half the thickness of a part, or another distance from its nodes at which it is in contact.
+    pub fn contact_radius(&self, part: PartIndex) -> f64 {
         self.scene.parts.entry(part).map_or(0.0, |entry| entry.contact_radius)
     }
 

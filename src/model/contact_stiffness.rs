@@ -1,10 +1,11 @@
 //! The penalty stiffness where the deck leaves it open: by the material and size of what touches, by weight and by speed. It does
 //! not depend on the time step, so that results converge with it.
 
+use super::contact_opposite::Opposite;
 use super::nodes::Topology;
 use super::scene::Scene;
 use super::values::vec3;
-use crate::elements::contact::{ContactPoint, Surface};
+use crate::elements::contact::ContactPoint;
 use crate::math::Vec3;
 use crate::names::short;
 use std::collections::HashSet;
@@ -32,8 +33,8 @@ pub(super) struct Meets<'a, 'd> {
     pub topology: &'a Topology,
     /// The magnitude of gravity.
     pub gravity: f64,
-    /// The node that carries the surface, and the surface.
-    pub surface: (usize, &'a Surface),
+    /// What the points meet.
+    pub opposite: Opposite<'a>,
     /// The points.
     pub points: &'a [ContactPoint],
 }
@@ -72,7 +73,10 @@ impl Meets<'_, '_> {
 
     /// The least stiffness of the deformable parts that touch, by their names.
     fn softest_part(&self) -> Option<(f64, &str)> {
-        let touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();
+        let mut touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();
+        if let Opposite::Facets(_) = self.opposite {
+            touching.extend(self.opposite.nodes());
+        }
         let parts = self.scene.parts.list.iter().filter(|part| {
             (0..part.elements()).flat_map(|element| part.nodes(element)).any(|node| touching.contains(node))
         });
@@ -111,7 +115,7 @@ impl Meets<'_, '_> {
             _ => body(point).unwrap_or(f64::INFINITY),
         };
         let points = self.points.iter().filter(|point| counts(point)).map(of_point).fold(f64::INFINITY, f64::min);
-        let size = points.min(self.surface.1.least());
+        let size = points.min(self.opposite.least());
         if size.is_finite() { size } else { self.extent() }
     }
 
@@ -124,20 +128,19 @@ impl Meets<'_, '_> {
 
     /// The speed of the impact to come, as far as the deck says: velocities at t = 0, and the fall through the gap.
     fn speed(&self) -> f64 {
-        let (carrier, surface) = self.surface;
-        let center = self.topology.x(carrier);
+        let carrier = self.opposite.node();
         let velocity = |x: &Vec3, node: usize| {
             let root = &self.topology.list[self.topology.root(node)];
             root.v + root.omega.cross(&(x - root.x))
         };
-        let (mut fastest, mut gap) = (0.0f64, f64::INFINITY);
+        let mut fastest = 0.0f64;
         for point in self.points {
             let parts = || point.nodes().iter().zip(point.weights);
             let x: Vec3 = parts().map(|(&node, w)| w * self.topology.x(node)).sum();
             let v: Vec3 = parts().map(|(&node, w)| w * velocity(&x, node)).sum();
             fastest = fastest.max((v - velocity(&x, carrier)).norm());
-            gap = gap.min(surface.distance(&(x - center)) - point.radius);
         }
+        let gap = self.opposite.gap(self.points, self.topology);
         let fall = if gap.is_finite() { 2.0 * self.gravity * gap.max(0.0) } else { 0.0 };
         let thrown = fastest + self.given_speed();
         (thrown * thrown + fall).sqrt()

@@ -1,9 +1,11 @@
 //! `[[contacts]]`: surfaces, the points that touch them, and what acts there.
 
+use super::contact_faces::{is_of_facets, read_facets};
 use super::contact_law::LawReader;
+use super::contact_opposite::Opposite;
 use super::contact_points::Finder;
 use super::contact_surface::read_surface;
-use super::data::{Contact, Mass};
+use super::data::{CarriedSurface, Contact, Mass, TouchedSurface};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -12,7 +14,7 @@ use super::values::span;
 use crate::deck::contacts as words;
 use crate::elements::contact::boxes::BoxPose;
 use crate::elements::contact::restitution;
-use crate::elements::contact::{ContactPoint, Surface, TouchingBox};
+use crate::elements::contact::{ContactPoint, FacetTouchers, Surface, TouchingBox};
 use crate::math::Vec3;
 use crate::names::short;
 
@@ -34,6 +36,11 @@ pub(super) fn contacts<'d>(
         let name = contact.name.as_ref().map_or_else(|| format!("contacts.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("contact `{name}`"), &contact.span);
         report.require(&owner, "name", &contact.name);
+        if is_of_facets(contact) {
+            let setting = LawSetting { scene, masses, at_nodes: &at_nodes, gravity };
+            contacts.extend(of_facets(&setting, &owner, &name, contact, topology, report));
+            continue;
+        }
         let surface = report.require(&owner, "surface", &contact.surface);
         let surface = surface.and_then(|table| read_surface(&name, table, scene, topology, report));
         let carrier = surface.as_ref().map(|(node, _)| *node);
@@ -46,20 +53,66 @@ pub(super) fn contacts<'d>(
         sight.check(&owner, contact.points.as_ref().map(|at| at.value), &surface, report);
         let (mut law, mut chosen) = (None, None);
         let chooser = LawReader { scene, masses, at_nodes: &at_nodes, gravity, topology: &*topology };
-        let size = chooser.size((node, &surface), (&points, &boxes));
+        let opposite = Opposite::Shape(node, &surface);
+        let size = chooser.size(opposite, (&points, &boxes));
         if !is_zone {
-            let found = chooser.contact_law(&owner, contact, (node, &surface), (&points, &boxes), report);
+            let found = chooser.contact_law(&owner, contact, opposite, (&points, &boxes), report);
             let Some((found, reason)) = found else { continue };
-            let at_rest = chooser.depth_at_rest(node, (&points, &boxes), found.stiffness);
+            let at_rest = chooser.depth_at_rest(opposite, (&points, &boxes), found.stiffness);
             topology.connect(node, true);
             points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
             boxes.iter().for_each(|one| topology.connect(one.node, true));
             check_start(&owner, (node, &surface), (&points, &boxes), at_rest, topology, report);
             (law, chosen) = (Some(found), reason);
         }
-        contacts.push(Contact { name, node, surface, points, boxes, touchers: sight.touchers, law, size, chosen });
+        let surface = TouchedSurface::Shape(CarriedSurface { node, surface });
+        contacts.push(Contact { name, surface, points, boxes, touchers: sight.touchers, law, size, chosen });
     }
     contacts
+}
+
+/// What the laws of all contacts depend on.
+struct LawSetting<'a, 'd> {
+    scene: &'a Scene<'d>,
+    masses: &'a [Mass],
+    at_nodes: &'a [f64],
+    gravity: Vec3,
+}
+
+/// A contact of faces, or of balls among themselves.
+fn of_facets<'d>(
+    setting: &LawSetting<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) -> Option<Contact> {
+    let &LawSetting { scene, masses, at_nodes, gravity } = setting;
+    let mut finder = Finder { scene, topology, report, on_box: None, boxes: Vec::new(), sight: Sight::default() };
+    let found = read_facets(&mut finder, owner, name, contact);
+    let is_zone = is_zone(owner, contact, report);
+    let (mut found, is_zone) = (found?, is_zone?);
+    let TouchedSurface::Facets(faces) = &found.surface else { return None };
+    let least = faces.facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
+    let radius = found.points.iter().map(|point| point.radius).fold(f64::INFINITY, f64::min);
+    // A sheet is pressed in by its reach before anything comes through: half of that is seen to be deep.
+    found.size = 10.0 * (least + radius);
+    if is_zone {
+        return Some(found);
+    }
+    let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
+    let (opposite, touching) = (Opposite::Facets(&faces.facets), (&found.points[..], &found.boxes[..]));
+    let (law, reason) = chooser.contact_law(owner, contact, opposite, touching, report)?;
+    let at_rest = chooser.depth_at_rest(opposite, touching, law.stiffness);
+    if faces.touchers != FacetTouchers::Itself {
+        warn_closed(owner, opposite.gap(&found.points, topology), topology.x(opposite.node()).norm(), at_rest, report);
+    }
+    opposite.nodes().into_iter().for_each(|node| topology.connect(node, true));
+    found.points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
+    faces.boxes.iter().for_each(|carried| topology.connect(carried.node, true));
+    (found.law, found.chosen) = (Some(law), reason);
+    Some(found)
 }
 
 /// The mass at each node, and at what it depends on.
@@ -129,6 +182,11 @@ fn check_start(
     let least = points.iter().map(gap).chain(boxes.iter().map(of_box)).fold(f64::INFINITY, f64::min);
     let nodes = points.iter().map(|point| point.nodes[0]).chain(boxes.iter().map(|one| one.node));
     let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);
+    warn_closed(owner, least, size, at_rest, report);
+}
+
+/// Warns where the least gap at t = 0 is deeper than weight holds things; `size` is that of coordinates.
+fn warn_closed(owner: &Owner, least: f64, size: f64, at_rest: f64, report: &mut Report) {
     // Decks have some digits only.
     if least < -1e-6 * size && -least > 1.001 * at_rest {
         let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));

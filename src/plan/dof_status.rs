@@ -87,6 +87,12 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
             }
         }
     }
+    for group in &system.groups {
+        let (nodes, turns) = group.block.further_nodes();
+        for &node in nodes {
+            acts[node][..if turns { 6 } else { 3 }].fill(true);
+        }
+    }
     for damping in system.nodal_damping() {
         for dof in 0..6 {
             acts[damping.node][dof] |= if dof < 3 { damping.translation > 0.0 } else { damping.rotation > 0.0 };

@@ -10,6 +10,7 @@ mod savings;
 mod sideways;
 mod unreachable_targets;
 
+use crate::elements::Partners;
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{AnalysisKind, Model};
 use crate::system::assembly::{self, Assembly};
@@ -109,6 +110,16 @@ impl Plan {
         Ok((solver, assembly))
     }
 
+    /// The same with room for pairs of elements that wander.
+    ///
+    /// # Errors
+    /// As for [`Plan::build`].
+    pub fn build_with(&self, system: &System, partners: &[(usize, Partners)]) -> Result<(Solver, Assembly), TooLarge> {
+        let solver = Solver::new(&structure_with(system, &self.dofs, partners), self.kind, self.threads)?;
+        let assembly = Assembly::with_room(system, &self.dofs, &solver, self.threads, partners);
+        Ok((solver, assembly))
+    }
+
     /// The plan with degrees of freedom that supports prescribe, given by node and direction, among the unknowns: in its matrices they have
     /// columns, which are forces of their motion.
     pub fn with_prescribed(&self, system: &System, prescribed: &[(usize, usize)]) -> Plan {
@@ -132,8 +143,13 @@ impl Plan {
 
 /// The structure of the matrix: groups of unknowns, one for each node and each joint that has any, and their couplings.
 fn structure(system: &System, dofs: &DofMap) -> Structure {
+    structure_with(system, dofs, &[])
+}
+
+/// The same with room for pairs of elements that wander.
+fn structure_with(system: &System, dofs: &DofMap, partners: &[(usize, Partners)]) -> Structure {
     let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
-    grouped(&sizes, assembly::connectivity(system, sizes.len()), system.joints.len())
+    grouped(&sizes, assembly::connectivity(system, sizes.len(), partners), system.joints.len())
 }
 
 /// The structure from the number of unknowns of each node, of which the last `multipliers` stand for joints, and from

@@ -35,7 +35,7 @@ impl Plan {
         ];
         for (why, what) in kept {
             let sizes = self.sizes_with(why);
-            compare(what, &grouped(&sizes, connectivity(system, sizes.len()), system.joints.len()));
+            compare(what, &grouped(&sizes, connectivity(system, sizes.len(), &[]), system.joints.len()));
         }
         if !system.rigid_links.is_empty() {
             compare("Lagrange multipliers of dependent nodes", &self.with_multipliers(system));

@@ -1,7 +1,10 @@
 //! A matrix with its factorization, and the one protocol by which systems with joints are solved.
 
+use super::context::Context;
+use crate::elements::Partners;
 use crate::linear::Solver;
-use crate::snapshot::keep;
+use crate::snapshot::{Keep, Snapshot, keep};
+use crate::state::Configuration;
 use crate::system::Multipliers;
 use crate::system::assembly::Assembly;
 
@@ -11,11 +14,53 @@ pub struct LinearSystem {
     pub solver: Solver,
     /// The slots of the matrices of elements and nodes.
     pub assembly: Assembly,
+    /// True where the matrix may not be positive definite.
+    pub is_indefinite: bool,
 }
 
-keep!(LinearSystem { solver } without { assembly });
+keep!(LinearSystem { solver } without { assembly, is_indefinite });
 
 impl LinearSystem {
+    /// A matrix that is taken for positive definite.
+    pub fn new(solver: Solver, assembly: Assembly) -> LinearSystem {
+        LinearSystem { solver, assembly, is_indefinite: false }
+    }
+
+    /// Makes the structure anew where pairs of elements act for which the matrix has no room: those that may act soon have room then.
+    /// Without memory for that it stays, and what it has no room for is left out of it, not of the forces.
+    pub fn make_room(&mut self, cx: &Context, now: &Configuration) {
+        if !self.assembly.has_room(cx.system, now) {
+            self.rebuild(cx, &cx.system.partners(now.nodes));
+        }
+    }
+
+    /// Keeps the pairs for which the matrix has room, before all else: by them it is built anew.
+    pub fn keep_room(&mut self, cx: &Context, snapshot: &mut Snapshot) {
+        if cx.system.wandering_groups().next().is_none() || cx.plan.explicit {
+            return;
+        }
+        let mut partners = self.assembly.partners();
+        partners.keep(snapshot);
+        if snapshot.gives() {
+            self.rebuild(cx, &partners);
+        }
+    }
+
+    fn rebuild(&mut self, cx: &Context, partners: &[(usize, Partners)]) {
+        if let Ok((mut solver, assembly)) = cx.plan.build_with(cx.system, partners) {
+            if self.is_indefinite {
+                solver.expect_indefinite();
+            }
+            (self.solver, self.assembly) = (solver, assembly);
+        }
+    }
+
+    /// Prepares for a matrix that is not positive definite.
+    pub fn expect_indefinite(&mut self) {
+        self.is_indefinite = true;
+        self.solver.expect_indefinite();
+    }
+
     /// Solves for nodal unknowns and multipliers together. `rhs` holds the forces on the nodal unknowns and becomes the
     /// correction. Its last entries, those of the multipliers, are written from the gaps and become δλ/s, ready for
     /// [`Multipliers::add`].

@@ -90,22 +90,12 @@ impl March<'_, '_> {
 
     /// Keeps what comes behind the search and the recorder, or takes it back.
     pub fn keep_rest(&mut self, controller: &mut dyn Keep, snapshot: &mut Snapshot) {
-        let March {
-            ws,
-            state,
-            observer,
-            samples,
-            stop_watch,
-            place,
-            cx: _,
-            recorder: _,
-            stop: _,
-            resumes: _,
-            search: _,
-        } = self;
+        let March { ws, state, observer, samples, stop_watch, place, cx, recorder: _, stop: _, resumes: _, search: _ } =
+            self;
         place.keep(snapshot);
         samples.keep(snapshot);
         stop_watch.iter_mut().for_each(|watch| watch.keep(snapshot));
+        ws.matrix.keep_room(cx, snapshot);
         ws.keep(snapshot);
         state.keep(snapshot);
         controller.keep(snapshot);

@@ -85,7 +85,7 @@ impl ConstraintProjection {
             r: vec![0.0; plan.dofs.unknowns()],
             change: ForceChange { multipliers: vec![0.0; bare.multipliers()], reactions: Vec::new() },
             bare,
-            matrix: LinearSystem { solver, assembly },
+            matrix: LinearSystem::new(solver, assembly),
         })
     }
 
@@ -121,7 +121,7 @@ impl ConstraintProjection {
     fn factor(&mut self, nodes: &[Node]) -> bool {
         let weights =
             TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
-        let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly }, forces, loading, .. } = self;
+        let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly, .. }, forces, loading, .. } = self;
         assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
         let values = solver.values();
         let mut largest = [0.0f64; 2];

@@ -100,7 +100,7 @@ impl Workspace {
             prescribed: AtTimes::default(),
             reach: cx.length,
             load_steps: LoadSteps::default(),
-            matrix: LinearSystem { solver, assembly },
+            matrix: LinearSystem::new(solver, assembly),
             factorizations: 0,
             solves: 0,
             rotation_drift: 0.0,

@@ -10,7 +10,7 @@ use super::group::Group;
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
 use super::tangent_weights::TangentWeights;
-use crate::elements::ElementBlock;
+use crate::elements::{ElementBlock, Partners};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
 use crate::state::{Configuration, Node};
@@ -23,6 +23,8 @@ const CHUNK: usize = 256;
 pub struct Assembly {
     /// Destinations of the elements, by group.
     groups: Vec<Vec<Destination>>,
+    /// Pairs of the groups whose elements wander, in the order of those.
+    wanderers: Vec<WanderingPairs>,
     /// Destinations of the matrices of nodes: inertia, nodal damping, follower loads, arms of dependent nodes.
     nodes: Vec<(usize, Destination)>,
     masses: Vec<Destination>,
@@ -39,6 +41,13 @@ pub struct Assembly {
     /// True where [`Configuration::lead`] holds the nodes whose stresses act: see [`Assembly::stressed`].
     of_stresses: bool,
     scratch: Scratch,
+}
+
+/// The pairs of a group for which the matrix has room.
+struct WanderingPairs {
+    group: usize,
+    partners: Partners,
+    destinations: Vec<Destination>,
 }
 
 /// The destination of a local matrix.
@@ -116,6 +125,12 @@ impl<'a> Destinations<'a> {
     /// The destination of a matrix with `d` degrees of freedom a node, row-major.
     fn local(&mut self, of: &[usize], d: usize) -> Destination {
         self.square(of, d, |k, size| (k / size, k % size))
+    }
+
+    /// The destinations of pairs of a group of elements that wander.
+    fn pairs(&mut self, group: usize, partners: &Partners) -> WanderingPairs {
+        let destinations = (0..partners.pairs.len()).map(|pair| self.local(partners.nodes(pair), 6)).collect();
+        WanderingPairs { group, partners: partners.clone(), destinations }
     }
 
     /// The destination of a matrix whose k-th entry, of so many rows, stands where `place` says.
@@ -214,9 +229,21 @@ struct Scratch {
 }
 
 /// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by
-/// their independent nodes. `nodes` counts the joints too: their multipliers are nodes after all others.
-pub fn connectivity(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    coupled(system, nodes, &independent_nodes(&system.rigid_links, nodes))
+/// their independent nodes. `nodes` counts the joints too: their multipliers are nodes after all others;
+/// `partners` are pairs of elements that wander.
+pub fn connectivity(system: &System, nodes: usize, partners: &[(usize, Partners)]) -> Vec<Vec<usize>> {
+    let independent = independent_nodes(&system.rigid_links, nodes);
+    let mut connectivity = coupled(system, nodes, &independent);
+    for (_, partners) in partners {
+        for pair in 0..partners.pairs.len() {
+            let mut all: Vec<usize> =
+                partners.nodes(pair).iter().flat_map(|&n| independent[n].iter().copied()).collect();
+            all.sort_unstable();
+            all.dedup();
+            connectivity.push(all);
+        }
+    }
+    connectivity
 }
 
 /// The connectivity with multipliers in place of elimination: every dependent node moves by itself, tied to its master
@@ -253,6 +280,17 @@ fn coupled(system: &System, nodes: usize, independent_nodes: &[Vec<usize>]) -> V
 impl Assembly {
     /// Finds the destinations of all matrices.
     pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
+        Self::with_room(system, dofs, solver, threads, &[])
+    }
+
+    /// The same with room for pairs of elements that wander, by the groups of those.
+    pub fn with_room(
+        system: &System,
+        dofs: &DofMap,
+        solver: &Solver,
+        threads: usize,
+        partners: &[(usize, Partners)],
+    ) -> Self {
         let nodes = dofs.each().len();
         let followers = Followers::new(&system.rigid_links, nodes);
         let mut find = Destinations::new(dofs, solver, &followers);
@@ -261,6 +299,7 @@ impl Assembly {
             (0..block.len()).map(|e| find.local(block.nodes(e), d)).collect()
         };
         let groups: Vec<Vec<Destination>> = system.groups.iter().map(group).collect();
+        let wanderers = partners.iter().map(|(group, partners)| find.pairs(*group, partners)).collect();
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
         let faces: Vec<Destination> = faces.map(|face| find.local(face.nodes(), 3)).collect();
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
@@ -276,9 +315,11 @@ impl Assembly {
         let Destinations { scatter, blocks, arms, most, .. } = find;
         let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
         let masses = system.consistent_masses().iter().map(|m| 9 * m.m.len());
-        let local = system.groups.iter().map(|g| size(&*g.block)).chain(masses).max().unwrap_or(0);
+        let pairs = partners.iter().map(|(_, partners)| (6 * partners.most_nodes()).pow(2));
+        let local = system.groups.iter().map(|g| size(&*g.block)).chain(masses).chain(pairs).max().unwrap_or(0);
         Assembly {
             groups,
+            wanderers,
             nodes: own,
             masses: of_masses,
             faces,
@@ -367,6 +408,7 @@ impl Assembly {
         update_projections(&system.rigid_links, nodes, &mut self.scratch.projections);
         if weights.stiffness {
             self.add_elements(system, now, weights, values);
+            self.add_wanderers(system, now, weights.rate, values);
             self.add_pressures(system, nodes, loading, values);
         }
         self.form_nodes(system, nodes, loading, forces, weights);
@@ -408,6 +450,33 @@ impl Assembly {
                 }
             }
         }
+    }
+
+    fn add_wanderers(&mut self, system: &System, now: &Configuration, rate: f64, values: &mut [f64]) {
+        let Scratch { local, projections, projected, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+        for WanderingPairs { group, partners, destinations } in &self.wanderers {
+            let group = &system.groups[*group];
+            let Some(block) = group.block.wandering() else { continue };
+            block.pair_tangents(partners, &group.configuration(now), rate, local, &mut |pair, K: &mut [f64]| {
+                how.add((K, 6 * partners.nodes(pair).len()), &destinations[pair], projected, values);
+            });
+        }
+    }
+
+    /// True where the matrix has room for all pairs of wandering elements that act.
+    pub fn has_room(&self, system: &System, now: &Configuration) -> bool {
+        let mut wanderers = self.wanderers.iter();
+        system.wandering_groups().all(|(number, group, block)| {
+            let own = wanderers.next().filter(|own| own.group == number);
+            let none = Partners::default();
+            block.has_room(own.map_or(&none, |own| &own.partners), &group.configuration(now))
+        })
+    }
+
+    /// The pairs for which the matrix has room, by their groups.
+    pub fn partners(&self) -> Vec<(usize, Partners)> {
+        self.wanderers.iter().map(|own| (own.group, own.partners.clone())).collect()
     }
 
     fn add_pressures(&mut self, system: &System, nodes: &[Node], loading: &Loading, values: &mut [f64]) {

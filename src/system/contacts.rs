@@ -2,9 +2,10 @@
 
 use super::equations::System;
 use super::group::Group;
-use crate::elements::contact::{self, BoxPairs, Contacts, Resultant};
+use crate::elements::contact::{self, BoxPairs, Contacts, FacetContacts, Resultant};
+use crate::elements::{Partners, Wandering};
 use crate::math::Vec3;
-use crate::model::{Contact, Model, PartType};
+use crate::model::{CarriedSurface, Contact, Model, PartType, TouchedSurface};
 use crate::state::{Configuration, Node, State};
 
 /// The state of a contact at the end of a step.
@@ -25,6 +26,7 @@ pub struct ContactState {
 enum ContactBlock<'a> {
     Points(&'a Contacts),
     Boxes(&'a BoxPairs),
+    Facets(&'a FacetContacts),
 }
 
 impl ContactBlock<'_> {
@@ -32,6 +34,7 @@ impl ContactBlock<'_> {
         match self {
             ContactBlock::Points(block) => contact::longest_step(block, history),
             ContactBlock::Boxes(block) => contact::boxes::longest_pair_step(block, history),
+            ContactBlock::Facets(block) => contact::facets::longest_facet_step(block, history),
         }
     }
 
@@ -39,6 +42,7 @@ impl ContactBlock<'_> {
         match self {
             ContactBlock::Points(block) => contact::misses(block, start, now),
             ContactBlock::Boxes(block) => contact::boxes::misses_pair(block, start, now),
+            ContactBlock::Facets(block) => contact::facets::misses_facet(block, start, now),
         }
     }
 
@@ -46,6 +50,7 @@ impl ContactBlock<'_> {
         match self {
             ContactBlock::Points(block) => contact::last_gap(block, history),
             ContactBlock::Boxes(block) => contact::last_pair_gap(block, history),
+            ContactBlock::Facets(block) => contact::facets::last_facet_gap(block, history),
         }
     }
 
@@ -53,6 +58,7 @@ impl ContactBlock<'_> {
         match self {
             ContactBlock::Points(block) => contact::resultant(block, now),
             ContactBlock::Boxes(block) => contact::pair_resultant(block, now),
+            ContactBlock::Facets(block) => contact::facets::facet_resultant(block, now),
         }
     }
 }
@@ -61,6 +67,17 @@ impl System {
     /// True where the scene has contacts.
     pub fn has_contacts(&self) -> bool {
         self.contacts < self.groups.len()
+    }
+
+    /// The groups whose elements wander, with their numbers.
+    pub fn wandering_groups(&self) -> impl Iterator<Item = (usize, &Group, &dyn Wandering)> {
+        let contacts = self.groups.iter().enumerate().skip(self.contacts);
+        contacts.filter_map(|(number, group)| Some((number, group, group.block.wandering()?)))
+    }
+
+    /// The pairs of elements that may act soon where the nodes lie thus, by their groups.
+    pub fn partners(&self, nodes: &[Node]) -> Vec<(usize, Partners)> {
+        self.wandering_groups().map(|(number, _, block)| (number, block.partners(nodes))).collect()
     }
 
     /// True where any material has history variables.
@@ -72,7 +89,9 @@ impl System {
         self.groups[self.contacts..].iter().filter_map(|group| {
             let any = group.block.as_any()?;
             let points = any.downcast_ref().map(ContactBlock::Points);
-            Some((group, points.or_else(|| any.downcast_ref().map(ContactBlock::Boxes))?))
+            let boxes = || any.downcast_ref().map(ContactBlock::Boxes);
+            let facets = || any.downcast_ref().map(ContactBlock::Facets);
+            Some((group, points.or_else(boxes).or_else(facets)?))
         })
     }
 
@@ -107,16 +126,43 @@ impl System {
         out.clear();
         let contacts = model.parts.iter().enumerate().filter_map(|(place, part)| Some((place, Contact::of(part)?)));
         for (place, contact) in contacts {
-            let of_points = contact::least_gap(&contact.surface, contact.node, &contact.points, now.nodes);
-            let gap = of_points.min(contact::pair_gap(&contact.surface, contact.node, &contact.boxes, now.nodes));
+            let own = || self.contact_groups().filter(move |(group, _)| group.part == place);
+            let gap = least_gap(contact, own().map(|(_, block)| block), now.nodes);
             let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
-            for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
+            for (group, block) in own() {
                 let sum = block.resultant(&group.configuration(now));
                 state.touching += sum.touching;
                 state.f += sum.f;
                 state.m += sum.m;
             }
             out.push(state);
+        }
+    }
+}
+
+/// Least gap of all that touches in a contact, `blocks` being its own.
+fn least_gap<'a>(contact: &Contact, blocks: impl Iterator<Item = ContactBlock<'a>>, nodes: &[Node]) -> f64 {
+    let points = &contact.points;
+    match &contact.surface {
+        TouchedSurface::Shape(carried) => {
+            let of_points = contact::least_gap(&carried.surface, carried.node, points, nodes);
+            of_points.min(contact::pair_gap(&carried.surface, carried.node, &contact.boxes, nodes))
+        }
+        TouchedSurface::Facets(faces) => {
+            let of = |block: ContactBlock| match block {
+                ContactBlock::Facets(block) => contact::facets::least_facet_gap(block, nodes),
+                ContactBlock::Points(_) | ContactBlock::Boxes(_) => f64::INFINITY,
+            };
+            let gap = match contact.law {
+                Some(_) => blocks.map(of).fold(f64::INFINITY, f64::min),
+                None => {
+                    let may_touch = |e: usize, facet: usize| !contact::facets::is_own(&points[e], &faces.facets[facet]);
+                    contact::facets::facet_gap(&faces.facets, points, &may_touch, nodes, &mut Vec::new())
+                }
+            };
+            let of_box =
+                |carried: &CarriedSurface| contact::least_gap(&carried.surface, carried.node, &faces.back, nodes);
+            faces.boxes.iter().map(of_box).fold(gap, f64::min)
         }
     }
 }

@@ -105,8 +105,9 @@ fn explicit_steps_allocate_nothing_either() {
         include_str!("../../decks/four_bar/deck.toml"),
         include_str!("../../decks/bouncing_ball/deck.toml"),
         include_str!("../../decks/flying_beam/deck.toml"),
+        include_str!("../../decks/colliding_balls/deck.toml"),
     ];
-    for (deck, end) in decks.into_iter().zip([0.5, 0.5, 0.06, 0.4]) {
+    for (deck, end) in decks.into_iter().zip([0.5, 0.5, 0.06, 0.4, 0.02]) {
         for scheme in ["central-difference", "runge-kutta"] {
             let source = Source::new("deck.toml", deck, &[format!("integrator={{scheme=\"{scheme}\"}}")]);
             let mut model = rdsolve::model::read(&source).0.expect("a sound deck");

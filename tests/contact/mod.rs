@@ -1,9 +1,12 @@
 //! Unilateral contact against closed forms.
 
+mod balls;
 mod boxes;
 mod depth;
 mod edges;
 mod element;
+mod faces;
+mod faces_alone;
 mod impact;
 mod rubbing;
 mod sight;

@@ -98,12 +98,14 @@ pub fn model() -> Model {
             }),
             Part::Contact(Contact {
                 name: "seat".into(),
-                node: 0,
-                surface: Surface {
-                    center: Vec3::zeros(),
-                    axes: Mat3::identity(),
-                    shape: contact::SurfaceShape::Plane(contact::surfaces::Plane),
-                },
+                surface: TouchedSurface::Shape(CarriedSurface {
+                    node: 0,
+                    surface: Surface {
+                        center: Vec3::zeros(),
+                        axes: Mat3::identity(),
+                        shape: contact::SurfaceShape::Plane(contact::surfaces::Plane),
+                    },
+                }),
                 points: vec![],
                 law: None,
                 chosen: None,

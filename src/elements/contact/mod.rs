@@ -16,10 +16,11 @@
 //! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
 //! keep what a point remembers of the way it came; `block` is what the equations see; `steps` bounds the steps; `resultant`
-//! sums what is shown. `boxes` are what two boxes do to each other.
+//! sums what is shown. `boxes` are what two boxes do to each other, `facets` what shells and balls do to all that touches them.
 
 mod block;
 pub mod boxes;
+pub mod facets;
 mod force;
 pub mod friction;
 mod history;
@@ -36,6 +37,7 @@ mod tangent;
 mod update;
 
 pub use boxes::{BoxPairs, TouchingBox};
+pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
 pub use point::{ContactPoint, MOST_NODES};

@@ -1,7 +1,7 @@
 //! Contacts: points against a surface.
 
 use super::part_answers::PartAnswers;
-use crate::elements::contact::{ContactLaw, ContactPoint, Surface, Toucher, TouchingBox};
+use crate::elements::contact::{ContactLaw, ContactPoint, Facet, FacetTouchers, Surface, Toucher, TouchingBox};
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column};
 use std::collections::BTreeSet;
 
@@ -10,10 +10,8 @@ use std::collections::BTreeSet;
 pub struct Contact {
     /// The deck's name.
     pub name: String,
-    /// The node that carries the surface: a body's, or a restrained one for the ground.
-    pub node: usize,
-    /// The surface, in the frame of that node.
-    pub surface: Surface,
+    /// The surface that is touched.
+    pub surface: TouchedSurface,
     /// The points.
     pub points: Vec<ContactPoint>,
     /// Boxes that touch the surface, which is a box then, with their corners, edges and faces.
@@ -28,10 +26,47 @@ pub struct Contact {
     pub chosen: Option<String>,
 }
 
+/// What points touch.
+#[derive(Debug, Clone)]
+pub enum TouchedSurface {
+    /// A shape.
+    Shape(CarriedSurface),
+    /// Faces of a shell, or balls among themselves.
+    Facets(FacetSurface),
+}
+
+/// A shape and the node that carries it: a body's, or a restrained one for the ground.
+#[derive(Debug, Clone)]
+pub struct CarriedSurface {
+    /// The node.
+    pub node: usize,
+    /// The surface, in the frame of that node.
+    pub surface: Surface,
+}
+
+/// A surface of facets.
+#[derive(Debug, Clone)]
+pub struct FacetSurface {
+    /// The deck's name of the part; empty for balls among themselves.
+    pub part: String,
+    /// The facets.
+    pub facets: Vec<Facet>,
+    /// What touches them.
+    pub touchers: FacetTouchers,
+    /// The bodies that are boxes, whose surface the nodes of the facets touch.
+    pub boxes: Vec<CarriedSurface>,
+    /// The nodes of the facets, where there are such bodies.
+    pub back: Vec<ContactPoint>,
+}
+
 impl Contact {
-    /// The node that carries the surface with each node of the points, one pair after the other.
+    /// A node of the surface with each node of the points, one pair after the other.
     pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.points.iter().flat_map(|point| point.nodes()).map(|&node| [self.node, node])
+        let node = match &self.surface {
+            TouchedSurface::Shape(carried) => carried.node,
+            TouchedSurface::Facets(faces) => faces.facets.first().map_or(0, |facet| facet.nodes[0]),
+        };
+        self.points.iter().flat_map(|point| point.nodes()).map(move |&other| [node, other])
     }
 }
 
@@ -54,7 +89,14 @@ impl PartAnswers for Contact {
     }
 
     fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
-        visit(&mut self.node);
+        match &mut self.surface {
+            TouchedSurface::Shape(carried) => visit(&mut carried.node),
+            TouchedSurface::Facets(faces) => {
+                faces.facets.iter_mut().flat_map(|facet| &mut facet.nodes).for_each(&mut *visit);
+                faces.boxes.iter_mut().for_each(|carried| visit(&mut carried.node));
+                faces.back.iter_mut().for_each(|point| visit(&mut point.nodes[0]));
+            }
+        }
         self.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(&mut *visit);
         self.boxes.iter_mut().for_each(|one| visit(&mut one.node));
     }

@@ -32,7 +32,7 @@ pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
 pub use constraints::{Constraints, DependentNode, Joint, JointCoordinate, JointEffort, PrescribedMotion, Restraint};
-pub use contact::Contact;
+pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};

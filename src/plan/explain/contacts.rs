@@ -2,7 +2,8 @@
 
 use super::explanation::Explanation;
 
-use crate::model::{Contact, Model};
+use crate::elements::contact::FacetTouchers;
+use crate::model::{CarriedSurface, Contact, Model, TouchedSurface};
 use crate::names::short;
 use crate::system::System;
 
@@ -10,7 +11,10 @@ use crate::system::System;
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for contact in model.each::<Contact>() {
         text.add("contact", contact_in_words(model, contact));
-        let unseen = contact.touchers.iter().filter_map(|toucher| toucher.unseen(&contact.surface.shape));
+        let unseen = contact.touchers.iter().filter_map(|toucher| match &contact.surface {
+            TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape),
+            TouchedSurface::Facets(_) => toucher.unseen_by_faces(),
+        });
         for what in unseen {
             text.notes.push(format!("contact `{}` does not see {what}", contact.name));
         }
@@ -19,11 +23,7 @@ pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
 
 /// The two sides of a contact and its law.
 fn contact_in_words(model: &Model, contact: &Contact) -> String {
-    let shape = contact.surface.shape.word();
-    let carrier = model.bodies.iter().find(|body| body.node == contact.node);
-    let on = carrier.map_or("the ground".to_string(), |body| format!("body `{}`", body.name));
-    let name = &contact.name;
-    let pair = format!("`{name}`: {} against a {shape} on {on}", touching_in_words(contact));
+    let pair = format!("`{}`: {}", contact.name, sides_in_words(model, contact));
     let Some(law) = &contact.law else { return format!("{pair}; clearance monitor, no force acts") };
     let chosen = contact.chosen.as_ref().map_or(String::new(), |reason| format!(" (chosen: {reason})"));
     let stiffness = format!("penalty stiffness {}{chosen}", short(law.stiffness));
@@ -32,6 +32,30 @@ fn contact_in_words(model: &Model, contact: &Contact) -> String {
             format!("{pair}; {stiffness}; steps during impacts at most {}", short(limit))
         }
         _ => format!("{pair}; {stiffness}"),
+    }
+}
+
+/// What touches what.
+fn sides_in_words(model: &Model, contact: &Contact) -> String {
+    let touching = touching_in_words(contact);
+    let faces = match &contact.surface {
+        TouchedSurface::Facets(faces) => faces,
+        TouchedSurface::Shape(CarriedSurface { node, surface }) => {
+            let carrier = model.bodies.iter().find(|body| body.node == *node);
+            let on = carrier.map_or("the ground".to_string(), |body| format!("body `{}`", body.name));
+            return format!("{touching} against a {} on {on}", surface.shape.word());
+        }
+    };
+    let (count, part) = (faces.facets.len(), &faces.part);
+    let back = match faces.boxes.len() {
+        0 => String::new(),
+        1 => ", and its nodes against a box".to_owned(),
+        boxes => format!(", and its nodes against {boxes} boxes"),
+    };
+    match faces.touchers {
+        FacetTouchers::Others => format!("{touching} against {count} faces of `{part}`{back}"),
+        FacetTouchers::Itself => format!("{touching} of `{part}` against its own {count} faces"),
+        FacetTouchers::Among => format!("{count} balls among themselves"),
     }
 }
 

@@ -461,6 +461,7 @@ impl Newton {
         let (rate, acceleration) = scheme.weights();
         self.mass_weight = acceleration;
         let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: self.lead.nodes() };
+        ws.matrix.make_room(cx, &now);
         let mut moduli = self.refresh.moduli();
         // What lifts off, or goes slack, may leave a mechanism behind.
         let open = if cx.is_dynamic() { 0 } else { mechanism::open_elements(cx.system, &now) };

@@ -53,7 +53,7 @@ impl OutOfPlane {
             history: [vec![0.0; system.history], vec![0.0; system.history]],
             system,
             dofs,
-            matrix: LinearSystem { solver, assembly },
+            matrix: LinearSystem::new(solver, assembly),
         }))
     }
 

@@ -64,7 +64,7 @@ impl Stability {
             counts: !along || criterion == Criterion::Eigenvalues,
             criterion,
             path: along.then_some(Path { grows: true }),
-            own: own.map(|(solver, assembly)| Box::new(LinearSystem { solver, assembly })),
+            own: own.map(|(solver, assembly)| Box::new(LinearSystem::new(solver, assembly))),
             seen: 0,
             sideways: OutOfPlane::new(cx)?.map(Box::new),
         }))
@@ -87,6 +87,7 @@ impl Stability {
         let end = Configuration { nodes: &state.nodes, history, dt: state.time - from, lead: None };
         let own = self.own.is_some();
         let matrix = self.own.as_deref_mut().unwrap_or(matrix);
+        matrix.make_room(cx, &end);
         let mut tangent =
             Tangent { system: cx.system, dofs: &cx.plan.dofs, matrix, forces, springs: &[], criterion: self.criterion };
         // The matrix at hand is that of the last correction but one, whose motion differs by the square of the tolerance.

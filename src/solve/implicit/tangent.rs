@@ -68,7 +68,7 @@ impl Tangent<'_> {
     /// Writes the tangent into the matrix.
     pub fn form(&mut self, now: &Configuration, loads: &Loading) {
         self.system.residual(now, loads, self.forces);
-        let LinearSystem { solver, assembly } = &mut *self.matrix;
+        let LinearSystem { solver, assembly, .. } = &mut *self.matrix;
         assembly.tangent(self.system, now, loads, self.forces, WEIGHTS, solver);
         for &(slot, stiffness) in self.springs {
             solver.values()[slot] += stiffness;

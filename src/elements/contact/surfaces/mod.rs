@@ -38,6 +38,11 @@ macro_rules! surfaces {
                 if let SurfaceShape::Cuboid(cuboid) = self { Some(cuboid.half.into()) } else { None }
             }
 
+            /// A box with half these edges.
+            pub fn of_box(half: Vec3) -> SurfaceShape {
+                SurfaceShape::Cuboid(Cuboid { half: half.into() })
+            }
+
             /// The deck's word for it.
             pub fn word(&self) -> &'static str {
                 match self {

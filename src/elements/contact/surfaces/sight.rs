@@ -48,6 +48,17 @@ impl Toucher {
         }
     }
 
+    /// What of the one and of the faces of a shell is not seen; `None` where they see each other in full.
+    pub fn unseen_by_faces(self) -> Option<&'static str> {
+        match self {
+            Toucher::Ball => None,
+            // The nodes of the shell see the faces of the box.
+            Toucher::Box => Some("edges of the box that cross edges of the faces"),
+            Toucher::Rims => Some("ends and side of the cylinder between its points"),
+            Toucher::Nodes => Some("edges that cross edges"),
+        }
+    }
+
     /// True where a body as a whole may pass the surface unseen, and not only sink in a little further than it should.
     pub fn may_pass(self, surface: &SurfaceShape) -> bool {
         matches!(self, Toucher::Box | Toucher::Rims)

@@ -1,0 +1,118 @@
+//! Points against facets as a block of elements, one for each point, and as pairs for the matrix.
+
+use super::pair::MOST_OF_PAIR;
+use super::surface::FacetContacts;
+use super::tangent::add_tangent;
+use super::update::update;
+use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::wandering::{Partners, Wandering};
+use crate::materials::Dissipation;
+use crate::state::{Configuration, Node};
+
+impl ElementBlock for FacetContacts {
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        self.points[e].nodes()
+    }
+
+    fn dofs(&self) -> usize {
+        6
+    }
+
+    fn is_rotational(&self, e: usize, _: usize) -> bool {
+        self.law.friction > 0.0 && self.points[e].rolling_radius > 0.0
+    }
+
+    fn further_nodes(&self) -> (&[usize], bool) {
+        (&self.involved, self.law.friction > 0.0)
+    }
+
+    fn history(&self) -> usize {
+        self.slots * self.width * self.points.len()
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        self.each_touch(now.nodes, now.history, |_, _, pair| {
+            let place = pair.place(now.nodes);
+            let force = pair.force(&place, now.nodes);
+            pair.spread(&place, &force, |node, f, m| {
+                subtract(&mut F[node], 0, &-f);
+                subtract(&mut F[node], 3, &-m);
+            });
+        });
+    }
+
+    /// Pairs have tangents, and not points: see [`Wandering::pair_tangents`].
+    fn tangent(&self, _: usize, _: &Configuration, _: f64, _: Moduli, K: &mut [f64]) {
+        K.fill(0.0);
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+        update(self, now, part, history)
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let (k, mut stored) = (self.law.stiffness, 0.0);
+        self.each_touch(now.nodes, now.history, |_, _, pair| {
+            let place = pair.place(now.nodes);
+            let T = pair.force(&place, now.nodes).friction.map_or(0.0, |friction| friction.T.norm_squared());
+            stored += 0.5 * k * place.gap().powi(2) + 0.5 * T / k;
+        });
+        stored
+    }
+
+    fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
+        true
+    }
+
+    fn wandering(&self) -> Option<&dyn Wandering> {
+        Some(self)
+    }
+
+    fn as_any(&self) -> Option<&dyn std::any::Any> {
+        Some(self)
+    }
+}
+
+impl Wandering for FacetContacts {
+    fn partners(&self, nodes: &[Node]) -> Partners {
+        let mut partners = Partners::default();
+        let nearby = self.nearby(nodes);
+        for e in 0..self.points.len() {
+            for &facet in nearby.of(e).iter().filter(|&&facet| !self.is_near_along(e, facet)) {
+                let of_facet = self.facets[facet as usize].nodes();
+                let all = self.points[e].nodes().iter().chain(of_facet).copied();
+                partners.push([e, facet as usize], all);
+            }
+        }
+        partners
+    }
+
+    fn has_room(&self, partners: &Partners, now: &Configuration) -> bool {
+        let mut has = true;
+        self.each_touch(now.nodes, now.history, |e, touch, _| has &= partners.place([e, touch.facet]).is_some());
+        has
+    }
+
+    fn pair_tangents(
+        &self,
+        partners: &Partners,
+        now: &Configuration,
+        rate_weight: f64,
+        K: &mut [f64],
+        add: &mut dyn FnMut(usize, &mut [f64]),
+    ) {
+        self.each_touch(now.nodes, now.history, |e, touch, pair| {
+            let Some(place) = partners.place([e, touch.facet]) else { return };
+            let count = pair.point.count + pair.facet.corners;
+            debug_assert!(count <= MOST_OF_PAIR);
+            let K = &mut K[..36 * count * count];
+            K.fill(0.0);
+            add_tangent(&pair, &pair.place(now.nodes), now.nodes, rate_weight, K);
+            add(place, K);
+        });
+    }
+}

@@ -1,0 +1,33 @@
+//! Contact with surfaces of facets: the faces of shells, and balls among themselves.
+//!
+//! Two things touch where the distance d of a point from the middle of a facet is less than their reach, the radius of the point and
+//! half the thickness of the facet. The force has the potential ½ k δ², δ = reach − d, d from the nearest point of the surface as it
+//! is, and so gives back what was put in; it acts on the point and, by the shares of the nearest point, on the nodes of the facet, so
+//! that linear and angular momentum are kept to rounding. Facets of one plane are one plane: nothing that slides over them feels
+//! their edges. A point that has come through to the other side is still pushed back to its own.
+//!
+//! `facet` is the geometry, `mesh` how facets hang together, `scene` who may touch whom, `grid` and `nearby` find what is near, `touch` says which facets count,
+//! `pair` what acts between two, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
+//! see, `steps` bounds the steps, `resultant` sums what is shown.
+
+mod block;
+mod facet;
+mod grid;
+mod memory;
+mod mesh;
+mod nearby;
+mod pair;
+mod resultant;
+mod scene;
+mod span;
+mod steps;
+mod surface;
+mod tangent;
+mod touch;
+mod update;
+
+pub use facet::{Facet, MOST_CORNERS};
+pub use resultant::{facet_gap, facet_resultant, is_own, least_facet_gap};
+pub use scene::FacetTouchers;
+pub use steps::{last_facet_gap, longest_facet_step, misses_facet};
+pub use surface::FacetContacts;

@@ -1,0 +1,169 @@
+//! A point and a facet at an instant: where they are to each other, and what they do to each other.
+
+use super::facet::{Facet, FacetPoint, MOST_CORNERS};
+use super::memory::PairMemory;
+use crate::elements::contact::friction::{FrictionForce, friction_force};
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::point::{ContactPoint, MOST_NODES};
+use crate::elements::contact::restitution::{NormalForce, normal_force};
+use crate::elements::contact::surfaces::kind::ClosestPoint;
+use crate::math::rotation::{log, matrix, renormalise};
+use crate::math::{Mat3, Vec3};
+use crate::state::Node;
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
+
+/// A point and a facet: what acts between them depends on their nodes and what they remember alone.
+#[derive(Clone)]
+pub(super) struct FacetPair<'a> {
+    pub law: &'a ContactLaw,
+    pub point: &'a ContactPoint,
+    pub facet: &'a Facet,
+    pub memory: Option<PairMemory<'a>>,
+    /// The facet in whose frame friction remembers: that on which the point was, its neighbour where it has gone on.
+    pub kept: &'a Facet,
+}
+
+/// Where a point and a facet are to each other; global components.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PairPlace {
+    pub at: FacetPoint,
+    /// The share of each node of the facet.
+    pub W: [f64; MOST_CORNERS],
+    /// Unit vector from the facet to the point, where this is on its own side.
+    pub n: Vec3,
+    /// The distance along it, negative where the point has come through to the other side.
+    pub d: f64,
+    /// The distance at which they touch.
+    pub reach: f64,
+    /// The side: 1 where `n` goes with the normal of the facet.
+    pub side: f64,
+    /// The point relative to its first node.
+    pub x: Vec3,
+    /// Velocity of the point relative to the facet.
+    pub w: Vec3,
+}
+
+impl PairPlace {
+    /// The gap, negative where they touch.
+    pub fn gap(&self) -> f64 {
+        self.d - self.reach
+    }
+
+    /// Approach speed.
+    pub fn rate(&self) -> f64 {
+        -self.n.dot(&self.w)
+    }
+}
+
+/// What acts between a point and a facet.
+pub(super) struct PairForceOnPoint {
+    pub normal: NormalForce,
+    pub friction: Option<FrictionForce>,
+    /// Force on the point.
+    pub F: Vec3,
+    /// Moment on the point.
+    pub M: Vec3,
+    /// Moment on the facet, whose force is opposite to that on the point.
+    pub C: Vec3,
+}
+
+impl<'a> FacetPair<'a> {
+    /// Nodes of the point and of the facet with their signed shares in the vector between them.
+    pub fn parts(&self, W: &[f64; MOST_CORNERS]) -> impl Iterator<Item = (usize, f64)> {
+        let of_facet = self.facet.nodes().iter().zip(*W).map(|(&node, w)| (node, -w));
+        self.point.parts().chain(of_facet)
+    }
+
+    /// Where the two are to each other.
+    #[inline]
+    pub fn place(&self, nodes: &[Node]) -> PairPlace {
+        let origin = &nodes[self.point.nodes[0]];
+        let x = self.point.relative_position(origin, nodes);
+        let p = self.facet.seen_from(&x, origin, nodes);
+        let at = self.facet.closest(&p);
+        let W = self.facet.weights(&at);
+        let distance = at.g.norm();
+        let normal = self.facet.normal(at.triangle, &p);
+        let actual = if at.g.dot(&normal) < 0.0 { -1.0 } else { 1.0 };
+        // A point that has come through still is on the side that it came from, but not beyond the rim, which has no sides.
+        let known = self.memory.filter(|_| !self.facet.is_ball() && !self.facet.is_free(&at));
+        let side = known.map_or(actual, |memory| memory.side());
+        let sign = side * actual;
+        // Any direction leads out of the middle of a ball.
+        let outward = if self.facet.is_ball() { Vec3::x() } else { side * normal };
+        let n = if distance > 1e-12 * (self.facet.half + self.point.radius) { sign / distance * at.g } else { outward };
+        let w = self.parts(&W).map(|(node, share)| share * nodes[node].v).sum();
+        let reach = self.facet.half + self.point.radius;
+        PairPlace { at, W, n, d: sign * distance, reach, side, x, w }
+    }
+
+    /// The point from the first node of a facet, global components.
+    pub fn seen_from(&self, facet: &Facet, x: &Vec3, nodes: &[Node]) -> Vec3 {
+        nodes[self.point.nodes[0]].relative_position(&nodes[facet.nodes[0]]) + x
+    }
+
+    /// Rotation vector of the point's k-th node since the memory, relative to the facet that this is of, whose frame is given; global
+    /// components.
+    pub fn turned(&self, k: usize, memory: PairMemory, (q, R): (&Quaternion<f64>, &Mat3), nodes: &[Node]) -> Vec3 {
+        let now = q.conjugate() * nodes[self.point.nodes[k]].rotation;
+        R * log(&renormalise(&(now * memory.rotation(k).conjugate())))
+    }
+
+    /// What acts where they touch.
+    pub fn force(&self, place: &PairPlace, nodes: &[Node]) -> PairForceOnPoint {
+        let law = self.law;
+        let rate = place.rate();
+        let speed = match self.memory.map(PairMemory::motion) {
+            Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
+            Some(old) => old.rate().max(rate),
+            None => rate,
+        };
+        let normal = normal_force(law.stiffness, &law.loss, -place.gap(), rate, speed);
+        let n = &place.n;
+        let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
+        let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
+        let r = self.point.rolling_radius;
+        let q = rotation_of(self.kept, nodes);
+        let R = matrix(&q);
+        let mut phi = Vec3::zeros();
+        if r > 0.0 {
+            for k in 0..self.point.count {
+                phi += self.point.weights[k] * self.turned(k, memory, (&q, &R), nodes);
+            }
+        }
+        let from_anchor = self.seen_from(self.kept, &place.x, nodes) - R * memory.anchor();
+        let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
+        let friction = friction_force(law.stiffness, law.friction, normal.force, &closest, &from_anchor, r, &phi);
+        let M = r * n.cross(&friction.T);
+        PairForceOnPoint {
+            F: normal.force * n - friction.T,
+            M,
+            C: place.d * n.cross(&friction.T) - M,
+            friction: Some(friction),
+            normal,
+        }
+    }
+
+    /// Adds what acts to the nodes, by `add` of a node, a force and a moment.
+    #[inline]
+    pub fn spread(&self, place: &PairPlace, force: &PairForceOnPoint, mut add: impl FnMut(usize, Vec3, Vec3)) {
+        for (node, weight) in self.point.parts() {
+            add(node, weight * force.F, if self.point.rolling_radius > 0.0 { weight * force.M } else { Vec3::zeros() });
+        }
+        for (k, &node) in self.facet.nodes().iter().enumerate() {
+            add(node, -place.W[k] * force.F, place.W[k] * force.C);
+        }
+    }
+}
+
+/// The rotation of the frame of a facet.
+pub(super) fn rotation_of(facet: &Facet, nodes: &[Node]) -> Quaternion<f64> {
+    if facet.is_ball() {
+        return nodes[facet.nodes[0]].rotation;
+    }
+    let R = facet.frame(nodes);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(R)).into_inner()
+}
+
+/// Most nodes of a pair.
+pub(super) const MOST_OF_PAIR: usize = MOST_NODES + MOST_CORNERS;

@@ -1,0 +1,88 @@
+//! The results of contacts of facets for output.
+
+use super::facet::Facet;
+use super::grid::FacetBox;
+use super::span::FacetSpan;
+use super::surface::FacetContacts;
+use crate::elements::contact::point::ContactPoint;
+use crate::elements::contact::resultant::Resultant;
+use crate::state::{Configuration, Node};
+
+/// The resultant of the forces of all points on the facets, its moment about the origin; of what touches itself, the number of pairs.
+pub fn facet_resultant(of: &FacetContacts, now: &Configuration) -> Resultant {
+    let mut sum = Resultant::default();
+    of.each_touch(now.nodes, now.history, |_, _, pair| {
+        sum.touching += 1;
+        if of.is_inner {
+            return;
+        }
+        let place = pair.place(now.nodes);
+        let force = pair.force(&place, now.nodes);
+        let x = now.nodes[pair.point.nodes[0]].x + place.x;
+        sum.f -= force.F;
+        sum.m += force.C - (x - place.at.g).cross(&force.F);
+    });
+    sum
+}
+
+/// Least gap of points from facets, those left out which `may_touch` excludes; infinite where there are none. Facets are looked at in the
+/// order of one coordinate, as long as that alone does not tell that they are farther than the nearest so far; `sorted` is room for them.
+pub fn facet_gap(
+    facets: &[Facet],
+    points: &[ContactPoint],
+    may_touch: &dyn Fn(usize, usize) -> bool,
+    nodes: &[Node],
+    sorted: &mut Vec<FacetSpan>,
+) -> f64 {
+    let places = |facet: &Facet| facet.nodes.map(|node| nodes[node].x);
+    let all = FacetBox::around(facets.iter().flat_map(places));
+    let axis = (all.high - all.low).imax();
+    let span = |facet: &Facet| {
+        let at = places(facet).map(|x| x[axis]);
+        let (low, high) = at.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        (low - facet.half, high + facet.half)
+    };
+    sorted.clear();
+    sorted.extend(facets.iter().enumerate().map(|(number, facet)| (span(facet).0, span(facet).1, number)));
+    sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+    let longest = sorted.iter().map(|(low, high, _)| high - low).fold(0.0, f64::max);
+    let mut least = f64::INFINITY;
+    for (e, point) in points.iter().enumerate() {
+        let origin = &nodes[point.nodes[0]];
+        let x = point.relative_position(origin, nodes);
+        let at = origin.x[axis] + x[axis];
+        let look = |&(low, high, number): &FacetSpan, least: &mut f64| {
+            let facet = &facets[number];
+            if (low - at).max(at - high) - point.radius < *least && may_touch(e, number) {
+                let gap = facet.closest(&facet.seen_from(&x, origin, nodes)).g.norm() - facet.half - point.radius;
+                *least = least.min(gap);
+            }
+        };
+        let from = sorted.partition_point(|(low, _, _)| *low < at);
+        for facet in &sorted[from..] {
+            if facet.0 - at - point.radius >= least {
+                break;
+            }
+            look(facet, &mut least);
+        }
+        for facet in sorted[..from].iter().rev() {
+            if at - facet.0 - longest - point.radius >= least {
+                break;
+            }
+            look(facet, &mut least);
+        }
+    }
+    least
+}
+
+/// Least gap of the points from the facets that they may touch; infinite where there are none.
+pub fn least_facet_gap(of: &FacetContacts, nodes: &[Node]) -> f64 {
+    let may_touch = |e: usize, facet: usize| of.may_touch(e, facet as u32) && !of.is_near_along(e, facet as u32);
+    let mut nearby = of.nearby(nodes);
+    facet_gap(&of.facets, &of.points, &may_touch, nodes, &mut nearby.spans)
+}
+
+/// True where a facet has a node of a point.
+pub fn is_own(point: &ContactPoint, facet: &Facet) -> bool {
+    point.nodes().iter().any(|node| facet.nodes().contains(node))
+}

@@ -1,0 +1,157 @@
+//! Points and facets that may touch, without what changes.
+
+use super::facet::Facet;
+use super::memory::{self, PairMemory};
+use super::mesh;
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::point::ContactPoint;
+use crate::math::Vec3;
+use crate::state::Node;
+
+/// Facets that a point may touch at once: two walls and a floor.
+const MOST_FACES: usize = 3;
+/// Balls at least as large that a ball may touch at once: twelve of its own size, and what rounding and penetration add.
+const MOST_BALLS: usize = 14;
+
+/// Points with equally many nodes against a surface of facets.
+pub struct FacetScene {
+    /// The contact law.
+    pub(super) law: ContactLaw,
+    /// The points.
+    pub(super) points: Vec<ContactPoint>,
+    /// The facets.
+    pub(super) facets: Vec<Facet>,
+    /// For each point, the facets that it cannot come to touch, in ascending order; empty where the surface does not touch itself.
+    near_along: Vec<Vec<u32>>,
+    /// True where the facets are balls, and each pair of them counts once.
+    pub(super) is_of_balls: bool,
+    /// True where the points are the balls themselves, in the same order.
+    is_among: bool,
+    /// True where forces on the surface are forces of the surface, and have no resultant.
+    pub(super) is_inner: bool,
+    /// All nodes that take part, in ascending order.
+    pub(super) involved: Vec<usize>,
+    /// A part of the size of a facet: what is nearer is remembered, and lists hold while nothing moves by more.
+    pub(super) margin: f64,
+    /// The size of the cells in which facets are looked for.
+    pub(super) cell: f64,
+    /// Facets of which a point remembers something.
+    pub(super) slots: usize,
+    /// Number of history variables of a pair.
+    pub(super) width: usize,
+    /// Friction turns nodes: their rotations belong to the history.
+    pub(super) rolls: bool,
+}
+
+/// What touches a surface of facets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FacetTouchers {
+    /// Points of something else.
+    Others,
+    /// The nodes of the surface itself.
+    Itself,
+    /// The balls, of which the facets are a list, among themselves.
+    Among,
+}
+
+impl FacetScene {
+    /// `points` have equally many nodes, one or more; `x` are the places of all nodes at t = 0.
+    pub fn new(
+        law: ContactLaw,
+        touchers: FacetTouchers,
+        points: Vec<ContactPoint>,
+        mut facets: Vec<Facet>,
+        x: &[Vec3],
+    ) -> FacetScene {
+        mesh::connect(&mut facets);
+        // Middles have names beyond those of nodes.
+        let pieces = facets.iter().enumerate().flat_map(|(k, facet)| facet.pieces(x.len() + k));
+        let facets: Vec<Facet> = pieces.collect();
+        let is_of_balls = facets.iter().all(Facet::is_ball);
+        let sizes: Vec<f64> = facets.iter().map(|facet| size(facet, x)).collect();
+        let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
+        let mut involved: Vec<usize> = points.iter().flat_map(ContactPoint::nodes).copied().collect();
+        involved.extend(facets.iter().flat_map(Facet::nodes));
+        involved.sort_unstable();
+        involved.dedup();
+        let near_along = match touchers {
+            FacetTouchers::Itself => {
+                let nodes: Vec<usize> = points.iter().map(|point| point.nodes[0]).collect();
+                // Half a circle about a fold as sharp as the thickness allows.
+                let along = |k: usize, facet: &Facet| std::f64::consts::FRAC_PI_2 * (points[k].radius + facet.half);
+                mesh::near_along(&facets, &nodes, along, &|node| x[node])
+            }
+            FacetTouchers::Others | FacetTouchers::Among => Vec::new(),
+        };
+        let count = points.first().map_or(1, |point| point.count);
+        let rolls = law.friction > 0.0 && points.iter().any(|point| point.rolling_radius > 0.0);
+        FacetScene {
+            width: memory::width(law.friction > 0.0, if rolls { count } else { 0 }),
+            slots: if is_of_balls { MOST_BALLS } else { MOST_FACES },
+            margin: 0.25 * mean,
+            cell: 2.0 * mean,
+            // What is far is known to be far by the lists.
+            law: ContactLaw { near: f64::INFINITY, ..law },
+            is_inner: touchers != FacetTouchers::Others,
+            is_among: touchers == FacetTouchers::Among,
+            points,
+            facets,
+            near_along,
+            is_of_balls,
+            involved,
+            rolls,
+        }
+    }
+
+    /// The place of a point, global.
+    pub(super) fn position(&self, e: usize, nodes: &[Node]) -> Vec3 {
+        self.points[e].parts().map(|(node, w)| w * nodes[node].x).sum()
+    }
+
+    /// The place of a node among those that take part.
+    pub(super) fn place_of(&self, node: usize) -> usize {
+        self.involved.partition_point(|&other| other < node)
+    }
+
+    /// False for pairs that never act: of a point and its own facets, and of two balls of which the other is the smaller.
+    pub(super) fn may_touch(&self, e: usize, facet: u32) -> bool {
+        if !self.is_among {
+            return self.points[e].nodes().iter().all(|node| !self.facets[facet as usize].nodes().contains(node))
+                || self.near_along.get(e).is_some();
+        }
+        let other = facet as usize;
+        let (own, of_other) = (self.points[e].radius, self.facets[other].half);
+        own < of_other || own == of_other && e < other
+    }
+
+    /// True where a facet lies near a point along the surface of both.
+    pub(super) fn is_near_along(&self, e: usize, facet: u32) -> bool {
+        self.near_along.get(e).is_some_and(|near| near.binary_search(&facet).is_ok())
+    }
+
+    /// The history of a point, of that of the block.
+    pub(super) fn of_point<'a>(&self, e: usize, history: &'a [f64]) -> &'a [f64] {
+        let width = self.slots * self.width;
+        &history[e * width..(e + 1) * width]
+    }
+
+    /// The memory in a slot of a point's history.
+    pub(super) fn memory<'a>(&self, history: &'a [f64], slot: usize) -> PairMemory<'a> {
+        PairMemory(&history[slot * self.width..(slot + 1) * self.width])
+    }
+
+    /// The memories of all pairs in the history of the block.
+    pub(super) fn memories<'a>(&self, history: &'a [f64]) -> impl Iterator<Item = PairMemory<'a>> {
+        history.chunks_exact(self.width).map(PairMemory)
+    }
+}
+
+/// The diameter of a facet at t = 0.
+fn size(facet: &Facet, x: &[Vec3]) -> f64 {
+    if facet.is_ball() {
+        return 2.0 * facet.half;
+    }
+    let nodes = facet.nodes();
+    let apart = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| (x[a] - x[b]).norm()));
+    apart.fold(0.0, f64::max)
+}

@@ -1,0 +1,123 @@
+//! Limits on the step length: nothing passes through the middle of a surface of facets unseen, and impacts are resolved.
+
+use super::facet::Facet;
+use super::nearby::farthest;
+use super::surface::FacetContacts;
+use super::touch;
+use crate::math::Vec3;
+use crate::state::{Configuration, Node};
+
+/// True where a step from `start` to `now` must be shorter: a point would pass the middle of a facet on whose side it was not known to
+/// be, would come through it by all of the thickness, or come into an impact that the step does not resolve.
+pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
+    let way = farthest(of, now.nodes, |_, node| start[node].x);
+    if !way.is_finite() {
+        return true;
+    }
+    let mut nearby = of.nearby(now.nodes);
+    let mut found = std::mem::take(&mut nearby.touches);
+    let is_missed = (0..of.points.len()).any(|e| {
+        let old = of.of_point(e, now.history);
+        let near = nearby.of(e);
+        if !near.is_empty() {
+            touch::find(of, near, touch::TouchQuery { e, limit: 0.0, stays: true }, now.nodes, old, &mut found);
+            let too_far = |touch: &touch::FacetTouch| {
+                let pair = of.pair(e, touch, old);
+                let place = pair.place(now.nodes);
+                let is_through = place.gap() < -1.9 * place.reach;
+                is_through || is_unresolved(of, pair.memory.map(|memory| memory.motion()), place.gap(), now.dt)
+            };
+            if found.iter().any(too_far) {
+                return true;
+            }
+        }
+        let known = |facet: usize, normal: &dyn Fn(&Facet) -> Vec3| {
+            let is_same = |slot: usize| {
+                let memory = of.memory(old, slot);
+                let other = memory.facet();
+                memory.motion().is_known()
+                    && (other == facet || normal(&of.facets[other]).dot(&normal(&of.facets[facet])).abs() > 0.5)
+            };
+            (0..of.slots).any(is_same)
+        };
+        let ahead = nearby.on_the_way(of, e, way);
+        ahead.iter().any(|&facet| {
+            let number = facet as usize;
+            let passes = passes(of, e, &of.facets[number], [start, now.nodes]);
+            passes
+                && !of.is_near_along(e, facet)
+                && !known(number, &|facet| facet.frame(now.nodes).column(2).into_owned())
+        })
+    });
+    nearby.touches = found;
+    is_missed
+}
+
+/// True for a landing that the step does not resolve: see [`crate::elements::contact::ContactLaw::resolution`].
+fn is_unresolved(
+    of: &FacetContacts,
+    old: Option<crate::elements::contact::history::PointHistory>,
+    gap: f64,
+    dt: f64,
+) -> bool {
+    let law = &of.law;
+    let fast = 3.0 * law.floor;
+    let lands = match old {
+        Some(old) => old.gap() > 0.0 && (old.rate() > fast || -gap > fast * 2.0 * law.resolution),
+        None => true,
+    };
+    lands && dt > law.resolution
+}
+
+/// Longest time ahead at which equilibrium may be written next, given the history of the block.
+pub fn longest_facet_step(of: &FacetContacts, history: &[f64]) -> f64 {
+    let law = &of.law;
+    let mut in_impact = of
+        .memories(history)
+        .map(|memory| memory.motion())
+        .filter(|old| old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration);
+    if law.resolution < f64::INFINITY && in_impact.next().is_some() { law.resolution } else { f64::INFINITY }
+}
+
+/// Least gap of all pairs at the end of the last step, by the history of the block; infinite where none is near.
+pub fn last_facet_gap(of: &FacetContacts, history: &[f64]) -> f64 {
+    let known = of.memories(history).map(|memory| memory.motion()).filter(|old| old.is_known());
+    known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
+}
+
+/// True where a point goes through a facet between two motions, on straight lines.
+fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> bool {
+    let point = &of.points[e];
+    let seen = at.map(|nodes| {
+        let origin = &nodes[point.nodes[0]];
+        facet.seen_from(&point.relative_position(origin, nodes), origin, nodes)
+    });
+    if facet.is_ball() {
+        return swaps_sides(seen[0][0], seen[1][0], facet.half + point.radius);
+    }
+    (0..facet.triangles()).map(|k| facet.piece.unwrap_or(k)).any(|k| {
+        let [from, to] = [0, 1].map(|i| facet.triangle(k, &seen[i]));
+        let side = |[a, b, c]: &[Vec3; 3]| a.dot(&(b - a).cross(&(c - a)));
+        let (s, t) = (side(&from), side(&to));
+        if s == 0.0 || s.signum() == t.signum() {
+            return false;
+        }
+        let part = s / (s - t);
+        let [a, b, c] = [0, 1, 2].map(|i| from[i] + part * (to[i] - from[i]));
+        let n = (b - a).cross(&(c - a));
+        // Inside where the point, the origin, is to the left of all edges; a little beyond counts too.
+        let inside = |p: &Vec3, q: &Vec3| p.cross(q).dot(&n) >= -1e-6 * n.norm_squared();
+        inside(&a, &b) && inside(&b, &c) && inside(&c, &a)
+    })
+}
+
+/// True where two balls whose centres are at `from` and then at `to` from each other go through each other's middle.
+fn swaps_sides(from: Vec3, to: Vec3, reach: f64) -> bool {
+    let way = to - from;
+    let square = way.norm_squared();
+    if square == 0.0 {
+        return false;
+    }
+    let part = (-from.dot(&way) / square).clamp(0.0, 1.0);
+    (from + part * way).norm() < 0.3 * reach && from.dot(&to) < 0.3 * from.norm() * to.norm()
+}

@@ -1,0 +1,81 @@
+//! Points against a surface of facets, with the lists of what is near.
+
+use super::facet::Facet;
+use super::nearby::NearbyFacets;
+use super::pair::FacetPair;
+use super::scene::{FacetScene, FacetTouchers};
+use super::touch::{self, FacetTouch, TouchQuery};
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::point::ContactPoint;
+use crate::math::Vec3;
+use crate::state::Node;
+use std::ops::Deref;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Points with equally many nodes against a surface of facets.
+pub struct FacetContacts {
+    scene: FacetScene,
+    nearby: Mutex<NearbyFacets>,
+}
+
+impl Deref for FacetContacts {
+    type Target = FacetScene;
+
+    fn deref(&self) -> &FacetScene {
+        &self.scene
+    }
+}
+
+impl FacetContacts {
+    /// `points` have equally many nodes, one or more; `x` are the places of all nodes at t = 0.
+    pub fn new(
+        law: ContactLaw,
+        touchers: FacetTouchers,
+        points: Vec<ContactPoint>,
+        facets: Vec<Facet>,
+        x: &[Vec3],
+    ) -> FacetContacts {
+        FacetContacts { scene: FacetScene::new(law, touchers, points, facets, x), nearby: Mutex::default() }
+    }
+
+    /// The facets near the points, where the nodes lie thus. Threads take turns: what is found does not depend on them.
+    pub(super) fn nearby(&self, nodes: &[Node]) -> MutexGuard<'_, NearbyFacets> {
+        let mut nearby = self.nearby.lock().unwrap_or_else(PoisonError::into_inner);
+        nearby.update(self, nodes);
+        nearby
+    }
+
+    /// A point and a facet with what they remember.
+    pub(super) fn pair<'a>(&'a self, e: usize, touch: &FacetTouch, history: &'a [f64]) -> FacetPair<'a> {
+        let memory = touch.slot.map(|slot| self.memory(history, slot));
+        let facet = &self.facets[touch.facet];
+        let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
+        FacetPair { law: &self.law, point: &self.points[e], facet, memory, kept }
+    }
+
+    /// Calls with each pair that touches, `history` being that of the block.
+    pub(super) fn each_touch<'a>(
+        &'a self,
+        nodes: &[Node],
+        history: &'a [f64],
+        mut act: impl FnMut(usize, &FacetTouch, FacetPair<'a>),
+    ) {
+        if history.is_empty() {
+            return;
+        }
+        let mut nearby = self.nearby(nodes);
+        let mut found = std::mem::take(&mut nearby.touches);
+        for e in 0..self.points.len() {
+            let near = nearby.of(e);
+            if near.is_empty() {
+                continue;
+            }
+            let own = self.of_point(e, history);
+            touch::find(self, near, TouchQuery { e, limit: 0.0, stays: true }, nodes, own, &mut found);
+            for touch in &found {
+                act(e, touch, self.pair(e, touch, own));
+            }
+        }
+        nearby.touches = found;
+    }
+}

@@ -1,0 +1,217 @@
+//! The facets that a point touches: of each smooth part of the surface the nearest, which needs no more than the facets near the point.
+//!
+//! A facet counts where the distance has a minimum on it: not where its nearest point lies on its rim and a neighbour is nearer. Of
+//! facets that lie in nearly one direction the nearest counts, so that a surface made of many pushes as one; those across a sharp fold,
+//! and layers on either side, count for themselves.
+
+use super::facet::Facet;
+use super::scene::FacetScene;
+use crate::math::Vec3;
+use crate::state::Node;
+
+/// Directions whose cosine is larger than this are one.
+const ONE_DIRECTION: f64 = 0.7;
+/// Normals whose cosine is larger than this may be those of neighbours on which a point goes on.
+const NEIGHBOURS: f64 = 0.5;
+
+/// A facet that a point touches, or is near to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FacetTouch {
+    /// The number of the facet.
+    pub facet: usize,
+    /// The gap on whichever side the point is.
+    pub gap: f64,
+    /// The unit vector from the facet to the point.
+    pub toward: Vec3,
+    /// The nodes of the rim between which the nearest point lies.
+    pub rim: [Option<usize>; 2],
+    /// The normal of the facet.
+    pub normal: Vec3,
+    /// False for facets that only tell that others are not the nearest.
+    pub counts: bool,
+    /// The place where what is remembered of it stands.
+    pub slot: Option<usize>,
+}
+
+/// What is to be found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TouchQuery {
+    /// The point.
+    pub e: usize,
+    /// The largest gap.
+    pub limit: f64,
+    /// True where a point stays with the facet that it remembers, as long as the nearest point of that is a minimum and about as deep:
+    /// within a step the force then has no kink where two facets of a hollow are equally near, and an iteration comes to an end.
+    pub stays: bool,
+}
+
+/// Finds what lies near a point, the nearest first. `history` is that of the point.
+pub(super) fn find(
+    of: &FacetScene,
+    near: &[u32],
+    query: TouchQuery,
+    nodes: &[Node],
+    history: &[f64],
+    found: &mut Vec<FacetTouch>,
+) {
+    let point = &of.points[query.e];
+    let origin = &nodes[point.nodes[0]];
+    let x = point.relative_position(origin, nodes);
+    find_within(of, near, query, (&x, origin), nodes, found);
+    if !of.is_of_balls {
+        keep_minima(&of.facets, found);
+    }
+    found.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then(a.facet.cmp(&b.facet)));
+    if query.stays && !of.is_of_balls {
+        prefer_known(of, history, found);
+    }
+    let mut kept = 0;
+    for k in 0..found.len() {
+        let touch = found[k];
+        let is_new =
+            || of.is_of_balls || found[..kept].iter().all(|other| other.toward.dot(&touch.toward) < ONE_DIRECTION);
+        if kept < of.slots && touch.counts && is_new() {
+            found[kept] = touch;
+            kept += 1;
+        }
+    }
+    found.truncate(kept);
+    match_memory(of, (&x, origin), nodes, history, found);
+}
+
+/// All facets within the gap asked for, of a point that lies at `x` from the node `origin`.
+fn find_within(
+    of: &FacetScene,
+    near: &[u32],
+    TouchQuery { e, limit, .. }: TouchQuery,
+    (x, origin): (&Vec3, &Node),
+    nodes: &[Node],
+    found: &mut Vec<FacetTouch>,
+) {
+    found.clear();
+    let radius = of.points[e].radius;
+    for &number in near {
+        let facet = &of.facets[number as usize];
+        let p = facet.seen_from(x, origin, nodes);
+        let reach = facet.half + radius;
+        // Most are too far: their corners alone tell.
+        let least = (0..3).map(|i| {
+            let side = p[..facet.corners].iter().map(|p| p[i]);
+            let (low, high) = side.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            low.max(-high).max(0.0)
+        });
+        if least.fold(0.0, f64::max) > reach + limit {
+            continue;
+        }
+        let at = facet.closest(&p);
+        let distance = at.g.norm();
+        if distance - reach > limit {
+            continue;
+        }
+        let normal = facet.normal(at.triangle, &p);
+        let toward = if distance > 1e-9 * reach { at.g / distance } else { normal };
+        let rim = if facet.is_ball() { [None; 2] } else { facet.rim(&at) };
+        let counts = !of.is_near_along(e, number);
+        found.push(FacetTouch {
+            facet: number as usize,
+            gap: distance - reach,
+            toward,
+            rim,
+            normal,
+            counts,
+            slot: None,
+        });
+    }
+}
+
+/// Puts facets that are remembered before the others, where they count and are about as deep as the deepest in their direction.
+fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
+    /// The least part of the depth of the deepest.
+    const AS_DEEP: f64 = 0.5;
+    let mut first = 0;
+    for k in 0..found.len() {
+        let touch = found[k];
+        let is_known = |slot: usize| {
+            let memory = of.memory(history, slot);
+            memory.motion().is_known() && memory.facet() == touch.facet
+        };
+        let is_deepest = |other: &FacetTouch| {
+            !other.counts || other.toward.dot(&touch.toward) < ONE_DIRECTION || touch.gap < AS_DEEP * other.gap
+        };
+        if touch.counts && touch.gap < 0.0 && (0..of.slots).any(is_known) && found.iter().all(is_deepest) {
+            found[first..=k].rotate_right(1);
+            first += 1;
+        }
+    }
+}
+
+/// Marks facets with a neighbour that is nearer at the same place of the rim.
+fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
+    for k in 0..found.len() {
+        let [Some(a), b] = found[k].rim else { continue };
+        let reach = |touch: &FacetTouch| touch.gap + facets[touch.facet].half;
+        let (own, own_reach) = (found[k].facet, reach(&found[k]));
+        let has = |facet: &Facet, corner: usize| facet.names.contains(&corner);
+        let is_nearer = |other: &FacetTouch| {
+            let facet = &facets[other.facet];
+            other.facet != own
+                && has(facet, a)
+                && b.is_none_or(|b| has(facet, b))
+                && reach(other) < own_reach - 1e-12 * own_reach.abs()
+        };
+        if found.iter().any(is_nearer) {
+            found[k].counts = false;
+        }
+    }
+}
+
+/// Gives each facet found the place of what is remembered of it, or of the neighbour from which the point came.
+fn match_memory(
+    of: &FacetScene,
+    (x, origin): (&Vec3, &Node),
+    nodes: &[Node],
+    history: &[f64],
+    found: &mut [FacetTouch],
+) {
+    for slot in 0..of.slots {
+        let memory = of.memory(history, slot);
+        if !memory.motion().is_known() {
+            continue;
+        }
+        if let Some(touch) = found.iter_mut().find(|touch| touch.facet == memory.facet()) {
+            touch.slot = Some(slot);
+        }
+    }
+    if of.is_of_balls || found.iter().all(|touch| touch.slot.is_some()) {
+        return;
+    }
+    for slot in 0..of.slots {
+        let memory = of.memory(history, slot);
+        if !memory.motion().is_known() || found.iter().any(|touch| touch.slot == Some(slot)) {
+            continue;
+        }
+        let facet = &of.facets[memory.facet()];
+        let p = facet.seen_from(x, origin, nodes);
+        let at = facet.closest(&p);
+        let normal = facet.normal(at.triangle, &p);
+        let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);
+        let goes_on = |touch: &&mut FacetTouch| {
+            touch.slot.is_none() && likeness(touch) > NEIGHBOURS && is_close(of, touch, &at.g)
+        };
+        let best = found.iter_mut().filter(goes_on).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+        if let Some(touch) = best {
+            touch.slot = Some(slot);
+        }
+    }
+}
+
+/// True where the facet from which a point came is no farther than a facet is large.
+fn is_close(of: &FacetScene, touch: &FacetTouch, g: &Vec3) -> bool {
+    g.norm() < touch.gap.abs() + 2.0 * of.facets[touch.facet].half + 4.0 * of.margin
+}
+
+/// The first place of memory that no touch has.
+pub(super) fn free_slot(slots: usize, found: &[FacetTouch], history: impl Fn(usize) -> bool) -> Option<usize> {
+    let is_free = |slot: &usize| found.iter().all(|touch| touch.slot != Some(*slot));
+    (0..slots).filter(is_free).find(|&slot| !history(slot)).or_else(|| (0..slots).find(is_free))
+}

@@ -1,0 +1,166 @@
+//! What pairs remember at the end of a step, and what was dissipated on the way.
+
+use super::memory::{self, PairMemory, PairMemoryMut};
+use super::pair::{FacetPair, PairForceOnPoint, PairPlace, rotation_of};
+use super::surface::FacetContacts;
+use super::touch::{self, FacetTouch, TouchQuery};
+use crate::elements::contact::normal_motion::{NormalMotion, update_normal, way};
+use crate::materials::Dissipation;
+use crate::math::rotation::{exp, matrix, renormalise};
+use crate::math::{Mat3, Vec3};
+use crate::state::Configuration;
+use nalgebra::Quaternion;
+
+/// Writes the history of all points after `part` of the way from the last state to `now`.
+pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+    let mut spent = Dissipation::default();
+    let mut nearby = of.nearby(now.nodes);
+    let mut found = std::mem::take(&mut nearby.touches);
+    let width = of.slots * of.width;
+    for (e, new) in new.chunks_exact_mut(width).enumerate() {
+        let old = of.of_point(e, now.history);
+        let near = nearby.of(e);
+        found.clear();
+        if !near.is_empty() {
+            touch::find(of, near, TouchQuery { e, limit: of.margin, stays: false }, now.nodes, old, &mut found);
+        }
+        spent += let_go(of, now, part, &found, old);
+        new.fill(0.0);
+        let is_taken = |slot: usize| of.memory(old, slot).motion().is_known();
+        for k in 0..found.len() {
+            let slot = found[k].slot.or_else(|| touch::free_slot(of.slots, &found, is_taken));
+            let Some(slot) = slot else { continue };
+            let pair = of.pair(e, &found[k], old);
+            // Only now, for the pair would take what another left there for its own.
+            found[k].slot = Some(slot);
+            let numbers = &mut new[slot * of.width..(slot + 1) * of.width];
+            spent += update_pair(of, &pair, &found[k], now, part, &mut PairMemoryMut(numbers));
+        }
+    }
+    nearby.touches = found;
+    spent
+}
+
+/// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
+fn let_go(of: &FacetContacts, now: &Configuration, part: f64, found: &[FacetTouch], old: &[f64]) -> Dissipation {
+    let mut spent = Dissipation::default();
+    for slot in (0..of.slots).filter(|&slot| found.iter().all(|touch| touch.slot != Some(slot))) {
+        let motion = of.memory(old, slot).motion();
+        if motion.is_known() {
+            let pull = motion.friction_force();
+            spent.friction += 0.5 * pull * pull / of.law.stiffness;
+            spent.impact += 0.5 * part * now.dt * motion.damping_power();
+        }
+    }
+    spent
+}
+
+fn update_pair(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    touch: &FacetTouch,
+    now: &Configuration,
+    part: f64,
+    new: &mut PairMemoryMut,
+) -> Dissipation {
+    let place = pair.place(now.nodes);
+    let nothing = [0.0; memory::width(false, 0)];
+    let old = pair.memory.unwrap_or(PairMemory(&nothing));
+    let acting = (place.gap() <= 0.0).then(|| pair.force(&place, now.nodes));
+    let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
+    let motion = NormalMotion { gap: place.gap(), rate: place.rate(), force, speed: place.w.norm() };
+    let mut spent = Dissipation {
+        impact: update_normal(&of.law, &motion, now, part, old.motion(), &mut new.motion()),
+        ..Dissipation::default()
+    };
+    new.set_facet(touch.facet, place.side);
+    if of.law.friction > 0.0 {
+        spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, way(old.motion(), part), new);
+    }
+    spent
+}
+
+/// Writes the anchor, the force on it and the rotations from which nodes roll; returns what slip dissipated.
+fn update_friction(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    (place, acting): (&PairPlace, Option<&PairForceOnPoint>),
+    now: &Configuration,
+    part: f64,
+    new: &mut PairMemoryMut,
+) -> f64 {
+    let (q, n) = (rotation_of(pair.facet, now.nodes), &place.n);
+    let R = matrix(&q);
+    // The point and the anchor stand in global axes from the first node of the facet on which the point is now.
+    let x = pair.seen_from(pair.facet, &place.x, now.nodes);
+    let k = of.law.stiffness;
+    let force = acting.map_or(0.0, |acting| acting.normal.force);
+    let Some(memory) = pair.memory else {
+        // What slides at t = 0 has been sliding: its spring is stretched.
+        let starts = now.dt <= 0.0 && force > 0.0;
+        let begun = if starts { sliding_direction(pair, place, of.law.floor, now) } else { Vec3::zeros() };
+        let pull = of.law.friction * force;
+        new.motion().set_friction_force(pull * begun.norm());
+        new.set_anchor(&R.tr_mul(&(x - pull / k * begun)));
+        for i in 0..rotations(of, pair) {
+            new.set_rotation(i, &(q.conjugate() * now.nodes[pair.point.nodes[i]].rotation));
+        }
+        return 0.0;
+    };
+    let old_q = rotation_of(pair.kept, now.nodes);
+    let old_R = matrix(&old_q);
+    let pull = memory.motion().friction_force();
+    let friction = acting.and_then(|acting| acting.friction.as_ref());
+    let moved = now.nodes[pair.kept.nodes[0]].relative_position(&now.nodes[pair.facet.nodes[0]]);
+    let mut anchor = moved + old_R * memory.anchor();
+    let spent = match friction {
+        Some(friction) => {
+            let end = pull + part * (friction.T.norm() - pull);
+            new.motion().set_friction_force(end);
+            anchor += part * (friction.slip + n.dot(&(x - anchor)) * n);
+            0.5 * part * friction.slip.norm() * (pull + end)
+        }
+        // The point is free: the anchor goes along, and what was stretched lets go.
+        None => {
+            anchor += part * (x - anchor);
+            0.5 * pull * (pull / k)
+        }
+    };
+    for i in 0..rotations(of, pair) {
+        let phi = pair.turned(i, memory, (&old_q, &old_R), now.nodes);
+        if friction.is_some() {
+            anchor += part * pair.point.weights[i] * pair.point.rolling_radius * phi.cross(n);
+        }
+        let kept = kept_rotation((&old_q, &old_R), &q, part * phi, &memory.rotation(i));
+        new.set_rotation(i, &kept);
+    }
+    new.set_anchor(&R.tr_mul(&anchor));
+    spent
+}
+
+/// Number of rotations that are kept.
+fn rotations(of: &FacetContacts, pair: &FacetPair) -> usize {
+    if of.rolls { pair.point.count } else { 0 }
+}
+
+/// A rotation relative to the frame of one facet, turned on by `phi` (global), relative to that of another.
+fn kept_rotation(
+    (old_q, old_R): (&Quaternion<f64>, &Mat3),
+    q: &Quaternion<f64>,
+    phi: Vec3,
+    kept: &Quaternion<f64>,
+) -> Quaternion<f64> {
+    let on = exp(&old_R.tr_mul(&phi)) * kept;
+    renormalise(&(q.conjugate() * old_q * on))
+}
+
+/// Unit vector along the slip; zero for what does not slip faster than its weight makes it.
+fn sliding_direction(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration) -> Vec3 {
+    let (n, r) = (&place.n, pair.point.rolling_radius);
+    let spin: Vec3 = pair.point.parts().map(|(node, w)| w * now.nodes[node].omega).sum();
+    let of_ball = if pair.facet.is_ball() { now.nodes[pair.facet.nodes[0]].omega } else { Vec3::zeros() };
+    let w = place.w - of_ball.cross(&(place.d * n));
+    let slip = w - n.dot(&w) * n - r * (spin - of_ball).cross(n);
+    let speed = slip.norm();
+    if speed > floor { slip / speed } else { Vec3::zeros() }
+}

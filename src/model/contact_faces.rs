@@ -1,0 +1,200 @@
+//! Contacts of faces of shells, and of balls among themselves.
+
+use super::contact_points::Finder;
+use super::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
+use super::place::Place;
+use super::report::{Owner, Report};
+use super::scene::Scene;
+use super::values::span;
+use crate::deck::contacts as words;
+use crate::deck::words::kinds::OneOf;
+use crate::diagnostic::At;
+use crate::elements::contact::{ContactPoint, Facet, FacetTouchers, Surface, SurfaceShape};
+use crate::math::{Mat3, Vec3};
+use crate::solids::Touching;
+
+/// The word for a shell that touches itself.
+pub(super) const ITSELF: &str = "itself";
+
+/// True where a contact is one of faces, or of balls among themselves.
+pub(super) fn is_of_facets(contact: &words::Contact) -> bool {
+    contact.among.is_some() || contact.surface.as_ref().is_some_and(|table| table.part.is_some())
+}
+
+/// The contact as far as its law does not matter; its size is that of the law's reader.
+pub(super) fn read_facets<'d>(
+    finder: &mut Finder<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+) -> Option<Contact> {
+    if finder.scene.analysis.modes.is_some() {
+        let hint = "leave it out with `stages`, or rest what touches on supports";
+        return finder.report.error_with(owner.span, "modes do not know contacts of faces or balls", hint);
+    }
+    let (surface, points) = match (&contact.among, &contact.surface) {
+        (Some(among), _) => balls(finder, owner, contact, among)?,
+        (None, Some(table)) => faces(finder, owner, name, contact, table)?,
+        (None, None) => return None,
+    };
+    let touchers = std::mem::take(&mut finder.sight.touchers);
+    let surface = TouchedSurface::Facets(surface);
+    let (law, chosen, boxes) = (None, None, Vec::new());
+    Some(Contact { name: name.to_owned(), surface, points, boxes, touchers, law, size: 0.0, chosen })
+}
+
+/// The faces of a part and the points that touch them.
+fn faces<'d>(
+    finder: &mut Finder<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+    table: &'d At<OneOf<words::Surface>>,
+) -> Option<(FacetSurface, Vec<ContactPoint>)> {
+    let part = table.part.as_ref()?;
+    let what = "a surface that is the faces of a part";
+    finder.report.reject_unused(what, &[("shape", span(&table.kind)), ("body", span(&table.body))]);
+    for place in table.values.places() {
+        finder.report.error::<()>(place, "this is a dimension of shapes, and does not apply to the faces of a part");
+    }
+    let scene = finder.scene;
+    let place = scene.names.find(part, finder.report)?;
+    let Some(surface) = scene.names.surface_of(place) else {
+        let message = format!("`{}` is {}, and has no faces", part.value, place.kind());
+        return finder.report.error_with(&part.span, message, "a surface is a `part` that is a shell, or a `shape`");
+    };
+    let half = finder.contact_radius(surface);
+    let elements = scene.parts.elements(surface);
+    let facets: Vec<Facet> = elements.iter().map(|nodes| Facet::new(&nodes[..nodes.len().min(4)], half)).collect();
+    if facets.is_empty() {
+        // A part with errors of its own has no faces, and these have been said.
+        return None;
+    }
+    let names = finder.report.require_nodes(owner, "with", &contact.with)?;
+    let (touchers, boxes, back) = (FacetTouchers::Others, Vec::new(), Vec::new());
+    let mut faces = FacetSurface { part: part.value.clone(), facets, touchers, boxes, back };
+    if names.values.iter().any(|at| at.value == ITSELF) {
+        if let [_, _, ..] = names.values[..] {
+            let hint = "give what else touches it a contact of its own";
+            return finder.report.error_with(&names.span, "`itself` stands alone in `with`", hint);
+        }
+        faces.touchers = FacetTouchers::Itself;
+        let radius = contact.radius.as_ref().map_or(half, |at| at.value);
+        let points = finder.points_at(&own_nodes(&faces.facets), radius, contact);
+        return Some((faces, points));
+    }
+    if let Some(at) = names.values.iter().find(|at| scene.names.place(&at.value) == Some(place)) {
+        let message = format!("`{}` is the part whose faces it would touch", at.value);
+        let hint = format!("for a shell that touches itself, give with = \"{ITSELF}\"");
+        return finder.report.error_with(&at.span, message, hint);
+    }
+    // What is attached to the body that carries rigid faces does not touch them.
+    let root = finder.topology.root(faces.facets[0].nodes[0]);
+    let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
+    let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
+    faces.boxes = boxes_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
+    if !faces.boxes.is_empty() {
+        faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
+    }
+    Some((faces, points))
+}
+
+/// The surfaces of all bodies in a list that are boxes.
+fn boxes_of(scene: &Scene, names: &[At<String>], inflated: f64) -> Vec<CarriedSurface> {
+    let places = names.iter().filter_map(|at| scene.names.place(&at.value));
+    let leaves = places.flat_map(|place| scene.names.leaves(place));
+    let bodies = leaves.filter_map(|place| if let Place::Body(body) = place { Some(body) } else { None });
+    bodies.filter_map(|body| box_of(scene, body, inflated)).collect()
+}
+
+/// All nodes of facets, each once.
+fn own_nodes(facets: &[Facet]) -> Vec<usize> {
+    let mut nodes: Vec<usize> = facets.iter().flat_map(Facet::nodes).copied().collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+/// The surface of a body that is drawn as a box.
+fn box_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface> {
+    scene.deck.bodies.get(body)?.shape.as_ref()?;
+    let body = &scene.bodies[body];
+    let half = (Vec3::from(body.shape.as_box()?) * 0.5).add_scalar(inflated);
+    let surface = Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape: SurfaceShape::of_box(half) };
+    Some(CarriedSurface { node: body.node, surface })
+}
+
+/// Balls among themselves.
+fn balls<'d>(
+    finder: &mut Finder<'_, 'd>,
+    owner: &Owner<'d>,
+    contact: &'d words::Contact,
+    among: &'d At<crate::deck::words::Names>,
+) -> Option<(FacetSurface, Vec<ContactPoint>)> {
+    let what = "a contact of balls `among` themselves";
+    let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
+    finder.report.reject_unused(what, &keys);
+    let given = contact.radius.as_ref().map(|_| finder.report.not_negative("radius", &contact.radius, 0.0));
+    let (mut found, mut sound) = (Vec::new(), true);
+    for at in &among.values {
+        let place = finder.scene.names.find(at, finder.report)?;
+        for leaf in finder.scene.names.leaves(place) {
+            let radius = given.or_else(|| radius_of(finder.scene, leaf)).filter(|radius| *radius > 0.0);
+            let nodes = match leaf {
+                Place::Body(body) => vec![finder.scene.bodies.get(body)?.node],
+                Place::Part(_) | Place::Edge(..) | Place::Joint(_) => Vec::new(),
+                _ => finder.scene.nodes_of(leaf),
+            };
+            match radius {
+                Some(radius) if !nodes.is_empty() => found.extend(nodes.into_iter().map(|node| (node, radius))),
+                _ => {
+                    refuse_ball(finder.report, at, leaf, nodes.is_empty());
+                    sound = false;
+                    break;
+                }
+            }
+        }
+    }
+    if !sound {
+        return None;
+    }
+    found.sort_unstable_by_key(|(node, _)| *node);
+    found.dedup_by_key(|(node, _)| *node);
+    if found.len() < 2 {
+        let message = format!("{} has fewer than two balls `among` which anything could touch", owner.what);
+        return finder.report.error(&among.span, message);
+    }
+    let mut points = Vec::new();
+    for &(node, radius) in &found {
+        points.extend(finder.points_at(&[node], radius, contact));
+    }
+    let facet = |point: &ContactPoint| Facet::ball(point.nodes[0], point.radius, point.rolling_radius);
+    let facets = points.iter().map(facet).collect();
+    let touchers = FacetTouchers::Among;
+    Some((FacetSurface { part: String::new(), facets, touchers, boxes: Vec::new(), back: Vec::new() }, points))
+}
+
+/// The radius of a body that is drawn as a sphere.
+fn radius_of(scene: &Scene, place: Place) -> Option<f64> {
+    let Place::Body(body) = place else { return None };
+    scene.deck.bodies.get(body)?.shape.as_ref()?;
+    match scene.bodies[body].shape.touching(0) {
+        Touching::Ball(radius) => Some(radius),
+        Touching::Nodes | Touching::Points(_) => None,
+    }
+}
+
+fn refuse_ball(report: &mut Report, at: &At<String>, leaf: Place, has_no_nodes: bool) {
+    let name = &at.value;
+    match has_no_nodes {
+        true => {
+            let message =
+                format!("`among` takes bodies, points and sets of them, and `{name}` is or holds {}", leaf.kind());
+            report.error::<()>(&at.span, message);
+        }
+        false => {
+            let message = format!("`{name}` is or holds {} without a radius", leaf.kind());
+            report.error_with::<()>(&at.span, message, "draw bodies as spheres, or give `radius`");
+        }
+    }
+}
