@@ -381,3 +381,32 @@ fn a_run_that_is_over_can_be_made_longer() {
         assert!((a - b).abs() < 1e-9 * largest, "{whole:?} {longer:?}");
     }
 }
+
+/// The mesh counts as much as the deck: a run of another is not gone on with.
+#[test]
+fn a_mesh_that_has_changed_is_said() {
+    let mesh = |length: f64| {
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 \"rod\"\n$EndPhysicalNames\n\
+             $Nodes\n2\n1 0 0 0\n2 {length} 0 0\n$EndNodes\n$Elements\n1\n1 1 2 1 1 1 2\n$EndElements\n"
+        )
+    };
+    let desk = Desk::new(
+        "[analysis]\nkind = \"dynamic\"\nend_time = 0.01\ntime_step = 1e-3\n[mesh]\nfile = \"rod.msh\"\n\
+         [materials.steel]\nmodel = \"elastic\"\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+         [sections.rod]\nshape = \"rectangle\"\nwidth = 0.01\nheight = 0.01\n\
+         [[beams]]\ngroup = \"rod\"\nmaterial = \"steel\"\nsection = \"rod\"\norientation = [0.0, 1.0, 0.0]\n\
+         [output]\nnodes = \"all\"\ncheckpoint = 600.0\n",
+    );
+    let file = desk.deck.with_file_name("rod.msh");
+    fs::write(&file, mesh(1.0)).unwrap();
+    let (code, said) = desk.run("out", &[]);
+    assert_eq!(code, Some(0), "{said}");
+    fs::write(&file, mesh(2.0)).unwrap();
+    let longer = ["--resume", "--set", "analysis.end_time=0.02"];
+    let (code, said) = desk.run("out", &longer);
+    assert!(code == Some(2) && said.contains("rod.msh` has changed since"), "{said}");
+    fs::write(&file, mesh(1.0)).unwrap();
+    let (code, said) = desk.run("out", &longer);
+    assert_eq!(code, Some(0), "{said}");
+}

@@ -17,7 +17,7 @@ pub struct Shell {
     pub name: Maybe<String>,
     /// Names of four points in order round the patch, or of three.
     pub corners: Maybe<Names>,
-    /// Name of a group of the mesh, instead of `corners`, `elements`, `kind` and `surface`: its triangles and
+    /// Name of a group of the mesh, instead of `corners`, `elements`, `kind`, `order` and `surface`: its triangles and
     /// quadrilaterals. Normals at nodes are those of the elements round them, each weighted by its angle there,
     /// on the same side of folds of more than 31 degrees.
     pub group: Maybe<String>,
@@ -31,6 +31,9 @@ pub struct Shell {
     pub material: Maybe<String>,
     /// The elements. Default: "quadrilateral"; a patch of three corners has triangles.
     pub kind: Maybe<ElementKind>,
+    /// Degree of the sides of its elements, 1 or 2. Elements of order 2 have a node on each side, and quadrilaterals one in the middle;
+    /// they follow curved surfaces. Those of a group are what the mesh has. Default: 1.
+    pub order: Maybe<u64>,
     /// Integration points through the thickness, 2 to 10, for shells whose material yields. Default: 5.
     pub layers: Maybe<u64>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
@@ -87,9 +90,9 @@ impl PartTable for Shell {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ElementKind {
-    /// Four-node elements with assumed transverse shear strains.
+    /// Four-node elements with assumed transverse shear strains; of nine nodes with `order = 2`.
     Quadrilateral,
-    /// Three-node elements with assumed transverse shear strains.
+    /// Three-node elements with assumed transverse shear strains; of six nodes with `order = 2`.
     Triangle,
 }
 

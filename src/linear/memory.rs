@@ -44,7 +44,7 @@ pub(super) fn require(unknowns: usize, nonzeros: usize) -> Result<(), TooLarge> 
 }
 
 /// Bytes that programs may still take, as Linux says; none on other systems.
-fn available() -> Option<f64> {
+pub fn available() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let kilobytes = |key: &str| -> Option<f64> {
         let line = text.lines().find_map(|line| line.strip_prefix(key))?;

@@ -28,7 +28,7 @@ pub use block_slot::BlockSlot;
 pub use cholesky::Cholesky;
 pub use elimination::operations;
 pub use factorization::Factorization;
-pub use memory::TooLarge;
+pub use memory::{TooLarge, available as available_memory};
 pub use pivot::Singular;
 pub use solver::Solver;
 pub use sparse::Sparse;

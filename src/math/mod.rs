@@ -1,5 +1,6 @@
 //! Vectors and matrices of fixed size, rotations, quadrature rules.
 
+pub mod curved_faces;
 pub mod quadrature;
 pub mod quintic;
 pub mod rotation;

@@ -3,7 +3,7 @@
 //! instance that is not moved. Keywords that make other nodes, elements or sets are errors; all others are skipped with their
 //! lines and listed.
 
-use super::data::CellShape;
+use super::data::{CellShape, MOST_CELL_NODES};
 use super::draft::{Draft, RawGroup};
 use super::ids::{Ids, short};
 use crate::math::Vec3;
@@ -16,6 +16,10 @@ fn cell_shape(name: &str) -> Option<CellShape> {
         "B31" => Some(CellShape::Segment),
         "S3" | "S3R" => Some(CellShape::Triangle),
         "S4" | "S4R" => Some(CellShape::Quadrilateral),
+        "B32" => Some(CellShape::CurvedSegment),
+        "S6" | "STRI65" => Some(CellShape::CurvedTriangle),
+        "S8" | "S8R" | "S8R5" => Some(CellShape::Serendipity),
+        "S9R5" => Some(CellShape::CurvedQuadrilateral),
         _ => None,
     }
 }
@@ -216,9 +220,13 @@ fn element(
         let message = format!("element {id} has {} nodes; {what} has {}", words.len() - 1, kind.size());
         return Err(text.fault(message, line.number));
     }
-    let mut nodes = [0; 4];
+    let mut nodes = [0; MOST_CELL_NODES];
     for (i, node) in nodes[..kind.size()].iter_mut().enumerate() {
         *node = number(text, words, 1 + i, line)?;
+    }
+    // Here the node between the ends of a line comes second.
+    if kind == CellShape::CurvedSegment {
+        nodes.swap(1, 2);
     }
     draft.element(id, kind, nodes, line.number);
     Ok(Ok(()))

@@ -36,7 +36,18 @@ pub enum CellShape {
     Triangle,
     /// Four nodes.
     Quadrilateral,
+    /// Three nodes, the ends first.
+    CurvedSegment,
+    /// Six nodes, corners first, then those on the sides from each corner to the next.
+    CurvedTriangle,
+    /// Eight nodes in the same order.
+    Serendipity,
+    /// Nine nodes: the same, and the middle.
+    CurvedQuadrilateral,
 }
+
+/// The largest number of nodes of an element.
+pub const MOST_CELL_NODES: usize = 9;
 
 impl CellShape {
     /// The number of its nodes.
@@ -45,7 +56,30 @@ impl CellShape {
             CellShape::Segment => 2,
             CellShape::Triangle => 3,
             CellShape::Quadrilateral => 4,
+            CellShape::CurvedSegment => 3,
+            CellShape::CurvedTriangle => 6,
+            CellShape::Serendipity => 8,
+            CellShape::CurvedQuadrilateral => 9,
         }
+    }
+
+    /// The number of its ends or corners.
+    pub fn corners(self) -> usize {
+        match self {
+            CellShape::Segment | CellShape::CurvedSegment => 2,
+            CellShape::Triangle | CellShape::CurvedTriangle => 3,
+            CellShape::Quadrilateral | CellShape::Serendipity | CellShape::CurvedQuadrilateral => 4,
+        }
+    }
+
+    /// True for segments, false for faces.
+    pub fn is_line(self) -> bool {
+        self.corners() == 2
+    }
+
+    /// The degree of its sides: 2 where there are nodes on them.
+    pub fn order(self) -> usize {
+        if self.size() > self.corners() { 2 } else { 1 }
     }
 }
 
@@ -57,7 +91,7 @@ pub struct MeshElement {
     /// The shape, which gives the number of its nodes.
     pub kind: CellShape,
     /// The indices of its nodes; those beyond their number are 0.
-    pub(super) nodes: [u32; 4],
+    pub(super) nodes: [u32; MOST_CELL_NODES],
     /// Its line in the file, counted from 1.
     pub line: u32,
 }

@@ -1,9 +1,9 @@
 //! The mesh while a reader collects it, by the numbers of the file, and the checks when it is complete.
 
-use super::data::{CellShape, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
+use super::data::{CellShape, MOST_CELL_NODES, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
 use super::ids::{Ids, short};
 use crate::diagnostic::Diagnostic;
-use crate::math::Vec3;
+use crate::math::{Vec3, curved_faces};
 use crate::text_file::{Fault, Text};
 use std::collections::HashMap;
 
@@ -39,7 +39,7 @@ pub struct RawElement {
     /// The shape, which gives the number of its nodes.
     pub kind: CellShape,
     /// The numbers of its nodes in the file; those beyond their number mean nothing.
-    pub nodes: [u64; 4],
+    pub nodes: [u64; MOST_CELL_NODES],
     /// The line in the file, counted from 1.
     pub line: u32,
 }
@@ -65,7 +65,7 @@ impl Draft {
     }
 
     /// Adds an element and returns its index.
-    pub fn element(&mut self, id: u64, kind: CellShape, nodes: [u64; 4], line: usize) -> u32 {
+    pub fn element(&mut self, id: u64, kind: CellShape, nodes: [u64; MOST_CELL_NODES], line: usize) -> u32 {
         self.elements.push(RawElement { id, kind, nodes, line: short(line) });
         short(self.elements.len() - 1)
     }
@@ -125,7 +125,7 @@ impl Draft {
     /// The element with the indices of its nodes; notes what is wrong with it.
     fn checked(&mut self, text: &Text, ids: &Ids, raw: &RawElement) -> MeshElement {
         let (kind, line) = (raw.kind, raw.line as usize);
-        let mut element = MeshElement { id: raw.id, kind, nodes: [0; 4], line: raw.line };
+        let mut element = MeshElement { id: raw.id, kind, nodes: [0; MOST_CELL_NODES], line: raw.line };
         for (node, id) in element.nodes.iter_mut().zip(&raw.nodes[..kind.size()]) {
             let Some(index) = ids.get(*id) else {
                 self.complain(text, line, Some(*id), || {
@@ -144,7 +144,9 @@ impl Draft {
             }
         }
         let x: [Vec3; 4] = std::array::from_fn(|i| self.nodes[nodes[i.min(nodes.len() - 1)] as usize].x);
-        if let Some(what) = flaw(kind, &x) {
+        let at = |i: usize| self.nodes[nodes[i] as usize].x;
+        let what = flaw(kind, &x).or_else(|| (kind.order() == 2).then(|| flaw_of_sides(kind, &at)).flatten());
+        if let Some(what) = what {
             self.complain(text, line, None, || format!("element {} {what}", raw.id));
         }
         element
@@ -189,11 +191,25 @@ impl Draft {
     }
 }
 
-/// What is wrong with the shape of an element with corners at `x`, the last repeated beyond its number of nodes.
+/// What is wrong with the nodes between the corners of an element, which are at `x`.
+fn flaw_of_sides(kind: CellShape, x: &impl Fn(usize) -> Vec3) -> Option<&'static str> {
+    if kind.is_line() {
+        let (along, from) = (x(1) - x(0), x(2) - x(0));
+        let part = from.dot(&along) / along.norm_squared();
+        return (!(0.25..=0.75).contains(&part)).then_some("has its node between too near to an end");
+    }
+    let n = kind.corners();
+    let area: Vec3 = (0..n).map(|i| (x((i + 1) % n) - x(i)).cross(&(x((i + n - 1) % n) - x(i)))).sum();
+    // With tangents against the mean normal the surface folds back.
+    let folded = |[r, s]: &[Vec3; 2]| r.cross(s).dot(&area) <= 0.0;
+    curved_faces::tangents_of(kind.size(), x).iter().any(folded).then_some("folds back on itself at one of its nodes")
+}
+
+/// What is wrong with the shape of an element with corners at `x`, the last repeated beyond their number.
 fn flaw(kind: CellShape, x: &[Vec3; 4]) -> Option<&'static str> {
-    let n = kind.size();
+    let n = kind.corners();
     let longest = (0..n).map(|i| (x[(i + 1) % n] - x[i]).norm()).fold(0.0, f64::max);
-    if kind == CellShape::Segment {
+    if kind.is_line() {
         let size = x[0].amax().max(x[1].amax());
         return (longest <= SHAPE_TOLERANCE * size).then_some("has no length");
     }

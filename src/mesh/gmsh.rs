@@ -1,7 +1,7 @@
 //! Gmsh in ASCII, versions 4.1 and 2.2. The groups are the physical groups of dimension 0, 1 and 2. A group without a name is
 //! called `physical_7` by its tag, or `physical_7_lines` where groups of several dimensions have that tag and no name.
 
-use super::data::CellShape;
+use super::data::{CellShape, MOST_CELL_NODES};
 use super::draft::{Draft, RawGroup};
 use super::ids::short;
 use crate::math::Vec3;
@@ -23,16 +23,16 @@ fn element_type(number: u64) -> ElementType {
         1 => return ElementType::Cell(CellShape::Segment),
         2 => return ElementType::Cell(CellShape::Triangle),
         3 => return ElementType::Cell(CellShape::Quadrilateral),
+        8 => return ElementType::Cell(CellShape::CurvedSegment),
+        9 => return ElementType::Cell(CellShape::CurvedTriangle),
+        10 => return ElementType::Cell(CellShape::CurvedQuadrilateral),
+        16 => return ElementType::Cell(CellShape::Serendipity),
         15 => return ElementType::Point,
         4 => "tetrahedra".to_owned(),
         5 => "hexahedra".to_owned(),
         6 => "prisms".to_owned(),
         7 => "pyramids".to_owned(),
-        8 => "3-node lines".to_owned(),
-        9 => "6-node triangles".to_owned(),
-        10 => "9-node quadrilaterals".to_owned(),
         11 => "10-node tetrahedra".to_owned(),
-        16 => "8-node quadrilaterals".to_owned(),
         17 => "20-node hexahedra".to_owned(),
         other => format!("elements of type {other}"),
     })
@@ -230,8 +230,8 @@ impl<'a, 't> Numbers<'a, 't> {
         Ok(Vec3::new(self.number("x")?, self.number("y")?, self.number("z")?))
     }
 
-    fn nodes(&mut self, kind: CellShape) -> Result<[u64; 4], Fault> {
-        let mut nodes = [0; 4];
+    fn nodes(&mut self, kind: CellShape) -> Result<[u64; MOST_CELL_NODES], Fault> {
+        let mut nodes = [0; MOST_CELL_NODES];
         for node in &mut nodes[..kind.size()] {
             *node = self.whole("a node")?;
         }
@@ -380,7 +380,7 @@ fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
             let id = words.whole("an element")?;
             element(&mut words, (id, &kind), line, draft, (&mut groups.list, places))?;
             if let (ElementType::Cell(kind), Some(element), true) = (&kind, draft.elements.last_mut(), turned) {
-                element.nodes[..kind.size()].reverse();
+                turn(*kind, &mut element.nodes);
             }
             if !matches!(kind, ElementType::Other(_)) {
                 words.end()?;
@@ -390,11 +390,21 @@ fn elements_4(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
     counted(text, line, "Elements", "elements", all, found)
 }
 
+/// Turns an element over: its nodes go round the other way.
+fn turn(kind: CellShape, nodes: &mut [u64; MOST_CELL_NODES]) {
+    let n = kind.corners();
+    nodes[..n].reverse();
+    // The side between the first and the last corner keeps its place, and so does the middle.
+    if kind.order() == 2 && n > 2 {
+        nodes[n..2 * n - 1].reverse();
+    }
+}
+
 /// Elements of version 2.2. A line has: number type n tags… nodes…; the first tag is the physical group, 0 for none.
 fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result<(), Fault> {
     let line = within(text, "Elements")?;
     // An element of several groups is written once for each group, with other numbers.
-    let mut known: HashMap<(CellShape, [u64; 4]), u32, BuildHasherDefault<Mix>> = HashMap::default();
+    let mut known: HashMap<(CellShape, [u64; MOST_CELL_NODES]), u32, BuildHasherDefault<Mix>> = HashMap::default();
     for _ in 0..Numbers::of(text, line).whole("the number of elements")? {
         let line = within(text, "Elements")?;
         let mut words = Numbers::of(text, line);
@@ -409,10 +419,7 @@ fn elements_2(text: &mut Text, draft: &mut Draft, groups: &mut Groups) -> Result
         }
         let dimension = match &kind {
             ElementType::Point => Some(0),
-            ElementType::Cell(CellShape::Segment) => Some(1),
-            ElementType::Cell(_) => Some(2),
-            ElementType::Other(what) if what.ends_with("lines") => Some(1),
-            ElementType::Other(what) if what.ends_with("triangles") || what.ends_with("quadrilaterals") => Some(2),
+            ElementType::Cell(kind) => Some(if kind.is_line() { 1 } else { 2 }),
             ElementType::Other(_) => None,
         };
         let place = dimension.filter(|_| physical > 0).map(|dimension| groups.place(dimension, physical));

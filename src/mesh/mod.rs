@@ -1,4 +1,5 @@
-//! Meshes from files: nodes, segments, triangles and quadrilaterals, and the groups that the file names.
+//! Meshes from files: nodes, segments, triangles and quadrilaterals, also with nodes on their sides, and the groups that the file
+//! names.
 //!
 //! Gmsh in ASCII, versions 4.1 and 2.2, and the subset of Abaqus and CalculiX input that describes a mesh are read. Other parts
 //! of a file are listed in [`Mesh::skipped`]. The readers are our own: existing crates know one version or one format each, and
@@ -13,7 +14,7 @@ mod normals;
 
 use crate::diagnostic::Diagnostic;
 use crate::text_file::Text;
-pub use data::{CellShape, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
+pub use data::{CellShape, MOST_CELL_NODES, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
 use draft::Draft;
 pub use normals::{FOLD, normals};
 

@@ -1,11 +1,12 @@
-//! Normals of a surface of triangles and quadrilaterals at their corners.
+//! Normals of a surface of triangles and quadrilaterals at their nodes.
 //!
 //! At a node, the elements that share an edge and whose normals differ by less than [`FOLD`] form one smooth side. Each side has
 //! one normal: the mean of the normals of its elements at the node, weighted by their angles there (Thürmer & Wüthrich 1998), so
 //! that it does not depend on how faces are divided. An element of the other orientation counts with the other sign and has the
 //! opposite normal.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, curved_faces};
+use std::f64::consts::{PI, TAU};
 
 /// The angle between neighbours, in degrees, from which their edge is a fold: the 12 faces of a coarse cylinder are still smooth,
 /// plates that meet at an angle are not.
@@ -13,9 +14,19 @@ pub const FOLD: f64 = 31.0;
 
 /// Unit normals at the corners of each face, on the side from which the corners of the face follow each other
 /// counter-clockwise, and the number of edges at which two neighbours are oriented differently. `faces`: indices into `x`,
-/// three or four corners each.
-pub fn normals<'a>(x: &[Vec3], faces: impl Iterator<Item = &'a [u32]> + Clone) -> (Vec<[Vec3; 4]>, usize) {
-    let corners: Vec<Corner> = faces.clone().enumerate().flat_map(|(face, nodes)| Corner::of(x, face, nodes)).collect();
+/// three or four corners each, or, with sides of second degree, six, eight or nine nodes, of which each has its normal; N is the largest
+/// number of nodes, and 9 where some have eight, whose ninth normal is that of their middle.
+pub fn normals<'a, const N: usize>(
+    x: &[Vec3],
+    faces: impl Iterator<Item = &'a [u32]> + Clone,
+) -> (Vec<[Vec3; N]>, usize) {
+    let mut corners: Vec<Corner> = Vec::new();
+    for (face, nodes) in faces.clone().enumerate() {
+        match nodes.len() {
+            3 | 4 => corners.extend(Corner::of(x, face, nodes)),
+            _ => corners.extend(Corner::of_curved(x, face, nodes)),
+        }
+    }
     // The corners at a node are starts[node]..starts[node + 1] of `order`.
     let mut starts = vec![0u32; x.len() + 1];
     corners.iter().for_each(|corner| starts[corner.node as usize + 1] += 1);
@@ -28,7 +39,15 @@ pub fn normals<'a>(x: &[Vec3], faces: impl Iterator<Item = &'a [u32]> + Clone) -
         order[*place as usize] = at as u32;
         *place += 1;
     }
-    let mut normals = vec![[Vec3::zeros(); 4]; faces.count()];
+    let middle = |nodes: &[u32]| {
+        let mut normals = [Vec3::zeros(); N];
+        if nodes.len() == 8 {
+            let [r, s] = curved_faces::tangents_of(8, &|a| x[nodes[a] as usize])[8];
+            normals[8] = r.cross(&s).normalize();
+        }
+        normals
+    };
+    let mut normals: Vec<[Vec3; N]> = faces.map(middle).collect();
     let (mut against, mut sides) = (0, Sides::default());
     for node in 0..x.len() {
         let round = &order[starts[node] as usize..starts[node + 1] as usize];
@@ -72,6 +91,30 @@ impl Corner {
                 normal: cross.normalize(),
                 angle: cross.norm().atan2(ahead.dot(&back)),
             }
+        })
+    }
+}
+
+impl Corner {
+    /// The nodes of a face with sides of second degree; between neighbours its normal at the node counts, as the face is curved.
+    fn of_curved<'a>(x: &'a [Vec3], face: usize, nodes: &'a [u32]) -> impl Iterator<Item = Corner> + 'a {
+        let at = move |i: usize| x[nodes[i] as usize];
+        let tangents = curved_faces::tangents_of(nodes.len(), &at);
+        let round: Vec<usize> = curved_faces::ring(nodes.len()).collect();
+        let corners = round.len() / 2;
+        (0..nodes.len()).map(move |place| {
+            let [r, s] = &tangents[place];
+            let normal = r.cross(s).normalize();
+            // The middle has no neighbours but itself.
+            let (mut sides, mut angle) = ([nodes[place]; 2], TAU);
+            if let Some(k) = round.iter().position(|&other| other == place) {
+                let n = round.len();
+                let [back, ahead] = [round[(k + n - 1) % n], round[(k + 1) % n]];
+                sides = [nodes[back], nodes[ahead]];
+                let (along, against) = (at(ahead) - at(place), at(back) - at(place));
+                angle = if place < corners { along.cross(&against).norm().atan2(along.dot(&against)) } else { PI };
+            }
+            Corner { node: nodes[place], face: face as u32, place, sides, face_normal: normal, normal, angle }
         })
     }
 }
@@ -136,7 +179,7 @@ impl Sides {
     }
 
     /// Writes the mean normal of each side to its corners.
-    fn write(&mut self, round: &[u32], corners: &[Corner], normals: &mut [[Vec3; 4]]) {
+    fn write<const N: usize>(&mut self, round: &[u32], corners: &[Corner], normals: &mut [[Vec3; N]]) {
         self.sums.clear();
         self.sums.resize(round.len(), Vec3::zeros());
         for (at, &corner) in round.iter().enumerate() {
@@ -217,7 +260,7 @@ mod tests {
                 faces.push(vec![at(i, j), at(i + 1, j + 1), at(i + 1, j)]);
             }
         }
-        let (n, against) = normals(&x, faces.iter().map(Vec::as_slice));
+        let (n, against) = normals::<4>(&x, faces.iter().map(Vec::as_slice));
         assert_eq!(against, 0);
         for (face, n) in faces.iter().zip(&n) {
             for (&node, n) in face.iter().zip(n) {

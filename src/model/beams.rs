@@ -14,10 +14,14 @@ use crate::diagnostic::At;
 use crate::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use crate::math::quadrature::lobatto;
 use crate::math::{Mat3, Vec3};
+use crate::mesh::MeshElement;
 use std::collections::HashSet;
 
 /// Sine of the angle between orientation and axis below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
+
+/// Part of a segment by which its node between may miss the middle.
+const HALF_WAY: f64 = 1e-6;
 
 /// Reads `[[beams]]`: divides each path into elements, or takes those of a group of the mesh.
 pub(super) fn beams(cx: &mut PartContext) {
@@ -104,7 +108,7 @@ impl<'d> Line<'_, 'd> {
         let first = cx.groups.mesh.first;
         let (inner, _) = lobatto(self.order + 1);
         let (mut made, mut nodes, mut seen) = (Vec::new(), Vec::new(), HashSet::new());
-        let (mut inside, mut parallel) = (0, 0);
+        let (mut inside, mut parallel, mut curved) = (0, 0, 0);
         for segment in &segments {
             let ends = [0, 1].map(|k| first + segment.nodes()[k] as usize);
             for end in ends {
@@ -120,6 +124,14 @@ impl<'d> Line<'_, 'd> {
             };
             let mut ids = [ends[1]; 5];
             ids[0] = ends[0];
+            if segment.kind.order() == 2 {
+                let middle = first + segment.nodes()[2] as usize;
+                curved += usize::from(!self.takes_middle(middle, [x0, x1], cx));
+                (ids[1], ids[2]) = (middle, ends[1]);
+                nodes.extend(seen.insert(middle).then_some(middle));
+                made.push(BeamElement { nodes: ids, frame, section: 0 });
+                continue;
+            }
             for (i, xi) in inner.iter().enumerate().take(inner.len() - 1).skip(1) {
                 inside += 1;
                 ids[i] = self.add_node(inside, x0 + (x1 - x0) * (0.5 * (1.0 + xi)), cx);
@@ -133,7 +145,36 @@ impl<'d> Line<'_, 'd> {
             let message = format!("`orientation` is parallel to {parallel} segments of group `{}`", group.value);
             return cx.report.error_with(place, message, "it must point to the side, where local y is to lie");
         }
+        self.takes_segments(group, &segments, curved, cx)?;
         toward.map(|_| made)
+    }
+
+    /// Reports segments of three nodes that no element of the beam can take; `curved`: how many are not straight.
+    fn takes_segments(
+        &self,
+        group: &'d At<String>,
+        segments: &[&MeshElement],
+        curved: usize,
+        cx: &mut PartContext<'_, 'd>,
+    ) -> Option<()> {
+        if curved > 0 {
+            let message =
+                format!("group `{}` has {curved} curved segments, and elements of beams are straight", group.value);
+            let hint = "mesh it with segments of two nodes, or with their nodes between half-way along straight lines";
+            return cx.report.error_with(&group.span, message, hint);
+        }
+        if self.order != 2 && segments.iter().any(|segment| segment.kind.order() == 2) {
+            let place = self.beam.order.as_ref().map_or(&group.span, |at| &at.span);
+            let message = format!("group `{}` has segments of three nodes", group.value);
+            return cx.report.error_with(place, message, "give the beam `order = 2`");
+        }
+        Some(())
+    }
+
+    /// Connects the node of the mesh between the ends of a segment; false where it is not half-way between them.
+    fn takes_middle(&self, middle: usize, [x0, x1]: [Vec3; 2], cx: &mut PartContext<'_, 'd>) -> bool {
+        cx.nodes.connect(middle, true);
+        (cx.nodes.x(middle) - 0.5 * (x0 + x1)).norm() <= HALF_WAY * (x1 - x0).norm()
     }
 
     /// Makes elements along a path of points, as yet without their sections, where the rest of the beam is `sound`.

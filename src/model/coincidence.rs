@@ -4,6 +4,7 @@ use super::data::PartIndex;
 use super::nodes::Topology;
 use super::scene::Scene;
 use crate::math::Vec3;
+use crate::math::curved_faces::facets;
 
 /// Places are the same within this part of the median length of an element, ...
 const OF_ELEMENT: f64 = 1e-4;
@@ -12,10 +13,20 @@ const OF_SCENE: f64 = 2e-6;
 /// ... and never within more than this part of the shortest element.
 const OF_SHORTEST: f64 = 0.05;
 
-/// The nodes of every element with its part.
+/// The nodes of every element with its part; of a curved face those of the flat ones that cover it.
 pub(super) fn pieces(scene: &Scene) -> Vec<(PartIndex, Vec<usize>)> {
     let entries = scene.parts.entries().filter(|(at, _)| at.kind.is_deformable());
-    entries.flat_map(|(at, _)| scene.parts.elements(at).into_iter().map(move |nodes| (at, nodes))).collect()
+    let flat = |at: PartIndex, nodes: Vec<usize>| match nodes.len() {
+        n @ (6 | 9) if at.kind.is_surface() => {
+            facets(n).iter().map(|facet| facet.iter().map(|&k| nodes[k]).collect()).collect()
+        }
+        _ => vec![nodes],
+    };
+    entries
+        .flat_map(|(at, _)| {
+            scene.parts.elements(at).into_iter().flat_map(move |nodes| flat(at, nodes)).map(move |nodes| (at, nodes))
+        })
+        .collect()
 }
 
 /// Within which places count as one, and the size of cells for elements.

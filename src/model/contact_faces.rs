@@ -10,7 +10,7 @@ use crate::deck::contacts as words;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, Facet, FacetTouchers, Surface, SurfaceShape};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, curved_faces};
 use crate::solids::Touching;
 
 /// The word for a shell that touches itself.
@@ -65,7 +65,13 @@ fn faces<'d>(
     };
     let half = finder.contact_radius(surface);
     let elements = scene.parts.elements(surface);
-    let facets: Vec<Facet> = elements.iter().map(|nodes| Facet::new(&nodes[..nodes.len().min(4)], half)).collect();
+    let facet = |nodes: &[usize], corners: &[usize]| {
+        let corners: Vec<usize> = corners.iter().map(|&k| nodes[k]).collect();
+        Facet::new(&corners, half)
+    };
+    let flat =
+        elements.iter().flat_map(|nodes| curved_faces::facets(nodes.len()).iter().map(|corners| facet(nodes, corners)));
+    let facets: Vec<Facet> = flat.collect();
     if facets.is_empty() {
         // A part with errors of its own has no faces, and these have been said.
         return None;

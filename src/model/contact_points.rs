@@ -10,7 +10,7 @@ use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, MOST_NODES, Toucher, TouchingBox};
-use crate::math::Vec3;
+use crate::math::{Vec3, curved_faces};
 use crate::solids::Touching;
 use std::collections::{HashMap, HashSet};
 
@@ -204,7 +204,12 @@ impl<'d> Finder<'_, 'd> {
         let x = |node: usize| self.topology.x(node);
         let width = |nodes: &Vec<usize>| match is_surface {
             // What goes through a mesh of a surface is as wide as its diagonal.
-            true => nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| (a, b))).fold(0.0, widest(&x)),
+            true => {
+                let facets = curved_faces::facets(nodes.len()).iter();
+                let pairs =
+                    facets.flat_map(|of| of.iter().flat_map(|&a| of.iter().map(move |&b| (nodes[a], nodes[b]))));
+                pairs.fold(0.0, widest(&x))
+            }
             false => nodes.windows(2).map(|pair| (pair[0], pair[1])).fold(0.0, widest(&x)),
         };
         let width = elements.iter().map(width).fold(0.0, f64::max) / (between.unwrap_or(0) + 1) as f64;

@@ -8,7 +8,7 @@ use super::names::Names;
 use super::report::Report;
 use crate::deck::Deck;
 use crate::diagnostic::At;
-use crate::mesh::{self, CellShape, Mesh};
+use crate::mesh::{self, MOST_CELL_NODES, Mesh};
 use crate::names::{joined, nearest, quoted};
 
 /// The groups and elements of the mesh that parts have taken so far.
@@ -55,10 +55,10 @@ impl<'d> Groups<'d> {
         if group.skipped > 0 {
             let message = format!("{} elements of group `{}` are of unsupported types", group.skipped, name.value);
             report.lose_connections();
-            let hint = "mesh it with lines of two nodes and faces of three or four";
+            let hint = "mesh it with lines of two or three nodes and faces of three, four, six, eight or nine";
             return report.error_with(&name.span, message, hint);
         }
-        let is_meant = |e: &&mesh::MeshElement| (e.kind != CellShape::Segment) == faces;
+        let is_meant = |e: &&mesh::MeshElement| e.kind.is_line() != faces;
         let indices = || group.elements.iter().map(|&e| e as usize);
         let elements: Vec<&mesh::MeshElement> = indices().map(|e| &mesh.elements[e]).filter(is_meant).collect();
         if elements.is_empty() {
@@ -80,12 +80,12 @@ impl<'d> Groups<'d> {
     /// Lists the nodes of faces, each once in the order of the faces, and gives each face by its places in that list. The time
     /// taken grows with the number of faces alone, not with the mesh.
     #[allow(clippy::type_complexity)]
-    pub fn own_nodes(&mut self, faces: &[&mesh::MeshElement]) -> Option<(Vec<u32>, Vec<[u32; 4]>)> {
+    pub fn own_nodes(&mut self, faces: &[&mesh::MeshElement]) -> Option<(Vec<u32>, Vec<[u32; MOST_CELL_NODES]>)> {
         let local = &mut self.local;
         local.resize(self.mesh.input?.mesh.nodes.len(), 0);
         let (mut own, mut of) = (Vec::new(), Vec::with_capacity(faces.len()));
         for face in faces {
-            let mut nodes = [0; 4];
+            let mut nodes = [0; MOST_CELL_NODES];
             for (place, &node) in nodes.iter_mut().zip(face.nodes()) {
                 let number = &mut local[node as usize];
                 if *number == 0 {
@@ -107,15 +107,11 @@ impl<'d> Groups<'d> {
         for group in names.groups_in_lists() {
             input.mesh.groups[group].elements.iter().for_each(|&e| used[e as usize] = true);
         }
-        let kinds = [
-            (CellShape::Segment, "segments"),
-            (CellShape::Triangle, "triangles"),
-            (CellShape::Quadrilateral, "quadrilaterals"),
-        ];
+        let kinds = [(2, "segments"), (3, "triangles"), (4, "quadrilaterals")];
         let mut left = Vec::new();
-        for (kind, what) in kinds {
+        for (corners, what) in kinds {
             let elements = input.mesh.elements.iter().zip(&used);
-            let count = elements.filter(|(element, used)| element.kind == kind && !*used).count();
+            let count = elements.filter(|(element, used)| element.kind.corners() == corners && !*used).count();
             if count > 0 {
                 left.push(format!("{count} {what}"));
             }

@@ -8,7 +8,7 @@ use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Excerpt};
-use crate::mesh::{self, CellShape, Mesh};
+use crate::mesh::{self, Mesh};
 use crate::text_file::read_regular;
 
 /// A mesh that has been read.
@@ -120,11 +120,11 @@ impl<'d> MeshNodes<'d> {
         nodes.iter().map(move |&node| first + node as usize)
     }
 
-    /// Segments of a group, as pairs of the model's nodes.
+    /// Segments of a group, as pairs of the model's nodes at their ends.
     pub fn group_segments(&self, group: usize) -> Vec<[usize; 2]> {
         let Some(input) = self.input else { return Vec::new() };
         let elements = input.mesh.groups[group].elements.iter().map(|&e| &input.mesh.elements[e as usize]);
         let node = |node: u32| self.first + node as usize;
-        elements.filter(|e| e.kind == CellShape::Segment).map(|e| [node(e.nodes()[0]), node(e.nodes()[1])]).collect()
+        elements.filter(|e| e.kind.is_line()).map(|e| [node(e.nodes()[0]), node(e.nodes()[1])]).collect()
     }
 }

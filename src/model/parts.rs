@@ -7,10 +7,11 @@ use super::data::Part;
 use super::report::Report;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::Span;
+use crate::linear::available_memory;
 use crate::sections::Stiffness;
 
-/// The most elements of all beams, bars and shells together; more, at some kilobytes each, are a slip of the keyboard.
-const MOST_ELEMENTS: usize = 2_000_000;
+/// The bytes that an element takes at least, with its nodes and its part of the matrix before that is factorised.
+const BYTES: f64 = 4e3;
 
 /// The parts and nodes that one table of the deck has become.
 #[derive(Default)]
@@ -38,6 +39,8 @@ pub(super) struct Parts {
     entries: BTreeMap<PartIndex, PartEntry>,
     /// Elements that paths and patches have asked for so far.
     asked: usize,
+    /// The number of elements for which there is memory, once it has been looked at.
+    most: Option<f64>,
 }
 
 impl Parts {
@@ -88,17 +91,19 @@ impl Parts {
     }
 
     /// Counts elements that paths and patches are to be cut into, before they take memory. Together more than
-    /// [`MOST_ELEMENTS`] are an error.
+    /// there is memory for are an error.
     pub fn ask_for(&mut self, elements: usize, place: &Span, report: &mut Report) -> Option<()> {
         let before = self.asked;
         self.asked = before.saturating_add(elements);
-        if self.asked <= MOST_ELEMENTS {
+        let most = *self.most.get_or_insert_with(|| available_memory().map_or(f64::INFINITY, |bytes| bytes / BYTES));
+        if self.asked as f64 <= most {
             return Some(());
         }
         // This is said once: all that comes after is too many as well.
-        if before <= MOST_ELEMENTS {
+        if before as f64 <= most {
             let message = format!("with this the deck has {} elements", self.asked);
-            let hint = format!("at most {MOST_ELEMENTS} are allowed in all beams, bars and shells together");
+            let hint =
+                format!("they need at least {:.1} GB, more memory than there is", BYTES * self.asked as f64 / 1e9);
             report.error_with::<()>(place, message, hint);
         }
         None

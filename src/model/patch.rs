@@ -12,6 +12,7 @@ struct Edge {
     nodes: Vec<usize>,
     /// The point half way along the edge in parameters.
     middle: Vec3,
+    order: usize,
     patch: String,
 }
 
@@ -29,8 +30,10 @@ pub(super) struct Patch<'b, 'd> {
     pub map: Map,
     /// The nodes at the corners.
     pub corners: Vec<usize>,
-    /// The numbers of elements along the first and the second edge.
+    /// The numbers of spaces between nodes along the first and the second edge: of elements times their order.
     pub counts: [usize; 2],
+    /// The degree of the sides of its elements.
+    pub order: usize,
     /// The number of nodes made so far, which numbers their labels.
     pub made: usize,
 }
@@ -145,7 +148,14 @@ impl<'d> Patch<'_, 'd> {
             |edge: &&Edge| (edge.ends == ends || edge.ends == reversed) && (edge.middle - middle).norm() < 1e-6 * size;
         let count = points.len() - 1;
         if let Some(edge) = edges.0.iter().find(same) {
-            let there = edge.nodes.len() - 1;
+            if edge.order != self.order {
+                let (what, other) = (&self.owner.what, &edge.patch);
+                let message = format!("{what} shares an edge with shell `{other}`, whose elements have another order");
+                let hint = "patches that share an edge need elements of the same `order`";
+                return report.error_with(self.owner.span, message, hint);
+            }
+            let there = (edge.nodes.len() - 1) / self.order;
+            let count = count / self.order;
             if there != count {
                 let (what, other) = (&self.owner.what, &edge.patch);
                 let message = format!("{what} has {count} elements along an edge where shell `{other}` has {there}");
@@ -166,7 +176,7 @@ impl<'d> Patch<'_, 'd> {
             line.push(self.add_node(self.map_at(i, j)[0], nodes));
         }
         line.push(ends[1]);
-        edges.0.push(Edge { ends, nodes: line.clone(), middle, patch: self.name.to_owned() });
+        edges.0.push(Edge { ends, nodes: line.clone(), middle, order: self.order, patch: self.name.to_owned() });
         Some(line)
     }
 
@@ -179,19 +189,18 @@ impl<'d> Patch<'_, 'd> {
 
     /// Elements between the nodes of a grid, row by row.
     pub fn elements(&self, grid: &Grid, triangles: bool) -> Vec<ShellElement> {
-        let [n, m] = self.counts;
+        let [n, m] = self.counts.map(|count| count / self.order);
         let mut elements = Vec::new();
-        let mut add = |of: &[usize]| {
-            let id = |k: usize| of[k.min(of.len() - 1)];
-            elements.push(ShellElement {
-                nodes: std::array::from_fn(|k| grid.nodes[id(k)].unwrap_or_default()),
-                normals: std::array::from_fn(|k| grid.normals[id(k)]),
-                bulge: [0.0; 4],
-            });
+        // Corners as points of the grid of elements.
+        let mut add = |of: &[[usize; 2]]| {
+            let places = self.places(of);
+            let nodes: Vec<usize> = places.iter().map(|&place| grid.nodes[place].unwrap_or_default()).collect();
+            let normals: Vec<Vec3> = places.iter().map(|&place| grid.normals[place]).collect();
+            elements.push(ShellElement::new(&nodes, &normals));
         };
         for j in 0..m {
             for i in 0..n {
-                let [a, b, c, d] = [self.at(i, j), self.at(i + 1, j), self.at(i + 1, j + 1), self.at(i, j + 1)];
+                let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
                 match (self.is_triangular(), triangles) {
                     (true, _) if i + j < n => {
                         add(&[a, b, d]);
@@ -208,5 +217,24 @@ impl<'d> Patch<'_, 'd> {
             }
         }
         elements
+    }
+
+    /// The places in the grid of the nodes of an element with these corners.
+    fn places(&self, corners: &[[usize; 2]]) -> Vec<usize> {
+        let at = |i: usize, j: usize| self.at(i, j);
+        if self.order == 1 {
+            return corners.iter().map(|&[i, j]| at(i, j)).collect();
+        }
+        let n = corners.len();
+        let side = |k: usize| {
+            let ([a, b], [c, d]) = (corners[k], corners[(k + 1) % n]);
+            at(a + c, b + d)
+        };
+        let mut places: Vec<usize> = corners.iter().map(|&[i, j]| at(2 * i, 2 * j)).collect();
+        places.extend((0..n).map(side));
+        if n == 4 {
+            places.push(at(corners[0][0] + corners[2][0], corners[0][1] + corners[2][1]));
+        }
+        places
     }
 }

@@ -7,7 +7,7 @@ use super::nodes::Nodes;
 use super::report::Report;
 use super::scene::Scene;
 use crate::deck::parts::DeckPart;
-use crate::math::Vec3;
+use crate::math::{Vec3, curved_faces};
 use crate::names::short;
 use std::f64::consts::PI;
 
@@ -136,7 +136,9 @@ impl Connected {
             match part.kind().is_surface() {
                 true => {
                     let side = |k: usize| nodes.x(of[k]) - x;
-                    extent.area += (2..of.len()).map(|k| 0.5 * side(k - 1).cross(&side(k)).norm()).sum::<f64>();
+                    let round: Vec<usize> = curved_faces::ring(of.len()).collect();
+                    let area = |k: usize| 0.5 * side(round[k - 1]).cross(&side(round[k])).norm();
+                    extent.area += (2..round.len()).map(area).sum::<f64>();
                 }
                 false => extent.length += length(of, nodes),
             }

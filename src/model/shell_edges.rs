@@ -25,7 +25,8 @@ pub(super) type Bulges = Vec<[f64; 4]>;
 pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology, most: &[Bulges]) {
     let (mut curved, mut of_quadrilaterals) = (HashSet::new(), HashSet::new());
     let mixed = parts.iter().filter_map(Shell::of).any(|shell| shell.corners == 3);
-    for shell in parts.iter().filter_map(Shell::of) {
+    // Those of second order have curved sides of their own.
+    for shell in parts.iter().filter_map(Shell::of).filter(|shell| shell.order == 1) {
         for element in &shell.elements {
             let edges = (0..shell.corners).map(|a| (a, element.edge(a, shell.corners)));
             if mixed && shell.corners == 4 {
@@ -37,6 +38,9 @@ pub(super) fn set_bulges(parts: &mut [Part], topology: &Topology, most: &[Bulges
     }
     for (index, shell) in parts.iter_mut().filter_map(Shell::of_mut).enumerate() {
         let corners = shell.corners;
+        if shell.order == 2 {
+            continue;
+        }
         for (number, element) in shell.elements.iter_mut().enumerate() {
             let most = most.get(index).map_or(&[f64::INFINITY; 4], |shell| &shell[number]);
             for a in 0..corners {
@@ -112,17 +116,32 @@ pub(super) struct Edge {
     pub normal: Vec3,
     /// See [`set_bulges`].
     pub bulge: f64,
+    /// Of a curved edge its nodes, one end, the other and that between, and the part of it from −1 to 1.
+    pub curve: Option<([usize; 3], [f64; 2])>,
 }
 
-/// The edges of all shells by their nodes, the lower first; of a fold the edge of the first shell.
+/// The edges of all shells by their nodes, the lower first; of a fold the edge of the first shell. Curved edges are there as a whole, by
+/// their ends, and by halves.
 pub(super) fn edges_of_shells(parts: &[Part]) -> HashMap<[usize; 2], Edge> {
     let mut edges = HashMap::new();
     for shell in parts.iter().filter_map(Shell::of) {
         let corners = shell.corners;
         for element in &shell.elements {
             for a in 0..corners {
+                if shell.order == 2 {
+                    let [first, last] = element.edge(a, corners);
+                    let middle = element.nodes[corners + a];
+                    let nodes = [first, last, middle];
+                    for (ends, part) in
+                        [([first, last], [-1.0, 1.0]), ([first, middle], [-1.0, 0.0]), ([last, middle], [0.0, 1.0])]
+                    {
+                        let edge = Edge { normal: element.normals[a], bulge: 0.0, curve: Some((nodes, part)) };
+                        edges.entry([ends[0].min(ends[1]), ends[0].max(ends[1])]).or_insert(edge);
+                    }
+                    continue;
+                }
                 let normal = (element.normals[a] + element.normals[(a + 1) % corners]).normalize();
-                edges.entry(element.edge(a, corners)).or_insert(Edge { normal, bulge: element.bulge[a] });
+                edges.entry(element.edge(a, corners)).or_insert(Edge { normal, bulge: element.bulge[a], curve: None });
             }
         }
     }

@@ -10,9 +10,10 @@ use super::values::{chosen, span};
 use crate::deck::shells as words;
 use crate::deck::words::OneOrMany;
 use crate::diagnostic::At;
-use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, Plate};
-use crate::math::Vec3;
+use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plate};
+use crate::math::{Vec3, curved_faces};
 use crate::mesh;
+use std::collections::HashSet;
 
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
@@ -50,7 +51,7 @@ fn read_shell<'d>(
     let part = plate(owner, shell, mass, cx).map(|(plate, density, yielding, axis)| {
         cx.parts.entry_mut(at).contact_radius = 0.5 * plate.thickness;
         let (elements, numbers) = (Vec::new(), Vec::new());
-        Shell { name: name.clone(), plate, density, mass, yielding, axis, corners: 0, elements, numbers }
+        Shell { name: name.clone(), plate, density, mass, yielding, axis, corners: 0, order: 1, elements, numbers }
     });
     if let Some(group) = &shell.group {
         let unused = [
@@ -58,6 +59,7 @@ fn read_shell<'d>(
             ("elements", span(&shell.elements)),
             ("kind", span(&shell.kind)),
             ("surface", span(&shell.surface)),
+            ("order", span(&shell.order)),
         ];
         cx.report.reject_unused("a shell made of a group of the mesh", &unused);
         return of_group(at, owner, group, part, cx);
@@ -67,6 +69,10 @@ fn read_shell<'d>(
     }
     let corners = corners(owner, shell, cx);
     let counts = cx.report.require(owner, "elements", &shell.elements).and_then(|counts| read_counts(counts, cx));
+    let order = cx.report.count("order", &shell.order, 1);
+    if let Some(at) = shell.order.as_ref().filter(|_| !(1..=2).contains(&order)) {
+        cx.report.error::<()>(&at.span, "`order` of a shell can be 1 or 2");
+    }
     let corners = corners?;
     let triangles = match &shell.kind {
         Some(at) if at.value == words::ElementKind::Quadrilateral && corners.len() == 3 => {
@@ -83,9 +89,12 @@ fn read_shell<'d>(
         return cx.report.error(place, message);
     }
     let part = part?;
-    let patch = Patch { name: &name, owner, map, corners, counts, made: 0 };
+    // Patches that share its edges would only repeat the error.
+    let order = if order == 2 { 2 } else { 1 };
+    let counts = counts.map(|count| order * count);
+    let patch = Patch { name: &name, owner, map, corners, counts, order, made: 0 };
     let elements = of_patch(at, patch, triangles, edges, cx)?;
-    Some(vec![Shell { corners: if triangles { 3 } else { 4 }, elements, ..part }])
+    Some(vec![Shell { corners: if triangles { 3 } else { 4 }, order, elements, ..part }])
 }
 
 /// The elements of a patch; its nodes are noted in its entry.
@@ -112,7 +121,7 @@ fn of_patch<'d>(
     Some(elements)
 }
 
-/// The faces of a group, quadrilaterals and triangles apart, in copies of a shell without elements.
+/// The faces of a group, each shape apart, in copies of a shell without elements.
 fn of_group<'d>(
     at: PartIndex,
     owner: &Owner<'d>,
@@ -131,30 +140,87 @@ fn of_group<'d>(
     let mesh = &cx.groups.mesh.input?.mesh;
     let x: Vec<Vec3> = own.iter().map(|&node| mesh.nodes[node as usize].x).collect();
     let sizes = faces.iter().map(|face| face.nodes().len());
-    let (normals, against) = mesh::normals(&x, local.iter().zip(sizes).map(|(nodes, size)| &nodes[..size]));
+    let all = local.iter().zip(sizes).map(|(nodes, size)| &nodes[..size]);
+    let (shells, against) = if faces.iter().all(|face| face.kind.order() == 1) {
+        let (normals, against) = mesh::normals::<4>(&x, all);
+        (of_faces(&faces, &normals, &shell, first), against)
+    } else {
+        let apart = edges_of_two_orders(&faces);
+        if apart > 0 {
+            cx.report.lose_connections();
+            let message = format!("{} has elements of order 1 beside those of order 2: at {apart} edges", owner.what);
+            return cx.report.error_with(&name.span, message, "mesh it with elements of one order");
+        }
+        let (normals, against) = mesh::normals::<MOST_NODES>(&x, all);
+        let mut shells = of_faces(&faces, &normals, &shell, first);
+        add_middles(at, &mut shells, &faces, cx);
+        (shells, against)
+    };
     if against > 0 {
         let message = format!("neighbouring elements of {} have opposite normals: at {against} edges", owner.what);
         cx.report.warn(&name.span, message, "pressure acts against the normal of each element");
     }
+    Some(shells)
+}
+
+/// The number of edges at which a face with straight sides meets one with sides of second degree.
+fn edges_of_two_orders(faces: &[&mesh::MeshElement]) -> usize {
+    let edges = |order: usize| {
+        let of = faces.iter().filter(move |face| face.kind.order() == order);
+        of.flat_map(|face| {
+            let (nodes, n) = (face.nodes(), face.kind.corners());
+            (0..n).map(move |k| {
+                let (a, b) = (nodes[k], nodes[(k + 1) % n]);
+                [a.min(b), a.max(b)]
+            })
+        })
+    };
+    let straight: HashSet<[u32; 2]> = edges(1).collect();
+    edges(2).filter(|edge| straight.contains(edge)).count()
+}
+
+/// The faces of a group by their shapes, in copies of a shell without elements. The middles of those of eight nodes are still missing.
+fn of_faces<const N: usize>(
+    faces: &[&mesh::MeshElement],
+    normals: &[[Vec3; N]],
+    shell: &Shell,
+    first: usize,
+) -> Vec<Shell> {
     let mut shells = Vec::new();
-    for corners in [4, 3] {
-        let of = |(number, (face, normals)): (usize, (&&mesh::MeshElement, &[Vec3; 4]))| {
-            let at = |k: usize| k.min(corners - 1);
-            let element = || ShellElement {
-                nodes: std::array::from_fn(|k| first + face.nodes()[at(k)] as usize),
-                normals: std::array::from_fn(|k| normals[at(k)]),
-                bulge: [0.0; 4],
+    for (corners, order) in [(4, 1), (3, 1), (4, 2), (3, 2)] {
+        let of = |(number, (face, normals)): (usize, (&&mesh::MeshElement, &[Vec3; N]))| {
+            let element = || {
+                let nodes: Vec<usize> = face.nodes().iter().map(|&node| first + node as usize).collect();
+                let size = if nodes.len() == 8 { MOST_NODES } else { nodes.len() };
+                ShellElement::new(&nodes, &normals[..size])
             };
-            (face.nodes().len() == corners).then(|| (number as u32, element()))
+            ((face.kind.corners(), face.kind.order()) == (corners, order)).then(|| (number as u32, element()))
         };
-        let of = faces.iter().zip(&normals).enumerate().filter_map(of);
+        let of = faces.iter().zip(normals).enumerate().filter_map(of);
         let (numbers, elements): (Vec<u32>, Vec<ShellElement>) = of.unzip();
         if !elements.is_empty() {
             let numbers = if elements.len() < faces.len() { numbers } else { Vec::new() };
-            shells.push(Shell { corners, elements, numbers, ..shell.clone() });
+            shells.push(Shell { corners, order, elements, numbers, ..shell.clone() });
         }
     }
-    Some(shells)
+    shells
+}
+
+/// Gives elements of eight nodes one in the middle, by their shape functions.
+fn add_middles(at: PartIndex, shells: &mut [Shell], faces: &[&mesh::MeshElement], cx: &mut PartContext) {
+    for shell in shells.iter_mut().filter(|shell| shell.size() == MOST_NODES) {
+        for number in 0..shell.elements.len() {
+            let face = faces[shell.number(number)];
+            let element = &mut shell.elements[number];
+            if face.nodes().len() == 8 {
+                let x = curved_faces::middle_of_eight(|a| cx.nodes.x(element.nodes[a]));
+                let node = cx.nodes.add(format!("{}[{}]", shell.name, face.id), false, x);
+                cx.nodes.connect(node, true);
+                cx.parts.entry_mut(at).nodes.push(node);
+                element.nodes[8] = node;
+            }
+        }
+    }
 }
 
 /// True for an element that is not seen the same way round from each of its corners.

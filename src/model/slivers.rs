@@ -5,7 +5,7 @@ use super::nodes::Nodes;
 use super::parts::Parts;
 use super::report::Report;
 use crate::deck::Deck;
-use crate::math::Vec3;
+use crate::math::{Vec3, curved_faces};
 use crate::names::short;
 
 /// Longest edge over least height, beyond which bending has lost six digits.
@@ -41,9 +41,9 @@ pub(super) fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &
         let (mut long, mut flat) = (Worst::default(), Worst::default());
         for (part, element) in parts.of(surface.at).iter().flat_map(|part| (0..part.elements()).map(move |e| (part, e)))
         {
-            let Some(Drawing::Face { corners }) = part.drawing(element) else { continue };
-            let n = corners.len();
-            let x: [Vec3; 4] = std::array::from_fn(|k| nodes.x(corners[k % n]));
+            let Some(Drawing::Face { nodes: of }) = part.drawing(element) else { continue };
+            let n = curved_faces::corners(of.len());
+            let x: [Vec3; 4] = std::array::from_fn(|k| nodes.x(of[k % n]));
             let centre = x[..n].iter().sum::<Vec3>() / n as f64;
             long.meet(length_to_height(&x, n), LONG, centre);
             if n == 4 {

@@ -15,7 +15,7 @@ use crate::deck::words::{Names, Table};
 use crate::diagnostic::At;
 use crate::elements::pressure::Face;
 use crate::elements::shell;
-use crate::math::Vec3;
+use crate::math::{Vec3, curved_faces, quadrature};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// A load spread over shells, edges or lines, as forces on their nodes; a pressure that follows, as one on their faces.
@@ -288,6 +288,9 @@ impl<'d> Spread<'_, 'd> {
         let Some(line) = self.line.as_ref().map(|line| line.force) else { return };
         let along = self.topology.x(pair[1]) - self.topology.x(pair[0]);
         let edge = self.edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]);
+        if let Some((nodes, part)) = edge.and_then(|edge| edge.curve) {
+            return self.along_curve(nodes, part, &line);
+        }
         let moment = edge.map_or_else(Vec3::zeros, |edge| {
             edge.bulge * along.norm() / 12.0 * along.cross(&line).dot(&edge.normal) * edge.normal
         });
@@ -295,6 +298,21 @@ impl<'d> Spread<'_, 'd> {
             let [force, sum] = self.forces.entry(node).or_default();
             *force += 0.5 * along.norm() * line;
             *sum += moment;
+        }
+    }
+
+    /// Distributes the force on a part of a curved edge to its nodes, by the work that it does between them.
+    fn along_curve(&mut self, nodes: [usize; 3], [begin, end]: [f64; 2], line: &Vec3) {
+        let x = nodes.map(|node| self.topology.x(node));
+        let half = 0.5 * (end - begin);
+        let (points, weights) = quadrature::gauss(4);
+        for (point, w) in points.iter().zip(weights) {
+            let r = begin + half * (1.0 + point);
+            let values = [0.5 * r * (r - 1.0), 0.5 * r * (r + 1.0), 1.0 - r * r];
+            let slope: Vec3 = (r - 0.5) * x[0] + (r + 0.5) * x[1] - 2.0 * r * x[2];
+            for (node, value) in nodes.into_iter().zip(values) {
+                self.forces.entry(node).or_default()[0] += w * half * value * slope.norm() * line;
+            }
         }
     }
 
@@ -335,8 +353,9 @@ fn line_of(
     for surface in scene.deck.parts().filter(|part| part.at.kind.is_surface()) {
         for face in scene.parts.elements(surface.at) {
             whole |= face.iter().all(|node| set.contains(node));
-            for (k, &a) in face.iter().enumerate() {
-                let b = face[(k + 1) % face.len()];
+            let round: Vec<usize> = curved_faces::ring(face.len()).map(|k| face[k]).collect();
+            for (k, &a) in round.iter().enumerate() {
+                let b = round[(k + 1) % round.len()];
                 if set.contains(&a) && set.contains(&b) {
                     let next = edges.len();
                     let place = *places.entry([a.min(b), a.max(b)]).or_insert(next);

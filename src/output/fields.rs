@@ -69,9 +69,14 @@ impl Grid {
                     };
                     self.curve(kind, part, nodes, axes);
                 }
-                Some(Drawing::Face { corners }) => {
-                    let kind = if corners.len() == 3 { Cell::Triangle } else { Cell::Quad };
-                    let points: Vec<usize> = corners
+                Some(Drawing::Face { nodes }) => {
+                    let kind = match nodes.len() {
+                        3 => Cell::Triangle,
+                        6 => Cell::QuadraticTriangle,
+                        9 => Cell::BiquadraticQuad,
+                        _ => Cell::Quad,
+                    };
+                    let points: Vec<usize> = nodes
                         .iter()
                         .map(|&node| {
                             let next = first + place.len();

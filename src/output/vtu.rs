@@ -21,6 +21,8 @@ pub enum Cell {
     Quad = 9,
     Hexahedron = 12,
     QuadraticEdge = 21,
+    QuadraticTriangle = 22,
+    BiquadraticQuad = 28,
     LagrangeCurve = 68,
 }
 

@@ -10,6 +10,7 @@ use super::group::Group;
 use super::joints::{self, Diagonal};
 use super::loads::{Loading, follower_stiffness};
 use super::tangent_weights::TangentWeights;
+use crate::elements::pressure::MOST_NODES;
 use crate::elements::{ElementBlock, Partners};
 use crate::linear::Solver;
 use crate::math::{Mat3, Mat6};
@@ -483,11 +484,11 @@ impl Assembly {
         let Scratch { projections, projected, .. } = &mut self.scratch;
         let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         let mut destinations = self.faces.iter();
+        let mut scratch = [0.0; 9 * MOST_NODES * MOST_NODES];
         for (load, p) in system.pressures.iter().zip(&loading.pressures) {
             for (face, destination) in load.faces.iter().zip(&mut destinations) {
-                let mut K = [0.0; 12 * 12];
                 let width = 3 * face.nodes().len();
-                let K = &mut K[..width * width];
+                let K = &mut scratch[..width * width];
                 face.stiffness(*p, nodes, K);
                 how.add((K, width), destination, projected, values);
             }

@@ -101,7 +101,7 @@ fn abaqus() {
     assert_snapshot!("inp_no_type", inp(&text.replace("TYPE=S4R, ", "")));
     assert_snapshot!("inp_unknown_node", inp(&text.replace("*NSET, NSET=tip\n3,", "*NSET, NSET=tip\n333,")));
     assert_snapshot!("inp_unknown_set", inp(&format!("{text}*ELSET, ELSET=all_of_it\nplate, roof\n")));
-    let keywords = "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*ELEMENT, TYPE=S8R, ELSET=more\n90, 1, 2, 3, 4, 5, 6, 7, 8\n*STEP\n*STEP\n";
+    let keywords = "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*ELEMENT, TYPE=C3D8, ELSET=more\n90, 1, 2, 3, 4, 5, 6, 7, 8\n*STEP\n*STEP\n";
     assert_snapshot!("inp_skipped", inp(&format!("{text}{keywords}")));
     assert_snapshot!("inp_instance", inp(&format!("{text}*INSTANCE, NAME=one, PART=plate\n1., 0., 0.\n")));
 }
@@ -261,4 +261,31 @@ fn many_nodes_with_one_mistake() {
     let folder = Folder::with(&[("plate.inp", &mesh)]);
     let load = "[[loads]]\nat = \"loose\"\nforce = [1.0, 0.0, 0.0]\n";
     assert_snapshot!("many_loose", folder.read(&format!("{deck}{load}")).1);
+}
+
+/// Elements of second order: what a mesh of them may not be.
+#[test]
+fn second_order() {
+    let nodes = "*NODE\n1, 0., 0.\n2, 2., 0.\n3, 2., 1.\n4, 0., 1.\n5, 1., 0.\n6, 2., 0.5\n7, 1., 1.\n8, 0., 0.5\n9, 1., 0.1\n\
+                 *NSET, NSET=root\n1, 4, 8\n*NSET, NSET=tip\n2, 3, 6\n";
+    let faces = "*ELEMENT, TYPE=S8R, ELSET=plate\n1, 1, 2, 3, 4, 5, 6, 7, 8\n";
+    let inp = |text: &str, more: &str| {
+        let deck = DECK.replace("plate.msh", "plate.inp");
+        Folder::with(&[("plate.inp", text)]).read(&format!("{deck}{more}")).1
+    };
+    assert_eq!(inp(&format!("{nodes}{faces}"), ""), "");
+    let line = |order: &str| {
+        format!(
+            "[[beams]]\ngroup = \"edge\"\nmaterial = \"steel\"\nsection = \"strip\"\norientation = [0.0, 1.0, 0.0]\n{order}"
+        )
+    };
+    let straight = format!("{nodes}{faces}*ELEMENT, TYPE=B32, ELSET=edge\n2, 1, 5, 2\n");
+    assert_eq!(inp(&straight, &line("order = 2\n")), "");
+    assert_snapshot!("order_of_a_line", inp(&straight, &line("")));
+    let curved = format!("{nodes}{faces}*ELEMENT, TYPE=B32, ELSET=edge\n2, 1, 9, 2\n");
+    assert_snapshot!("curved_line", inp(&curved, &line("order = 2\n")));
+    let beside = "*NODE\n10, 3., 0.\n11, 3., 1.\n*ELEMENT, TYPE=S4, ELSET=plate\n3, 2, 10, 11, 3\n";
+    assert_snapshot!("two_orders", inp(&format!("{nodes}{faces}{beside}"), ""));
+    let folded = faces.replace("5, 6, 7, 8", "7, 6, 5, 8");
+    assert_snapshot!("folded_sides", inp(&format!("{nodes}{folded}"), ""));
 }

@@ -198,9 +198,8 @@ pub fn shell(
         let whole = [of];
         let of: &[[usize; 4]] = if corners == 3 { &split } else { &whole };
         elements.extend(of.iter().map(|&nodes| ShellElement {
-            nodes,
-            normals,
             bulge: shell::ShellGeometry::new(&nodes[..corners], &normals).bulge,
+            ..ShellElement::new(&nodes, &normals)
         }));
     }
     let name = format!("shell{}", model.count(PartKind::Shell));
@@ -213,6 +212,7 @@ pub fn shell(
         yielding: None,
         axis: Vec3::x(),
         corners,
+        order: 1,
         elements,
         numbers: vec![],
     });

@@ -49,7 +49,7 @@ corners = ["a", "b", "c", "d"]
 elements = [16, 1]
 thickness = 0.1
 material = "m"
-kind = "KIND"
+KIND
 [[supports]]
 at = "strip.edge4"
 fix = "all"
@@ -57,8 +57,8 @@ fix = "all"
 
 #[test]
 fn cantilever_under_end_shear() {
-    for kind in ["quadrilateral", "triangle"] {
-        let deck = STRIP.replace("LENGTH", "10.0").replace("KIND", kind)
+    for kind in ["quadrilateral", "triangle", "quadrilateral2", "triangle2"] {
+        let deck = STRIP.replace("LENGTH", "10.0").replace("KIND", &kind_of(kind))
             + "[[loads]]\nat = \"strip.edge2\"\nforce_per_length = [0.0, 0.0, 4.0]\n";
         let rows = displacements(&read(&deck), &[("b", 0), ("b", 2)]);
         // Exact for the beam that the strip is; 16 elements bend by some 4° each.
@@ -72,8 +72,8 @@ fn cantilever_under_end_shear() {
 
 #[test]
 fn cantilever_rolled_up() {
-    for kind in ["quadrilateral", "triangle"] {
-        let deck = STRIP.replace("LENGTH", "12.0").replace("KIND", kind)
+    for kind in ["quadrilateral", "triangle", "quadrilateral2", "triangle2"] {
+        let deck = STRIP.replace("LENGTH", "12.0").replace("KIND", &kind_of(kind))
             + "[[loads]]\nat = [\"b\", \"c\"]\nmoment = [0.0, -26.179938779914945, 0.0]\n";
         let rows = displacements(&read(&deck), &[("b", 0), ("b", 2)]);
         // The circle: 22.5° in each element, of which φ⁴ is left.
@@ -100,12 +100,22 @@ pub fn point(name: &str, [x, y, z]: [f64; 3]) -> String {
     format!("{name} = [{x:?}, {y:?}, {z:?}]\n")
 }
 
+/// The lines that give a patch its kind of elements, which ends in 2 for those of order 2.
+pub fn kind_of(kind: &str) -> String {
+    match kind.strip_suffix('2') {
+        Some(kind) => format!("kind = \"{kind}\"\norder = 2"),
+        None => format!("kind = \"{kind}\""),
+    }
+}
+
 pub fn shell(name: &str, corners: &str, elements: [usize; 2], kind: &str, surface: &str) -> String {
     let corners: Vec<String> = corners.split_whitespace().map(|c| format!("{c:?}")).collect();
     let surface = if surface.is_empty() { String::new() } else { format!("surface = {{ {surface} }}\n") };
     format!(
-        "[[shells]]\nname = \"{name}\"\ncorners = [{}]\nelements = {elements:?}\nkind = \"{kind}\"\n{surface}PLATE\n",
-        corners.join(", ")
+        "[[shells]]\nname = \"{name}\"\ncorners = [{}]\nelements = {elements:?}\n{}\n\
+         {surface}PLATE\n",
+        corners.join(", "),
+        kind_of(kind)
     )
 }
 
@@ -403,7 +413,7 @@ fn linear_set() {
 }
 
 /// A strip that [`twist`] turns by 90° over its length.
-fn twisted(kind: &str, [n, m]: [usize; 2], h: f64, force: [f64; 3]) -> String {
+pub fn twisted(kind: &str, [n, m]: [usize; 2], h: f64, force: [f64; 3]) -> String {
     let mut body = String::from("[points]\n");
     body += &point("a", [0.0, -0.55, 0.0]);
     body += &point("b", [12.0, -0.55, 0.0]);
@@ -420,7 +430,7 @@ fn twisted(kind: &str, [n, m]: [usize; 2], h: f64, force: [f64; 3]) -> String {
 }
 
 /// Turns each section about x, from lying along y to standing along z, with the normals of the helicoid.
-fn twist(model: &mut Model) {
+pub fn twist(model: &mut Model) {
     use rdsolve::math::Vec3;
     let rate = std::f64::consts::FRAC_PI_2 / 12.0;
     let mut normals = Vec::new();

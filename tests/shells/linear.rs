@@ -23,7 +23,7 @@ fn falls(what: &str, found: &[f64], wanted: f64, last: f64, floor: f64) {
 }
 
 /// Raasch's hook: two arcs of a thick strip, opposite ways, sheared across at the end.
-fn hook(kind: &str, k: usize) -> f64 {
+pub fn hook(kind: &str, k: usize) -> f64 {
     let at = |center: [f64; 2], r: f64, degrees: f64, z: f64| {
         let (sin, cos) = degrees.to_radians().sin_cos();
         [center[0] + r * cos, center[1] + r * sin, z]
@@ -57,7 +57,7 @@ fn raasch_hook() {
 
 /// z = x² − y² over a unit square, a half of it, clamped at x = −½, under 8000 h an area. Deflection of the end's middle, and
 /// the energy of the whole.
-fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
+pub fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
     let mut body = String::from("[points]\n");
     body += &point("root", [-0.5, 0.0, 0.0]);
     body += &point("end", [0.5, 0.0, 0.0]);
@@ -77,8 +77,9 @@ fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
     let scale = 1e-3 * h / 0.5;
     let mut forces = vec![0.0; model.nodes.len()];
     for shell in model.parts.iter_mut().filter_map(Shell::of_mut) {
+        let size = shell.size();
         for element in &mut shell.elements {
-            let nodes = &element.nodes[..shell.corners];
+            let nodes = &element.nodes[..size];
             let x: Vec<Vec3> = nodes.iter().map(|&node| model.nodes[node].x).collect();
             for (&node, share) in nodes.iter().zip(shares(&x)) {
                 forces[node] += scale * 8000.0 * h * share;
@@ -123,14 +124,14 @@ fn clamped_hypar() {
 }
 
 /// A quarter of the closed hemisphere, as one patch of three corners, or as three of four.
-fn closed(kind: &str, n: usize) -> f64 {
+pub fn closed(kind: &str, n: usize) -> f64 {
     let x = |x: f64, y: f64, z: f64| (10.0 / x.hypot(y).hypot(z) * Vec3::new(x, y, z)).into();
     let mut body = String::from("[points]\n");
     for (name, at) in [("pushed", x(1.0, 0.0, 0.0)), ("pulled", x(0.0, 1.0, 0.0)), ("pole", x(0.0, 0.0, 1.0))] {
         body += &point(name, at);
     }
     let sphere = "kind = \"sphere\"";
-    let (low, side) = if kind == "triangle" {
+    let (low, side) = if kind.starts_with("triangle") {
         body += &shell("cap", "pushed pulled pole", [n, n], kind, sphere);
         (vec!["cap.edge3"], vec!["cap.edge2"])
     } else {
@@ -161,7 +162,7 @@ fn closed_hemisphere() {
 
 /// Pinched cylinder with free ends, an eighth: bending all but without stretching. Deflection of the loaded point as a part of
 /// P R/(E h³).
-fn free_cylinder(kind: &str, n: usize, slenderness: f64) -> f64 {
+pub fn free_cylinder(kind: &str, n: usize, slenderness: f64) -> f64 {
     let (e, r, half) = (10.5e6, 4.953, 0.5 * 10.35);
     let h = r / slenderness;
     // Deflections stay a thousandth of the thickness.
@@ -188,7 +189,7 @@ fn pinched_cylinder_with_free_ends() {
 }
 
 /// Rectangular plate, a quarter, 2 wide and 2 · `aspect` long, so thin that shear does nothing.
-fn plate(kind: &str, n: usize, aspect: f64, dofs: &str, uniform: bool) -> f64 {
+pub fn plate(kind: &str, n: usize, aspect: f64, dofs: &str, uniform: bool) -> f64 {
     let h = 2e-4;
     let mut body = quarter_plate(kind, n, aspect, dofs);
     let p = 1e-12;

@@ -158,7 +158,7 @@ fn straight_beam_of_triangles() {
 }
 
 /// A quarter of a ring, six elements of 15°, sheared at its end.
-fn curved(kind: &str, n: usize, row: &str) -> f64 {
+pub fn curved(kind: &str, n: usize, row: &str) -> f64 {
     let mut body = String::from("[points]\n");
     body += &point("a", [4.12, 0.0, 0.0]);
     body += &point("b", [4.32, 0.0, 0.0]);
@@ -202,7 +202,7 @@ fn curved_beam() {
 }
 
 /// Cook's tapered panel, n × n elements, sheared at its end. Deflection of the middle of the end.
-fn cook(kind: &str, n: usize) -> f64 {
+pub fn cook(kind: &str, n: usize) -> f64 {
     let mut body = String::from("[points]\n");
     body += &point("a", [0.0, 0.0, 0.0]);
     body += &point("b", [48.0, 44.0, 0.0]);

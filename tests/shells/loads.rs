@@ -1,6 +1,6 @@
 //! Loads spread over shells that keep their direction, what a deck can say of them, and scenes of one element.
 
-use super::benchmarks::read;
+use super::benchmarks::{kind_of, read};
 use crate::support;
 use rdsolve::math::Vec3;
 use rdsolve::model::Model;
@@ -11,8 +11,9 @@ const HEAD: &str = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1
 fn square(n: usize, thickness: f64, kind: &str, rest: &str) -> Model {
     read(&format!(
         "{HEAD}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]\n\
-         [[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = {n}\nkind = \"{kind}\"\n\
-         thickness = {thickness:?}\nmaterial = \"m\"\n{rest}"
+         [[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = {n}\n{}\n\
+         thickness = {thickness:?}\nmaterial = \"m\"\n{rest}",
+        kind_of(kind)
     ))
 }
 
@@ -26,7 +27,7 @@ fn resultant(model: &Model) -> [Vec3; 2] {
 /// that on the chords: p times the area between the edges, exactly too, since a closed polygon has no resultant.
 #[test]
 fn resultants_are_exact() {
-    for kind in ["quadrilateral", "triangle"] {
+    for kind in ["quadrilateral", "triangle", "quadrilateral2", "triangle2"] {
         let model =
             square(3, 0.1, kind, "[[loads]]\nat = \"plate\"\npressure = 2.0\nforce_per_area = [1.0, 0.0, 0.5]\n");
         let [f, m] = resultant(&model);
@@ -57,8 +58,9 @@ fn resultants_are_exact() {
 
 fn quarter(name: &str, corners: &str, kind: &str) -> String {
     format!(
-        "[[shells]]\nname = \"{name}\"\ncorners = [{corners}]\nelements = [2, 5]\nkind = \"{kind}\"\nthickness = 0.1\nmaterial = \"m\"\n\
-         surface = {{ kind = \"cylinder\", axis = [0.0, 1.0, 0.0] }}\n"
+        "[[shells]]\nname = \"{name}\"\ncorners = [{corners}]\nelements = [2, 5]\n{}\nthickness = 0.1\nmaterial = \"m\"\n\
+         surface = {{ kind = \"cylinder\", axis = [0.0, 1.0, 0.0] }}\n",
+        kind_of(kind)
     )
 }
 
@@ -73,7 +75,7 @@ fn a_hinged_plate_under_pressure() {
                 [[loads]]\nat = \"plate\"\npressure = 1e-4\n";
     let bending = 1e7 * 1e-6 / (12.0 * 0.91);
     let exact = -0.004_062_35 * 1e-4 / bending;
-    for kind in ["quadrilateral", "triangle"] {
+    for kind in ["quadrilateral", "triangle", "quadrilateral2", "triangle2"] {
         let error = |n: usize| {
             let model = square(n, 0.01, kind, rest);
             let middle =
@@ -81,7 +83,8 @@ fn a_hinged_plate_under_pressure() {
             let done = support::run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[middle].x.z]);
             done.rows.last().unwrap()[0] / exact - 1.0
         };
-        let errors = [4, 8, 16].map(error);
+        let meshes = if kind.ends_with('2') { [2, 4, 8] } else { [4, 8, 16] };
+        let errors = meshes.map(error);
         println!("{kind}: {errors:?}");
         assert!(errors[2].abs() < 0.01 && errors[2].abs() < 0.5 * errors[1].abs(), "{kind}: {errors:?}");
     }
@@ -90,7 +93,7 @@ fn a_hinged_plate_under_pressure() {
 /// One element of each kind, its pressure dead or following; a patch of three corners.
 #[test]
 fn one_element() {
-    for kind in ["quadrilateral", "triangle"] {
+    for kind in ["quadrilateral", "triangle", "quadrilateral2", "triangle2"] {
         for follower in [false, true] {
             let rest = format!(
                 "[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n[[loads]]\nat = \"plate\"\npressure = -1.0\nfollower = {follower}\n"

@@ -1,6 +1,9 @@
 //! Shells: what every element must do, and the benchmarks of Sze, Liu & Lo (2004) and MacNeal & Harder (1985).
 
 mod benchmarks;
+mod curved;
+mod curved_linear;
+mod curved_scenes;
 mod dynamics;
 mod element;
 mod frequencies;

@@ -4,7 +4,7 @@ use crate::math::Vec3;
 use crate::state::Node;
 
 /// Largest number of nodes that a point may lie between.
-pub const MOST_NODES: usize = 5;
+pub const MOST_NODES: usize = 9;
 
 /// A point that may touch: a weighted sum of nodes.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::edge::EdgeTangents;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
-use super::kinematics::{NodalVectors, Shell, Shells, Strains, sum};
+use super::kinematics::{NodalVectors, Shell, Shells, Strains};
 use super::layers::{InPlaneStiffness, LayerModel, LayeredSection};
 use super::plane_strains::PlaneStrains;
 use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
@@ -14,7 +14,7 @@ use std::array::from_fn;
 use std::marker::PhantomData;
 
 /// Shear correction factor: shear stress is not constant through the thickness.
-const SHEAR_FACTOR: f64 = 5.0 / 6.0;
+pub(super) const SHEAR_FACTOR: f64 = 5.0 / 6.0;
 
 /// Part of the drilling stiffness that resists different drilling of the ends of a straight edge: where a surface is curved, bending
 /// alone makes some.
@@ -34,12 +34,12 @@ pub struct Plate {
 }
 
 impl Plate {
-    fn shear_modulus(&self) -> f64 {
+    pub(super) fn shear_modulus(&self) -> f64 {
         0.5 * self.E / (1.0 + self.nu)
     }
 
     /// Plane stress per unit of thickness.
-    fn plane_stress(&self) -> Matrix3<f64> {
+    pub(super) fn plane_stress(&self) -> Matrix3<f64> {
         let (E, nu) = (self.E, self.nu);
         Matrix3::new(1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu)) * (E / (1.0 - nu * nu))
     }
@@ -48,7 +48,7 @@ impl Plate {
 /// One element as the model describes it.
 #[derive(Debug, Clone, Copy)]
 pub struct ShellGeometry<'a> {
-    /// Its three or four nodes, counter-clockwise about the normals.
+    /// Its three, four, six or nine nodes, the corners counter-clockwise about the normals, then those on the sides, then the middle.
     pub nodes: &'a [usize],
     /// Unit normals at the nodes at t = 0, which are the directors there.
     pub normals: &'a [Vec3],
@@ -66,40 +66,6 @@ impl<'a> ShellGeometry<'a> {
             bulge: if nodes.len() == 3 { [Triangle::BULGE; 4] } else { [Quadrilateral::BULGE; 4] },
         }
     }
-}
-
-/// ∫ N_a dA over an element with its three or four corners at `x`: the area that belongs to each node, zero beyond them.
-pub fn shares(x: &[Vec3]) -> [f64; 4] {
-    products(x).map(|row| row.iter().sum())
-}
-
-/// ∫ N_a n dA over an element with its three or four corners at `x`: the forces of a unit pressure along the normal.
-pub fn faces(x: &[Vec3]) -> [Vec3; 4] {
-    fn of<K: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize>(x: &[Vec3]) -> [Vec3; 4] {
-        let x: [Vec3; N] = from_fn(|a| x[a]);
-        let v = NodalVectors::slopes(&K::SLOPES, &x);
-        let normals = K::POINTS.map(|at| {
-            let [a, b] = K::slopes(at).map(|s| sum(&s, &v));
-            K::AREA / N as f64 * a.cross(&b)
-        });
-        let face = |a: usize| normals.iter().zip(&K::VALUES).map(|(n, value)| value[a] * n).sum();
-        from_fn(|a| if a < N { face(a) } else { Vec3::zeros() })
-    }
-    if x.len() == 3 { of::<Triangle, 3, 2, 3>(x) } else { of::<Quadrilateral, 4, 3, 6>(x) }
-}
-
-/// ∫ N_a N_b dA over an element with its three or four corners at `x`: the consistent mass matrix for a unit mass per area.
-pub fn products(x: &[Vec3]) -> [[f64; 4]; 4] {
-    fn of<K: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize>(x: &[Vec3]) -> [[f64; 4]; 4] {
-        let v = NodalVectors::slopes(&K::SLOPES, &from_fn(|a| x[a]));
-        let weights = K::POINTS.map(|at| {
-            let [a, b] = K::slopes(at).map(|s| sum(&s, &v));
-            K::AREA / N as f64 * a.cross(&b).norm()
-        });
-        let entry = |a: usize, b: usize| weights.iter().zip(&K::VALUES).map(|(w, value)| w * value[a] * value[b]).sum();
-        from_fn(|a| from_fn(|b| if a < N && b < N { entry(a, b) } else { 0.0 }))
-    }
-    if x.len() == 3 { of::<Triangle, 3, 2, 3>(x) } else { of::<Quadrilateral, 4, 3, 6>(x) }
 }
 
 impl<K, const N: usize, const V: usize, const P: usize, const E: usize> Shells<K, N, V, P, E>
@@ -186,7 +152,7 @@ where
 }
 
 /// w Aᵀ C A by rows.
-fn squared<const R: usize>(A: &SMatrix<f64, 3, R>, C: &Matrix3<f64>, w: f64, to: &mut [[f64; R]; R]) {
+pub(super) fn squared<const R: usize>(A: &SMatrix<f64, 3, R>, C: &Matrix3<f64>, w: f64, to: &mut [[f64; R]; R]) {
     let K: SMatrix<f64, R, R> = w * A.transpose() * C * A;
     for i in 0..R {
         for j in 0..R {

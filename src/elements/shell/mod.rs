@@ -19,14 +19,17 @@
 //!
 //! Where the material yields, the strain at a point of the element follows from the same numbers as in the elastic element, so that
 //! only the layers themselves need iteration and history variables.
+//! Elements of six and nine nodes, with sides of second degree, stand in [`curved`].
 //! Left out: change of thickness, curvature in the volume element (h/R against 1), initial stress.
 
 mod arc;
 mod block;
+mod curved;
 mod deviatoric;
 mod edge;
 mod geometry;
 mod hybrid;
+mod integrals;
 mod interpolation;
 mod kinematics;
 mod layers;
@@ -37,7 +40,11 @@ mod surface;
 mod tangent;
 
 pub use super::results::MOST_LAYERS;
-pub use geometry::{Plate, ShellGeometry, faces, products, shares};
+pub use crate::elements::pressure::MOST_NODES;
+pub use crate::math::curved_faces::{NineNodes, SixNodes};
+pub use curved::{CurvedQuadrilaterals, CurvedShells, CurvedTriangles};
+pub use geometry::{Plate, ShellGeometry};
+pub use integrals::{faces, lumped_shares, products, shares};
 pub use interpolation::{Interpolation, Quadrilateral, Triangle};
 pub use kinematics::{Quadrilaterals, Shells, Triangles};
 pub use layers::LayerModel;

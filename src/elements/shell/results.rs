@@ -44,11 +44,6 @@ where
 {
     let element: &Shell<N, V, P, E, S> = &shells.elements[e];
     let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
-    let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
-    let normal = area.normalize();
-    let first = project(axis, &normal);
-    let t = [first, normal.cross(&first)];
-
     let motion = element.gather(now.nodes);
     let strains = element.strains::<K>(&motion);
     let shear = element.shear_stress(&strains.shear);
@@ -57,29 +52,58 @@ where
         false => Strains { plane: element.section.stress(&strains.plane, now), shear },
     };
     let start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
-    // This mean stress is conjugate to the strain of a change of positions and directors.
-    let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
-        let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
-        (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));
-        let at = |s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, &way)));
-        0.5 * (at(1.0) - at(-1.0)) / area.norm()
-    };
-    // x ↦ E x with one component of E: 11, 22, or 12 and 21 by a half each.
-    let even = |i: usize, x: &Vec3| match i {
-        2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
-        _ => t[i].dot(x) * t[i],
-    };
-    let forces = from_fn(|i| mean(&|x| [even(i, x), Vec3::zeros()]));
-    let moments = from_fn(|i| mean(&|x| [-0.5 * x.dot(&even(i, x)) * normal, even(i, x)]));
-    let shears = from_fn(|i| mean(&|_| [Vec3::zeros(), t[i]]));
+    let at = |way: &NodalVectors<N>, s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, way)));
+    let mean = MeanStress { X: &X, axis, motion: &motion, first: sum(&element.slopes[0], &X) };
+    mean.resultants(&at, |layers| element.section.layers(&strains.plane, now, layers))
+}
 
-    let mut layers = [LayerStress::default(); MOST_LAYERS];
-    let count = element.section.layers(&strains.plane, now, &mut layers);
-    // Layers have the axes of the element, which are rotated to `t`.
-    let own = sum(&element.slopes[0], &X);
-    let turned = [t[0].dot(&own), -t[1].dot(&own)];
-    layers[..count].iter_mut().for_each(|layer| layer.stress = rotate(&layer.stress, turned));
-    Some(ShellResultants { frame: frame(&X, &t, &motion), N: forces, M: moments, Q: shears, layers, count })
+/// What the mean stress of an element is told in.
+pub(super) struct MeanStress<'a, const N: usize> {
+    /// Positions of the nodes at t = 0, from that of the first.
+    pub X: &'a [Vec3; N],
+    /// Axis 1, before it is projected on the surface.
+    pub axis: &'a Vec3,
+    /// The nodes now.
+    pub motion: &'a NodalVectors<N>,
+    /// Along axis 1 of the layers.
+    pub first: Vec3,
+}
+
+impl<const N: usize> MeanStress<'_, N> {
+    /// The resultants, by the work of the stress at strains from zero with the nodes so far on a way from t = 0, and by what writes
+    /// the layers, see [`ShellSection::layers`].
+    pub fn resultants(
+        &self,
+        work: &dyn Fn(&NodalVectors<N>, f64) -> f64,
+        write_layers: impl FnOnce(&mut [LayerStress]) -> usize,
+    ) -> Option<ShellResultants> {
+        let MeanStress { X, axis, motion, first: own } = self;
+        let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
+        let normal = area.normalize();
+        let first = project(axis, &normal);
+        let t = [first, normal.cross(&first)];
+        // This mean stress is conjugate to the strain of a change of positions and directors.
+        let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
+            let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+            (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));
+            0.5 * (work(&way, 1.0) - work(&way, -1.0)) / area.norm()
+        };
+        // x ↦ E x with one component of E: 11, 22, or 12 and 21 by a half each.
+        let even = |i: usize, x: &Vec3| match i {
+            2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
+            _ => t[i].dot(x) * t[i],
+        };
+        let forces = from_fn(|i| mean(&|x| [even(i, x), Vec3::zeros()]));
+        let moments = from_fn(|i| mean(&|x| [-0.5 * x.dot(&even(i, x)) * normal, even(i, x)]));
+        let shears = from_fn(|i| mean(&|_| [Vec3::zeros(), t[i]]));
+
+        let mut layers = [LayerStress::default(); MOST_LAYERS];
+        let count = write_layers(&mut layers);
+        // Layers have the axes of the element, which are rotated to `t`.
+        let turned = [t[0].dot(own), -t[1].dot(own)];
+        layers[..count].iter_mut().for_each(|layer| layer.stress = rotate(&layer.stress, turned));
+        Some(ShellResultants { frame: frame(X, &t, motion), N: forces, M: moments, Q: shears, layers, count })
+    }
 }
 
 /// σ₁₁, σ₂₂, σ₁₂ by axes of which the first is (c, s).

@@ -10,7 +10,7 @@ use crate::state::{Configuration, Node};
 use std::array::from_fn;
 
 /// A row of B by positions and rotations of the nodes.
-type Row<const N: usize> = [[f64; 6]; N];
+pub(super) type Row<const N: usize> = [[f64; 6]; N];
 
 /// The rows of B: one for each strain.
 struct Rows<const N: usize, const P: usize, const E: usize> {
@@ -21,7 +21,7 @@ struct Rows<const N: usize, const P: usize, const E: usize> {
 
 /// y ← y + s x.
 #[inline(always)]
-fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
+pub(super) fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
     for a in 0..N {
         for k in 0..6 {
             y[a][k] = fma(s, x[a][k], y[a][k]);
@@ -31,7 +31,7 @@ fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
 
 /// Sets the entries of node `a` in a row.
 #[inline(always)]
-fn set_entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
+pub(super) fn set_entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
     row[a] = [x.x, x.y, x.z, theta.x, theta.y, theta.z];
 }
 
@@ -259,7 +259,7 @@ fn set_product<T: Interpolation<N, V, P>, const N: usize, const V: usize, const 
 
 /// K += σ·∂²ε of the strains that are bilinear in positions and directors, and δ(d × g) at fixed g.
 #[inline(always)]
-fn add_strain_hessian<const N: usize>(
+pub(super) fn add_strain_hessian<const N: usize>(
     hessian: &StrainHessian<N>,
     gradient: &NodalVectors<N>,
     motion: &NodalVectors<N>,

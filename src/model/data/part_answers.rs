@@ -16,10 +16,10 @@ pub enum Drawing<'p> {
         /// The axes of the section (columns, global at t = 0).
         axes: Mat3,
     },
-    /// A face of three or four corners.
+    /// A face of three, four, six or nine nodes.
     Face {
-        /// The nodes at the corners, around the face.
-        corners: &'p [usize],
+        /// The nodes: corners around the face, then those on the sides, then the middle.
+        nodes: &'p [usize],
     },
 }
 

@@ -2,6 +2,7 @@
 //! cells carry.
 
 use super::data::{PageScene, numbers};
+use crate::math::curved_faces::{facets, ring};
 use crate::output::at;
 use crate::output::table_reader::{TableReader, fields, text};
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -209,6 +210,22 @@ impl Grid {
 /// The corners of the faces of a hexahedron, in VTK's order.
 const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
+/// Adds the triangles of a flat face.
+fn triangles(corners: &[usize], cell: usize, scene: &mut PageScene) {
+    for k in 1..corners.len().saturating_sub(1) {
+        scene.triangles.extend([corners[0], corners[k], corners[k + 1]].map(|p| p as u32));
+        scene.triangle_cells.push(cell as u32);
+    }
+}
+
+/// Adds the edges round a face.
+fn edge_round(points: &[usize], edges: &mut HashSet<(u32, u32)>) {
+    for (k, &a) in points.iter().enumerate() {
+        let b = points[(k + 1) % points.len()];
+        edges.insert((a.min(b) as u32, a.max(b) as u32));
+    }
+}
+
 /// Takes cells apart into triangles and lines.
 fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io::Result<()> {
     let (connectivity, offsets) = (grid.places("connectivity")?, grid.places("offsets")?);
@@ -223,14 +240,8 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io:
         first = end;
         scene.kinds.push(kinds.get(parts[cell]).copied().unwrap_or_default());
         let mut face = |corners: &[usize]| {
-            for k in 1..corners.len().saturating_sub(1) {
-                scene.triangles.extend([corners[0], corners[k], corners[k + 1]].map(|p| p as u32));
-                scene.triangle_cells.push(cell as u32);
-            }
-            for (k, &a) in corners.iter().enumerate() {
-                let b = corners[(k + 1) % corners.len()];
-                edges.insert((a.min(b) as u32, a.max(b) as u32));
-            }
+            triangles(corners, cell, scene);
+            edge_round(corners, &mut edges);
         };
         match (types[cell], corners) {
             (3 | 21 | 68, &[a, b, ref inner @ ..]) => {
@@ -243,6 +254,13 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io:
             }
             (12, corners) if corners.len() == 8 => FACES.iter().for_each(|f| face(&f.map(|k| corners[k]))),
             (5 | 7 | 9, corners) => face(corners),
+            (22 | 28, nodes) => {
+                // Its inner lines are none of the mesh.
+                facets(nodes.len())
+                    .iter()
+                    .for_each(|facet| triangles(&facet.iter().map(|&k| nodes[k]).collect::<Vec<_>>(), cell, scene));
+                edge_round(&ring(nodes.len()).map(|k| nodes[k]).collect::<Vec<_>>(), &mut edges);
+            }
             _ => {}
         }
     }

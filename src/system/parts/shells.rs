@@ -2,7 +2,10 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use super::masses::NodalMasses;
-use crate::elements::shell::{self, Quadrilateral, Quadrilaterals, Triangle, Triangles};
+use crate::elements::shell::{
+    self, CurvedQuadrilaterals, CurvedTriangles, NineNodes, Quadrilateral, Quadrilaterals, SixNodes, Triangle,
+    Triangles,
+};
 use crate::elements::{ElementBlock, ShellResultants};
 use crate::math::{Mat3, Vec3};
 use crate::model::{MassKind, Model, PartType, Shell};
@@ -46,9 +49,9 @@ impl Assembled for Shell {
     fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
         let h = self.plate.thickness;
         for element in &self.elements {
-            let nodes = &element.nodes[..self.corners];
+            let nodes = &element.nodes[..self.size()];
             let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
-            for (&node, area) in nodes.iter().zip(shell::shares(&corners)) {
+            for (&node, area) in nodes.iter().zip(shell::lumped_shares(&corners)) {
                 let mass = if masses.has_mass(self.mass, node) { self.density * h * area } else { 0.0 };
                 // The inertia about the normal is the same, where a director has none, so that no direction is without
                 // inertia.
@@ -76,13 +79,17 @@ impl Assembled for Shell {
 }
 
 fn block(part: &Shell, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
-    let corners = part.corners;
+    let size = part.size();
     let elements = part.elements[piece].iter().map(|e| shell::ShellGeometry {
-        nodes: &e.nodes[..corners],
-        normals: &e.normals[..corners],
+        nodes: &e.nodes[..size],
+        normals: &e.normals[..size],
         bulge: e.bulge,
     });
-    match (&part.yielding, corners) {
+    match (&part.yielding, size) {
+        (None, 6) => Box::new(CurvedTriangles::new(elements, x, &part.plate, beta)),
+        (None, 9) => Box::new(CurvedQuadrilaterals::new(elements, x, &part.plate, beta)),
+        (Some(yielding), 6) => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(elements, x, &part.plate, beta),
+        (Some(yielding), 9) => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(elements, x, &part.plate, beta),
         (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
         (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),
         (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, &part.plate, beta),
@@ -99,7 +106,7 @@ pub fn shell_states(groups: &[Group], model: &Model, now: &Configuration, out: &
         for e in 0..group.block.len() {
             let element = group.first + e;
             let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
-            let resultants = group.block.resultants(e, &shell.axis, &start[..shell.corners], &now);
+            let resultants = group.block.resultants(e, &shell.axis, &start[..shell.size()], &now);
             let Some(mut at) = resultants else { continue };
             if at.layers().is_empty() {
                 at.set_elastic_layers(shell.plate.thickness);
