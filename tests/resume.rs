@@ -51,7 +51,7 @@ fn digest(frame: &Frame) -> u64 {
     bits(&frame.derived.energy.map_or([0.0; 2], |energy| [energy.numerical, energy.mechanical]));
     let effort = [frame.effort, frame.derived.effort].map(|of| (of.iterations, of.refactorizations, of.cuts));
     let flags = [frame.due, frame.drawn, frame.last, frame.inside, frame.compared];
-    let broken: Vec<&str> = frame.broken.iter().map(|broken| broken.what.as_str()).collect();
+    let broken: Vec<&str> = frame.derived.broken.iter().map(|broken| broken.what.as_str()).collect();
     (frame.step, effort, flags, frame.negative_pivots, frame.passed, broken).hash(&mut hasher);
     hasher.finish()
 }

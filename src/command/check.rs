@@ -7,7 +7,7 @@ use super::load::{load, plan, too_large};
 use super::signals::EndAtOnce;
 use super::watchers::stage_begins;
 use crate::model::Model;
-use crate::modes::Matrices;
+use crate::modes::SceneMatrices;
 use crate::output::{listed, matrix_market, settle_cadence};
 use crate::plan::Plan;
 use crate::plan::explain::explain_costs;
@@ -47,9 +47,9 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
 
 /// Writes the matrices of the scene; says what was written.
 fn export(folder: &Path, model: &Model, system: &System, plan: &Plan) -> Result<String, Exit> {
-    let matrices = Matrices::of(model, system, plan).map_err(too_large)?;
+    let matrices = SceneMatrices::of(model, system, plan).map_err(too_large)?;
     let written = matrix_market::write(folder, &matrices).map_err(|error| {
-        complain(&error.to_string());
+        complain(&format!("the matrices cannot be written: {error}"));
         Exit::InputOutput
     })?;
     Ok(format!("{} in {}", written.join(", "), folder.display()))

@@ -258,11 +258,10 @@ impl Job<'_> {
             origin: self.origin(),
             plan: self.plan.clone(),
             sizes: self.sizes,
-            counts: counts(told.counts),
+            counts: counts(told.counts, told.failed),
             timings: self.timings_of(told.observing, whole),
             errors,
             joint_violation: told.joint_violation,
-            failed: told.failed,
             rotation_drift: (told.rotation_drift > 0.0).then_some(told.rotation_drift),
             peak_memory_bytes: peak_memory_bytes(),
             warnings,
@@ -422,12 +421,13 @@ fn step_error(error: StepError) -> ReportedStepError {
 }
 
 /// The counts of the solver that the result reports.
-fn counts(counts: Counts) -> ReportedCounts {
+fn counts(counts: Counts, failed: Option<usize>) -> ReportedCounts {
     ReportedCounts {
         steps: counts.steps,
         iterations: counts.iterations,
         factorizations: counts.factorizations,
         solves: counts.solves,
         cuts: counts.cuts,
+        failed,
     }
 }

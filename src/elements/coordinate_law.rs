@@ -6,6 +6,7 @@
 
 use super::contact::restitution::{Loss, normal_force};
 use super::hysteresis::Hysteresis;
+pub use super::slider::{CoordinateState, DryFriction};
 
 /// The effort over a coordinate, its rate and its past.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,15 +36,6 @@ pub struct Stops {
     pub loss: Loss,
 }
 
-/// Dry friction, a spring that slips.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DryFriction {
-    /// The effort at which it slips.
-    pub limit: f64,
-    /// Effort per coordinate before it does.
-    pub stiffness: f64,
-}
-
 /// Numbers that every joint remembers: coordinate and rate at the end of the last step, the speed of the last landing on a stop, the
 /// power that the impact took, and the anchor of friction. Anchors of what yields come after them.
 pub const MEMORY: usize = 5;
@@ -55,29 +47,6 @@ pub const IMPACT_SPEED: usize = 2;
 pub const IMPACT_POWER: usize = 3;
 /// Place of the anchor of friction.
 pub const ANCHOR: usize = 4;
-
-/// Coordinate and effort at an instant.
-#[derive(Debug, Clone, Copy)]
-pub struct CoordinateState {
-    /// q, turns counted.
-    pub q: f64,
-    /// q̇.
-    pub rate: f64,
-    /// f, positive where it pulls the second node back.
-    pub effort: f64,
-    /// ∂f/∂q.
-    pub by_q: f64,
-    /// ∂f/∂q̇.
-    pub by_rate: f64,
-    /// What springs store.
-    pub energy: f64,
-    /// The way of the anchor of friction.
-    pub slip: f64,
-    /// What is dissipated by impact, per time.
-    pub impact_power: f64,
-    /// Speed of the landing.
-    pub impact_speed: f64,
-}
 
 impl CoordinateLaw {
     /// A joint on whose coordinate nothing acts: it counts turns.
@@ -137,28 +106,5 @@ impl Stops {
         state.by_rate += push.by_rate;
         state.energy += 0.5 * self.stiffness * depth * depth;
         state.impact_power = (push.force - self.stiffness * depth) * approach;
-    }
-}
-
-impl DryFriction {
-    /// What the spring is stretched by at `q`, and the way of its anchor; neither where there is no spring.
-    pub fn stretch(&self, q: f64, anchor: f64) -> (f64, f64) {
-        if self.stiffness == 0.0 {
-            return (0.0, 0.0);
-        }
-        let (stretch, most) = (q - anchor, self.limit / self.stiffness);
-        let held = stretch.clamp(-most, most);
-        (held, stretch - held)
-    }
-
-    /// Adds effort, stiffness and energy at the coordinate of `state`; returns the way of the anchor.
-    pub fn add(&self, anchor: f64, state: &mut CoordinateState) -> f64 {
-        let (held, slip) = self.stretch(state.q, anchor);
-        state.effort += self.stiffness * held;
-        if slip == 0.0 {
-            state.by_q += self.stiffness;
-        }
-        state.energy += 0.5 * self.stiffness * held * held;
-        slip
     }
 }

@@ -2,7 +2,7 @@
 //! that does not (Iwan, J. Appl. Mech. 33, 1966). Loaded for the first time it follows its backbone, of straight lines and the same either
 //! way; unloaded and reloaded it follows the backbone twice as large (Masing), with kinematic hardening.
 
-use super::coordinate_law::{CoordinateState, DryFriction};
+use super::slider::{CoordinateState, DryFriction};
 
 /// The largest number of points of a backbone.
 pub const MOST_POINTS: usize = 6;

@@ -15,6 +15,7 @@ pub mod pressure;
 pub mod relative_rotation;
 mod results;
 pub mod shell;
+mod slider;
 mod wandering;
 
 pub(crate) use block::subtract;

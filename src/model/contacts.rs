@@ -96,8 +96,8 @@ fn of_facets<'d>(
     let TouchedSurface::Facets(faces) = &found.surface else { return None };
     let least = faces.facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
     let radius = found.points.iter().map(|point| point.radius).fold(f64::INFINITY, f64::min);
-    // A sheet is pressed in by its reach before anything comes through: half of that is seen to be deep.
-    found.size = 10.0 * (least + radius);
+    // What is pressed in by so much is in the middle.
+    found.size = least + radius;
     if is_zone {
         return Some(found);
     }

@@ -13,8 +13,8 @@ use crate::system::{Forces, Loading, System, TangentWeights};
 /// The weight with which C is assembled beside K, a power of two: large, so that of C no digits are lost to K.
 const RATE: f64 = 1_048_576.0;
 
-/// Matrices by the unknowns of nodes.
-pub struct Matrices {
+/// SceneMatrices by the unknowns of nodes.
+pub struct SceneMatrices {
     /// K.
     pub stiffness: Sparse,
     /// M.
@@ -29,12 +29,12 @@ pub struct Matrices {
     pub unknowns: Vec<(String, &'static str)>,
 }
 
-impl Matrices {
+impl SceneMatrices {
     /// The matrices of a scene.
     ///
     /// # Errors
     /// There is no memory for them.
-    pub fn of(model: &Model, system: &System, plan: &Plan) -> Result<Matrices, TooLarge> {
+    pub fn of(model: &Model, system: &System, plan: &Plan) -> Result<SceneMatrices, TooLarge> {
         let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
         let history = vec![0.0; system.history];
         let now = Configuration { history: &history, ..Configuration::of(&nodes) };
@@ -54,7 +54,7 @@ impl Matrices {
         let damping = Sparse::sum(&[(1.0 / RATE, &with_rates), (-1.0 / RATE, &stiffness)]);
         let unknowns = rows.iter().map(|&(node, dof)| (model.nodes[node].label.clone(), DIRECTIONS[dof])).collect();
         let constraints = constraints(system, plan, &nodes);
-        Ok(Matrices { stiffness, mass, damping, constraints, equations: system.multipliers(), unknowns })
+        Ok(SceneMatrices { stiffness, mass, damping, constraints, equations: system.multipliers(), unknowns })
     }
 }
 

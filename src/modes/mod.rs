@@ -22,7 +22,7 @@ mod steady;
 
 pub use fault::ModesFault;
 pub use linearized::Linearized;
-pub use matrices::Matrices;
+pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, Modes, Share};
 pub use rest::multipliers_at_rest;
 pub use steady::{Response, ResponseRow};

@@ -120,7 +120,7 @@ impl Log {
 
     /// Notes what failed, where and why.
     fn see_broken(&mut self, frame: &Frame) -> io::Result<()> {
-        for Broken { what, reason, place } in frame.broken {
+        for Broken { what, reason, place } in &frame.derived.broken {
             if self.broken.count(0) {
                 let (time, [x, y, z]) = (instant(frame.state.time), [place.x, place.y, place.z].map(short));
                 self.say(&format!("t = {time}: {what} failed at [{x}, {y}, {z}]: {reason}"))?;

@@ -1,7 +1,7 @@
-//! Matrices in the format Matrix Market, which numerical libraries read: coordinates from 1 on, one entry a line.
+//! SceneMatrices in the format Matrix Market, which numerical libraries read: coordinates from 1 on, one entry a line.
 
 use super::disk::{at, create};
-use crate::modes::Matrices;
+use crate::modes::SceneMatrices;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file cannot be written; the error names it.
-pub fn write(folder: &Path, matrices: &Matrices) -> io::Result<Vec<&'static str>> {
+pub fn write(folder: &Path, matrices: &SceneMatrices) -> io::Result<Vec<&'static str>> {
     std::fs::create_dir_all(folder).map_err(|error| at(folder, error))?;
     let unknowns = matrices.unknowns.len();
     let mut written = Vec::new();

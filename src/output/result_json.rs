@@ -71,9 +71,6 @@ pub struct RunResult {
     /// Largest gap that a joint was left with at the end of a step, relative to the largest coordinate of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_violation: Option<f64>,
-    /// The number of elements and links that have failed, where any may.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub failed: Option<usize>,
     /// The largest resident memory of the process; `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     /// The warnings about the deck and the results, in the order in which they arose.
@@ -137,6 +134,9 @@ pub struct ReportedCounts {
     pub solves: usize,
     /// The number of cutbacks: attempts at a step that were given up for a shorter one.
     pub cuts: usize,
+    /// The number of elements and links that have failed, where any may.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<usize>,
 }
 
 /// What is known of the errors of the results.
@@ -245,7 +245,6 @@ mod tests {
             rotation_drift: None,
             errors: ReportedErrors::default(),
             joint_violation: None,
-            failed: None,
             peak_memory_bytes: None,
             warnings: vec![],
             expectations: vec![],

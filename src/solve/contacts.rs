@@ -35,6 +35,8 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
     const SEEN: f64 = 0.05;
     /// The same where the deck gives it and may mean something soft, a tyre or a buffer: what is in to its middle has no side left.
     const MEANT: f64 = 0.5;
+    /// The same of faces and of balls among themselves, whose size is the depth at which their middles meet.
+    const TO_THE_MIDDLE: f64 = 0.5;
     if !cx.system.has_contacts() {
         return;
     }
@@ -42,7 +44,11 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
         let Some(contact) = Contact::of(&cx.model.parts[part]).filter(|contact| gap < -SEEN * contact.size) else {
             continue;
         };
-        let limit = if contact.chosen.is_some() { SEEN } else { MEANT };
+        let limit = match contact.chosen {
+            _ if contact.has_facets() => TO_THE_MIDDLE,
+            Some(_) => SEEN,
+            None => MEANT,
+        };
         if -gap > limit * contact.size {
             ws.warnings.deepen(&contact.name, -gap, contact.size);
         }

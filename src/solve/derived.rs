@@ -1,6 +1,7 @@
 //! Derived quantities, computed for output only: energies, forces of links, joints and contacts, stress resultants,
 //! strains. A step itself needs none of them.
 
+use super::breakage::Broken;
 use super::effort::Effort;
 use crate::model::Model;
 use crate::snapshot::keep;
@@ -105,6 +106,8 @@ pub struct Derived {
     pub plastic_strains: Vec<f64>,
     /// Whether each of these elements has failed, likewise; empty where none can.
     pub failed: Vec<bool>,
+    /// What failed in the step.
+    pub broken: Vec<Broken>,
     /// Stress resultants of all shell elements in deck order. They are computed for fields too, when tables are not
     /// due.
     pub shells: Vec<ShellState>,
@@ -121,7 +124,7 @@ pub struct Derived {
 }
 
 keep!(Derived { effort } without {
-    energy, links, joints, contacts, plastic_strains, failed, shells, nodal_resultants, sections, parts, loading,
+    energy, links, joints, contacts, plastic_strains, failed, broken, shells, nodal_resultants, sections, parts, loading,
 });
 
 /// The request for the derived quantities of one accepted step.
@@ -201,6 +204,7 @@ impl Derived {
         self.contacts.clear();
         self.plastic_strains.clear();
         self.failed.clear();
+        self.broken.clear();
         self.shells.clear();
         self.nodal_resultants.clear();
         self.sections.clear();

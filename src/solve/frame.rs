@@ -1,6 +1,5 @@
 //! The frame that a run shows of each accepted step, to an observer that can only read it.
 
-use super::breakage::Broken;
 use super::derived::Derived;
 use super::effort::Effort;
 use crate::model::Model;
@@ -38,8 +37,6 @@ pub struct Frame<'a> {
     /// Reactions on the structure, global components, in the order of the model's restraints; empty unless wanted of
     /// this step.
     pub reactions: &'a [f64],
-    /// What failed in this step.
-    pub broken: &'a [Broken],
     /// Quantities computed for output only.
     pub derived: &'a Derived,
     /// The modes about the state, where the frame is theirs.

@@ -220,8 +220,8 @@ impl Recorder {
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
-        let frame = Frame { broken: self.breakage.new_ones(), ..self.frame(cx, ws, state, step, [due, drawn]) };
-        observer.on_step(&frame).map_err(Outcome::Io)?;
+        self.derived.broken.extend_from_slice(self.breakage.new_ones());
+        observer.on_step(&self.frame(cx, ws, state, step, [due, drawn])).map_err(Outcome::Io)?;
         if due {
             self.derived.effort = Effort::default();
         }
@@ -352,7 +352,6 @@ impl Recorder {
             compared,
             reactions: if self.wanted.has_now(Wanted::REACTIONS, due || compared) { &state.reactions } else { &[] },
             derived: &self.derived,
-            broken: &[],
             modes: None,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),

@@ -6,7 +6,7 @@ use super::thread_partition;
 use crate::math::Vec3;
 use crate::model::{Model, Part};
 use crate::snapshot::{Keep, Snapshot, keep};
-use crate::state::{Configuration, State};
+use crate::state::{Configuration, Node, State};
 
 /// Energies and momenta at the end of a step: the columns of energy.csv.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,27 +61,7 @@ impl Energy {
         let strain = stored(Storage::Strain) + work.material.stored;
         let links = stored(Storage::Links);
         let contact = if system.has_contacts() { stored(Storage::Contacts) } else { 0.0 };
-        let mut kinetic = 0.0;
-        let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
-        for inertia in &system.inertias {
-            let node = &nodes[inertia.node];
-            kinetic += inertia.kinetic_energy(node);
-            let momentum = inertia.mass * node.v;
-            p += momentum;
-            l += node.x.cross(&momentum);
-            if inertia.rotary {
-                l += inertia.J(node) * node.omega;
-            }
-        }
-        for mass in &system.consistent {
-            kinetic += mass.kinetic_energy(nodes);
-            let (dp, dl) = mass.momentum(nodes);
-            p += dp;
-            l += dl;
-        }
-        if !system.dynamic {
-            (kinetic, p, l) = (0.0, Vec3::zeros(), Vec3::zeros());
-        }
+        let (kinetic, p, l) = if system.dynamic { motion(system, nodes) } else { (0.0, Vec3::zeros(), Vec3::zeros()) };
         let mechanical = kinetic + strain + links + contact;
         Energy {
             kinetic,
@@ -116,6 +96,29 @@ impl Energy {
     pub fn numerical_dissipation(&self) -> f64 {
         self.numerical + self.verlet_energy_offset
     }
+}
+
+/// Kinetic energy, linear momentum, and angular momentum about the origin.
+fn motion(system: &System, nodes: &[Node]) -> (f64, Vec3, Vec3) {
+    let mut kinetic = 0.0;
+    let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
+    for inertia in &system.inertias {
+        let node = &nodes[inertia.node];
+        kinetic += inertia.kinetic_energy(node);
+        let momentum = inertia.mass * node.v;
+        p += momentum;
+        l += node.x.cross(&momentum);
+        if inertia.rotary {
+            l += inertia.J(node) * node.omega;
+        }
+    }
+    for mass in &system.consistent {
+        kinetic += mass.kinetic_energy(nodes);
+        let (dp, dl) = mass.momentum(nodes);
+        p += dp;
+        l += dl;
+    }
+    (kinetic, p, l)
 }
 
 /// The largest departures from the balance of energy over a run.

@@ -384,6 +384,11 @@ impl System {
         })
     }
 
+    /// True where an element or a link may fail.
+    pub fn can_fail(&self) -> bool {
+        self.groups.iter().any(|group| group.block.can_fail())
+    }
+
     /// True where the elements are many enough for several threads to pay.
     pub(super) fn uses_threads(&self, threads: usize) -> bool {
         threads > 1 && thread_partition::is_large(&self.groups)

@@ -19,9 +19,11 @@ const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 16),
     ("deck/analysis.rs: Analysis", 16),
     ("deck/beams.rs: Beam", 17),
-    ("deck/joints.rs: Joint", 16),
+    ("deck/joints.rs: Joint", 20),
+    ("deck/links.rs: Link", 16),
     ("deck/mod.rs: Deck", 30),
     ("solve/workspace.rs: Workspace", 16),
+    ("system/energy.rs: Energy", 16),
 ];
 
 /// Types whose methods stand in many files.

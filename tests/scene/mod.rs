@@ -236,7 +236,6 @@ impl Extras {
             reactions: &self.reactions,
             derived: &self.derived,
             passed: &[],
-            broken: &[],
             negative_pivots: None,
             modes: None,
         }

@@ -20,7 +20,8 @@ pub struct Contact {
     pub touchers: BTreeSet<Toucher>,
     /// The contact law; `None` for a clearance monitor, which exerts no force.
     pub law: Option<ContactLaw>,
-    /// The smallest dimension of bodies that touch and of what is touched, by which depths are judged.
+    /// The smallest dimension of bodies that touch and of what is touched, by which depths are judged; of faces and of balls among
+    /// themselves the distance of their middles when they touch.
     pub size: f64,
     /// By what the stiffness was chosen, where the deck leaves it to the program.
     pub chosen: Option<String>,
@@ -60,6 +61,11 @@ pub struct FacetSurface {
 }
 
 impl Contact {
+    /// True for faces of a shell, and for balls among themselves.
+    pub fn has_facets(&self) -> bool {
+        matches!(self.surface, TouchedSurface::Facets(_))
+    }
+
     /// A node of the surface with each node of the points, one pair after the other.
     pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let node = match &self.surface {

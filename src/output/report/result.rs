@@ -109,9 +109,6 @@ impl Result {
                 row(name, short(value));
             }
         }
-        if let Some(failed) = self.json["failed"].as_u64() {
-            row("failed elements and links", failed.to_string());
-        }
         row("rdsolve", self.json["version"].as_str().unwrap_or("?").to_owned());
         row("deck", self.deck.clone().unwrap_or_else(|| "?".into()));
         for set in self.json["sets"].as_array().into_iter().flatten().filter_map(Value::as_str) {

@@ -1,7 +1,7 @@
 //! Steps of Runge-Kutta schemes by the error estimate of their embedded schemes.
 
 use super::adaptive::StepController;
-use super::tolerance::FollowTolerance;
+use super::tolerance::{FollowTolerance, fails_late};
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::explicit::RungeKuttaStepper;
@@ -32,9 +32,11 @@ pub struct EmbeddedErrorController {
     /// Length of the first step of a run, and the longest allowed.
     first: f64,
     longest: f64,
+    /// The state at the start of the step, of scenes in which something may fail.
+    before: State,
 }
 
-keep!(EmbeddedErrorController { stepper, tolerance, next, motion, longest } without { asked, first });
+keep!(EmbeddedErrorController { stepper, tolerance, next, motion, longest } without { asked, first, before });
 
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.
@@ -47,6 +49,7 @@ impl EmbeddedErrorController {
             motion: Size::default(),
             first,
             longest: f64::INFINITY,
+            before: State::default(),
         }
     }
 
@@ -109,9 +112,19 @@ impl StepController for EmbeddedErrorController {
         to: f64,
         _: f64,
     ) -> Result<Option<StepReport>, Failure> {
+        let dt = to - state.time;
         self.stepper.evaluate_stages(cx, ws, state, to)?;
-        let motion = self.judge(cx, ws, to - state.time)?;
+        let motion = self.judge(cx, ws, dt)?;
+        let fails = cx.system.can_fail();
+        if fails {
+            self.before.clone_from(state);
+        }
         let report = self.stepper.accept(cx, ws, state, to)?;
+        if fails && fails_late(cx, [&self.before, state], self.tolerance) {
+            state.copy_from(&self.before);
+            self.next = 0.5 * dt;
+            return Err(Failure::ErrorTooLarge { dt });
+        }
         // A step refused by contacts or joints has not moved anything, so its motion is no reference for errors.
         self.motion = motion;
         Ok(Some(report))

@@ -11,7 +11,7 @@
 use super::adaptive::StepController;
 use super::error_measure::ErrorMeasure;
 use super::lasting_error::LastingError;
-use super::tolerance::FollowTolerance;
+use super::tolerance::{FollowTolerance, fails_late};
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{AlphaFamily, RotationUpdate};
 use crate::math::{Vec3, Vec6, stack};
@@ -308,6 +308,12 @@ impl StepController for ErrorController<'_> {
         self.start.copy_from(state);
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
         let report = self.stepper.step(cx, ws, state, to)?;
+        if fails_late(cx, [&self.start, state], self.tolerance) {
+            self.take_back(state);
+            (ws.rotation_drift, ws.joint_violation) = (drift, violation);
+            self.length = 0.5 * dt;
+            return Err(Failure::ErrorTooLarge { dt });
+        }
         let estimate = self.estimate(cx, ws, state, dt);
         if self.measure.is_waiting() && estimate.motion != Size::default() {
             self.look_ahead(cx, ws, state);

@@ -193,6 +193,24 @@ impl Facet {
         if self.is_turned { -n } else { n }
     }
 
+    /// Base vectors that stretch with the facet, from its first node: along two of its sides, and the normal. What has constant components in
+    /// them goes along with the material. Of a ball they are its axes.
+    pub(super) fn base(&self, nodes: &[Node]) -> Mat3 {
+        let frame = self.frame(nodes);
+        if self.is_ball() {
+            return frame;
+        }
+        let from = |k: usize| nodes[self.nodes[k]].relative_position(&nodes[self.nodes[0]]);
+        let base = Mat3::from_columns(&[from(1), from(self.corners - 1), frame.column(2).into_owned()]);
+        if base.determinant() > 0.0 { base } else { frame }
+    }
+
+    /// The components of a vector in those base vectors.
+    pub(super) fn components(&self, v: &Vec3, nodes: &[Node]) -> Vec3 {
+        let base = self.base(nodes);
+        base.try_inverse().map_or(*v, |inverse| inverse * v)
+    }
+
     /// An origin and axes that go along with the facet: the columns of a rotation, global components. The origin is its first node.
     pub(super) fn frame(&self, nodes: &[Node]) -> Mat3 {
         let first = &nodes[self.nodes[0]];

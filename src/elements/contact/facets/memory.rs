@@ -38,7 +38,7 @@ impl<'a> PairMemory<'a> {
         self.0[SIDE]
     }
 
-    /// The anchor of the spring of friction in the frame of the facet.
+    /// The anchor of the spring of friction in the base vectors of the facet, from its first node.
     #[inline]
     pub fn anchor(self) -> Vec3 {
         Vec3::from_column_slice(&self.0[ANCHOR..ROTATIONS])

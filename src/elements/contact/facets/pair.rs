@@ -131,7 +131,7 @@ impl<'a> FacetPair<'a> {
                 phi += self.point.weights[k] * self.turned(k, memory, (&q, &R), nodes);
             }
         }
-        let from_anchor = self.seen_from(self.kept, &place.x, nodes) - R * memory.anchor();
+        let from_anchor = self.seen_from(self.kept, &place.x, nodes) - self.kept.base(nodes) * memory.anchor();
         let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
         let friction = friction_force(law.stiffness, law.friction, normal.force, &closest, &from_anchor, r, &phi);
         let M = r * n.cross(&friction.T);

@@ -1,14 +1,18 @@
 //! Limits on the step length: nothing passes through the middle of a surface of facets unseen, and impacts are resolved.
 
-use super::facet::Facet;
+use super::facet::{Facet, Region};
 use super::nearby::farthest;
 use super::surface::FacetContacts;
 use super::touch;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
+/// Part of the reach by which a point that is known to be on one side of a facet may have come through its middle.
+const THROUGH: f64 = 0.9;
+
 /// True where a step from `start` to `now` must be shorter: a point would pass the middle of a facet on whose side it was not known to
-/// be, would come through it by all of the thickness, or come into an impact that the step does not resolve.
+/// be, would come through it by nearly all of its reach, or come into an impact that the step does not resolve. Balls do not pass the
+/// middle of each other.
 pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
     let way = farthest(of, now.nodes, |_, node| start[node].x);
     if !way.is_finite() {
@@ -24,7 +28,7 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
             let too_far = |touch: &touch::FacetTouch| {
                 let pair = of.pair(e, touch, old);
                 let place = pair.place(now.nodes);
-                let is_through = place.gap() < -1.9 * place.reach;
+                let is_through = place.d < -THROUGH * place.reach;
                 is_through || is_unresolved(of, pair.memory.map(|memory| memory.motion()), place.gap(), now.dt)
             };
             if found.iter().any(too_far) {
@@ -40,13 +44,27 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
             };
             (0..of.slots).any(is_same)
         };
+        let has_come_through = |slot: usize| {
+            let memory = of.memory(old, slot);
+            if !memory.motion().is_known() || memory.motion().gap() > 0.0 || of.facets[memory.facet()].is_ball() {
+                return false;
+            }
+            let place = of.pair_of(e, slot, old).place(now.nodes);
+            place.at.region == Region::Interior && place.d < -THROUGH * place.reach
+        };
+        if (0..of.slots).any(has_come_through) {
+            return true;
+        }
         let ahead = nearby.on_the_way(of, e, way);
-        ahead.iter().any(|&facet| {
-            let number = facet as usize;
-            let passes = passes(of, e, &of.facets[number], [start, now.nodes]);
-            passes
-                && !of.is_near_along(e, facet)
-                && !known(number, &|facet| facet.frame(now.nodes).column(2).into_owned())
+        ahead.iter().any(|&number| {
+            let facet = &of.facets[number as usize];
+            let Some(beyond) = passes(of, e, facet, [start, now.nodes]) else { return false };
+            let stays = || {
+                !facet.is_ball()
+                    && beyond <= THROUGH * (facet.half + of.points[e].radius)
+                    && known(number as usize, &|facet| facet.frame(now.nodes).column(2).into_owned())
+            };
+            !of.is_near_along(e, number) && !stays()
         })
     });
     nearby.touches = found;
@@ -85,17 +103,18 @@ pub fn last_facet_gap(of: &FacetContacts, history: &[f64]) -> f64 {
     known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
 }
 
-/// True where a point goes through a facet between two motions, on straight lines.
-fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> bool {
+/// By how far a point has come through a facet between two motions, on straight lines; `None` where it has not.
+fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> Option<f64> {
     let point = &of.points[e];
     let seen = at.map(|nodes| {
         let origin = &nodes[point.nodes[0]];
         facet.seen_from(&point.relative_position(origin, nodes), origin, nodes)
     });
     if facet.is_ball() {
-        return swaps_sides(seen[0][0], seen[1][0], facet.half + point.radius);
+        return swaps_sides(seen[0][0], seen[1][0], facet.half + point.radius).then_some(0.0);
     }
-    (0..facet.triangles()).map(|k| facet.piece.unwrap_or(k)).any(|k| {
+    let is_passed = |k: &usize| {
+        let k = *k;
         let [from, to] = [0, 1].map(|i| facet.triangle(k, &seen[i]));
         let side = |[a, b, c]: &[Vec3; 3]| a.dot(&(b - a).cross(&(c - a)));
         let (s, t) = (side(&from), side(&to));
@@ -108,7 +127,11 @@ fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> bool
         // Inside where the point, the origin, is to the left of all edges; a little beyond counts too.
         let inside = |p: &Vec3, q: &Vec3| p.cross(q).dot(&n) >= -1e-6 * n.norm_squared();
         inside(&a, &b) && inside(&b, &c) && inside(&c, &a)
-    })
+    };
+    let passed = (0..facet.triangles()).map(|k| facet.piece.unwrap_or(k)).find(is_passed)?;
+    let [a, b, c] = facet.triangle(passed, &seen[1]);
+    let n = (b - a).cross(&(c - a));
+    Some(a.dot(&n).abs() / n.norm())
 }
 
 /// True where two balls whose centres are at `from` and then at `to` from each other go through each other's middle.

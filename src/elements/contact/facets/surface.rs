@@ -53,6 +53,13 @@ impl FacetContacts {
         FacetPair { law: &self.law, point: &self.points[e], facet, memory, kept }
     }
 
+    /// A point and the facet that it remembers in this slot.
+    pub(super) fn pair_of<'a>(&'a self, e: usize, slot: usize, history: &'a [f64]) -> FacetPair<'a> {
+        let memory = self.memory(history, slot);
+        let facet = &self.facets[memory.facet()];
+        FacetPair { law: &self.law, point: &self.points[e], facet, memory: Some(memory), kept: facet }
+    }
+
     /// Calls with each pair that touches, `history` being that of the block.
     pub(super) fn each_touch<'a>(
         &'a self,

@@ -90,7 +90,6 @@ fn update_friction(
     new: &mut PairMemoryMut,
 ) -> f64 {
     let (q, n) = (rotation_of(pair.facet, now.nodes), &place.n);
-    let R = matrix(&q);
     // The point and the anchor stand in global axes from the first node of the facet on which the point is now.
     let x = pair.seen_from(pair.facet, &place.x, now.nodes);
     let k = of.law.stiffness;
@@ -101,7 +100,7 @@ fn update_friction(
         let begun = if starts { sliding_direction(pair, place, of.law.floor, now) } else { Vec3::zeros() };
         let pull = of.law.friction * force;
         new.motion().set_friction_force(pull * begun.norm());
-        new.set_anchor(&R.tr_mul(&(x - pull / k * begun)));
+        new.set_anchor(&pair.facet.components(&(x - pull / k * begun), now.nodes));
         for i in 0..rotations(of, pair) {
             new.set_rotation(i, &(q.conjugate() * now.nodes[pair.point.nodes[i]].rotation));
         }
@@ -112,7 +111,7 @@ fn update_friction(
     let pull = memory.motion().friction_force();
     let friction = acting.and_then(|acting| acting.friction.as_ref());
     let moved = now.nodes[pair.kept.nodes[0]].relative_position(&now.nodes[pair.facet.nodes[0]]);
-    let mut anchor = moved + old_R * memory.anchor();
+    let mut anchor = moved + pair.kept.base(now.nodes) * memory.anchor();
     let spent = match friction {
         Some(friction) => {
             let end = pull + part * (friction.T.norm() - pull);
@@ -134,7 +133,7 @@ fn update_friction(
         let kept = kept_rotation((&old_q, &old_R), &q, part * phi, &memory.rotation(i));
         new.set_rotation(i, &kept);
     }
-    new.set_anchor(&R.tr_mul(&anchor));
+    new.set_anchor(&pair.facet.components(&anchor, now.nodes));
     spent
 }
 
