@@ -1,7 +1,7 @@
 //! Faces of shells as surfaces: energies and momenta of impacts, sliding without bumps, shells that press each other and themselves.
 
 use super::go;
-use rdsolve::solve::Frame;
+use rdsolve::solve::{Failure, Frame, Outcome};
 
 /// A free plate of 1 by 1, 20 kg, and a ball of 2 kg that is thrown at it, off the middle.
 fn ball_on_plate(scheme: &str, dt: f64, contact: &str) -> String {
@@ -243,5 +243,88 @@ fn a_hairpin_touches_itself() {
             "{scheme}: its legs do not meet and part"
         );
         assert!(last[1].abs() < 0.01 * first[0], "{scheme}: {last:?}");
+    }
+}
+
+/// A ball on the middle of a sheet that is stretched either way alike stays there: friction holds it to the material under it, not to a corner
+/// of the face.
+#[test]
+fn friction_goes_along_with_a_sheet_that_stretches() {
+    let deck = r#"
+        analysis = { kind = "dynamic", end_time = 0.5, time_step = 2e-3 }
+        integrator = { scheme = "generalized-alpha" }
+        environment = { gravity = [0.0, 0.0, -9.81] }
+        output = { interval = 0.1 }
+        materials.rubber = { model = "elastic", youngs_modulus = 1e7, poisson_ratio = 0.3, density = 1000.0 }
+        points = { a = [-0.15, -0.15, 0.0], b = [0.15, -0.15, 0.0], c = [0.15, 0.15, 0.0], d = [-0.15, 0.15, 0.0] }
+        shells = [{ name = "sheet", corners = ["a", "b", "c", "d"], elements = 3, thickness = 0.02, material = "rubber" }]
+        bodies = [{ name = "ball", center = [0.0, 0.0, 0.029999], shape = { kind = "sphere", radius = 0.02 }, mass = 1.0 }]
+        amplitudes.pull = { kind = "ramp", start = 0.1, end = 0.4 }
+        supports = [
+            { at = "sheet", fix = ["uz", "rx", "ry", "rz"] },
+            { at = "sheet.edge2", fix = "uy", motion = { ux = { amplitude = "pull", scale = 0.03 } } },
+            { at = "sheet.edge4", fix = "uy", motion = { ux = { amplitude = "pull", scale = -0.03 } } },
+            { at = "ball", fix = "rotations" },
+        ]
+        [[contacts]]
+        name = "under"
+        surface = { part = "sheet" }
+        with = "ball"
+        stiffness = 1e6
+        friction = 0.5
+        damping = 500.0
+        "#;
+    let done = go(deck, &mut |frame: &Frame| {
+        let ball = frame.model.bodies[0].node;
+        let x = frame.state.nodes[ball].x;
+        vec![x.x, x.y]
+    });
+    // By symmetry it does not move; what the iteration leaves of friction, 1e-8 of 5 N, moves it by nanometres.
+    for row in &done.rows {
+        assert!(row[0].abs() < 1e-7 && row[1].abs() < 1e-7, "{row:?}");
+    }
+}
+
+/// A ball that a step would carry through a sheet, and one that a soft contact lets through, do not get there without a word.
+#[test]
+fn nothing_passes_a_face_in_one_step() {
+    let deck = |scheme: &str, dt: f64, speed: f64, stiffness: f64| {
+        format!(
+            r#"
+            analysis = {{ kind = "dynamic", end_time = 0.01, time_step = {dt} }}
+            integrator = {{ scheme = "{scheme}" }}
+            materials.steel = {{ model = "elastic", youngs_modulus = 2e11, poisson_ratio = 0.3, density = 7850.0 }}
+            points = {{ a = [0.0, 0.0, 0.0], b = [0.4, 0.0, 0.0], c = [0.4, 0.4, 0.0], d = [0.0, 0.4, 0.0] }}
+            shells = [{{ name = "plate", corners = ["a", "b", "c", "d"], elements = 2, thickness = 0.002, material = "steel" }}]
+            bodies = [{{ name = "ball", center = [0.13, 0.17, 0.04], shape = {{ kind = "sphere", radius = 0.01 }}, mass = 0.01, velocity = [0.0, 0.0, -{speed}] }}]
+            supports = [{{ at = "plate", fix = "all" }}]
+            [[contacts]]
+            name = "hit"
+            surface = {{ part = "plate" }}
+            with = "ball"
+            stiffness = {stiffness}
+            "#
+        )
+    };
+    for scheme in ["newmark", "bathe", "wilson-theta", "generalized-alpha"] {
+        for (dt, speed) in [(1e-3, 40.0), (1e-3, 80.0), (5e-4, 150.0)] {
+            let (outcome, said) = crate::support::doubts(&deck(scheme, dt, speed, 1e9));
+            assert!(matches!(outcome, Outcome::Done), "{scheme} {dt} {speed}: {outcome:?} {said:?}");
+            let done = go(&deck(scheme, dt, speed, 1e9), &mut |frame: &Frame| {
+                let ball = &frame.state.nodes[frame.model.bodies[0].node];
+                vec![ball.x.z, ball.v.z]
+            });
+            let last = done.rows.last().expect("rows");
+            assert!(last[0] > 0.0 && last[1] > 0.0, "{scheme} {dt} {speed}: {last:?}");
+        }
+        // 16 J of speed, and 3 J at most that a spring of this stiffness can hold: it ends, or a scheme that takes the rest says how deep it was.
+        let (outcome, said) = crate::support::doubts(&deck(scheme, 1e-3, 57.0, 5e4));
+        match outcome {
+            Outcome::Failed { failure: Failure::ContactNotResolved { name }, .. } => assert_eq!(name, "hit"),
+            Outcome::Done => {
+                assert!(said.iter().any(|text| text.contains("is pressed in by up to")), "{scheme}: {said:?}")
+            }
+            _ => panic!("{scheme}: {outcome:?}"),
+        }
     }
 }
