@@ -248,7 +248,8 @@ impl Links {
     /// The history variables of a link.
     #[inline]
     fn memory<'a>(&self, e: usize, history: &'a [f64]) -> &'a [f64] {
-        self.memories.get(e).map_or(&[], |range| &history[range.clone()])
+        // Where nothing is remembered yet nothing has failed.
+        self.memories.get(e).and_then(|range| history.get(range.clone())).unwrap_or(&[])
     }
 }
 

@@ -68,7 +68,7 @@ impl CoordinateSprings {
         &'a self,
         now: &'a Configuration,
     ) -> impl Iterator<Item = (&'a CoordinateSpring, CoordinateState)> + 'a {
-        let memories = self.memories.iter().map(|memory| &now.history[memory.clone()]);
+        let memories = self.memories.iter().filter_map(|memory| now.history.get(memory.clone()));
         self.springs.iter().zip(memories).map(|(spring, memory)| (spring, spring.state(now.nodes, memory, now.dt)))
     }
 }
