@@ -33,7 +33,8 @@ pub fn create(path: &Path) -> io::Result<File> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         Err(error) => return Err(error),
     }
-    OpenOptions::new().write(true).create_new(true).open(path)
+    // What is written goes to the end, so that a file that somebody cuts short meanwhile gets no hole, and shows it by its length.
+    OpenOptions::new().append(true).create_new(true).open(path)
 }
 
 /// Whether an open file still stands under its name. Where the system has no inodes, any file of that name counts.

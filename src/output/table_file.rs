@@ -80,7 +80,7 @@ impl TableFile {
     pub fn reopen(dir: &Path, mark: TableMark) -> io::Result<TableFile> {
         let TableMark { file: name, written, stage, before_stage, empty } = mark;
         let path = dir.join(name);
-        let mut file = OpenOptions::new().read(true).write(true).open(&path).map_err(|e| at(&path, e))?;
+        let mut file = OpenOptions::new().read(true).append(true).open(&path).map_err(|e| at(&path, e))?;
         if file.metadata().map_err(|e| at(&path, e))?.len() < written {
             let what =
                 "the table is shorter than it was at the checkpoint: --overwrite runs the deck from the beginning";
